@@ -1,0 +1,1 @@
+"""A mode viewer and tuning bench for vehicle mounts."""

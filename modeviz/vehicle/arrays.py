@@ -1,0 +1,35 @@
+"""Checked, read-only arrays for the frozen values of a vehicle."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from modeviz.errors import VehicleError
+
+Floats = NDArray[np.float64]
+
+
+def frozen(
+    owner: Any, field: str, value: ArrayLike, shape: tuple[int | None, ...], dtype: Any = np.float64
+) -> None:
+    """Stores `value` in a frozen dataclass as a read-only array of the given shape.
+
+    Args:
+        shape: the lengths expected, None where any will do.
+
+    Raises:
+        VehicleError: wrong number of dimensions or length, or a value that is not finite.
+    """
+    what = f"{type(owner).__name__} {getattr(owner, 'name', '')!r}: {field}"
+    array = np.array(value, dtype)
+    wrong = array.ndim != len(shape) or any(
+        n is not None and n != m for n, m in zip(shape, array.shape, strict=False)
+    )
+    if wrong:
+        wanted = " x ".join("any" if n is None else str(n) for n in shape)
+        raise VehicleError(f"{what}: found shape {array.shape}, expected {wanted}")
+    if not np.isfinite(array).all():
+        raise VehicleError(f"{what}: found {np.sum(~np.isfinite(array))} values that are not finite")
+    array.flags.writeable = False
+    object.__setattr__(owner, field, array)

@@ -1,0 +1,236 @@
+"""Bodies: what has mass. Flexible ones carry modes, rigid ones an inertia."""
+
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+
+from modeviz.errors import VehicleError, unknown
+from modeviz.vehicle.arrays import Floats, frozen
+
+Role = Literal["cabin", "frame", "bed", "powertrain", "unsprung", "linkage"]
+"""What a body is in the vehicle; modes are named from it.
+
+cabin: where people sit and what is rigidly joined to it. frame: the structure everything hangs on.
+bed: the load carrier. powertrain: engine and transmission. unsprung: moves with the wheels.
+linkage: light parts between the others.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """How a surface looks."""
+
+    color: tuple[int, int, int]
+    """sRGB, 0 to 255."""
+    opacity: float = 1.0
+    roughness: float = 0.45
+    metallic: float = 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class MeshPart:
+    """A triangulated surface of one material, in vehicle coordinates."""
+
+    name: str
+    vertices: Floats
+    """(n_vertices, 3), m."""
+    faces: np.ndarray
+    """(n_faces, 3), indices of vertices."""
+    material: Material
+
+    def __post_init__(self) -> None:
+        frozen(self, "vertices", self.vertices, (None, 3))
+        frozen(self, "faces", self.faces, (None, 3), np.int32)
+        if self.faces.size and not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices):
+            raise VehicleError(f"mesh part {self.name!r}: a face names a vertex that does not exist")
+
+
+Mesh = tuple[MeshPart, ...]
+"""The display mesh of a body, a part for each material."""
+
+
+@dataclass(frozen=True, eq=False)
+class Attachment:
+    """A named point of a flexible body, where connections, masses and response points hang.
+
+    Its motion may be one node's, carried there rigidly, or a mean over several.
+    """
+
+    name: str
+    position: Floats
+    """(3,), m."""
+    shapes: Floats
+    """(6, n_modes): its motion x, y, z, rx, ry, rz in each mode."""
+
+    def __post_init__(self) -> None:
+        frozen(self, "position", self.position, (3,))
+        frozen(self, "shapes", self.shapes, (6, None))
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleBody:
+    """A free-free elastic body in mass-normalised modal coordinates.
+
+    The columns of every shape array are, in this order: 6 rigid modes, the elastic normal modes, and
+    residual vectors, which are made orthogonal in mass and stiffness and used like more modes. The
+    modal mass is one, the modal stiffness `omega_n_squared`.
+    """
+
+    name: str
+    role: Role
+    label: str
+    """What a person calls it, "front end"."""
+    omega_n_squared: Floats
+    """(n_modes,), rad²/s²; zero for the rigid modes."""
+    n_residuals: int
+    """How many of the last columns are residual vectors."""
+    damping_ratio: float
+    """Viscous, the same fraction of critical for every mode."""
+    attachments: tuple[Attachment, ...]
+    nodes: Floats
+    """(n_nodes, 3), m: the points that carry the mesh."""
+    shapes: np.ndarray
+    """(n_nodes, 6, n_modes), single precision: translations and rotations of the nodes."""
+    mesh: Mesh = ()
+
+    N_RIGID = 6
+
+    def __post_init__(self) -> None:
+        _check_role(self.role)
+        frozen(self, "omega_n_squared", self.omega_n_squared, (None,))
+        frozen(self, "nodes", self.nodes, (None, 3))
+        frozen(self, "shapes", self.shapes, (len(self.nodes), 6, self.n_modes), np.float32)
+        if not 0 <= self.n_residuals <= self.n_modes - self.N_RIGID:
+            raise VehicleError(
+                f"body {self.name!r}: n_residuals: found {self.n_residuals} with {self.n_modes} modes, "
+                f"expected 0 to {max(self.n_modes - self.N_RIGID, 0)} (6 modes are rigid)"
+            )
+        if (self.omega_n_squared < 0).any() or self.omega_n_squared[: self.N_RIGID].any():
+            raise VehicleError(
+                f"body {self.name!r}: omega_n_squared: expected six zeros, then positive values"
+            )
+        if not 0 <= self.damping_ratio < 1:
+            raise VehicleError(
+                f"body {self.name!r}: damping_ratio: found {self.damping_ratio}, expected a fraction "
+                "of critical from 0 to below 1"
+            )
+        for attachment in self.attachments:
+            if attachment.shapes.shape[1] != self.n_modes:
+                raise VehicleError(
+                    f"body {self.name!r}: attachment {attachment.name!r} has "
+                    f"{attachment.shapes.shape[1]} modes, the body has {self.n_modes}"
+                )
+
+    @property
+    def n_modes(self) -> int:
+        return len(self.omega_n_squared)
+
+    @property
+    def natural_frequency_hz(self) -> Floats:
+        return np.sqrt(self.omega_n_squared) / (2 * np.pi)
+
+    def attachment(self, name: str) -> Attachment:
+        """The attachment of that name.
+
+        Raises:
+            VehicleError: there is none, with the names there are.
+        """
+        for attachment in self.attachments:
+            if attachment.name == name:
+                return attachment
+        names = (a.name for a in self.attachments)
+        raise VehicleError(f"body {self.name!r}: " + unknown("attachment", name, names))
+
+    def nearest_attachment(self, position: Floats) -> Attachment:
+        """The attachment closest to a place.
+
+        Raises:
+            VehicleError: the body has none.
+        """
+        if not self.attachments:
+            raise VehicleError(
+                f"body {self.name!r} has no attachment, so nothing can be connected to it"
+            )
+        return min(self.attachments, key=lambda a: float(np.linalg.norm(a.position - position)))
+
+    def keep_modes(self, n_modes: int) -> "FlexibleBody":
+        """The same body in its lowest `n_modes` modes, rigid ones included, without residual vectors."""
+        if not self.N_RIGID <= n_modes <= self.n_modes - self.n_residuals:
+            raise VehicleError(
+                f"body {self.name!r}: modes to keep: found {n_modes}, expected {self.N_RIGID} to "
+                f"{self.n_modes - self.n_residuals}"
+            )
+        return replace(
+            self,
+            omega_n_squared=self.omega_n_squared[:n_modes],
+            n_residuals=0,
+            attachments=tuple(replace(a, shapes=a.shapes[:, :n_modes]) for a in self.attachments),
+            shapes=self.shapes[:, :, :n_modes],
+        )
+
+    def residual_compliance(self, attachment: str) -> Floats:
+        """What the truncated modes add to the flexibility of a point, (3, 3) in m/N.
+
+        R = Σ φ φᵀ / ω² over the residual vectors: exact at zero frequency in the directions that have
+        a residual vector (A. E. Duncan, after McClelland's residual compliance).
+        """
+        if not self.n_residuals:
+            return np.zeros((3, 3))
+        phi = self.attachment(attachment).shapes[:3, -self.n_residuals :]
+        return (phi / self.omega_n_squared[-self.n_residuals :]) @ phi.T
+
+
+@dataclass(frozen=True, eq=False)
+class RigidBody:
+    """A body that does not deform; its coordinates are x, y, z, rx, ry, rz at its centre of gravity."""
+
+    name: str
+    role: Role
+    label: str
+    mass: float
+    """kg."""
+    center_of_gravity: Floats
+    """(3,), m."""
+    inertia: Floats
+    """(3, 3) about the centre of gravity, kg m²; products enter as -Ixy."""
+    mesh: Mesh = ()
+
+    def __post_init__(self) -> None:
+        _check_role(self.role)
+        if not (np.isfinite(self.mass) and self.mass > 0):
+            raise VehicleError(f"body {self.name!r}: mass: found {self.mass} kg, expected more than 0")
+        frozen(self, "center_of_gravity", self.center_of_gravity, (3,))
+        frozen(self, "inertia", self.inertia, (3, 3))
+        if not np.allclose(self.inertia, self.inertia.T) or np.linalg.eigvalsh(self.inertia)[0] <= 0:
+            raise VehicleError(
+                f"body {self.name!r}: inertia: expected a symmetric matrix with positive principal "
+                f"moments, found {self.inertia.tolist()}"
+            )
+
+
+Body = FlexibleBody | RigidBody
+
+
+@dataclass(frozen=True, eq=False)
+class AddedMass:
+    """A lumped mass carried by a body: an occupant, a battery, a full tank."""
+
+    name: str
+    body: str
+    position: Floats
+    """(3,), m, its centre; on a flexible body an attachment must be near."""
+    mass: float
+    """kg."""
+
+    def __post_init__(self) -> None:
+        frozen(self, "position", self.position, (3,))
+        if not (np.isfinite(self.mass) and self.mass > 0):
+            raise VehicleError(
+                f"added mass {self.name!r}: mass: found {self.mass} kg, expected more than 0"
+            )
+
+
+def _check_role(role: str) -> None:
+    if role not in get_args(Role):
+        raise VehicleError(unknown("role", role, get_args(Role)))

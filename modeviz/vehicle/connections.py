@@ -1,0 +1,162 @@
+"""Connections: what pulls between two bodies, or between a body and the ground.
+
+Every one is a set of one-dimensional springs and dampers along three local axes, as in the paper
+(Duncan, fig. 2); the kinds differ in what they are for.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from modeviz.errors import VehicleError
+from modeviz.vehicle.arrays import Floats, frozen
+
+GROUND = "ground"
+"""The name, in place of a body's, of what does not move."""
+
+DIRECTIONS = ("vertical", "lateral", "fore-aft")
+"""The directions of a mount's rates: local z, y and x."""
+
+
+@dataclass(frozen=True, eq=False)
+class Connection:
+    """Springs and dampers between a point of one body and a point of another."""
+
+    name: str
+    group: str
+    """Connections that are reported together: "C1", "tyres", "bolts"."""
+    bodies: tuple[str, str]
+    """The second may be `GROUND`."""
+    points: Floats
+    """(2, 3): where it holds on to each body, m."""
+    stiffness: Floats = field(default_factory=lambda: np.zeros(3))
+    """(3,) along the local x, y, z, N/m."""
+    rotational_stiffness: Floats = field(default_factory=lambda: np.zeros(3))
+    """(3,) about the local x, y, z, N m/rad."""
+    damping: Floats = field(default_factory=lambda: np.zeros(3))
+    """(3,) viscous, along the local x, y, z, N s/m."""
+    loss_factor: float = 0.0
+    """Structural damping: the stiffness is k (1 + j loss_factor)."""
+    axes: Floats = field(default_factory=lambda: np.eye(3))
+    """(3, 3): the local axes as rows."""
+
+    def __post_init__(self) -> None:
+        frozen(self, "points", self.points, (2, 3))
+        for name in ("stiffness", "rotational_stiffness", "damping"):
+            frozen(self, name, getattr(self, name), (3,))
+            if (getattr(self, name) < 0).any():
+                raise VehicleError(
+                    f"connection {self.name!r}: {name}: found {getattr(self, name).tolist()}, "
+                    "expected zero or more"
+                )
+        frozen(self, "axes", self.axes, (3, 3))
+        if not np.allclose(self.axes @ self.axes.T, np.eye(3), atol=1e-6):
+            raise VehicleError(
+                f"connection {self.name!r}: axes: expected three orthogonal unit vectors"
+            )
+        if not (np.isfinite(self.loss_factor) and self.loss_factor >= 0):
+            raise VehicleError(
+                f"connection {self.name!r}: loss_factor: found {self.loss_factor}, expected zero or more"
+            )
+        if self.bodies[0] == self.bodies[1]:
+            raise VehicleError(f"connection {self.name!r}: joins {self.bodies[0]!r} to itself")
+
+
+class Spring(Connection):
+    """A spring, bushing or joint whose rates are not tuned."""
+
+
+class Damper(Connection):
+    """A shock absorber."""
+
+
+class Bolt(Connection):
+    """A rigid joint between two flexible bodies, a stiff spring in every direction."""
+
+
+class Mount(Connection):
+    """One rubber mount of a tunable group."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tyre(Connection):
+    """A tyre: the springs between a wheel and the road."""
+
+    wheel_center: Floats = field(default_factory=lambda: np.zeros(3))
+    """(3,), m: where radial forces and unbalance act."""
+    trail: float = 0.0
+    """Pneumatic trail, m: how far behind the wheel centre a lateral force acts on the ground."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        frozen(self, "wheel_center", self.wheel_center, (3,))
+
+
+@dataclass(frozen=True)
+class MountRates:
+    """The static rates of a mount, N/m."""
+
+    vertical: float
+    lateral: float
+    fore_aft: float
+
+    def __post_init__(self) -> None:
+        for direction, rate in zip(DIRECTIONS, self.as_tuple(), strict=True):
+            if not (np.isfinite(rate) and rate >= 0):
+                raise VehicleError(f"{direction} rate: found {rate} N/m, expected zero or more")
+
+    def as_tuple(self) -> tuple[float, float, float]:
+        """In the order of `DIRECTIONS`."""
+        return self.vertical, self.lateral, self.fore_aft
+
+    def local(self) -> tuple[float, float, float]:
+        """In the order x, y, z."""
+        return self.fore_aft, self.lateral, self.vertical
+
+
+Rates = Mapping[str, MountRates]
+"""The rates of every mount group, by the group's name."""
+
+
+@dataclass(frozen=True, eq=False)
+class MountGroup:
+    """Mounts that are tuned together, because they are the same part."""
+
+    name: str
+    """Short, "C1"."""
+    label: str
+    """What a person calls it, "cab front"."""
+    rates: MountRates
+    loss_factor: float
+    bounds: tuple[MountRates, MountRates]
+    """The softest and the stiffest that can be made."""
+    mounts: tuple[Mount, ...]
+    """Where they are; their stiffness is the group's."""
+    ratio_limits: tuple[float, float] | None = None
+    """The least and the most that lateral and fore-aft rates may be of the vertical one."""
+
+    def __post_init__(self) -> None:
+        if not self.mounts:
+            raise VehicleError(f"mount group {self.name!r}: has no mounts")
+        for low, high, direction in zip(
+            self.bounds[0].as_tuple(), self.bounds[1].as_tuple(), DIRECTIONS, strict=True
+        ):
+            if not low < high:
+                raise VehicleError(
+                    f"mount group {self.name!r}: bounds: {direction}: found {low} to {high} N/m, "
+                    "expected the lower one first"
+                )
+        if self.ratio_limits is not None and not 0 <= self.ratio_limits[0] < self.ratio_limits[1]:
+            raise VehicleError(
+                f"mount group {self.name!r}: ratio_limits: found {self.ratio_limits}, expected the "
+                "lower one first"
+            )
+        tuned = tuple(
+            replace(m, group=self.name, stiffness=self.rates.local(), loss_factor=self.loss_factor)
+            for m in self.mounts
+        )
+        object.__setattr__(self, "mounts", tuned)
+
+    def with_rates(self, rates: MountRates) -> "MountGroup":
+        return replace(self, rates=rates)

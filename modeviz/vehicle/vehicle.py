@@ -1,0 +1,152 @@
+"""The vehicle: bodies, what joins them, what shakes them and where that is felt; checked as a whole."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from modeviz.errors import VehicleError, unknown
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import AddedMass, Body, FlexibleBody
+from modeviz.vehicle.connections import (
+    GROUND,
+    Connection,
+    MountGroup,
+    MountRates,
+    Rates,
+    Tyre,
+)
+from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad
+
+REACH = 0.10
+"""m: how far from an attachment of a flexible body a connection may hold on to it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Vehicle:
+    """A vehicle on its wheels: x rearward, y to the right, z up, SI units."""
+
+    name: str
+    bodies: tuple[Body, ...]
+    connections: tuple[Connection, ...]
+    """What is not tuned."""
+    mount_groups: tuple[MountGroup, ...] = ()
+    added_masses: tuple[AddedMass, ...] = ()
+    response_points: tuple[ResponsePoint, ...] = ()
+    """The first is the driver's: it is the one that is rated."""
+    roads: tuple[Road, ...] = ()
+    wheel_loads: tuple[WheelLoad, ...] = ()
+    rate_sets: Mapping[str, Rates] = field(default_factory=dict)
+    """Named sets of rates besides the vehicle's own."""
+    speed: float = 20.0
+    """m/s."""
+
+    def __post_init__(self) -> None:
+        for kind, names in (
+            ("body", [b.name for b in self.bodies]),
+            ("connection", [c.name for c in self.all_connections]),
+            ("mount group", [g.name for g in self.mount_groups]),
+            ("response point", [p.name for p in self.response_points]),
+            ("road", [r.name for r in self.roads]),
+            ("wheel load", [w.name for w in self.wheel_loads]),
+        ):
+            _check_unique(kind, names)
+        if not self.bodies:
+            raise VehicleError(f"vehicle {self.name!r} has no bodies")
+        if not (np.isfinite(self.speed) and self.speed > 0):
+            raise VehicleError(f"speed: found {self.speed} m/s, expected more than 0")
+        for connection in self.all_connections:
+            self._check_ends(connection)
+        for mass in self.added_masses:
+            self._check_place(f"added mass {mass.name!r}", mass.body, mass.position)
+        for point in self.response_points:
+            self._check_place(f"response point {point.name!r}", point.body, point.position)
+        tyres = [t.name for t in self.tyres]
+        for load in self.wheel_loads:
+            if load.tyre not in tyres:
+                raise VehicleError(f"wheel load {load.name!r}: " + unknown("tyre", load.tyre, tyres))
+        for name, rates in self.rate_sets.items():
+            for group in rates:
+                if group not in self.rates:
+                    raise VehicleError(f"rates {name!r}: " + unknown("mount group", group, self.rates))
+
+    @cached_property
+    def all_connections(self) -> tuple[Connection, ...]:
+        """Mounts first, group by group, then the rest."""
+        return (*(m for g in self.mount_groups for m in g.mounts), *self.connections)
+
+    @property
+    def tyres(self) -> tuple[Tyre, ...]:
+        return tuple(c for c in self.connections if isinstance(c, Tyre))
+
+    @property
+    def rates(self) -> dict[str, MountRates]:
+        """The mount rates this vehicle has."""
+        return {g.name: g.rates for g in self.mount_groups}
+
+    def body(self, name: str) -> Body:
+        """The body of that name.
+
+        Raises:
+            VehicleError: there is none, with the names there are.
+        """
+        return _named("body", name, self.bodies)
+
+    def road(self, name: str) -> Road:
+        """The road of that name; raises VehicleError as `body` does."""
+        return _named("road", name, self.roads)
+
+    def mount_group(self, name: str) -> MountGroup:
+        """The mount group of that name; raises VehicleError as `body` does."""
+        return _named("mount group", name, self.mount_groups)
+
+    def with_rates(self, rates: Rates) -> "Vehicle":
+        """The same vehicle with other rates in the groups that are named.
+
+        Raises:
+            VehicleError: a group that does not exist.
+        """
+        for group in rates:
+            self.mount_group(group)
+        groups = tuple(g.with_rates(rates[g.name]) if g.name in rates else g for g in self.mount_groups)
+        return replace(self, mount_groups=groups)
+
+    def _check_ends(self, connection: Connection) -> None:
+        where = f"connection {connection.name!r}"
+        if connection.bodies[0] == GROUND:
+            raise VehicleError(f"{where}: {GROUND!r} must be the second of its bodies")
+        for body, point in zip(connection.bodies, connection.points, strict=True):
+            if body != GROUND:
+                self._check_place(where, body, point)
+
+    def _check_place(self, what: str, body_name: str, position: Floats) -> None:
+        """Raises VehicleError unless the body is there and something can hang on it at `position`."""
+        try:
+            body = self.body(body_name)
+            if not isinstance(body, FlexibleBody):
+                return
+            nearest = body.nearest_attachment(position)
+        except VehicleError as error:
+            raise VehicleError(f"{what}: {error}") from None
+        distance = np.linalg.norm(nearest.position - position)
+        if distance > REACH:
+            raise VehicleError(
+                f"{what}: {position.tolist()} is {distance:.2f} m from the nearest attachment of "
+                f"{body_name!r}, {nearest.name!r}; at most {REACH} m is allowed"
+            )
+
+
+def _named(kind: str, name: str, items: Iterable):
+    for item in items:
+        if item.name == name:
+            return item
+    raise VehicleError(unknown(kind, name, (i.name for i in items)))
+
+
+def _check_unique(kind: str, names: list[str]) -> None:
+    seen = set()
+    for name in names:
+        if name in seen:
+            raise VehicleError(f"{kind} {name!r} is there twice; each {kind} needs its own name")
+        seen.add(name)
