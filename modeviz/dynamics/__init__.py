@@ -1,1 +1,1 @@
-
+"""Matrices, modes and frequency responses of a vehicle."""

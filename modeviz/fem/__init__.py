@@ -1,1 +1,1 @@
-
+"""Shell and beam meshes to modal bodies."""

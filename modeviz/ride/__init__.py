@@ -1,1 +1,1 @@
-
+"""Road and wheel responses and their rating."""

@@ -1,1 +1,1 @@
-
+"""Modes and phase to displaced, coloured geometry."""

@@ -1,1 +1,1 @@
-
+"""Changing mount rates and looking for better ones."""

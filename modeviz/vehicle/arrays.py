@@ -16,7 +16,11 @@ def frozen(
     """Stores `value` in a frozen dataclass as a read-only array of the given shape.
 
     Args:
+        owner: the dataclass being made.
+        field: which of its fields to set.
+        value: what it was given.
         shape: the lengths expected, None where any will do.
+        dtype: of the stored array.
 
     Raises:
         VehicleError: wrong number of dimensions or length, or a value that is not finite.

@@ -154,19 +154,28 @@ class FlexibleBody:
             )
         return min(self.attachments, key=lambda a: float(np.linalg.norm(a.position - position)))
 
-    def keep_modes(self, n_modes: int) -> "FlexibleBody":
-        """The same body in its lowest `n_modes` modes, rigid ones included, without residual vectors."""
-        if not self.N_RIGID <= n_modes <= self.n_modes - self.n_residuals:
+    def truncated(self, n_modes: int, residual_vectors: bool = False) -> "FlexibleBody":
+        """The same body in its lowest `n_modes` normal modes, rigid ones included.
+
+        Args:
+            n_modes: 6 up to the number of normal modes.
+            residual_vectors: whether to keep them too.
+
+        Raises:
+            VehicleError: `n_modes` is out of that range.
+        """
+        n_normal = self.n_modes - self.n_residuals
+        if not self.N_RIGID <= n_modes <= n_normal:
             raise VehicleError(
-                f"body {self.name!r}: modes to keep: found {n_modes}, expected {self.N_RIGID} to "
-                f"{self.n_modes - self.n_residuals}"
+                f"body {self.name!r}: modes to keep: found {n_modes}, expected {self.N_RIGID} to {n_normal}"
             )
+        kept = np.r_[0:n_modes, n_normal : self.n_modes] if residual_vectors else np.arange(n_modes)
         return replace(
             self,
-            omega_n_squared=self.omega_n_squared[:n_modes],
-            n_residuals=0,
-            attachments=tuple(replace(a, shapes=a.shapes[:, :n_modes]) for a in self.attachments),
-            shapes=self.shapes[:, :, :n_modes],
+            omega_n_squared=self.omega_n_squared[kept],
+            n_residuals=self.n_residuals if residual_vectors else 0,
+            attachments=tuple(replace(a, shapes=a.shapes[:, kept]) for a in self.attachments),
+            shapes=self.shapes[:, :, kept],
         )
 
     def residual_compliance(self, attachment: str) -> Floats:

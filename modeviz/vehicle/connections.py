@@ -57,7 +57,8 @@ class Connection:
             )
         if not (np.isfinite(self.loss_factor) and self.loss_factor >= 0):
             raise VehicleError(
-                f"connection {self.name!r}: loss_factor: found {self.loss_factor}, expected zero or more"
+                f"connection {self.name!r}: loss_factor: found {self.loss_factor}, "
+                "expected zero or more"
             )
         if self.bodies[0] == self.bodies[1]:
             raise VehicleError(f"connection {self.name!r}: joins {self.bodies[0]!r} to itself")

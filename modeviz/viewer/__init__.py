@@ -1,1 +1,1 @@
-
+"""The page an engineer tunes mounts on."""
