@@ -167,7 +167,8 @@ class FlexibleBody:
         n_normal = self.n_modes - self.n_residuals
         if not self.N_RIGID <= n_modes <= n_normal:
             raise VehicleError(
-                f"body {self.name!r}: modes to keep: found {n_modes}, expected {self.N_RIGID} to {n_normal}"
+                f"body {self.name!r}: modes to keep: found {n_modes}, "
+                f"expected {self.N_RIGID} to {n_normal}"
             )
         kept = np.r_[0:n_modes, n_normal : self.n_modes] if residual_vectors else np.arange(n_modes)
         return replace(

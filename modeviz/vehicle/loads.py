@@ -6,7 +6,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from modeviz.errors import VehicleError, unknown
-from modeviz.vehicle.arrays import Floats, frozen
+from modeviz.vehicle.arrays import Complexes, Floats, frozen
 
 WheelLoadKind = Literal["unbalance", "radial force", "lateral force"]
 
@@ -25,7 +25,7 @@ class Road:
     """V₀, m/s."""
     frequency_hz: Floats
     """(n_freqs,), rising, above zero."""
-    spectrum: np.ndarray
+    spectrum: Complexes
     """(n_freqs, 2, 2) complex, m²/Hz, Hermitian: left and right track, S_lr = E[L R*]."""
 
     def __post_init__(self) -> None:
