@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from modeviz.errors import VehicleError
 
 Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
+Complexes = NDArray[np.complexfloating]
 
 
 def frozen(

@@ -1,0 +1,139 @@
+"""From a vehicle to the matrices of the paper's equation 10.
+
+    (-ω² M + jω C + jK_g + K) q = F
+
+q are the modal coordinates of the flexible bodies and the six coordinates of the rigid ones. A
+connection adds Rᵀ k R, where R are the rows that give the relative motion of its two ends.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from modeviz.dynamics.rigid import rigid_motion
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import Body, FlexibleBody
+from modeviz.vehicle.connections import GROUND, Connection
+from modeviz.vehicle.vehicle import Vehicle
+
+RIGID_DOFS = ("x", "y", "z", "rx", "ry", "rz")
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """A vehicle's matrices in its generalised coordinates, (n_dofs, n_dofs) each."""
+
+    vehicle: Vehicle
+    dofs: Mapping[str, slice]
+    """Which coordinates are whose, by the body's name."""
+    mass: Floats
+    damping: Floats
+    """Viscous: modal damping, dampers and tyres."""
+    stiffness: Floats
+    structural_damping: Floats
+    """K_g: the imaginary part of the complex stiffness."""
+
+    @property
+    def n_dofs(self) -> int:
+        return len(self.mass)
+
+    @cached_property
+    def dof_names(self) -> tuple[str, ...]:
+        """One name for each coordinate: "cab mode 7", "front end residual 3", "engine rx"."""
+        return tuple(
+            f"{body.name} {name}" for body in self.vehicle.bodies for name in _coordinate_names(body)
+        )
+
+    def motion(self, body: str, position: Floats) -> Floats:
+        """Rows (6, n_dofs) that give x, y, z, rx, ry, rz of a point of a body.
+
+        A point of a flexible body moves rigidly with the nearest attachment.
+        """
+        rows = np.zeros((6, self.n_dofs))
+        rows[:, self.dofs[body]] = _local_motion(self.vehicle.body(body), position)
+        return rows
+
+    def relative_motion(self, connection: Connection) -> Floats:
+        """Rows (6, n_dofs): the first end's motion less the second's, along the local axes."""
+        rows = self.motion(connection.bodies[0], connection.points[0])
+        if connection.bodies[1] != GROUND:
+            rows -= self.motion(connection.bodies[1], connection.points[1])
+        return np.kron(np.eye(2), connection.axes) @ rows
+
+
+def assemble(vehicle: Vehicle) -> System:
+    """The system matrices of a vehicle with the mount rates it has."""
+    dofs = _number(vehicle)
+    n_dofs = max(s.stop for s in dofs.values())
+    M, C, K = np.zeros((3, n_dofs, n_dofs))
+    for body in vehicle.bodies:
+        own = dofs[body.name], dofs[body.name]
+        M[own], C[own], K[own] = _body_matrices(body)
+    bare = System(vehicle, dofs, M, C, K, np.zeros_like(K))
+    for added in vehicle.added_masses:
+        R = bare.motion(added.body, added.position)[:3]
+        M += added.mass * R.T @ R
+    if not vehicle.all_connections:
+        return bare
+    R = np.vstack([bare.relative_motion(c) for c in vehicle.all_connections])
+    k, c, g = (
+        np.concatenate(v) for v in zip(*map(_coefficients, vehicle.all_connections), strict=True)
+    )
+    return System(
+        vehicle,
+        dofs,
+        mass=M,
+        damping=C + (R.T * c) @ R,
+        stiffness=K + (R.T * k) @ R,
+        structural_damping=(R.T * (g * k)) @ R,
+    )
+
+
+def _number(vehicle: Vehicle) -> dict[str, slice]:
+    ends = np.cumsum([0] + [_n_coordinates(b) for b in vehicle.bodies])
+    return {b.name: slice(ends[i], ends[i + 1]) for i, b in enumerate(vehicle.bodies)}
+
+
+def _n_coordinates(body: Body) -> int:
+    return body.n_modes if isinstance(body, FlexibleBody) else 6
+
+
+def _coordinate_names(body: Body) -> list[str]:
+    if not isinstance(body, FlexibleBody):
+        return list(RIGID_DOFS)
+    n_normal = body.n_modes - body.n_residuals
+    return [f"mode {i + 1}" for i in range(n_normal)] + [
+        f"residual {i + 1}" for i in range(body.n_residuals)
+    ]
+
+
+def _body_matrices(body: Body) -> tuple[Floats, Floats, Floats]:
+    """Mass, damping and stiffness of one body on its own."""
+    if isinstance(body, FlexibleBody):
+        omega_n = np.sqrt(body.omega_n_squared)
+        return (
+            np.eye(body.n_modes),
+            np.diag(2 * body.damping_ratio * omega_n),
+            np.diag(body.omega_n_squared),
+        )
+    M = np.zeros((6, 6))
+    M[:3, :3] = body.mass * np.eye(3)
+    M[3:, 3:] = body.inertia
+    return M, np.zeros((6, 6)), np.zeros((6, 6))
+
+
+def _local_motion(body: Body, position: Floats) -> Floats:
+    """Rows (6, n) that give the motion of a point in the body's own coordinates."""
+    if isinstance(body, FlexibleBody):
+        attachment = body.nearest_attachment(position)
+        return rigid_motion(position - attachment.position) @ attachment.shapes
+    return rigid_motion(position - body.center_of_gravity)
+
+
+def _coefficients(connection: Connection) -> tuple[Floats, Floats, Floats]:
+    """Stiffness, damping and loss factor of the six relative motions, (6,) each."""
+    k = np.concatenate([connection.stiffness, connection.rotational_stiffness])
+    c = np.concatenate([connection.damping, np.zeros(3)])
+    return k, c, np.full(6, connection.loss_factor)

@@ -1,0 +1,97 @@
+"""Natural frequencies, shapes and damping of a system."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from modeviz.dynamics.assembly import System
+from modeviz.errors import SolveError
+from modeviz.vehicle.arrays import Complexes, Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Undamped modes in rising order, mass-normalised: φᵀMφ = I."""
+
+    frequency_hz: Floats
+    """(n_modes,); zero for what moves freely."""
+    shapes: Floats
+    """(n_dofs, n_modes)."""
+    damping_ratio: Floats
+    """(n_modes,), fraction of critical: that of the mode on its own, coupling by damping left out."""
+
+    @property
+    def omega_n_squared(self) -> Floats:
+        return (2 * np.pi * self.frequency_hz) ** 2
+
+
+@dataclass(frozen=True, eq=False)
+class ComplexModes:
+    """Damped modes, in rising order of |λ|."""
+
+    eigenvalue: Complexes
+    """(n_modes,), rad/s: motion goes as e^{λt}, Im λ > 0."""
+    shapes: Complexes
+    """(n_dofs, n_modes), the largest coordinate real and one."""
+
+    @property
+    def frequency_hz(self) -> Floats:
+        """Natural frequency |λ|/2π."""
+        return np.abs(self.eigenvalue) / (2 * np.pi)
+
+    @property
+    def damping_ratio(self) -> Floats:
+        return -self.eigenvalue.real / np.abs(self.eigenvalue)
+
+
+def solve_modes(system: System, n_modes: int | None = None) -> Modes:
+    """The lowest undamped modes, K φ = ω² M φ.
+
+    Args:
+        system: what vibrates.
+        n_modes: how many, all if None.
+
+    Raises:
+        SolveError: the mass matrix is not positive definite.
+    """
+    last = min(n_modes or system.n_dofs, system.n_dofs) - 1
+    try:
+        omega_squared, phi = scipy.linalg.eigh(
+            system.stiffness, system.mass, subset_by_index=[0, last], check_finite=False
+        )
+    except scipy.linalg.LinAlgError as error:
+        raise SolveError(f"the modes cannot be found: {error}") from None
+    omega = np.sqrt(np.maximum(omega_squared, 0.0))
+    return Modes(omega / (2 * np.pi), phi, _damping_ratio(system, omega, phi))
+
+
+def _damping_ratio(system: System, omega: Floats, phi: Floats) -> Floats:
+    """ζ = (ω φᵀCφ + φᵀK_gφ) / 2ω²; zero where ω is."""
+    viscous = np.einsum("ij,ij->j", phi, system.damping @ phi) * omega
+    structural = np.einsum("ij,ij->j", phi, system.structural_damping @ phi)
+    twice_energy = 2 * omega**2
+    free = omega < 1e-3
+    return np.where(free, 0.0, (viscous + structural) / np.where(free, 1.0, twice_energy))
+
+
+def solve_complex_modes(system: System, modes: Modes) -> ComplexModes:
+    """The damped modes within the space of `modes`, with the full, coupled damping.
+
+    Solves (λ²M + λC + K + jK_g) φ = 0 in state space. Structural damping holds for motion that
+    goes forward in phase, so of each pair the root with Im λ > 0 is kept; overdamped roots, which
+    do not vibrate, are left out. Exact when `modes` are all of the system's.
+    """
+    phi = modes.shapes
+    n = phi.shape[1]
+    C = phi.T @ system.damping @ phi
+    K = np.diag(modes.omega_n_squared) + 1j * (phi.T @ system.structural_damping @ phi)
+    state = np.block([[np.zeros((n, n)), np.eye(n)], [-K, -C]])
+    eigenvalue, vectors = np.linalg.eig(state)
+    vibrates = eigenvalue.imag > 1e-6 * np.abs(eigenvalue) + 1e-3
+    order = np.argsort(np.abs(eigenvalue[vibrates]))
+    shapes = (phi @ vectors[:n, vibrates])[:, order]
+    largest = np.abs(shapes).argmax(axis=0)
+    return ComplexModes(
+        eigenvalue[vibrates][order], shapes / shapes[largest, np.arange(shapes.shape[1])]
+    )
