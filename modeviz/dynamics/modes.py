@@ -86,12 +86,14 @@ def solve_complex_modes(system: System, modes: Modes) -> ComplexModes:
     n = phi.shape[1]
     C = phi.T @ system.damping @ phi
     K = np.diag(modes.omega_n_squared) + 1j * (phi.T @ system.structural_damping @ phi)
-    state = np.block([[np.zeros((n, n)), np.eye(n)], [-K, -C]])
-    eigenvalue, vectors = np.linalg.eig(state)
-    vibrates = eigenvalue.imag > 1e-6 * np.abs(eigenvalue) + 1e-3
-    order = np.argsort(np.abs(eigenvalue[vibrates]))
-    shapes = (phi @ vectors[:n, vibrates])[:, order]
+    state = np.zeros((2 * n, 2 * n), complex)
+    state[:n, n:] = np.eye(n)
+    state[n:] = np.hstack([-K, -C])
+    solution = np.linalg.eig(state)
+    roots: Complexes = np.asarray(solution.eigenvalues, complex)
+    vectors: Complexes = np.asarray(solution.eigenvectors, complex)
+    vibrates = roots.imag > 1e-6 * np.abs(roots) + 1e-3
+    order = np.flatnonzero(vibrates)[np.argsort(np.abs(roots[vibrates]))]
+    shapes = phi @ vectors[:n, order]
     largest = np.abs(shapes).argmax(axis=0)
-    return ComplexModes(
-        eigenvalue[vibrates][order], shapes / shapes[largest, np.arange(shapes.shape[1])]
-    )
+    return ComplexModes(roots[order], shapes / shapes[largest, np.arange(len(order))])

@@ -1,0 +1,60 @@
+import numpy as np
+import pytest
+from oracles import Beam
+from test_modes import mass_on_a_string, spring
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.energy import kinetic_energy, strain_energy
+from modeviz.dynamics.modes import solve_modes
+from modeviz.vehicle.connections import Spring
+from modeviz.vehicle.vehicle import Vehicle
+
+
+def test_two_masses_share_kinetic_energy_inversely_to_their_mass():
+    # Momentum is zero, so v ∝ 1/m and the energy of each is as 1/m.
+    bodies = mass_on_a_string("light", 1.0), mass_on_a_string("heavy", 4.0)
+    system = assemble(Vehicle("pair", bodies, (spring(("light", "heavy"), 100.0),)))
+    stretch = solve_modes(system).shapes[:, -1:]
+    energy = kinetic_energy(system, stretch)
+    assert energy["light"][0] == pytest.approx(0.8)
+    assert energy["heavy"][0] == pytest.approx(0.2)
+    assert strain_energy(system, stretch)["springs"][0] == pytest.approx(1.0)
+
+
+def test_shares_of_a_beam_on_springs_sum_to_one_and_move_with_the_stiffness():
+    beam = Beam(8)
+
+    def shares(k):
+        feet = tuple(
+            Spring(
+                f"foot {i}", "feet", ("beam", "ground"), np.tile(beam.nodes[i], (2, 1)), np.full(3, k)
+            )
+            for i in (0, 8)
+        )
+        system = assemble(Vehicle("beam", (beam.body("beam"),), feet))
+        shapes = solve_modes(system, 12).shapes[:, 1:]  # the first spins about the beam's axis
+        assert sum(kinetic_energy(system, shapes).values()) == pytest.approx(np.ones(11))
+        strain = strain_energy(system, shapes)
+        assert sum(strain.values()) == pytest.approx(np.ones(11))
+        return strain["feet"][0]
+
+    assert shares(1e2) > 0.99
+    assert shares(1e9) < 0.01
+
+
+def test_strain_energy_over_kinetic_is_rayleighs_quotient():
+    bodies = mass_on_a_string("a", 1.0), mass_on_a_string("b", 2.0)
+    links = spring(("a", "ground"), 400.0), spring(("a", "b"), 300.0)
+    system = assemble(Vehicle("chain", bodies, links))
+    shape = np.zeros((12, 1))
+    shape[[2, 8], 0] = 1.0, 3.0
+    share = strain_energy(system, shape)["springs"]
+    assert share[0] == pytest.approx(1.0)
+    assert kinetic_energy(system, shape)["b"][0] == pytest.approx(18 / 19)
+
+
+def test_what_moves_freely_has_no_strain_energy():
+    system = assemble(Vehicle("free", (Beam(4).body("beam"),), ()))
+    strain = strain_energy(system, solve_modes(system, 8).shapes)["beam"]
+    np.testing.assert_array_equal(strain[:6], 0.0)
+    np.testing.assert_allclose(strain[6:], 1.0)

@@ -1,0 +1,82 @@
+import numpy as np
+import pytest
+from oracles import Beam
+from test_modes import mass_on_a_string, oscillator, spring
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.modes import solve_modes
+from modeviz.dynamics.response import direct_response, modal_response
+from modeviz.errors import SolveError
+from modeviz.vehicle.connections import Damper, Spring
+from modeviz.vehicle.vehicle import Vehicle
+
+Z = np.eye(6)[2:3]
+
+
+def force_on_z(n_freqs, n_dofs=6):
+    forces = np.zeros((n_freqs, n_dofs, 1), complex)
+    forces[:, 2] = 1.0
+    return forces
+
+
+def test_oscillator_follows_the_textbook():
+    f = np.array([0.5, 3.0, 3.2, 10.0])
+    omega, m, k, c, g = 2 * np.pi * f, 2.0, 800.0, 5.0, 0.1
+    H = direct_response(oscillator(m, k, c, g), f, force_on_z(4), Z)
+    np.testing.assert_allclose(H[:, 0, 0], 1 / (k * (1 + 1j * g) - m * omega**2 + 1j * c * omega))
+
+
+def damped_beam():
+    ends = np.array([[0.0, 0, 0], [0, 0, 0]]), np.array([[2.0, 0, 0], [2.0, 0, 0]])
+    feet = [
+        Spring(f"foot {i}", "feet", ("beam", "ground"), at, np.full(3, 5e4), loss_factor=0.15)
+        for i, at in enumerate(ends)
+    ]
+    shock = Damper("shock", "shocks", ("beam", "ground"), ends[0], damping=np.array([0, 0, 400.0]))
+    body = Beam(10).body("beam", damping_ratio=0.03)
+    system = assemble(Vehicle("beam", (body,), (*feet, shock)))
+    push = system.motion("beam", np.array([0.4, 0, 0]))[2]
+    read = system.motion("beam", np.array([2.0, 0, 0]))[2:3]
+    return system, np.tile(push[:, None], (30, 1, 1)).astype(complex), read
+
+
+def test_modal_method_with_all_modes_is_the_direct_one():
+    system, forces, read = damped_beam()
+    f = np.linspace(0.5, 60, 30)
+    direct = direct_response(system, f, forces, read)
+    modal = modal_response(system, solve_modes(system), f, forces, read)
+    np.testing.assert_allclose(modal, direct, rtol=1e-6)
+
+
+def test_modal_method_converges_as_modes_are_added():
+    system, forces, read = damped_beam()
+    f = np.linspace(0.5, 30, 30)
+    direct = direct_response(system, f, forces, read)
+
+    def error(n_modes):
+        modal = modal_response(system, solve_modes(system, n_modes), f, forces, read)
+        return np.abs(modal - direct).max() / np.abs(direct).max()
+
+    # What is left out is static flexibility, which falls as 1/ω² of the modes left out.
+    assert error(10) > 3 * error(20) > 9 * error(40)
+    assert error(40) < 1e-3
+
+
+def test_damping_off_the_diagonal_counts():
+    system, forces, read = damped_beam()
+    f = np.linspace(0.5, 60, 30)
+    modes = solve_modes(system)
+    coupled = modal_response(system, modes, f, forces, read)[:, 0, 0]
+    omega = 2 * np.pi * f[:, None]
+    omega_n = 2 * np.pi * modes.frequency_hz
+    uncoupled = (read @ modes.shapes * (modes.shapes.T @ forces[0]).T) / (
+        omega_n**2 - omega**2 + 2j * modes.damping_ratio * omega_n * omega
+    )
+    assert np.abs(uncoupled.sum(axis=1) / coupled - 1).max() > 0.1
+
+
+def test_an_undamped_resonance_on_the_grid_is_an_error():
+    k = (2 * np.pi * 2.0) ** 2
+    system = assemble(Vehicle("m", (mass_on_a_string("m", 1.0),), (spring(("m", "ground"), k),)))
+    with pytest.raises(SolveError, match=r"2\.0 Hz"):
+        direct_response(system, np.array([2.0]), force_on_z(1), Z)
