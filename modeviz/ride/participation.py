@@ -1,0 +1,73 @@
+"""Which modes make a response: the job of the paper's MPN program."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import find_peaks
+
+from modeviz.ride.psd import power_decibels
+from modeviz.vehicle.arrays import Complexes, Floats
+
+PROMINENCE_DB = 1.0
+"""How far a peak must stand above the dip that parts it from a higher one."""
+
+
+@dataclass(frozen=True)
+class Contributor:
+    """A mode's part in a response."""
+
+    mode: int
+    """Its index, from zero."""
+    ratio: float
+    """Of its participation to the largest one."""
+
+
+@dataclass(frozen=True)
+class Peak:
+    """A peak of a response and the modes that make it, the largest first."""
+
+    frequency_hz: float
+    psd: float
+    contributors: tuple[Contributor, ...]
+
+
+def participation(output_shapes: Floats, modal_coordinates: Complexes, input_psd: Complexes) -> Floats:
+    """The root of each mode's own contribution to the PSD of an output, (n_freqs, n_modes).
+
+    p_r = |φ_or| √(q_r S_ff q_rᴴ): what the output's PSD would be with this mode alone. Modes interfere,
+    so the squares do not add up to the PSD. For a harmonic load, take its one column of `q` and an
+    `input_psd` of one: p_r = |φ_or q_r|.
+
+    Args:
+        output_shapes: φ_o, (n_modes,), the modes at the output.
+        modal_coordinates: q per unit of each input, (n_freqs, n_modes, n_inputs).
+        input_psd: S_ff, (n_freqs, n_inputs, n_inputs).
+    """
+    q = modal_coordinates
+    own = np.einsum("fri,fij,frj->fr", q, input_psd, q.conj(), optimize=True).real
+    return np.abs(output_shapes) * np.sqrt(np.maximum(own, 0.0))
+
+
+def contributors(participations: Floats, count: int) -> tuple[Contributor, ...]:
+    """The `count` largest of the modes' participations (n_modes,), the largest first."""
+    largest = np.argsort(participations)[::-1][:count]
+    reference = participations[largest[0]] or 1.0
+    return tuple(Contributor(int(r), float(participations[r] / reference)) for r in largest)
+
+
+def peaks(
+    frequency_hz: Floats, psd: Floats, participations: Floats, count: int = 2
+) -> tuple[Peak, ...]:
+    """The peaks of a response in rising frequency, with the `count` largest contributors to each.
+
+    Args:
+        frequency_hz: (n_freqs,).
+        psd: (n_freqs,) of the response.
+        participations: (n_freqs, n_modes), see `participation`.
+        count: how many modes to name.
+    """
+    indices, _ = find_peaks(power_decibels(psd), prominence=PROMINENCE_DB)
+    return tuple(
+        Peak(float(frequency_hz[i]), float(psd[i]), contributors(participations[i], count))
+        for i in indices
+    )

@@ -1,0 +1,75 @@
+"""Accelerations out of frequency responses: spectra, RMS values, harmonic peaks and decibels."""
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+
+from modeviz.units import STANDARD_GRAVITY
+from modeviz.vehicle.arrays import Complexes, Floats
+
+RIDE_BAND = (0.0, 40.0)
+"""Hz: over which the paper's RMS values are taken."""
+
+FLOOR = 1e-20
+"""Power that is drawn where there is none: -200 dB."""
+
+
+def response_psd(frequency_response: Complexes, input_psd: Complexes) -> Complexes:
+    """One-sided spectra of the outputs, S_xx = H S_ff Hᴴ.
+
+    Args:
+        frequency_response: H, (n_freqs, n_outputs, n_inputs).
+        input_psd: S_ff, (n_freqs, n_inputs, n_inputs).
+
+    Returns:
+        (n_freqs, n_outputs, n_outputs), Hermitian, S_ij = E[X_i X_j*].
+    """
+    H = frequency_response
+    return H @ input_psd @ H.conj().transpose(0, 2, 1)
+
+
+def acceleration_psd(
+    frequency_hz: Floats, frequency_response: Complexes, input_psd: Complexes
+) -> Floats:
+    """Acceleration PSD of each output, (n_freqs, n_outputs), g²/Hz: ω⁴ times that of displacement.
+
+    Args:
+        frequency_hz: (n_freqs,).
+        frequency_response: displacements per input, (n_freqs, n_outputs, n_inputs).
+        input_psd: (n_freqs, n_inputs, n_inputs).
+    """
+    S_xx = np.diagonal(response_psd(frequency_response, input_psd), axis1=1, axis2=2).real
+    # Where coherent tracks cancel, rounding can leave a power just below zero.
+    S_xx = np.maximum(S_xx, 0.0)
+    omega = 2 * np.pi * np.asarray(frequency_hz)[:, None]
+    return omega**4 * S_xx / STANDARD_GRAVITY**2
+
+
+def harmonic_acceleration(frequency_hz: Floats, displacement: Complexes) -> Floats:
+    """Peak acceleration, g, of harmonic displacements whose first axis is frequency, peak in m."""
+    omega = 2 * np.pi * np.asarray(frequency_hz)
+    return (np.abs(displacement).T * omega**2 / STANDARD_GRAVITY).T
+
+
+def rms(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = RIDE_BAND) -> Floats:
+    """Root of the integral of a one-sided PSD over a band, by the trapezium rule.
+
+    Args:
+        frequency_hz: (n_freqs,), rising.
+        psd: (n_freqs, ...), unit²/Hz.
+        band: Hz; only the part that `frequency_hz` covers counts.
+
+    Returns:
+        (...), the unit.
+    """
+    line = make_interp_spline(frequency_hz, psd, k=1)
+    return np.sqrt(line.integrate(*band, extrapolate=False))
+
+
+def power_decibels(psd: Floats) -> Floats:
+    """10 log₁₀ of a power, a PSD re 1 g²/Hz; not below that of `FLOOR`."""
+    return 10 * np.log10(np.maximum(psd, FLOOR))
+
+
+def amplitude_decibels(amplitude: Floats) -> Floats:
+    """20 log₁₀ of an amplitude, a peak acceleration re 1 g; not below -200 dB."""
+    return power_decibels(np.square(amplitude))

@@ -1,0 +1,121 @@
+"""The road: its two-track spectrum, how tyres pass it on, and profiles in time."""
+
+import numpy as np
+
+from modeviz.dynamics.assembly import System
+from modeviz.errors import ModevizError
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.connections import Tyre
+from modeviz.vehicle.loads import Road
+
+LEFT, RIGHT = 0, 1
+"""The tracks, where they are inputs: left is y < 0."""
+
+NO_POWER = np.finfo(np.float64).tiny
+"""m²/Hz: stands for zero where a logarithm is taken."""
+
+
+def track_forces(system: System, frequency_hz: Floats, speed: float) -> Complexes:
+    """Generalised forces per unit displacement of the left and the right track.
+
+    F = Rᵀ (k (1 + jg) + jωc) ẑ e^{-jωτ}: the ground end of a tyre rises with the road and the tyre's
+    springs and dampers, R their relative motion, push the wheel. A tyre whose patch is L behind the
+    frontmost meets the same road τ = L / V later.
+
+    Args:
+        system: what the tyres belong to.
+        frequency_hz: (n_freqs,).
+        speed: V, m/s.
+
+    Returns:
+        (n_freqs, n_dofs, 2), N/m; to be used with `road_spectrum` at the same speed.
+    """
+    omega = 2 * np.pi * np.asarray(frequency_hz)
+    F = np.zeros((len(omega), system.n_dofs, 2), complex)
+    for tyre in system.vehicle.tyres:
+        delay = np.exp(-1j * omega * lag(tyre, system.vehicle.tyres, speed))
+        up = tyre.axes[:, 2]
+        push = tyre.stiffness * (1 + 1j * tyre.loss_factor) + 1j * omega[:, None] * tyre.damping
+        F[:, :, track(tyre)] += (push * up * delay[:, None]) @ system.relative_motion(tyre)[:3]
+    return F
+
+
+def track(tyre: Tyre) -> int:
+    """The track a tyre runs in: `LEFT` where y < 0, else `RIGHT`."""
+    return LEFT if tyre.points[1, 1] < 0 else RIGHT
+
+
+def lag(tyre: Tyre, tyres: tuple[Tyre, ...], speed: float) -> float:
+    """How much later, in s, a tyre meets the road than the frontmost of `tyres`."""
+    front = min(t.points[1, 0] for t in tyres)
+    return (tyre.points[1, 0] - front) / speed
+
+
+def road_spectrum(road: Road, frequency_hz: Floats, speed: float) -> Complexes:
+    """One-sided displacement spectra of a road met at `speed`, (n_freqs, 2, 2), m²/Hz.
+
+    S(f; V) = S(f V₀/V; V₀) V₀/V. Between the values of the road's table each track's power is a power
+    law and the complex coherence is linear in log f, so that every matrix stays Hermitian and
+    positive semidefinite.
+
+    Raises:
+        ModevizError: the table does not reach that far. A road is not extrapolated: beyond its
+            table nothing is known, and displacement turns into acceleration by ω⁴.
+    """
+    at_table_speed = np.asarray(frequency_hz) * road.speed / speed
+    low, high = road.frequency_hz[[0, -1]]
+    slack = 1e-9 * high
+    if at_table_speed.size and not (
+        low - slack <= at_table_speed.min() and at_table_speed.max() <= high + slack
+    ):
+        scale = speed / road.speed
+        raise ModevizError(
+            f"road {road.name!r}: found {np.min(frequency_hz):g} to {np.max(frequency_hz):g} Hz at "
+            f"{speed:g} m/s, expected frequencies from {low * scale:g} to {high * scale:g} Hz, which "
+            "its table holds at that speed"
+        )
+    return _interpolate(road, at_table_speed) * road.speed / speed
+
+
+def _interpolate(road: Road, frequency_hz: Floats) -> Complexes:
+    """The table's spectra at frequencies within it."""
+    power = np.maximum(np.diagonal(road.spectrum, axis1=1, axis2=2).real, NO_POWER)
+    amplitude = np.sqrt(power)
+    coherence = road.spectrum[:, 0, 1] / (amplitude[:, 0] * amplitude[:, 1])
+    at, known = np.log(frequency_hz), np.log(road.frequency_hz)
+    left, right = (np.exp(np.interp(at, known, np.log(a))) for a in amplitude.T)
+    cross = left * right * np.interp(at, known, coherence)
+    return np.stack([left**2, cross, cross.conj(), right**2], axis=-1).reshape(-1, 2, 2)
+
+
+def two_track_profile(
+    road: Road, speed: float, duration: float, sample_rate: float, seed: int
+) -> Floats:
+    """A Gaussian profile in time with the spectra of a road, (n_samples, 2), m: left and right track.
+
+    Fourier coefficients are drawn as S = L Lᴴ, X = L w with complex white noise w, so the profile is
+    periodic over its duration and has no power outside of the road's table.
+
+    Args:
+        road: whose spectra.
+        speed: of the vehicle that meets it, m/s.
+        duration: s.
+        sample_rate: 1/s.
+        seed: the same seed gives the same profile.
+    """
+    n_samples = round(duration * sample_rate)
+    f = np.arange(n_samples // 2 + 1, dtype=np.float64) * (sample_rate / n_samples)
+    low, high = road.frequency_hz[[0, -1]] * speed / road.speed
+    inside = (f >= low) & (f <= high)
+    S = road_spectrum(road, f[inside], speed)
+    parts = np.random.default_rng(seed).standard_normal((2, len(S), 2))
+    w = (parts[0] + 1j * parts[1]) / np.sqrt(2)
+    X = np.zeros((len(f), 2), complex)
+    X[inside] = np.einsum("fij,fj->fi", _root(S), w) * np.sqrt(n_samples * sample_rate / 2)
+    return np.fft.irfft(X, n_samples, axis=0)
+
+
+def _root(S: Complexes) -> Complexes:
+    """L with S = L Lᴴ, also where S is singular: coherent tracks, or one without power."""
+    power, U = np.linalg.eigh(S)
+    return U * np.sqrt(np.maximum(power, 0.0))[:, None, :]
