@@ -1,0 +1,107 @@
+"""How a displayed vertex moves with its body: from generalised coordinates to drawn positions."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import KDTree
+
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
+
+N_CARRIERS = 4
+"""How many nodes carry a vertex."""
+
+SAME_PLACE = 1e-6
+"""m: a vertex this close to a node is that node."""
+
+DRAWN_FRACTION = 0.025
+"""The largest displacement is drawn as this fraction of the vehicle's length, 0.13 m on a pickup."""
+
+
+def vertex_shapes(body: Body, vertices: Floats) -> NDArray[np.float32]:
+    """The displacement of every vertex in every coordinate of its body, (n_vertices, 3, n_coordinates).
+
+    A rigid body's coordinates are x, y, z, rx, ry, rz at its centre of gravity, a flexible one's its
+    modes. The vertices of a flexible body follow its nearest nodes: each would carry the vertex along
+    rigidly, u + θ x r, and the vertex takes their mean weighted by 1/|r|² (D. Shepard, "A
+    two-dimensional interpolation function for irregularly-spaced data", 1968). That is exact where
+    a vertex is a node and wherever the body moves rigidly.
+
+    Args:
+        body: whose coordinates they are.
+        vertices: (n_vertices, 3), m, in vehicle coordinates.
+    """
+    if isinstance(body, RigidBody):
+        shapes = np.eye(6)[None]
+        return _carried(shapes, vertices - body.center_of_gravity).astype(np.float32)
+    nearest, weights = _carriers(body, vertices)
+    shapes = np.zeros((len(vertices), 3, body.n_modes), np.float32)
+    for node, weight in zip(nearest.T, weights.T, strict=True):
+        shapes += weight[:, None, None] * _carried(body.shapes[node], vertices - body.nodes[node])
+    return shapes
+
+
+def displacement(shapes: NDArray[np.float32], coordinates: ArrayLike) -> NDArray:
+    """The displacement of every vertex, (n_vertices, 3), real or complex as the coordinates are.
+
+    Args:
+        shapes: (n_vertices, 3, n_coordinates), from `vertex_shapes`.
+        coordinates: (n_coordinates,): one mode or response of the vehicle, this body's part of it.
+    """
+    q = np.asarray(coordinates)
+    parts = np.stack([np.real(q), np.imag(q)], axis=-1).astype(np.float32)
+    real, imaginary = np.moveaxis(shapes @ parts, -1, 0)
+    return real + 1j * imaginary if np.iscomplexobj(q) else real
+
+
+def animated(vertices: Floats, shape: NDArray, amplitude: float, phase: float) -> Floats:
+    """The drawn positions x + amplitude Re(φ e^{iθ}), (n_vertices, 3), m.
+
+    This is what the page's shader computes.
+
+    Args:
+        vertices: (n_vertices, 3), the undeformed positions x.
+        shape: (n_vertices, 3), real or complex, φ.
+        amplitude: the factor on the shape.
+        phase: θ, rad.
+    """
+    return vertices + amplitude * (np.asarray(shape) * np.exp(1j * phase)).real
+
+
+def peak_displacement(shape: NDArray) -> Floats:
+    """The largest distance of every vertex from its place during a cycle, (n_vertices,).
+
+    A vertex runs around an ellipse, whose longer half axis is √((u·ū + |u·u|)/2).
+    """
+    u = np.asarray(shape)
+    return np.sqrt((np.sum(np.abs(u) ** 2, axis=-1) + np.abs(np.sum(u * u, axis=-1))) / 2)
+
+
+def default_amplitude(shapes: Iterable[NDArray], length: float) -> float:
+    """The factor that draws the largest of several displacements clearly and without distortion.
+
+    Args:
+        shapes: of every drawn body, (n_vertices, 3) each.
+        length: of the vehicle, m.
+    """
+    largest = max((float(peak_displacement(s).max(initial=0.0)) for s in shapes), default=0.0)
+    return DRAWN_FRACTION * length / largest if largest > 0 else 0.0
+
+
+def _carriers(body: FlexibleBody, vertices: Floats) -> tuple[NDArray[np.intp], Floats]:
+    """The nodes that carry each vertex and their weights, (n_vertices, n_carriers), rows sum to one."""
+    n_carriers = min(N_CARRIERS, len(body.nodes))
+    found = KDTree(body.nodes).query(vertices, k=n_carriers)
+    distance, nearest = (np.reshape(f, (len(vertices), n_carriers)) for f in found)
+    weights = 1 / np.maximum(distance, SAME_PLACE) ** 2
+    coincident = distance[:, 0] < SAME_PLACE
+    weights[coincident] = 0
+    weights[coincident, 0] = 1
+    return nearest, weights / weights.sum(axis=1, keepdims=True)
+
+
+def _carried(shapes: NDArray, offset: Floats) -> NDArray:
+    """What six motions of a point are `offset` away from it, u + θ x r: (n, 3, n_coordinates)."""
+    translation, rotation = shapes[:, :3], shapes[:, 3:]
+    return translation + np.cross(rotation, offset[..., None].astype(shapes.dtype), axis=1)
