@@ -1,6 +1,7 @@
 """The errors a user can cause, and how they read."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 
 
@@ -22,3 +23,16 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     close = get_close_matches(name, names, n=1)
     hint = f"did you mean {close[0]!r}? " if close else ""
     return f"unknown {kind} {name!r}: {hint}there are {', '.join(names) or 'none'}"
+
+
+@contextmanager
+def located(where: object) -> Iterator[None]:
+    """Puts the place in front of whatever the user got wrong inside the block.
+
+    Raises:
+        VehicleError: something inside raised a ModevizError.
+    """
+    try:
+        yield
+    except ModevizError as error:
+        raise VehicleError(f"{where}: {error}") from None

@@ -1,0 +1,85 @@
+"""Files and folders, with errors a user can act on."""
+
+import re
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from modeviz.errors import VehicleError
+
+
+def read_bytes(path: Path) -> bytes:
+    """The content of a file.
+
+    Raises:
+        VehicleError: it is not there or cannot be read.
+    """
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise VehicleError(f"{path}: there is no such file") from None
+    except (OSError, ValueError) as error:
+        raise VehicleError(f"{path}: cannot be read ({error})") from None
+
+
+def read_text(path: Path) -> str:
+    """The content of a UTF-8 text file; raises VehicleError as `read_bytes` does."""
+    try:
+        return read_bytes(path).decode()
+    except UnicodeDecodeError as error:
+        raise VehicleError(f"{path}: found bytes that are not UTF-8 text ({error})") from None
+
+
+def inside(folder: Path, name: str) -> Path:
+    """The path of a file that must lie in the folder.
+
+    Raises:
+        VehicleError: the name leads out of the folder.
+    """
+    path = folder / name
+    if "\0" in name or not path.resolve().is_relative_to(folder.resolve()):
+        raise VehicleError(f"found {name!r}, expected a file inside the vehicle folder")
+    return path
+
+
+def file_stems(names: Iterable[str]) -> dict[str, str]:
+    """For each name a file name without suffix, different from the others."""
+    stems: dict[str, str] = {}
+    for name in names:
+        slug = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_") or "unnamed"
+        taken = sum(re.sub(r"-\d+$", "", stem) == slug for stem in stems.values())
+        stems[name] = f"{slug}-{taken + 1}" if taken else slug
+    return stems
+
+
+def replace_folder(folder: Path, fill: Callable[[Path], None]) -> None:
+    """Makes the folder anew, or leaves it as it was if that fails.
+
+    Args:
+        folder: what to make.
+        fill: writes the content into the folder it is given.
+
+    Raises:
+        VehicleError: it cannot be written.
+    """
+    folder = folder.resolve()
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as scratch:
+            new, old = Path(scratch, "new"), Path(scratch, "old")
+            new.mkdir()
+            fill(new)
+            if folder.exists():
+                folder.rename(old)
+            _move_or_restore(new, folder, old)
+    except OSError as error:
+        raise VehicleError(f"{folder}: cannot be written ({error})") from None
+
+
+def _move_or_restore(new: Path, folder: Path, old: Path) -> None:
+    try:
+        new.rename(folder)
+    except OSError:
+        if old.exists():
+            old.rename(folder)
+        raise

@@ -1,0 +1,212 @@
+"""The vehicle folder: `vehicle.toml`, and beside it the bodies' modes and meshes and the roads.
+
+FOLDER/vehicle.toml says everything but arrays, in the units that its `units` table declares; the keys
+are the fields of the records in `modeviz.vehicle.records`. FOLDER/bodies/NAME.npz has the modes of a
+flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a road's spectra; all in SI.
+"""
+
+import tomllib
+from collections.abc import Callable, Iterable
+from itertools import chain
+from pathlib import Path
+from typing import TypeVar
+
+import msgspec
+
+from modeviz.errors import VehicleError, located
+from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
+from modeviz.vehicle.bodyfiles import write_flexible_body
+from modeviz.vehicle.connections import Bolt, Connection, Damper, Spring, Tyre
+from modeviz.vehicle.decoding import decode
+from modeviz.vehicle.disk import file_stems, read_text, replace_folder
+from modeviz.vehicle.loads import Road
+from modeviz.vehicle.meshfiles import write_mesh
+from modeviz.vehicle.records import (
+    AddedMassRecord,
+    ConnectionRecord,
+    FlexibleBodyRecord,
+    MountGroupRecord,
+    RatesRecord,
+    ResponsePointRecord,
+    RigidBodyRecord,
+    RoadRecord,
+    TyreRecord,
+    VehicleRecord,
+    WheelLoadRecord,
+)
+from modeviz.vehicle.roadfiles import write_road
+from modeviz.vehicle.scaling import WRITTEN_UNITS, from_si, to_si
+from modeviz.vehicle.toml import to_toml
+from modeviz.vehicle.vehicle import Vehicle
+
+VEHICLE_FILE = "vehicle.toml"
+CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads"}
+"""What a vehicle folder holds."""
+
+CONNECTION_KINDS: dict[str, type[Connection]] = {
+    "spring": Spring,
+    "bolt": Bolt,
+    "damper": Damper,
+    "tyre": Tyre,
+}
+"""The kind of connection in each of the file's tables."""
+
+R = TypeVar("R")
+P = TypeVar("P")
+
+
+def builtin_vehicle() -> Path:
+    """The folder of the truck that comes with modeviz, installed or in a checkout.
+
+    Raises:
+        VehicleError: it is in neither place.
+    """
+    package = Path(__file__).parents[1]
+    for home in (package, package.parent):
+        if (home / "assets" / "truck" / VEHICLE_FILE).is_file():
+            return home / "assets" / "truck"
+    raise VehicleError(
+        f"the built-in truck is not at {package}/assets/truck: install modeviz again, or run "
+        "assets/build_truck.py in a checkout"
+    )
+
+
+def read_vehicle(folder: Path) -> Vehicle:
+    """The vehicle in a folder: flexible bodies first, connections as in `CONNECTION_KINDS`.
+
+    Raises:
+        VehicleError: something is missing, damaged or wrong; the text names file, key, what was found
+            and what would be right.
+    """
+    path = folder / VEHICLE_FILE
+    if not path.is_file():
+        raise VehicleError(
+            f"{folder}: found no {VEHICLE_FILE}; a vehicle is a folder with a {VEHICLE_FILE}, and the "
+            "modes, meshes and roads that it names"
+        )
+    record = _read_record(path)
+    with located(path):
+        return _build(record, folder)
+
+
+def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
+    """Writes the vehicle as a folder, in place of a vehicle that is there; the same bytes every time.
+
+    Raises:
+        VehicleError: the folder holds something else, or cannot be written.
+    """
+    if folder.exists() and not _replaceable(folder):
+        raise VehicleError(
+            f"{folder}: is not a vehicle folder and nothing else, so it is not overwritten; "
+            "give a new or empty folder"
+        )
+    replace_folder(folder, lambda new: _write_content(vehicle, new))
+
+
+def _replaceable(folder: Path) -> bool:
+    if not folder.is_dir():
+        return False
+    names = {path.name for path in folder.iterdir()}
+    return not names or (VEHICLE_FILE in names and names <= CONTENT)
+
+
+def _read_record(path: Path) -> VehicleRecord:
+    """The file's content, in SI."""
+    try:
+        data = tomllib.loads(read_text(path))
+    except (ValueError, RecursionError) as error:
+        raise VehicleError(f"{path}: not TOML: {error}") from None
+    with located(path):
+        units = decode(data.pop("units", {}), dict[str, str], "units")
+        decode(data, VehicleRecord)  # before scaling, so that errors show the file's own numbers
+        return msgspec.convert(to_si(data, units), VehicleRecord)
+
+
+def _build(record: VehicleRecord, folder: Path) -> Vehicle:
+    flexible = _built(record.flexible_body, "flexible_body", lambda r: r.build(folder))
+    rigid = _built(record.rigid_body, "rigid_body", lambda r: r.build(folder))
+    connections = [
+        _built(getattr(record, key), key, lambda r, kind=kind: kind(**r.arguments()))
+        for key, kind in CONNECTION_KINDS.items()
+    ]
+    return Vehicle(
+        name=record.name,
+        bodies=(*flexible, *rigid),
+        connections=tuple(chain(*connections)),
+        mount_groups=_built(record.mount_group, "mount_group", MountGroupRecord.build),
+        added_masses=_built(record.added_mass, "added_mass", AddedMassRecord.build),
+        response_points=_built(record.response_point, "response_point", ResponsePointRecord.build),
+        roads=_built(record.road, "road", lambda r: r.build(folder)),
+        wheel_loads=_built(record.wheel_load, "wheel_load", WheelLoadRecord.build),
+        rate_sets={
+            name: {group: rates.build() for group, rates in groups.items()}
+            for name, groups in record.rates.items()
+        },
+        speed=record.speed,
+    )
+
+
+def _built(records: Iterable[R], key: str, build: Callable[[R], P]) -> tuple[P, ...]:
+    """What each record builds; an error names the record."""
+    parts = []
+    for index, record in enumerate(records):
+        with located(f"{key}[{index}]"):
+            parts.append(build(record))
+    return tuple(parts)
+
+
+def _write_content(vehicle: Vehicle, folder: Path) -> None:
+    for name in sorted(CONTENT - {VEHICLE_FILE}):
+        (folder / name).mkdir()
+    content = msgspec.to_builtins(_record(vehicle, folder))
+    text = to_toml({"units": WRITTEN_UNITS} | from_si(content))
+    (folder / VEHICLE_FILE).write_text(text, encoding="utf-8", newline="\n")
+
+
+def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
+    """The content of the vehicle's file, with the files it names written."""
+    stems = file_stems(body.name for body in vehicle.bodies)
+    flexible = [b for b in vehicle.bodies if isinstance(b, FlexibleBody)]
+    rigid = [b for b in vehicle.bodies if isinstance(b, RigidBody)]
+    return VehicleRecord(
+        name=vehicle.name,
+        speed=vehicle.speed,
+        flexible_body=[_record_of_flexible(b, stems[b.name], folder) for b in flexible],
+        rigid_body=[RigidBodyRecord.of(b, _mesh_file(b, stems[b.name], folder)) for b in rigid],
+        added_mass=[AddedMassRecord.of(m) for m in vehicle.added_masses],
+        mount_group=[MountGroupRecord.of(g) for g in vehicle.mount_groups],
+        spring=[ConnectionRecord.of(c) for c in vehicle.connections if type(c) is Spring],
+        bolt=[ConnectionRecord.of(c) for c in vehicle.connections if type(c) is Bolt],
+        damper=[ConnectionRecord.of(c) for c in vehicle.connections if type(c) is Damper],
+        tyre=[TyreRecord.of(c) for c in vehicle.tyres],
+        response_point=[ResponsePointRecord.of(p) for p in vehicle.response_points],
+        road=_road_records(vehicle.roads, folder),
+        wheel_load=[WheelLoadRecord.of(load) for load in vehicle.wheel_loads],
+        rates={
+            name: {group: RatesRecord.of(r) for group, r in rates.items()}
+            for name, rates in vehicle.rate_sets.items()
+        },
+    )
+
+
+def _record_of_flexible(body: FlexibleBody, stem: str, folder: Path) -> FlexibleBodyRecord:
+    modes = f"bodies/{stem}.npz"
+    write_flexible_body(folder / modes, body)
+    return FlexibleBodyRecord.of(body, modes, _mesh_file(body, stem, folder))
+
+
+def _mesh_file(body: Body, stem: str, folder: Path) -> str | None:
+    """Where the body's mesh is, now that it is written."""
+    if not body.mesh:
+        return None
+    name = f"meshes/{stem}.glb"
+    write_mesh(folder / name, body.mesh)
+    return name
+
+
+def _road_records(roads: tuple[Road, ...], folder: Path) -> list[RoadRecord]:
+    stems = file_stems(road.name for road in roads)
+    records = [RoadRecord.of(road, f"roads/{stems[road.name]}.csv") for road in roads]
+    for road, record in zip(roads, records, strict=True):
+        write_road(folder / record.file, road)
+    return records

@@ -1,0 +1,318 @@
+"""The tables of `vehicle.toml` and what each becomes, in SI.
+
+A record is one table as it stands in the file, so its fields are the keys. `build` makes the vehicle's
+part from it, `of` the record from the part.
+"""
+
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+import msgspec
+import numpy as np
+from msgspec import Meta
+
+from modeviz.errors import VehicleError, located
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role
+from modeviz.vehicle.bodyfiles import read_flexible_body
+from modeviz.vehicle.connections import Connection, Mount, MountGroup, MountRates
+from modeviz.vehicle.disk import inside
+from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad, WheelLoadKind
+from modeviz.vehicle.meshfiles import DEFAULT_COLOR, read_mesh
+from modeviz.vehicle.roadfiles import read_road
+
+Name = Annotated[str, Meta(min_length=1)]
+Positive = Annotated[float, Meta(gt=0)]
+NonNegative = Annotated[float, Meta(ge=0)]
+Vector = tuple[float, float, float]
+Axes = tuple[Vector, Vector, Vector]
+Place = Annotated[tuple[float | Vector, ...], Meta(min_length=2, max_length=3)]
+"""x, y, z; or two of those, where the ends of a connection are at different places."""
+
+NO_RATES = (0.0, 0.0, 0.0)
+VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+class Record(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
+    """A table of the file."""
+
+
+class BodyRecord(Record, kw_only=True):
+    """What flexible and rigid bodies have in common."""
+
+    name: Name
+    role: Role
+    label: str
+    mesh: str | None = None
+    """A file of the folder: .glb, .stl, .obj or .ply, in metres."""
+    color: tuple[int, int, int] = DEFAULT_COLOR
+    """sRGB, of the mesh parts that have no material."""
+
+    def read_mesh(self, folder: Path) -> Mesh:
+        if self.mesh is None:
+            return ()
+        with located("mesh"):
+            path = inside(folder, self.mesh)
+        return read_mesh(path, self.color)
+
+
+class FlexibleBodyRecord(BodyRecord, kw_only=True):
+    """[[flexible_body]]."""
+
+    modes: str
+    """A file of the folder, .npz."""
+    damping_ratio: float
+    keep_modes: Annotated[int, Meta(ge=FlexibleBody.N_RIGID)] | None = None
+    """How many of the lowest normal modes, rigid ones included; all, if not given."""
+    residual_vectors: bool = True
+    """Whether to keep them."""
+
+    @classmethod
+    def of(cls, body: FlexibleBody, modes: str, mesh: str | None) -> Self:
+        return cls(
+            name=body.name,
+            role=body.role,
+            label=body.label,
+            mesh=mesh,
+            modes=modes,
+            damping_ratio=body.damping_ratio,
+        )
+
+    def build(self, folder: Path) -> FlexibleBody:
+        with located("modes"):
+            path = inside(folder, self.modes)
+        mesh = self.read_mesh(folder)
+        body = read_flexible_body(path, self.name, self.role, self.label, self.damping_ratio, mesh)
+        n_normal = body.n_modes - body.n_residuals
+        return body.truncated(self.keep_modes or n_normal, self.residual_vectors)
+
+
+class RigidBodyRecord(BodyRecord, kw_only=True):
+    """[[rigid_body]]."""
+
+    mass: Positive
+    center_of_gravity: Vector
+    inertia: Annotated[tuple[float, ...], Meta(min_length=3, max_length=6)]
+    """Ixx, Iyy, Izz about the centre of gravity and, if any, the products Ixy, Ixz, Iyz.
+
+    Ixy = +∫ x y dm, so that it stands in the matrix as -Ixy.
+    """
+
+    @classmethod
+    def of(cls, body: RigidBody, mesh: str | None) -> Self:
+        moments = np.diag(body.inertia).tolist()
+        products = (0.0 - body.inertia[[0, 0, 1], [1, 2, 2]]).tolist()
+        return cls(
+            name=body.name,
+            role=body.role,
+            label=body.label,
+            mesh=mesh,
+            mass=body.mass,
+            center_of_gravity=_tuples(body.center_of_gravity),
+            inertia=(*moments, *products) if any(products) else tuple(moments),
+        )
+
+    def build(self, folder: Path) -> RigidBody:
+        if len(self.inertia) not in (3, 6):
+            raise VehicleError(f"inertia: found {len(self.inertia)} numbers, expected 3 or 6")
+        inertia = np.diag(self.inertia[:3])
+        for (row, column), product in zip(((0, 1), (0, 2), (1, 2)), self.inertia[3:], strict=False):
+            inertia[row, column] = inertia[column, row] = 0.0 - product
+        mesh = self.read_mesh(folder)
+        return RigidBody(
+            self.name, self.role, self.label, self.mass, np.array(self.center_of_gravity), inertia, mesh
+        )
+
+
+class AddedMassRecord(Record, kw_only=True):
+    """[[added_mass]]."""
+
+    name: Name
+    body: str
+    at: Vector
+    mass: Positive
+
+    @classmethod
+    def of(cls, mass: AddedMass) -> Self:
+        return cls(name=mass.name, body=mass.body, at=_tuples(mass.position), mass=mass.mass)
+
+    def build(self) -> AddedMass:
+        return AddedMass(self.name, self.body, np.array(self.at), self.mass)
+
+
+class RatesRecord(Record, kw_only=True):
+    """The rates of a mount."""
+
+    vertical: NonNegative
+    lateral: NonNegative
+    fore_aft: NonNegative
+
+    @classmethod
+    def of(cls, rates: MountRates) -> Self:
+        return cls(vertical=rates.vertical, lateral=rates.lateral, fore_aft=rates.fore_aft)
+
+    def build(self) -> MountRates:
+        return MountRates(self.vertical, self.lateral, self.fore_aft)
+
+
+class MountRecord(Record, kw_only=True):
+    """[[mount_group.mount]]; but for the place, the keys are the attributes of a connection."""
+
+    name: Name
+    bodies: tuple[str, str]
+    at: Place
+    rotational_stiffness: Vector = NO_RATES
+    damping: Vector = NO_RATES
+    axes: Axes = VEHICLE_AXES
+
+    @classmethod
+    def of(cls, connection: Connection) -> Self:
+        first, second = map(_tuples, connection.points)
+        fields = {
+            field.name: value
+            for field in msgspec.structs.fields(cls)
+            if field.name != "at"
+            and (value := _tuples(getattr(connection, field.name))) != field.default
+        }
+        return cls(at=first if first == second else (first, second), **fields)
+
+    def arguments(self) -> dict[str, Any]:
+        """The constructor's arguments of a connection."""
+        fields = {f: getattr(self, f) for f in self.__struct_fields__ if f != "at"}
+        return {"points": self._ends(), **fields}
+
+    def _ends(self) -> Floats:
+        ends = self.at if len(self.at) == 2 else (self.at, self.at)
+        if any(np.shape(end) != (3,) for end in ends):
+            raise VehicleError(f"at: found {list(self.at)}, expected [x, y, z] or two of them")
+        return np.array(ends, float)
+
+
+class MountGroupRecord(Record, kw_only=True):
+    """[[mount_group]]."""
+
+    name: Name
+    label: str
+    rates: RatesRecord
+    loss_factor: NonNegative
+    softest: RatesRecord
+    stiffest: RatesRecord
+    ratio_limits: tuple[float, float] | None = None
+    """The least and the most that lateral and fore-aft rates may be of the vertical one."""
+    mount: list[MountRecord]
+
+    @classmethod
+    def of(cls, group: MountGroup) -> Self:
+        return cls(
+            name=group.name,
+            label=group.label,
+            rates=RatesRecord.of(group.rates),
+            loss_factor=group.loss_factor,
+            softest=RatesRecord.of(group.bounds[0]),
+            stiffest=RatesRecord.of(group.bounds[1]),
+            ratio_limits=group.ratio_limits,
+            mount=[MountRecord.of(mount) for mount in group.mounts],
+        )
+
+    def build(self) -> MountGroup:
+        return MountGroup(
+            self.name,
+            self.label,
+            self.rates.build(),
+            self.loss_factor,
+            (self.softest.build(), self.stiffest.build()),
+            tuple(Mount(group=self.name, **mount.arguments()) for mount in self.mount),
+            self.ratio_limits,
+        )
+
+
+class ConnectionRecord(MountRecord, kw_only=True):
+    """[[spring]], [[bolt]] or [[damper]]."""
+
+    group: Name
+    stiffness: Vector = NO_RATES
+    loss_factor: NonNegative = 0.0
+
+
+class TyreRecord(ConnectionRecord, kw_only=True):
+    """[[tyre]]."""
+
+    wheel_center: Vector
+    trail: float = 0.0
+
+
+class ResponsePointRecord(Record, kw_only=True):
+    """[[response_point]]."""
+
+    name: Name
+    body: str
+    at: Vector
+
+    @classmethod
+    def of(cls, point: ResponsePoint) -> Self:
+        return cls(name=point.name, body=point.body, at=_tuples(point.position))
+
+    def build(self) -> ResponsePoint:
+        return ResponsePoint(self.name, self.body, np.array(self.at))
+
+
+class RoadRecord(Record, kw_only=True):
+    """[[road]]."""
+
+    name: Name
+    label: str
+    file: str
+    """A file of the folder, .csv."""
+    speed: Positive
+
+    @classmethod
+    def of(cls, road: Road, file: str) -> Self:
+        return cls(name=road.name, label=road.label, file=file, speed=road.speed)
+
+    def build(self, folder: Path) -> Road:
+        with located("file"):
+            path = inside(folder, self.file)
+        return read_road(path, self.name, self.label, self.speed)
+
+
+class WheelLoadRecord(Record, kw_only=True):
+    """[[wheel_load]]."""
+
+    name: Name
+    kind: WheelLoadKind
+    tyre: str
+    amplitude: NonNegative
+
+    @classmethod
+    def of(cls, load: WheelLoad) -> Self:
+        return cls(name=load.name, kind=load.kind, tyre=load.tyre, amplitude=load.amplitude)
+
+    def build(self) -> WheelLoad:
+        return WheelLoad(self.name, self.kind, self.tyre, self.amplitude)
+
+
+class VehicleRecord(Record, kw_only=True):
+    """The whole file, but for its `units`."""
+
+    name: Name
+    speed: Positive
+    flexible_body: list[FlexibleBodyRecord] = []
+    rigid_body: list[RigidBodyRecord] = []
+    added_mass: list[AddedMassRecord] = []
+    mount_group: list[MountGroupRecord] = []
+    spring: list[ConnectionRecord] = []
+    bolt: list[ConnectionRecord] = []
+    damper: list[ConnectionRecord] = []
+    tyre: list[TyreRecord] = []
+    response_point: list[ResponsePointRecord] = []
+    road: list[RoadRecord] = []
+    wheel_load: list[WheelLoadRecord] = []
+    rates: dict[str, dict[str, RatesRecord]] = {}
+    """[rates.SET.GROUP]."""
+
+
+def _tuples(value: Any) -> Any:
+    """An array as tuples, whatever else as it is."""
+    if isinstance(value, np.ndarray):
+        return tuple(map(_tuples, value)) if value.ndim else float(value)
+    return float(value) if isinstance(value, np.floating) else value

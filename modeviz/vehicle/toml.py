@@ -1,0 +1,51 @@
+"""Plain data as TOML that people like to read: arrays and tables of numbers on one line."""
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+
+def to_toml(table: Mapping[str, Any]) -> str:
+    """The table as TOML; numbers read back to the same bits.
+
+    Args:
+        table: of text, numbers, truth values, and lists and tables of those.
+    """
+    return "\n".join(_lines(table, "")).strip() + "\n"
+
+
+def _lines(table: Mapping[str, Any], path: str) -> Iterator[str]:
+    """The lines of a table, its own values before the tables in it."""
+    blocks = {key: value for key, value in table.items() if _is_block(value)}
+    for key, value in table.items():
+        if key not in blocks:
+            yield f"{_key(key)} = {_value(value)}"
+    for key, value in blocks.items():
+        name = f"{path}{_key(key)}"
+        header = f"[[{name}]]" if isinstance(value, list) else f"[{name}]"
+        for inner in value if isinstance(value, list) else [value]:
+            if not all(map(_is_block, inner.values())):
+                yield from ("", header)
+            yield from _lines(inner, f"{name}.")
+
+
+def _is_block(value: Any) -> bool:
+    """Whether the value is a table under a header of its own, or a list of such."""
+    if isinstance(value, list):
+        return bool(value) and isinstance(value[0], dict)
+    return isinstance(value, dict) and not all(isinstance(v, int | float) for v in value.values())
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _value(key)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{_key(k)} = {_value(v)}' for k, v in value.items())} }}"
+    return str(value).lower()
