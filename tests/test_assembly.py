@@ -4,8 +4,9 @@ import scipy.linalg
 from oracles import Beam, direct_system
 
 from modeviz.dynamics.assembly import assemble
+from modeviz.errors import VehicleError
 from modeviz.vehicle.bodies import AddedMass, RigidBody
-from modeviz.vehicle.connections import Damper, Spring, Tyre
+from modeviz.vehicle.connections import Damper, Mount, MountGroup, MountRates, Spring, Tyre
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -136,3 +137,26 @@ def test_coordinates_have_names():
     names = assemble(Vehicle("named", (beam, block("a")), ())).dof_names
     assert names[7:10] == ("beam mode 8", "beam residual 1", "a x")
     assert len(names) == 15
+
+
+def vehicle_on_mounts(rates):
+    mounts = tuple(
+        Mount(f"M {x}", "", ("front", "ground"), np.tile([x, 0, 0.0], (2, 1))) for x in (0.0, 2.0)
+    )
+    limits = MountRates(1.0, 1.0, 1.0), MountRates(1e9, 1e9, 1e9)
+    group = MountGroup("M", "feet", MountRates(*rates), 0.1, limits, mounts)
+    return Vehicle("on mounts", (Beam(8, 2.0).body("front"),), (), (group,))
+
+
+def test_other_rates_give_what_assembling_anew_gives():
+    tuned = assemble(vehicle_on_mounts((3e4, 2e4, 1e4))).with_rates({"M": MountRates(5e4, 1e3, 0.0)})
+    anew = assemble(vehicle_on_mounts((5e4, 1e3, 0.0)))
+    scale = np.abs(anew.stiffness).max()
+    np.testing.assert_allclose(tuned.stiffness, anew.stiffness, atol=1e-12 * scale)
+    np.testing.assert_allclose(tuned.structural_damping, anew.structural_damping, atol=1e-9)
+    assert tuned.vehicle.rates["M"].vertical == 5e4
+
+
+def test_rates_of_a_group_that_is_not_there_are_an_error():
+    with pytest.raises(VehicleError, match=r"unknown mount group 'N'.*there are M"):
+        assemble(vehicle_on_mounts((3e4, 2e4, 1e4))).with_rates({"N": MountRates(1, 1, 1)})

@@ -7,15 +7,15 @@ connection adds Rᵀ k R, where R are the rows that give the relative motion of 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from modeviz.dynamics.rigid import rigid_motion
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
-from modeviz.vehicle.connections import GROUND, Connection
+from modeviz.vehicle.connections import GROUND, Connection, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 RIGID_DOFS = ("x", "y", "z", "rx", "ry", "rz")
@@ -62,6 +62,28 @@ class System:
             rows -= self.motion(connection.bodies[1], connection.points[1])
         return np.kron(np.eye(2), connection.axes) @ rows
 
+    @cached_property
+    def mount_motions(self) -> Floats:
+        """Rows (3 n_mounts, n_dofs): how every mount is stretched along its local axes."""
+        rows = [self.relative_motion(mount)[:3] for mount in self.vehicle.mounts]
+        return np.vstack([np.zeros((0, self.n_dofs)), *rows])
+
+    def with_rates(self, rates: Rates) -> "System":
+        """The system of the same vehicle with other mount rates, K + RᵀΔkR.
+
+        Raises:
+            VehicleError: a group that does not exist.
+        """
+        vehicle = self.vehicle.with_rates(rates)
+        R = self.mount_motions
+        change = _mount_stiffness(vehicle) - _mount_stiffness(self.vehicle)
+        return replace(
+            self,
+            vehicle=vehicle,
+            stiffness=self.stiffness + (R.T * change.real) @ R,
+            structural_damping=self.structural_damping + (R.T * change.imag) @ R,
+        )
+
 
 def assemble(vehicle: Vehicle) -> System:
     """The system matrices of a vehicle with the mount rates it has."""
@@ -89,6 +111,12 @@ def assemble(vehicle: Vehicle) -> System:
         stiffness=K + (R.T * k) @ R,
         structural_damping=(R.T * (g * k)) @ R,
     )
+
+
+def _mount_stiffness(vehicle: Vehicle) -> Complexes:
+    """Complex rates k (1 + jg) of every mount along its local axes, (3 n_mounts,)."""
+    rates = [mount.stiffness * (1 + 1j * mount.loss_factor) for mount in vehicle.mounts]
+    return np.concatenate([np.zeros(0, complex), *rates])
 
 
 def _number(vehicle: Vehicle) -> dict[str, slice]:

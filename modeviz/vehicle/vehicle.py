@@ -12,6 +12,7 @@ from modeviz.vehicle.bodies import AddedMass, Body, FlexibleBody
 from modeviz.vehicle.connections import (
     GROUND,
     Connection,
+    Mount,
     MountGroup,
     MountRates,
     Rates,
@@ -74,7 +75,12 @@ class Vehicle:
     @cached_property
     def all_connections(self) -> tuple[Connection, ...]:
         """Mounts first, group by group, then the rest."""
-        return (*(m for g in self.mount_groups for m in g.mounts), *self.connections)
+        return (*self.mounts, *self.connections)
+
+    @property
+    def mounts(self) -> tuple[Mount, ...]:
+        """Every mount, group by group."""
+        return tuple(m for g in self.mount_groups for m in g.mounts)
 
     @property
     def tyres(self) -> tuple[Tyre, ...]:
