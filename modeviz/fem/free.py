@@ -88,7 +88,7 @@ def lowest_modes(mass: sp.csc_array, stiffness: sp.csc_array, n_modes: int) -> t
     matrices give the same shapes.
     """
     n_dofs = mass.diagonal().size
-    solve = _factorised(stiffness + SHIFT * mass).solve
+    solve = factorised(stiffness + SHIFT * mass).solve
     start = np.random.default_rng(0).standard_normal(n_dofs)
     eigenvalues, phi = spl.eigsh(
         stiffness,
@@ -118,7 +118,7 @@ def static_response(matrices: Matrices, loads: Floats) -> Floats:
     anchor = int(np.argmin(np.linalg.norm(matrices.nodes - center_of_gravity(matrices), axis=1)))
     free = np.r_[0 : 6 * anchor, 6 * anchor + 6 : matrices.n_dofs]
     u = np.zeros(loads.shape)
-    u[free] = _factorised(matrices.stiffness[free][:, free]).solve(balanced[free])
+    u[free] = factorised(matrices.stiffness[free][:, free]).solve(balanced[free])
     return _without(R, u, matrices.mass)
 
 
@@ -165,7 +165,7 @@ def residual_compliance(matrices: Matrices, modes: ModalBasis, loads: Floats) ->
     return loads.T @ residual_response(matrices, modes, loads)
 
 
-def _factorised(A: sp.csc_array) -> spl.SuperLU:
+def factorised(A: sp.csc_array) -> spl.SuperLU:
     """Sparse factors of a symmetric definite matrix, which needs no pivoting."""
     return spl.splu(
         A.tocsc(),
