@@ -8,7 +8,7 @@ from small_meshes import BAR, STEEL, bar, plate, shell
 
 from modeviz.fem.elements import TUBE_SHEAR_FACTOR
 from modeviz.fem.free import free_modes, lowest_modes
-from modeviz.fem.matrices import assemble
+from modeviz.fem.matrices import assemble, rigid_motions
 from modeviz.fem.mesh import BeamSection, ShellSection
 
 E, RHO = STEEL["youngs_modulus"], STEEL["density"]
@@ -106,6 +106,17 @@ def test_sheet_with_swages_bends_stiffer_and_stretches_alike():
     in_plane = np.arange(6 * 81).reshape(-1, 6)[:, [0, 1]].ravel()
     K_flat, K_swaged = (assemble(m).stiffness[in_plane][:, in_plane] for m in (flat, swaged))
     assert abs(K_flat - K_swaged).max() <= 1e-12 * abs(K_flat).max()
+
+
+def test_swages_turn_with_the_inertia_of_their_depth():
+    # About its middle line a sheet of mass m and section depth d, d² = factor t², has m d² / 12 more.
+    def turning(bending_factor):
+        section = ShellSection(0.01, **STEEL, bending_factor=bending_factor)
+        matrices = assemble(shell(lambda u, v: (u, v - 0.5, 0), 2, 2, section))
+        R = rigid_motions(matrices.nodes).reshape(-1, 6)[:, 3]
+        return R @ (matrices.mass @ R)
+
+    np.testing.assert_allclose(turning(9.0) - turning(1.0), RHO * 0.01 * 8 * 0.01**2 / 12, rtol=1e-9)
 
 
 def test_added_mass_lowers_frequencies_as_mass_does():

@@ -45,19 +45,19 @@ def guyan_reduction(matrices: Matrices, masters: np.ndarray) -> ReducedMatrices:
         SolveError: an index is repeated or does not exist, or the masters don't hold the body.
     """
     masters = np.asarray(masters, int)
-    known = np.unique(masters)
-    if len(known) != len(masters) or known[0] < 0 or known[-1] >= matrices.n_dofs:
+    possible = np.arange(matrices.n_dofs)
+    if len(np.unique(masters)) != len(masters) or not np.isin(masters, possible).all():
         raise SolveError(
             f"masters: found {masters.tolist()}, expected different indices from 0 to "
             f"{matrices.n_dofs - 1}"
         )
     R = _scaled_rigid_motions(matrices)
-    if np.linalg.matrix_rank(R[masters]) < N_RIGID:
+    if len(masters) < N_RIGID or np.linalg.matrix_rank(R[masters]) < N_RIGID:
         raise SolveError(
             f"masters: the {len(masters)} found don't hold the body, expected some that show every "
             "rigid motion"
         )
-    slaves = np.setdiff1d(np.arange(matrices.n_dofs), masters)
+    slaves = np.setdiff1d(possible, masters)
     K = matrices.stiffness
     T = np.zeros((matrices.n_dofs, len(masters)))
     T[masters, np.arange(len(masters))] = 1.0
