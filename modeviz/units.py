@@ -1,24 +1,39 @@
 """Conversion between the units people write and plain SI."""
 
 import math
+import re
 
 from modeviz.errors import ModevizError, unknown
 
 STANDARD_GRAVITY = 9.80665
 """m/s², the g of every acceleration in g."""
 
+INCH = 0.0254
+"""m, exact, as the pound is (International Yard and Pound Agreement, 1959)."""
+
+POUND = 0.45359237
+"""kg."""
+
 UNITS: dict[str, dict[str, float]] = {
-    "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254},
-    "mass": {"kg": 1.0, "t": 1e3, "lb": 0.45359237},
+    "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": INCH},
+    "mass": {"kg": 1.0, "t": 1e3, "lb": POUND},
     "inertia": {"kg m²": 1.0, "kg m^2": 1.0, "kg mm²": 1e-6, "kg mm^2": 1e-6},
-    "stiffness": {"N/m": 1.0, "N/mm": 1e3, "N/cm": 1e2, "kN/mm": 1e6, "lbf/in": 175.126835},
+    "stiffness": {
+        "N/m": 1.0,
+        "N/mm": 1e3,
+        "N/cm": 1e2,
+        "kN/mm": 1e6,
+        "lbf/in": POUND * STANDARD_GRAVITY / INCH,
+    },
     "rotational stiffness": {"N m/rad": 1.0, "N m/deg": 180 / math.pi, "N mm/rad": 1e-3},
     "damping": {"N s/m": 1.0, "N s/mm": 1e3, "kN s/m": 1e3},
-    "force": {"N": 1.0, "kN": 1e3, "lbf": 4.4482216152605},
-    "unbalance": {"kg m": 1.0, "g m": 1e-3, "g mm": 1e-6, "oz in": 7.2007788e-4},
+    "force": {"N": 1.0, "kN": 1e3, "lbf": POUND * STANDARD_GRAVITY},
+    "unbalance": {"kg m": 1.0, "g m": 1e-3, "g mm": 1e-6, "oz in": POUND / 16 * INCH},
     "speed": {"m/s": 1.0, "km/h": 1 / 3.6, "mph": 0.44704},
 }
 """For each quantity, what one of the unit is in SI."""
+
+NUMBER_AND_UNIT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re.ASCII)
 
 
 def factor(unit: str, quantity: str) -> float:
@@ -39,14 +54,14 @@ def parse(text: str, quantity: str) -> float:
     Raises:
         ModevizError: no number, no unit, a unit of something else, or not finite.
     """
-    number, _, unit = text.strip().partition(" ")
-    try:
-        value = float(number)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
+    parts = NUMBER_AND_UNIT.fullmatch(text.strip())
+    if parts is None:
         raise ModevizError(f"found {text!r}, expected a number and a unit of {quantity}")
-    if not unit.strip():
+    number, unit = parts.groups()
+    if not unit:
         units = ", ".join(UNITS[quantity])
         raise ModevizError(f"found {text!r} without a unit, expected one of {units}")
-    return value * factor(unit.strip(), quantity)
+    value = float(number) * factor(unit, quantity)
+    if not math.isfinite(value):
+        raise ModevizError(f"found {text!r}, expected a finite number")
+    return value

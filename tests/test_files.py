@@ -1,14 +1,23 @@
 """The vehicle folder: what is written comes back, and what is wrong in it is said."""
 
+import contextlib
 import dataclasses
+import json
+import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from folders import one_of_everything
+import trimesh
+from folders import flexible_body, one_of_everything, part
 
 from modeviz.errors import VehicleError
+from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
 from modeviz.vehicle.files import read_vehicle, write_vehicle
+from modeviz.vehicle.meshfiles import read_mesh, write_mesh
+
+RNG = np.random.default_rng(0)
 
 
 @pytest.fixture
@@ -60,3 +69,353 @@ def assert_same(found, expected) -> None:
 
 def test_vehicle_comes_back_to_the_last_bit(folder):
     assert_same(read_vehicle(folder), one_of_everything())
+
+
+def test_display_mesh_keeps_names_order_and_materials(folder):
+    mesh = read_vehicle(folder).body("cab").mesh
+    assert [(p.name, p.material.opacity) for p in mesh] == [("skin", 1.0), ("door, left", 0.4)]
+
+
+def test_every_srgb_colour_survives_linear_light(tmp_path):
+    levels = [(n, 255 - n, (7 * n) % 256) for n in range(256)]
+    mesh = tuple(replace(part(str(n), RNG), material=Material(c)) for n, c in enumerate(levels))
+    write_mesh(tmp_path / "a.glb", mesh)
+    assert [p.material.color for p in read_mesh(tmp_path / "a.glb")] == levels
+
+
+def test_gltf_has_linear_colours_as_its_standard_says(tmp_path):
+    write_mesh(tmp_path / "a.glb", (replace(part("a", RNG), material=Material((188, 0, 255))),))
+    data = (tmp_path / "a.glb").read_bytes()
+    tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    factor = tree["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"]
+    # IEC 61966-2-1: sRGB 188 is 50.3 % of white
+    np.testing.assert_allclose(factor, [0.5029, 0, 1, 1], atol=5e-5)
+
+
+@pytest.mark.parametrize("suffix", [".stl", ".obj", ".ply"])
+def test_other_mesh_files_are_read_with_the_colour_of_the_toml(folder, suffix):
+    surface = trimesh.creation.box((1.0, 2.0, 3.0))
+    surface.export(folder / f"meshes/cab{suffix}")
+    edit(folder, 'cab.glb"', f'cab{suffix}"\ncolor = [1, 2, 3]')
+    (read,) = read_vehicle(folder).body("cab").mesh
+    assert read.material.color == (1, 2, 3)
+    np.testing.assert_array_equal(read.vertices[read.faces], surface.vertices[surface.faces])
+
+
+def test_writing_twice_gives_the_same_bytes_wherever_the_numbers_come_from(folder, tmp_path):
+    write_vehicle(read_vehicle(folder), tmp_path / "again")
+    assert content(folder) == content(tmp_path / "again")
+
+
+def test_file_is_in_the_units_it_names(folder):
+    data = tomllib.loads((folder / "vehicle.toml").read_text())
+    assert data["units"]["stiffness"] == "N/mm"
+    assert data["mount_group"][0]["rates"] == {
+        "vertical": 1094.0,
+        "lateral": 670.0,
+        "fore_aft": 131 / 3,
+    }
+    assert [w["amplitude"] for w in data["wheel_load"]] == [12.3, 35.6]  # g m and N
+    assert data["road"][0]["speed"] == 72.0
+
+
+def test_every_unit_of_the_file_counts(folder):
+    edit(folder, 'length = "m"', 'length = "mm"')
+    edit(folder, "at = [0.01, -0.02, 0.03]\nmass = 75.0", "at = [10, -20, 30]\nmass = 0.075")
+    edit(folder, 'mass = "kg"', 'mass = "t"')
+    edit(folder, "240.5", "0.2405")
+    vehicle = read_vehicle(folder)
+    np.testing.assert_allclose(vehicle.added_masses[0].position, [0.01, -0.02, 0.03], rtol=1e-15)
+    assert vehicle.added_masses[0].mass == pytest.approx(75.0, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("keys", "columns"),
+    [
+        ("keep_modes = 7", [*range(7), 9, 10]),
+        ("keep_modes = 7\nresidual_vectors = false", range(7)),
+        ("residual_vectors = false", range(9)),
+    ],
+)
+def test_modes_to_keep_choose_the_columns(folder, keys, columns):
+    edit(folder, "damping_ratio", f"{keys}\ndamping_ratio")
+    found, whole = read_vehicle(folder).body("cab"), flexible_body()
+    assert isinstance(found, FlexibleBody)
+    np.testing.assert_array_equal(found.omega_n_squared, whole.omega_n_squared[columns])
+    np.testing.assert_array_equal(found.shapes, whole.shapes[:, :, columns])
+    assert found.n_residuals == (0 if "false" in keys else 2)
+
+
+def test_products_of_inertia_are_plus_integrals(folder):
+    """A pair of masses at ±(1, 1, 0) has Ixy = +∫ xy dm = 2 m, so -2 m in the matrix."""
+    edit(folder, "inertia = [12.6, 49.6, 20.3, 0.3, -1.7, 0.0]", "inertia = [3, 3, 5, 2, 0, 0]")
+    body = read_vehicle(folder).body("Engine & box")
+    assert isinstance(body, RigidBody)
+    np.testing.assert_array_equal(body.inertia, [[3, -2, 0], [-2, 3, 0], [0, 0, 5]])
+
+
+EDITS = {
+    "negative rate": (
+        "vertical = 1094.0",
+        "vertical = -5",
+        "mount_group[0].rates.vertical: found -5, expected a number of zero or more",
+    ),
+    "text for a number": ("1094.0", '"hard"', "rates.vertical: found 'hard', expected a number"),
+    "truth for a number": ("1094.0", "true", "rates.vertical: found True, expected a number"),
+    "not a number": ("1094.0", "nan", "mount_group[0].rates.vertical: found nan, expected a finite"),
+    "infinite": ("1094.0", "inf", "mount_group[0].rates.vertical: found inf, expected a finite"),
+    "beyond float": ("1094.0", "9" * 400, "rates.vertical: found 9999"),
+    "beyond int": ("1094.0", "9" * 5000, "not TOML"),
+    "mass not positive": ("240.5", "0", "rigid_body[0].mass: found 0, expected a number above zero"),
+    "unknown key": (
+        "damping_ratio",
+        "damping_ratios",
+        "flexible_body[0].damping_ratios: unknown key 'damping_ratios': did you mean 'damping_ratio'?",
+    ),
+    "unknown table": ("[[bolt]]", "[[bolts]]", "bolts: unknown key 'bolts': did you mean 'bolt'?"),
+    "missing key": ("damping_ratio = 0.03", "", "flexible_body[0].damping_ratio: missing"),
+    "unknown role": (
+        '"cabin"',
+        '"cabim"',
+        "flexible_body[0].role: unknown value 'cabim': did you mean 'cabin'? there are cabin, frame",
+    ),
+    "unknown load": (
+        'kind = "unbalance"',
+        'kind = "imbalance"',
+        "wheel_load[0].kind: unknown value 'imbalance': did you mean 'unbalance'? there are",
+    ),
+    "two coordinates": ("at = [0.01, -0.02, 0.03]", "at = [1, 2]", "added_mass[0].at: found [1, 2]"),
+    "half a place": (
+        "at = [[0.0, 0.0, 0.0], [0.0, 0.1, 0.7]]",
+        "at = [[0, 0, 0], 1]",
+        "spring[0]: at: found [(0.0, 0.0, 0.0), 1.0], expected [x, y, z] or two of them",
+    ),
+    "four moments": (", 0.3, -1.7, 0.0]", ", 0.3]", "inertia: found 4 numbers, expected 3 or 6"),
+    "impossible inertia": ("12.6, 49.6", "-1, 49.6", "rigid_body[0]: body 'Engine & box': inertia"),
+    "unknown unit": (
+        '"N/mm"',
+        '"N/mmm"',
+        "unknown unit of stiffness 'N/mmm': did you mean",
+    ),
+    "unit of something else": ('"N/mm"', '"kg"', "units.stiffness: unknown unit of stiffness 'kg'"),
+    "unknown quantity": (
+        "stiffness =",
+        "stifness =",
+        "units: unknown quantity 'stifness': did you mean 'stiffness'? there are length, mass",
+    ),
+    "no unit": (
+        'stiffness = "N/mm"\n',
+        "",
+        "units.stiffness: missing, expected one of N/m, N/mm, N/cm, kN/mm, lbf/in",
+    ),
+    "unit that is no text": ('"N/mm"', "3", "units.stiffness: found 3, expected text"),
+    "units that are no table": (
+        "[units]",
+        "units = 3\n[other]",
+        "units: found 3, expected a table",
+    ),
+    "unknown body": (
+        'body = "cab"',
+        'body = "cob"',
+        "added mass 'driver': unknown body 'cob': did you mean 'cab'? there are cab, Engine & box",
+    ),
+    "unknown body in a connection": (
+        'bodies = ["cab"',
+        'bodies = ["Cob"',
+        "connection 'C1 left': unknown body 'Cob': did you mean 'cab'?",
+    ),
+    "joined to itself": ('["cab", "Engine & box"]', '["cab", "cab"]', "joins 'cab' to itself"),
+    "one body": (
+        '["cab", "Engine & box"]',
+        '["cab"]',
+        "mount[0].bodies: found ['cab'], expected a list",
+    ),
+    "far from everything": ("[0.01, -0.02, 0.03]", "[9, 0, 0]", "8.91 m from the nearest attachment"),
+    "unknown tyre": (
+        'tyre = "tyre left"',
+        'tyre = "tyre rihgt"',
+        "wheel load 'unbalance left': unknown tyre 'tyre rihgt': did you mean 'tyre left'?",
+    ),
+    "tyre twice": ('"shock"', '"arm"', "connection 'arm' is there twice"),
+    "body twice": ('name = "Engine & box"', 'name = "cab"', "body 'cab' is there twice"),
+    "no name": ('name = "driver"', 'name = ""', "added_mass[0].name: found '', expected text"),
+    "too many modes": ("damping_ratio", "keep_modes = 10\ndamping_ratio", "found 10, expected 6 to 9"),
+    "too few modes": (
+        "damping_ratio",
+        "keep_modes = 5\ndamping_ratio",
+        "flexible_body[0].keep_modes: found 5, expected a whole number at least 6",
+    ),
+    "overdamped": ("0.03", "1.5", "damping_ratio: found 1.5, expected a fraction of critical"),
+    "bounds the wrong way round": ("lateral = 2000.0", "lateral = 1", "bounds: lateral: found 100000"),
+    "unknown group in a set": ("C1 = {", "C9 = {", "rates 'optimised': unknown mount group 'C9'"),
+    "negative rate in a set": (
+        "lateral = 131.0",
+        "lateral = -131.0",
+        "rates.optimised.C1.lateral: found -131.0, expected a number of zero or more",
+    ),
+    "rates that are no table": ("C1 = {", "C1 = 3 #", "rates.optimised.C1: found 3, expected a table"),
+    "missing mesh": ("meshes/cab.glb", "meshes/cob.glb", "meshes/cob.glb: there is no such file"),
+    "mesh of another kind": ("meshes/cab.glb", "bodies/cab.npz", "expected one of .glb, .stl, .obj"),
+    "missing modes": ("bodies/cab.npz", "bodies/cob.npz", "bodies/cob.npz: there is no such file"),
+    "missing road": ("roads/road_1.csv", "roads/x.csv", "roads/x.csv: there is no such file"),
+    "mesh outside": ("meshes/cab.glb", "../../x.glb", "flexible_body[0]: mesh: found '../../x.glb'"),
+    "modes outside": ("bodies/cab.npz", "/etc/passwd", "flexible_body[0]: modes: found '/etc/passwd'"),
+    "road outside": ("roads/road_1.csv", "roads/../../x", "road[0]: file: found 'roads/../../x'"),
+    "file name with a zero": ("roads/road_1.csv", "a\\u0000b", "road[0]: file: found 'a\\x00b'"),
+    "folder for a file": ("bodies/cab.npz", "bodies", "bodies: cannot be read"),
+    "broken TOML": ("speed = 8", "speed = = 8", "not TOML: Invalid value (at line 2, column 9)"),
+}
+
+
+@pytest.mark.parametrize("case", EDITS)
+def test_wrong_vehicle_file_is_explained(folder, case):
+    old, new, words = EDITS[case]
+    edit(folder, old, new)
+    text = complaint(folder)
+    assert text.startswith(f"{folder / 'vehicle.toml'}: ")
+    assert words in text
+    assert "\n" not in text
+
+
+def test_folder_that_is_no_vehicle_is_told_what_one_is(tmp_path):
+    for folder in (tmp_path, tmp_path / "nowhere"):
+        assert complaint(folder).startswith(f"{folder}: found no vehicle.toml; a vehicle is a folder")
+
+
+def test_bytes_that_are_no_text_are_refused(folder):
+    (folder / "vehicle.toml").write_bytes(b'name = "\xff"')
+    assert "vehicle.toml: found bytes that are not UTF-8 text" in complaint(folder)
+
+
+def resave(folder: Path, **arrays: np.ndarray | None) -> None:
+    """Changes arrays of the cab's modes file, or leaves them out."""
+    path = folder / "bodies/cab.npz"
+    with np.load(path) as old:
+        new = {k: v for k, v in ({**old} | arrays).items() if v is not None}
+    np.savez(path, **new)
+
+
+def test_modes_saved_by_numpy_are_read(folder):
+    resave(folder)
+    assert_same(read_vehicle(folder), one_of_everything())
+
+
+SHAPES = flexible_body().shapes
+
+
+@pytest.mark.parametrize(
+    ("arrays", "words"),
+    [
+        ({"nodes": None}, "nodes: missing; there are omega_n_squared, n_residuals"),
+        (
+            {"shapes": np.where(np.arange(11) == 8, np.nan, SHAPES)},
+            "shapes: found 30 values that are not",
+        ),
+        ({"shapes": SHAPES[:, :3]}, "shapes: found shape (5, 3, 11), expected 5 x 6 x 11"),
+        (
+            {"shapes": SHAPES + 0j},
+            "shapes: found complex64 in 3 dimensions, expected real numbers in 3",
+        ),
+        ({"nodes": np.array([[None, {}]])}, "nodes: Object arrays cannot be loaded when allow_pickle"),
+        ({"n_residuals": np.array(6)}, "n_residuals: found 6 with 11 modes, expected 0 to 5"),
+        ({"n_residuals": np.array([2])}, "n_residuals: found int64 in 1 dimensions, expected whole"),
+        ({"omega_n_squared": np.ones(11)}, "omega_n_squared: expected six zeros, then positive values"),
+        ({"omega_n_squared": np.zeros(11)}, "omega_n_squared: expected six zeros, then positive"),
+        ({"attachment_names": np.array(["a"])}, "expected one row for each attachment"),
+        ({"attachment_names": np.array(["a", "a"])}, "attachment 'a' is there twice"),
+        ({"attachment_positions": np.zeros((2, 2))}, "position: found shape (2,), expected 3"),
+    ],
+)
+def test_wrong_array_is_explained(folder, arrays, words):
+    resave(folder, **arrays)
+    assert f"{folder}/vehicle.toml: flexible_body[0]: {folder}/bodies/cab.npz: " in complaint(folder)
+    assert words in complaint(folder)
+
+
+@pytest.mark.parametrize("name", ["bodies/cab.npz", "meshes/cab.glb", "roads/road_1.csv"])
+def test_file_cut_anywhere_is_refused(folder, name):
+    whole = (folder / name).read_bytes()
+    line_ends = {i + 1 for i, byte in enumerate(whole) if byte == 10 and name.endswith("csv")}
+    for length in range(0, len(whole), max(len(whole) // 50, 1)):
+        if length not in line_ends:
+            (folder / name).write_bytes(whole[:length])
+            assert f"{folder / name}: " in complaint(folder)
+
+
+@pytest.mark.parametrize(
+    "name", ["bodies/cab.npz", "meshes/cab.glb", "roads/road_1.csv", "vehicle.toml"]
+)
+def test_damaged_file_never_raises_anything_else(folder, name):
+    rng = np.random.default_rng(3)
+    whole = (folder / name).read_bytes()
+    for place in rng.integers(0, len(whole), 100):
+        damaged = bytearray(whole)
+        damaged[place] ^= int(rng.integers(1, 256))
+        (folder / name).write_bytes(damaged)
+        with contextlib.suppress(VehicleError):
+            read_vehicle(folder)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("frequency_hz,", "hz,", "line 1: found 'hz,left,right,cross_real,cross_imag', expected"),
+        ("\n", "\n1,2,3\n", "line 2: found '1,2,3', expected 5 numbers"),
+        ("\n", "\n0.1,a,b,c,d\n", "line 2: found '0.1,a,b,c,d', expected 5 numbers"),
+        ("\n", "\n0.1,1e-9,1e-9,nan,0\n", "spectrum: found 2 values that are not finite"),
+        ("\n", "\n0.1,1e-9,1e-9,2e-9,0\n", "spectrum: the tracks' coherence is above one"),
+        ("\n", "\n0.1,-1e-9,1e-9,0,0\n", "spectrum: expected Hermitian matrices, no negative power"),
+        ("\n", "\n7,1e-9,1e-9,0,0\n", "frequency_hz: expected rising values above zero"),
+    ],
+)
+def test_wrong_road_is_explained(folder, old, new, words):
+    path = folder / "roads/road_1.csv"
+    path.write_text(path.read_text().replace(old, new, 1))
+    assert f"road[0]: {path}: " in complaint(folder)
+    assert words in complaint(folder)
+
+
+def test_vehicle_is_replaced_as_a_whole(folder, tmp_path):
+    vehicle = one_of_everything()
+    smaller = replace(vehicle, bodies=(replace(flexible_body(), mesh=()), vehicle.bodies[1]))
+    write_vehicle(smaller, folder)
+    assert_same(read_vehicle(folder), smaller)
+    assert "meshes/cab.glb" not in content(folder)
+    assert [p.name for p in tmp_path.iterdir()] == ["truck"]
+
+
+@pytest.mark.parametrize("stranger", ["notes.txt", "vehicle.toml/notes.txt"])
+def test_folder_of_something_else_is_not_overwritten(tmp_path, stranger):
+    path = tmp_path / stranger
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("mine")
+    with pytest.raises(VehicleError, match="not overwritten"):
+        write_vehicle(one_of_everything(), tmp_path)
+    assert path.read_text() == "mine"
+
+
+def test_file_is_not_overwritten_by_a_vehicle(tmp_path):
+    (tmp_path / "a").write_text("mine")
+    with pytest.raises(VehicleError, match="not overwritten"):
+        write_vehicle(one_of_everything(), tmp_path / "a")
+
+
+def test_failed_writing_leaves_the_old_vehicle(folder, tmp_path, monkeypatch):
+    before = content(folder)
+
+    def full(*_):
+        raise OSError("no space left on device")
+
+    monkeypatch.setattr("modeviz.vehicle.files.write_road", full)
+    with pytest.raises(VehicleError, match=r"cannot be written.*no space left"):
+        write_vehicle(one_of_everything(), folder)
+    assert content(folder) == before
+    assert [p.name for p in tmp_path.iterdir()] == ["truck"]
+
+
+def test_names_that_make_the_same_file_name_get_different_files(tmp_path):
+    vehicle = one_of_everything()
+    roads = tuple(replace(vehicle.roads[0], name=name) for name in ("a b", "A-b", "é", "ü", "a_b"))
+    write_vehicle(replace(vehicle, roads=roads), tmp_path / "x")
+    assert len(list((tmp_path / "x/roads").iterdir())) == 5
+    assert [r.name for r in read_vehicle(tmp_path / "x").roads] == ["a b", "A-b", "é", "ü", "a_b"]

@@ -27,7 +27,10 @@ def frozen(
         VehicleError: wrong number of dimensions or length, or a value that is not finite.
     """
     what = f"{type(owner).__name__} {getattr(owner, 'name', '')!r}: {field}"
-    array = np.array(value, dtype)
+    try:
+        array = np.array(value, dtype)
+    except (TypeError, ValueError):
+        raise VehicleError(f"{what}: found {value!r}, expected an array of numbers") from None
     wrong = array.ndim != len(shape) or any(
         n is not None and n != m for n, m in zip(shape, array.shape, strict=False)
     )

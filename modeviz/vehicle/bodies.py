@@ -5,7 +5,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from modeviz.errors import VehicleError, unknown
+from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 
 Role = Literal["cabin", "frame", "bed", "powertrain", "unsprung", "linkage"]
@@ -27,6 +27,13 @@ class Material:
     roughness: float = 0.45
     metallic: float = 0.2
 
+    def __post_init__(self) -> None:
+        if len(self.color) != 3 or not all(0 <= c <= 255 for c in self.color):
+            raise VehicleError(f"color: found {self.color}, expected three numbers from 0 to 255")
+        for name in ("opacity", "roughness", "metallic"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise VehicleError(f"{name}: found {getattr(self, name)}, expected 0 to 1")
+
 
 @dataclass(frozen=True, eq=False)
 class MeshPart:
@@ -42,7 +49,9 @@ class MeshPart:
     def __post_init__(self) -> None:
         frozen(self, "vertices", self.vertices, (None, 3))
         frozen(self, "faces", self.faces, (None, 3), np.int32)
-        if self.faces.size and not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices):
+        if not self.faces.size:
+            raise VehicleError(f"mesh part {self.name!r}: has no faces")
+        if not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices):
             raise VehicleError(f"mesh part {self.name!r}: a face names a vertex that does not exist")
 
 
@@ -98,6 +107,8 @@ class FlexibleBody:
 
     def __post_init__(self) -> None:
         _check_role(self.role)
+        check_unique(f"body {self.name!r}: mesh part", (part.name for part in self.mesh))
+        check_unique(f"body {self.name!r}: attachment", (a.name for a in self.attachments))
         frozen(self, "omega_n_squared", self.omega_n_squared, (None,))
         frozen(self, "nodes", self.nodes, (None, 3))
         frozen(self, "shapes", self.shapes, (len(self.nodes), 6, self.n_modes), np.float32)
@@ -106,7 +117,8 @@ class FlexibleBody:
                 f"body {self.name!r}: n_residuals: found {self.n_residuals} with {self.n_modes} modes, "
                 f"expected 0 to {max(self.n_modes - self.N_RIGID, 0)} (6 modes are rigid)"
             )
-        if (self.omega_n_squared < 0).any() or self.omega_n_squared[: self.N_RIGID].any():
+        rigid, elastic = np.split(self.omega_n_squared, [self.N_RIGID])
+        if rigid.any() or (elastic <= 0).any():
             raise VehicleError(
                 f"body {self.name!r}: omega_n_squared: expected six zeros, then positive values"
             )
@@ -208,6 +220,7 @@ class RigidBody:
 
     def __post_init__(self) -> None:
         _check_role(self.role)
+        check_unique(f"body {self.name!r}: mesh part", (part.name for part in self.mesh))
         if not (np.isfinite(self.mass) and self.mass > 0):
             raise VehicleError(f"body {self.name!r}: mass: found {self.mass} kg, expected more than 0")
         frozen(self, "center_of_gravity", self.center_of_gravity, (3,))

@@ -92,6 +92,8 @@ class Tyre(Connection):
     def __post_init__(self) -> None:
         super().__post_init__()
         frozen(self, "wheel_center", self.wheel_center, (3,))
+        if not np.isfinite(self.trail):
+            raise VehicleError(f"tyre {self.name!r}: trail: found {self.trail} m")
 
 
 @dataclass(frozen=True)

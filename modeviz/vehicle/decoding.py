@@ -75,9 +75,10 @@ def _explain(message: str, data: Any, kind: Any, steps: list[str], where: str) -
         return f"{joined(where, field[1])}: " + unknown("key", field[1], get_type_hints(_plain(kind)))
     if field:
         return f"{joined(where, field[1])}: missing"
+    prefix = f"{where}: " if where else ""
     if get_origin(_plain(kind)) is Literal:
-        return f"{where}: " + unknown("value", str(data), get_args(_plain(kind)))
-    return f"{where}: found {brief(data)}, expected {_in_words(message)}"
+        return prefix + unknown("value", str(data), get_args(_plain(kind)))
+    return f"{prefix}found {brief(data)}, expected {_in_words(message)}"
 
 
 def _step(data: Any, kind: Any, step: str) -> tuple[str | int, Any]:

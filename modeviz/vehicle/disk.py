@@ -30,6 +30,18 @@ def read_text(path: Path) -> str:
         raise VehicleError(f"{path}: found bytes that are not UTF-8 text ({error})") from None
 
 
+def write_text(path: Path, text: str) -> None:
+    """Writes a UTF-8 text file with plain line ends.
+
+    Raises:
+        VehicleError: it cannot be written.
+    """
+    try:
+        path.write_text(text, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise VehicleError(f"{path}: cannot be written ({error})") from None
+
+
 def inside(folder: Path, name: str) -> Path:
     """The path of a file that must lie in the folder.
 

@@ -18,7 +18,7 @@ from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.bodyfiles import write_flexible_body
 from modeviz.vehicle.connections import Bolt, Connection, Damper, Spring, Tyre
 from modeviz.vehicle.decoding import decode
-from modeviz.vehicle.disk import file_stems, read_text, replace_folder
+from modeviz.vehicle.disk import file_stems, read_text, replace_folder, write_text
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.meshfiles import write_mesh
 from modeviz.vehicle.records import (
@@ -107,7 +107,7 @@ def _replaceable(folder: Path) -> bool:
     if not folder.is_dir():
         return False
     names = {path.name for path in folder.iterdir()}
-    return not names or (VEHICLE_FILE in names and names <= CONTENT)
+    return not names or ((folder / VEHICLE_FILE).is_file() and names <= CONTENT)
 
 
 def _read_record(path: Path) -> VehicleRecord:
@@ -160,7 +160,7 @@ def _write_content(vehicle: Vehicle, folder: Path) -> None:
         (folder / name).mkdir()
     content = msgspec.to_builtins(_record(vehicle, folder))
     text = to_toml({"units": WRITTEN_UNITS} | from_si(content))
-    (folder / VEHICLE_FILE).write_text(text, encoding="utf-8", newline="\n")
+    write_text(folder / VEHICLE_FILE, text)
 
 
 def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:

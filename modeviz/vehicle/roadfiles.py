@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.errors import VehicleError, located
-from modeviz.vehicle.disk import read_text
+from modeviz.vehicle.disk import read_text, write_text
 from modeviz.vehicle.loads import Road
 
 COLUMNS = ("frequency_hz", "left", "right", "cross_real", "cross_imag")
@@ -39,7 +39,7 @@ def write_road(path: Path, road: Road) -> None:
     columns = (road.frequency_hz, S[:, 0, 0].real, S[:, 1, 1].real, S_lr.real, S_lr.imag)
     rows = np.column_stack(columns).tolist()
     lines = [",".join(COLUMNS), *(",".join(map(repr, row)) for row in rows)]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
+    write_text(path, "\n".join(lines) + "\n")
 
 
 def _row(line: str, where: str) -> list[float]:

@@ -63,7 +63,7 @@ def to_si(data: Any, units: Mapping[str, str]) -> Any:
 
 def from_si(data: Any) -> Any:
     """The content of a vehicle file, given in SI, in `WRITTEN_UNITS`."""
-    return _converted(data, lambda value, quantity: _written(value, _factor(quantity)))
+    return _converted(data, lambda value, quantity: written(value, _factor(quantity)))
 
 
 def _factor(quantity: str, unit: str | None = None) -> float:
@@ -78,8 +78,8 @@ def _spoken(quantity: str) -> str:
     return quantity.replace("_", " ")
 
 
-def _written(value: float, unit: float) -> float:
-    """The number with the fewest digits that reads back to `value`, or else the nearest."""
+def written(value: float, unit: float) -> float:
+    """The shortest number of units that reads back to the SI `value`, or else the nearest."""
     for digits in range(15, 18):
         number = float(f"{value / unit:.{digits}g}")
         if number * unit == value:

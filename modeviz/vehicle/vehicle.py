@@ -6,16 +6,19 @@ from functools import cached_property
 
 import numpy as np
 
-from modeviz.errors import VehicleError, unknown
+from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, Body, FlexibleBody
 from modeviz.vehicle.connections import (
     GROUND,
+    Bolt,
     Connection,
+    Damper,
     Mount,
     MountGroup,
     MountRates,
     Rates,
+    Spring,
     Tyre,
 )
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad
@@ -44,33 +47,18 @@ class Vehicle:
     """m/s."""
 
     def __post_init__(self) -> None:
-        for kind, names in (
-            ("body", [b.name for b in self.bodies]),
-            ("connection", [c.name for c in self.all_connections]),
-            ("mount group", [g.name for g in self.mount_groups]),
-            ("response point", [p.name for p in self.response_points]),
-            ("road", [r.name for r in self.roads]),
-            ("wheel load", [w.name for w in self.wheel_loads]),
-        ):
-            _check_unique(kind, names)
         if not self.bodies:
             raise VehicleError(f"vehicle {self.name!r} has no bodies")
         if not (np.isfinite(self.speed) and self.speed > 0):
             raise VehicleError(f"speed: found {self.speed} m/s, expected more than 0")
+        self._check_names()
         for connection in self.all_connections:
             self._check_ends(connection)
         for mass in self.added_masses:
             self._check_place(f"added mass {mass.name!r}", mass.body, mass.position)
         for point in self.response_points:
             self._check_place(f"response point {point.name!r}", point.body, point.position)
-        tyres = [t.name for t in self.tyres]
-        for load in self.wheel_loads:
-            if load.tyre not in tyres:
-                raise VehicleError(f"wheel load {load.name!r}: " + unknown("tyre", load.tyre, tyres))
-        for name, rates in self.rate_sets.items():
-            for group in rates:
-                if group not in self.rates:
-                    raise VehicleError(f"rates {name!r}: " + unknown("mount group", group, self.rates))
+        self._check_references()
 
     @cached_property
     def all_connections(self) -> tuple[Connection, ...]:
@@ -118,8 +106,35 @@ class Vehicle:
         groups = tuple(g.with_rates(rates[g.name]) if g.name in rates else g for g in self.mount_groups)
         return replace(self, mount_groups=groups)
 
+    def _check_names(self) -> None:
+        for kind, items in (
+            ("body", self.bodies),
+            ("connection", self.all_connections),
+            ("mount group", self.mount_groups),
+            ("added mass", self.added_masses),
+            ("response point", self.response_points),
+            ("road", self.roads),
+            ("wheel load", self.wheel_loads),
+        ):
+            check_unique(kind, (item.name for item in items))
+        if GROUND in (body.name for body in self.bodies):
+            raise VehicleError(f"body {GROUND!r}: that name means what does not move; take another")
+
+    def _check_references(self) -> None:
+        """Raises VehicleError unless every tyre and mount group that is named exists."""
+        tyres = [t.name for t in self.tyres]
+        for load in self.wheel_loads:
+            if load.tyre not in tyres:
+                raise VehicleError(f"wheel load {load.name!r}: " + unknown("tyre", load.tyre, tyres))
+        for name, rates in self.rate_sets.items():
+            for group in rates:
+                if group not in self.rates:
+                    raise VehicleError(f"rates {name!r}: " + unknown("mount group", group, self.rates))
+
     def _check_ends(self, connection: Connection) -> None:
         where = f"connection {connection.name!r}"
+        if not isinstance(connection, Mount | Spring | Bolt | Damper | Tyre):
+            raise VehicleError(f"{where}: expected a Spring, Bolt, Damper or Tyre")
         if connection.bodies[0] == GROUND:
             raise VehicleError(f"{where}: {GROUND!r} must be the second of its bodies")
         for body, point in zip(connection.bodies, connection.points, strict=True):
@@ -148,11 +163,3 @@ def _named(kind: str, name: str, items: Iterable):
         if item.name == name:
             return item
     raise VehicleError(unknown(kind, name, (i.name for i in items)))
-
-
-def _check_unique(kind: str, names: list[str]) -> None:
-    seen = set()
-    for name in names:
-        if name in seen:
-            raise VehicleError(f"{kind} {name!r} is there twice; each {kind} needs its own name")
-        seen.add(name)

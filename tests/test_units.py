@@ -1,0 +1,77 @@
+"""Units against their definitions, and what people type."""
+
+import math
+
+import pytest
+
+from modeviz.errors import ModevizError, unknown
+from modeviz.units import UNITS, factor, parse
+
+
+@pytest.mark.parametrize(
+    ("unit", "quantity", "expected"),
+    [
+        ("N/cm", "stiffness", 100.0),
+        ("kN/mm", "stiffness", 1e6),
+        ("lbf/in", "stiffness", 175.12683524647636),  # NIST SP 811 rounds it to 175.1268
+        ("N m/deg", "rotational stiffness", 180 / math.pi),
+        ("lb", "mass", 0.45359237),
+        ("lbf", "force", 4.4482216152605),
+        ("oz in", "unbalance", 0.45359237 / 16 * 0.0254),
+        ("kg mm²", "inertia", 1e-6),
+        ("mph", "speed", 1609.344 / 3600),
+        ("km/h", "speed", 1 / 3.6),
+    ],
+)
+def test_unit_is_what_its_definition_says(unit, quantity, expected):
+    assert factor(unit, quantity) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize("quantity", UNITS)
+def test_every_quantity_has_its_si_unit(quantity):
+    assert 1.0 in UNITS[quantity].values()
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("131 N/mm", 131e3),
+        ("131N/mm", 131e3),
+        ("  +.5  kN/mm ", 5e5),
+        ("1e3 N/m", 1e3),
+        ("1.5E-1N/mm", 150.0),
+        ("-3. N/m", -3.0),
+    ],
+)
+def test_number_and_unit_are_read_as_people_write_them(text, expected):
+    assert parse(text, "stiffness") == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "N/mm", "nan N/mm", "inf N/mm", "1_0 N/mm", "1,5 N/mm", "1e N/mm"]
+)
+def test_what_is_no_number_with_a_unit_is_refused(text):
+    with pytest.raises(ModevizError, match=r"expected a number and a unit of stiffness|unknown unit"):
+        parse(text, "stiffness")
+
+
+def test_number_without_a_unit_is_told_the_units():
+    with pytest.raises(ModevizError, match=r"'131' without a unit, expected one of N/m, N/mm, N/cm"):
+        parse("131", "stiffness")
+
+
+def test_unit_of_another_quantity_is_told_the_right_ones():
+    with pytest.raises(ModevizError, match=r"unknown unit of speed 'kg': there are m/s, km/h, mph"):
+        parse("3 kg", "speed")
+
+
+def test_overflowing_number_is_refused():
+    with pytest.raises(ModevizError, match="finite"):
+        parse("1e308 kN/mm", "stiffness")
+
+
+def test_unknown_name_gets_the_likeliest_one_whatever_its_case():
+    assert unknown("body", "CABB", ["frame", "cab"]) == (
+        "unknown body 'CABB': did you mean 'cab'? there are frame, cab"
+    )
+    assert unknown("body", "x", []) == "unknown body 'x': there are none"
