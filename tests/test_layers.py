@@ -24,6 +24,7 @@ LAYERS = [
     {"__init__"},
     {"viewer"},
     {"cli"},
+    {"__main__"},
 ]
 NARROWER = {"shapes": {"errors", "units", "vehicle", "dynamics"}}
 
