@@ -1,5 +1,6 @@
 """One solve for screen, report and command line."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -39,24 +40,44 @@ class Conditions:
 
 
 @dataclass(frozen=True, eq=False)
-class Results:
-    """A vehicle's modes, and its ride on one road."""
+class ModalResults:
+    """A vehicle's modes, what they are called and where their energy is."""
 
     system: System
-    conditions: Conditions
     modes: Modes
     names: tuple[ModeName, ...]
     """One for each mode."""
+
+    @property
+    def vehicle(self) -> Vehicle:
+        return self.system.vehicle
+
+    @cached_property
+    def kinetic_energy(self) -> Mapping[str, Floats]:
+        """Share of each body, (n_modes,) by name."""
+        return kinetic_energy(self.system, self.modes.shapes)
+
+    @cached_property
+    def strain_energy(self) -> Mapping[str, Floats]:
+        """Share of each flexible body and connection group, (n_modes,) by name."""
+        return strain_energy(self.system, self.modes.shapes)
+
+    def mode_index(self, name: str) -> int | None:
+        """Which mode is called that; None if no mode is."""
+        return next((i for i, n in enumerate(self.names) if n.name == name), None)
+
+
+@dataclass(frozen=True, eq=False)
+class Results(ModalResults):
+    """A vehicle's modes, and its ride on one road."""
+
+    conditions: Conditions
     coordinates: Complexes
     """(n_freqs, n_modes, 2): modal coordinates per unit displacement of the left and right track."""
     psd: Floats
     """(n_freqs, n_points, 3): acceleration x, y, z of each response point, g²/Hz."""
 
     frequency_hz = FREQUENCY_HZ
-
-    @property
-    def vehicle(self) -> Vehicle:
-        return self.system.vehicle
 
     @cached_property
     def rms(self) -> Floats:
@@ -68,20 +89,6 @@ class Results:
         """Of the first response point, the driver's."""
         return rate(self.frequency_hz, self.psd[:, 0])
 
-    @cached_property
-    def kinetic_energy(self) -> dict[str, Floats]:
-        """Share of each body, (n_modes,) by name."""
-        return dict(kinetic_energy(self.system, self.modes.shapes))
-
-    @cached_property
-    def strain_energy(self) -> dict[str, Floats]:
-        """Share of each flexible body and connection group, (n_modes,) by name."""
-        return dict(strain_energy(self.system, self.modes.shapes))
-
-    def mode_index(self, name: str) -> int | None:
-        """Which mode is called that; None if no mode is."""
-        return next((i for i, n in enumerate(self.names) if n.name == name), None)
-
     def response(self, point: int, direction: str) -> Floats:
         """Acceleration PSD of a response point along one of `DIRECTIONS`, (n_freqs,), g²/Hz."""
         return self.psd[:, point, AXIS[direction]]
@@ -89,10 +96,23 @@ class Results:
     def peaks(self, point: int, direction: str, count: int = 3) -> tuple[Peak, ...]:
         """The peaks of that response with the modes that make them."""
         output = _output_rows(self.system)[3 * point + AXIS[direction]] @ self.modes.shapes
-        road = self.vehicle.road(self.conditions.road)
-        S = road_spectrum(road, self.frequency_hz, self.conditions.speed)
-        parts = participation(output, self.coordinates, S)
+        parts = participation(output, self.coordinates, _spectrum(self.vehicle, self.conditions))
         return peaks(self.frequency_hz, self.response(point, direction), parts, count)
+
+
+def solve_modal(system: System, rates: Rates) -> ModalResults:
+    """The modes of a vehicle with other mount rates.
+
+    Args:
+        system: of the vehicle, made once.
+        rates: of the groups that differ from it.
+
+    Raises:
+        VehicleError: a group that the vehicle does not have.
+    """
+    system = system.with_rates(rates)
+    modes = solve_modes(system, N_MODES)
+    return ModalResults(system, modes, name_modes(system, modes))
 
 
 def solve(system: System, rates: Rates, conditions: Conditions) -> Results:
@@ -106,15 +126,13 @@ def solve(system: System, rates: Rates, conditions: Conditions) -> Results:
     Raises:
         VehicleError: a group or a road that the vehicle does not have.
     """
-    system = system.with_rates(rates)
-    road = system.vehicle.road(conditions.road)
-    modes = solve_modes(system, N_MODES)
-    forces = track_forces(system, FREQUENCY_HZ, conditions.speed)
-    q = modal_coordinates(system, modes, FREQUENCY_HZ, forces)
-    H = (_output_rows(system) @ modes.shapes) @ q
-    S = road_spectrum(road, FREQUENCY_HZ, conditions.speed)
-    psd = acceleration_psd(FREQUENCY_HZ, H, S).reshape(len(FREQUENCY_HZ), -1, 3)
-    return Results(system, conditions, modes, name_modes(system, modes), q, psd)
+    modal = solve_modal(system, rates)
+    forces = track_forces(modal.system, FREQUENCY_HZ, conditions.speed)
+    q = modal_coordinates(modal.system, modal.modes, FREQUENCY_HZ, forces)
+    H = (_output_rows(modal.system) @ modal.modes.shapes) @ q
+    psd = acceleration_psd(FREQUENCY_HZ, H, _spectrum(modal.vehicle, conditions))
+    by_point = psd.reshape(len(FREQUENCY_HZ), -1, 3)
+    return Results(modal.system, modal.modes, modal.names, conditions, q, by_point)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,6 +164,13 @@ def solve_wheels(system: System, rates: Rates, frequency_hz: Floats) -> WheelRes
     )
 
 
+def _spectrum(vehicle: Vehicle, conditions: Conditions) -> Complexes:
+    """The road's two-track spectrum as met at that speed, (n_freqs, 2, 2), m²/Hz."""
+    return road_spectrum(vehicle.road(conditions.road), FREQUENCY_HZ, conditions.speed)
+
+
 def _output_rows(system: System) -> Floats:
     """Rows (3 n_points, n_dofs) that read x, y, z of every response point."""
-    return np.vstack([system.motion(p.body, p.position)[:3] for p in system.vehicle.response_points])
+    points = system.vehicle.response_points
+    rows = [system.motion(p.body, p.position)[:3] for p in points]
+    return np.vstack([np.zeros((0, system.n_dofs)), *rows])

@@ -1,0 +1,169 @@
+"""The command line: `modeviz [view|modes|psd|wheels] [VEHICLE]`."""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.errors import ModevizError
+from modeviz.export.records import Record, modes_record, psd_record, wheels_record
+from modeviz.export.tables import modes_table, psd_table, wheels_table
+from modeviz.tuning.rates import resolve_rates
+from modeviz.tuning.results import FREQUENCY_HZ, Conditions, solve, solve_modal, solve_wheels
+from modeviz.units import parse
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.vehicle import Vehicle
+
+DEFAULT_PORT = 8080
+COMMANDS = ("view", "modes", "psd", "wheels")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs a command and returns its exit status: 0, or 2 for what the user can put right."""
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    parser = _parser()
+    if not arguments or (arguments[0] not in (*COMMANDS, "-h", "--help", "--version")):
+        arguments = ["view", *arguments]
+    options = parser.parse_args(arguments)
+    try:
+        options.run(options)
+    except ModevizError as error:
+        print(f"modeviz: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="modeviz",
+        description="Modes, ride and mount tuning of a vehicle. Without a command: view.",
+    )
+    parser.add_argument("--version", action="version", version=f"modeviz {version('modeviz')}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    view = _command(commands, "view", _view, "open the vehicle in the browser")
+    _add_road(view)
+    view.add_argument(
+        "--host", default="127.0.0.1", help="address to listen on (default: this machine)"
+    )
+    view.add_argument("--port", type=int, default=DEFAULT_PORT, help=f"default {DEFAULT_PORT}")
+    view.add_argument("--token", help="asked of every visitor; needed when --host is not this machine")
+    view.add_argument("--dark", action="store_true", help="dark page")
+
+    modes = _command(commands, "modes", _modes, "frequencies, damping, names and energies")
+    modes.add_argument("--below", type=float, default=25.0, metavar="HZ", help="default 25")
+    _add_json(modes)
+
+    psd = _command(commands, "psd", _psd, "accelerations on a road and their rating")
+    _add_road(psd)
+    _add_json(psd)
+
+    _add_json(_command(commands, "wheels", _wheels, "response to unbalance and tyre force variation"))
+    return parser
+
+
+def _command(commands, name: str, run, help_text: str) -> argparse.ArgumentParser:
+    command = commands.add_parser(name, help=help_text, description=help_text.capitalize() + ".")
+    command.set_defaults(run=run)
+    command.add_argument(
+        "vehicle", nargs="?", type=Path, metavar="VEHICLE", help="vehicle folder (default: the pickup)"
+    )
+    command.add_argument(
+        "--rates",
+        default="original",
+        metavar="NAME|FILE",
+        help="a set of the vehicle's, such as original or optimised, or a JSON or CSV file",
+    )
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="RATE",
+        dest="settings",
+        help='one rate, such as "C2.lateral=131 N/mm"; may be repeated',
+    )
+    return command
+
+
+def _add_road(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--road", help="default: the vehicle's first")
+    command.add_argument("--speed", metavar="SPEED", help='such as "88 km/h" (default: the vehicle\'s)')
+
+
+def _add_json(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--json", action="store_true", help="print JSON instead of a table")
+
+
+def _vehicle(options: argparse.Namespace) -> Vehicle:
+    vehicle = read_vehicle(options.vehicle or builtin_vehicle())
+    return resolve_rates(vehicle, options.rates, options.settings)
+
+
+def _conditions(options: argparse.Namespace, vehicle: Vehicle) -> Conditions:
+    if not vehicle.roads:
+        raise ModevizError(f"vehicle {vehicle.name!r} has no road: give its vehicle.toml a [[road]]")
+    speed = parse(options.speed, "speed") if options.speed else vehicle.speed
+    if speed <= 0:
+        raise ModevizError(f"--speed: found {options.speed!r}, expected more than zero")
+    return Conditions(vehicle.road(options.road or vehicle.roads[0].name).name, speed)
+
+
+def _modes(options: argparse.Namespace) -> None:
+    results = solve_modal(assemble(_vehicle(options)), {})
+    if options.json:
+        _print_json(modes_record(results, options.below))
+    else:
+        print(modes_table(results, options.below))
+
+
+def _psd(options: argparse.Namespace) -> None:
+    vehicle = _vehicle(options)
+    _need_points(vehicle)
+    results = solve(assemble(vehicle), {}, _conditions(options, vehicle))
+    if options.json:
+        _print_json(psd_record(results))
+    else:
+        print(psd_table(results))
+
+
+def _wheels(options: argparse.Namespace) -> None:
+    vehicle = _vehicle(options)
+    _need_points(vehicle)
+    results = solve_wheels(assemble(vehicle), {}, FREQUENCY_HZ)
+    if options.json:
+        _print_json(wheels_record(vehicle, results))
+    else:
+        print(wheels_table(vehicle, results))
+
+
+def _view(options: argparse.Namespace) -> None:
+    from modeviz.viewer.app import serve
+
+    vehicle = read_vehicle(options.vehicle or builtin_vehicle())
+    start = resolve_rates(vehicle, options.rates, options.settings).rates
+    serve(
+        vehicle,
+        start,
+        _conditions(options, vehicle),
+        options.host,
+        options.port,
+        options.token,
+        options.dark,
+    )
+
+
+def _need_points(vehicle: Vehicle) -> None:
+    if not vehicle.response_points:
+        raise ModevizError(
+            f"vehicle {vehicle.name!r} has no response point: "
+            "give its vehicle.toml a [[response_point]]"
+        )
+
+
+def _print_json(record: Record) -> None:
+    print(json.dumps(record, indent=1, ensure_ascii=False))

@@ -1,0 +1,106 @@
+"""Results as plain values for JSON; the structure is documented here and stays stable."""
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any
+
+from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
+from modeviz.units import factor
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.vehicle import Vehicle
+
+Record = dict[str, Any]
+
+
+def rates_record(vehicle: Vehicle) -> Record:
+    """`{group: {"vertical", "lateral", "fore_aft"}}`, N/mm."""
+    per_mm = factor("N/mm", "stiffness")
+    return {
+        group: {direction: rate / per_mm for direction, rate in asdict(rates).items()}
+        for group, rates in vehicle.rates.items()
+    }
+
+
+def modes_record(results: ModalResults, below_hz: float) -> Record:
+    """The modes below a frequency.
+
+    `{"vehicle", "rates": see rates_record, "modes": [{"number", "frequency_hz", "damping_ratio",
+    "name", "kinetic_energy": {body: share}, "strain_energy": {body or connection group: share}}]}`.
+    """
+    modes = [
+        {
+            "number": i + 1,
+            "frequency_hz": float(f),
+            "damping_ratio": float(results.modes.damping_ratio[i]),
+            "name": results.names[i].name,
+            "kinetic_energy": _shares(results.kinetic_energy, i),
+            "strain_energy": _shares(results.strain_energy, i),
+        }
+        for i, f in enumerate(results.modes.frequency_hz)
+        if f < below_hz
+    ]
+    return {"vehicle": results.vehicle.name, "rates": rates_record(results.vehicle), "modes": modes}
+
+
+def psd_record(results: Results) -> Record:
+    """Accelerations on a road.
+
+    `{"vehicle", "rates", "road", "speed_m_per_s", "frequency_hz": [...], "responses": [{"point",
+    "direction", "psd_g2_per_hz": [...], "rms_g"}], "rating": the fields of ride.rating.Rating}`.
+    """
+    responses = [
+        {
+            "point": point.name,
+            "direction": direction,
+            "psd_g2_per_hz": results.response(i, direction).tolist(),
+            "rms_g": float(results.rms[i, axis]),
+        }
+        for i, point in enumerate(results.vehicle.response_points)
+        for direction, axis in AXIS.items()
+    ]
+    return {
+        "vehicle": results.vehicle.name,
+        "rates": rates_record(results.vehicle),
+        "road": results.conditions.road,
+        "speed_m_per_s": results.conditions.speed,
+        "frequency_hz": results.frequency_hz.tolist(),
+        "responses": responses,
+        "rating": asdict(results.rating),
+    }
+
+
+def wheels_record(vehicle: Vehicle, results: WheelResults) -> Record:
+    """Harmonic response to each wheel load.
+
+    `{"vehicle", "rates", "frequency_hz": [...], "loads": [{"load", "kind", "tyre", "amplitude",
+    "responses": [{"point", "direction", "acceleration_g": [...peak]}]}]}`; the amplitude is in N,
+    of an unbalance in kg m.
+    """
+    loads = [
+        {
+            "load": load.name,
+            "kind": load.kind,
+            "tyre": load.tyre,
+            "amplitude": load.amplitude,
+            "responses": [
+                {
+                    "point": point.name,
+                    "direction": direction,
+                    "acceleration_g": results.acceleration_g[:, i, j, axis].tolist(),
+                }
+                for j, point in enumerate(vehicle.response_points)
+                for direction, axis in AXIS.items()
+            ],
+        }
+        for i, load in enumerate(vehicle.wheel_loads)
+    ]
+    return {
+        "vehicle": vehicle.name,
+        "rates": rates_record(vehicle),
+        "frequency_hz": results.frequency_hz.tolist(),
+        "loads": loads,
+    }
+
+
+def _shares(energy: Mapping[str, Floats], mode: int) -> dict[str, float]:
+    return {name: float(share[mode]) for name, share in energy.items()}

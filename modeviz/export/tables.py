@@ -1,0 +1,105 @@
+"""Results as text tables for a terminal."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+from modeviz.ride.participation import Peak
+from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.vehicle import Vehicle
+
+WHEEL_BAND = (11.0, 16.0)
+"""Hz: over which the paper's Tables 5 and 6 take their means."""
+
+
+def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Columns lined up, the first to the left and the others to the right."""
+    cells = [list(header), *map(list, rows)]
+    widths = [max(len(row[i]) for row in cells) for i in range(len(header))]
+    lines = [
+        "  ".join(
+            [row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))]
+        )
+        for row in cells
+    ]
+    return "\n".join([lines[0], "-" * len(lines[0]), *lines[1:]])
+
+
+def modes_table(results: ModalResults, below_hz: float) -> str:
+    """Number, name, frequency, damping, what moves and what is strained most, of each mode."""
+    rows = [
+        [
+            f"{i + 1:3d}  {results.names[i].name}",
+            f"{f:.2f}",
+            f"{100 * results.modes.damping_ratio[i]:.1f}",
+            _largest(results.kinetic_energy, i),
+            _largest(results.strain_energy, i),
+        ]
+        for i, f in enumerate(results.modes.frequency_hz)
+        if f < below_hz
+    ]
+    return table(["  #  mode", "Hz", "damping %", "moves most", "strained most"], rows)
+
+
+def psd_table(results: Results) -> str:
+    """RMS at every response point, the rating, and the peaks at the first point with their modes."""
+    points = results.vehicle.response_points
+    rms = table(
+        ["RMS 0 to 40 Hz, g", *AXIS],
+        [
+            [point.name, *(f"{results.rms[i, axis]:.4f}" for axis in AXIS.values())]
+            for i, point in enumerate(points)
+        ],
+    )
+    peaks = table(
+        [f"peaks at {points[0].name}", "Hz", "dB re 1 g²/Hz", "modes in it"],
+        [
+            [
+                direction,
+                f"{peak.frequency_hz:.1f}",
+                f"{10 * math.log10(peak.psd):.1f}",
+                _modes_in(results, peak),
+            ]
+            for direction in ("lateral", "vertical")
+            for peak in results.peaks(0, direction)
+        ],
+    )
+    return f"{rms}\n\n{_rating(results)}\n\n{peaks}"
+
+
+def wheels_table(vehicle: Vehicle, results: WheelResults) -> str:
+    """Mean peak acceleration at each point for each load, as the paper's Tables 5 and 6."""
+    low, high = WHEEL_BAND
+    means = results.mean(WHEEL_BAND) * 1000
+    blocks = [
+        table(
+            [f"{point.name}, 1000 g, mean {low:g} to {high:g} Hz", *AXIS],
+            [
+                [load.name, *(f"{means[i, j, axis]:.2f}" for axis in AXIS.values())]
+                for i, load in enumerate(vehicle.wheel_loads)
+            ],
+        )
+        for j, point in enumerate(vehicle.response_points)
+    ]
+    return "\n\n".join(blocks)
+
+
+def _rating(results: Results) -> str:
+    rating = results.rating
+    x, y, z = rating.weighted_rms
+    lines = [
+        f"A = {rating.combined_g:.4f} g, MPR = {rating.mean_personal_rating:.2f}"
+        + (f" ({rating.note})" if rating.note else ""),
+        f"ISO 2631-1 weighted: x {x:.3f}, y {y:.3f}, z {z:.3f}, total {rating.weighted_total:.3f} m/s²",
+    ]
+    return "\n".join(lines)
+
+
+def _largest(energy: Mapping[str, Floats], mode: int) -> str:
+    name = max(energy, key=lambda n: energy[n][mode])
+    share = energy[name][mode]
+    return f"{name} {100 * share:.0f} %" if share > 0 else "-"
+
+
+def _modes_in(results: Results, peak: Peak) -> str:
+    return ", ".join(f"{results.names[c.mode].name} {c.ratio:.2f}" for c in peak.contributors)

@@ -1,0 +1,92 @@
+"""Fragments of page text: numbers as people write them, tables, and rows that can be clicked."""
+
+from collections.abc import Sequence
+from html import escape
+from importlib.resources import files
+
+import viser
+
+MINUS = "\N{MINUS SIGN}"
+
+
+def style_sheet() -> str:
+    """The page's one style sheet, to be put into an element that is always there."""
+    return f"<style>{files('modeviz.viewer').joinpath('style.css').read_text('utf-8')}</style>"
+
+
+def block(*content: str) -> str:
+    """A piece of the page in our style."""
+    return f'<div class="mv">{"".join(content)}</div>'
+
+
+def heading(left: str, right: str = "") -> str:
+    """A line with a bold start and a quiet end."""
+    quiet = f'<span class="dim">{right}</span>' if right else ""
+    return f'<div class="heading"><span>{left}</span>{quiet}</div>'
+
+
+def table(header: Sequence[str], rows: Sequence[str]) -> str:
+    """A table of finished rows, see `row`."""
+    head = "".join(f"<th>{cell}</th>" for cell in header)
+    return f"<table><tr>{head}</tr>{''.join(rows)}</table>"
+
+
+def row(cells: Sequence[str], chosen: bool = False) -> str:
+    """A table row; the cells are page text already."""
+    state = ' class="on"' if chosen else ""
+    return f"<tr{state}>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
+
+
+def span(text: str, kind: str) -> str:
+    """Text of a kind: "dim", "good" or "bad"."""
+    return f'<span class="{kind}">{text}</span>'
+
+
+def sentence_case(name: str) -> str:
+    """A name with a capital, safe to put into a page."""
+    return escape(name[:1].upper() + name[1:])
+
+
+def signed(value: float, decimals: int, unit: str = "") -> str:
+    """A change with its sign and a true minus; nothing but the number where it rounds to zero."""
+    text = f"{abs(value):.{decimals}f}{unit}"
+    if round(abs(value), decimals) == 0:
+        return text
+    return ("+" if value > 0 else MINUS) + text
+
+
+def number(value: float, decimals: int) -> str:
+    """A number with a true minus."""
+    text = f"{abs(value):.{decimals}f}"
+    return MINUS + text if value < 0 and float(text) else text
+
+
+def change(now: float, base: float) -> str:
+    """The change in percent, good or bad where less is better."""
+    percent = 100 * (now / base - 1) if base else 0.0
+    kind = "dim" if abs(percent) < 0.05 else "good" if percent < 0 else "bad"
+    return span(signed(percent, 1, " %"), kind)
+
+
+class HiddenButtons:
+    """Buttons without a face, pressed by clicking other page text.
+
+    A `<label>` around that text names the button's element; viser gives it the widget's private id.
+    """
+
+    def __init__(self, gui: viser.GuiApi, count: int, press) -> None:
+        """Makes the buttons; `press` gets the number of the one pressed."""
+        self._ids = []
+        for i in range(count):
+            button = gui.add_button(f"hidden {i}")
+            button.on_click(lambda _, i=i: press(i))
+            self._ids.append(button._impl.uuid)
+        hidden = ",".join(f'div:has(>[id="{name}"])' for name in self._ids)
+        gui.add_html(f"<style>{hidden}{{display:none!important}}</style>")
+
+    def __len__(self) -> int:
+        return len(self._ids)
+
+    def label(self, i: int, text: str) -> str:
+        """Text that presses button `i`."""
+        return f'<label for="{self._ids[i]}">{text}</label>'

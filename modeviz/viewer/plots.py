@@ -1,0 +1,152 @@
+"""The charts of the page: spectra as uPlot, the frequency ladder as a drawing."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import viser
+
+from modeviz.ride.psd import power_decibels
+from modeviz.vehicle.arrays import Floats
+from modeviz.viewer.html import MINUS, sentence_case
+
+SHOWN_HZ = (1.0, 25.0)
+FONT = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
+GRID = {"show": True, "width": 1, "stroke": "rgba(128,138,150,0.16)"}
+NO_TICKS = {"show": False, "size": 0}
+PEAK_GRID = {"show": True, "stroke": "rgba(43,124,196,0.45)", "width": 1, "dash": [3, 3]}
+
+
+class PsdPlot:
+    """A response's acceleration PSD in dB: the original grey, the present blue, its peaks marked."""
+
+    def __init__(self, gui: viser.GuiApi, frequency_hz: Floats, dark: bool, height: int = 130) -> None:
+        """Draws an empty chart; `show` fills it."""
+        self._inside = (frequency_hz >= SHOWN_HZ[0]) & (frequency_hz <= SHOWN_HZ[1])
+        self._f = frequency_hz[self._inside]
+        self._now_color = "#5aa9ea" if dark else "#2b7cc4"
+        base_color = "#8a95a1" if dark else "#98a2ad"
+        self._text_color = "#b4bcc6" if dark else "#5b6670"
+        empty = np.full(len(self._f), -60.0)
+        self._chart = gui.add_uplot(
+            (self._f, empty, empty),
+            (
+                {"label": "Hz"},
+                {"label": "original", "stroke": base_color, "width": 1.5, "points": {"show": False}},
+                {
+                    "label": "current",
+                    "stroke": self._now_color,
+                    "width": 2.2,
+                    "points": {"show": False},
+                },
+            ),
+            scales=self._scales(-80, -20),
+            axes=self._axes(-80, -20, ()),
+            legend={"show": False},
+            cursor={"sync": {"key": "psd"}, "drag": {"x": True, "y": False}},
+            padding=(0, 18, 0, 0),
+            height=height,
+        )
+
+    def show(self, base: Floats, now: Floats, peaks_hz: Sequence[float]) -> None:
+        """Replaces the curves.
+
+        Args:
+            base: (n_freqs,), g²/Hz, drawn grey.
+            now: (n_freqs,), g²/Hz, drawn blue.
+            peaks_hz: where to mark a peak.
+        """
+        curves = [power_decibels(psd)[self._inside] for psd in (base, now)]
+        low, high = _range(curves)
+        self._chart.data = (self._f, *curves)
+        self._chart.scales = self._scales(low, high)
+        self._chart.axes = self._axes(low, high, peaks_hz)
+
+    def _scales(self, low: int, high: int) -> dict:
+        return {"x": {"time": False, "range": SHOWN_HZ}, "y": {"range": (low, high)}}
+
+    def _axes(self, low: int, high: int, peaks_hz: Sequence[float]) -> tuple:
+        x = [1, 5, 10, 15, 20, 25]
+        step = 20 if high - low > 40 else 10
+        y = list(range(low + low % step, high + 1, step))
+        common = {"font": FONT, "stroke": self._text_color, "ticks": NO_TICKS}
+        return (
+            {"splits": x, "values": [*map(str, x[:-1]), "25 Hz"], "grid": GRID, "size": 20, "gap": 3}
+            | common,
+            {"splits": y, "values": [_plain(v) for v in y], "grid": GRID, "size": 34, "gap": 4}
+            | common,
+            {
+                "side": 0,
+                "scale": "x",
+                "splits": list(peaks_hz),
+                "values": [f"{f:.1f}" for f in peaks_hz],
+                "size": 16,
+                "gap": 2,
+                "font": f"600 {FONT}",
+                "stroke": self._now_color,
+                "grid": PEAK_GRID,
+                "ticks": {"show": False},
+            },
+        )
+
+
+def _range(curves: Sequence[Floats]) -> tuple[int, int]:
+    """Whole tens of dB that hold the curves, at most 60 dB below their top."""
+    top = int(np.ceil(max(c.max() for c in curves) / 10) * 10)
+    bottom = int(np.floor(min(c.min() for c in curves) / 10) * 10)
+    return max(bottom, top - 60), top
+
+
+def _plain(value: int) -> str:
+    return (MINUS if value < 0 else "") + str(abs(value))
+
+
+def ladder(base: dict[str, float], now: dict[str, float], shown: str) -> str:
+    """Natural frequencies above, before, joined to those below, now: an SVG drawing.
+
+    Args:
+        base: frequency of each named mode, Hz.
+        now: the same with the present rates.
+        shown: the name of the shown mode, drawn strong.
+    """
+    width, top, bottom = 440, 34, 70
+    low, high = 7.0, 16.0
+    names = [n for n in now if n in base and low < base[n] < high and low < now[n] < high]
+
+    def x(f: float) -> float:
+        return 30 + (f - low) / (high - low) * (width - 50)
+
+    def line(x1: float, y1: float, x2: float, y2: float, color: str, thickness: float) -> str:
+        return (
+            f'<line x1="{x1:.1f}" y1="{y1}" x2="{x2:.1f}" y2="{y2}" stroke="{color}" '
+            f'stroke-width="{thickness}"/>'
+        )
+
+    def text(at: float, y: float, label: str, color: str, style: str = "") -> str:
+        return (
+            f'<text x="{at:.1f}" y="{y}" text-anchor="middle" fill="{color}" font-size="11" {style}>'
+            f"{label}</text>"
+        )
+
+    dim, strong = "var(--mantine-color-dimmed)", "var(--mv-now)"
+    parts = []
+    for f in range(int(low) + 1, int(high)):
+        label = f"{f} Hz" if f == int(high) - 1 else str(f)
+        parts += [
+            line(x(f), top, x(f), bottom, "var(--mv-soft)", 1),
+            text(x(f), bottom + 25, label, dim),
+        ]
+    for name in names:
+        before, after = x(base[name]), x(now[name])
+        on = name == shown
+        parts += [
+            line(before, top - 6, before, top, "var(--mv-base)", 2),
+            line(before, top, after, bottom, strong if on else "var(--mv-base)", 2 if on else 1),
+            line(after, bottom, after, bottom + 7, strong, 3 if on else 2),
+        ]
+    parts.append(f'<text x="0" y="14" font-size="11" fill="{dim}">original</text>')
+    parts.append(f'<text x="0" y="{bottom + 25}" font-size="11" fill="{strong}">now</text>')
+    if shown in names:
+        label = f"{sentence_case(shown)} {base[shown]:.2f} → {now[shown]:.2f}"
+        middle = min(max(x(base[shown]), 110), width - 90)
+        parts.append(text(middle, 22, label, "var(--mantine-color-text)", 'font-weight="600"'))
+    return f'<svg viewBox="0 0 {width} 100" width="100%" style="display:block">{"".join(parts)}</svg>'

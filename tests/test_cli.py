@@ -1,0 +1,123 @@
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.cli import main
+from modeviz.dynamics.assembly import assemble
+from modeviz.tuning.results import Conditions, solve
+from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.files import write_vehicle
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("vehicles") / "cabin"
+    write_vehicle(mounted_cabin(), path)
+    return str(path)
+
+
+def printed_json(capsys, *arguments):
+    assert main(arguments) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_modes_prints_a_table(capsys, folder):
+    assert main(["modes", folder]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert "Hz" in lines[0]
+    assert any("cab yaw" in line for line in lines)
+
+
+def test_modes_json_has_its_documented_structure(capsys, folder):
+    record = printed_json(capsys, "modes", folder, "--json", "--below", "60")
+    assert set(record) == {"vehicle", "rates", "modes"}
+    assert record["vehicle"] == "cabin"
+    assert record["rates"]["A"] == {"vertical": 800.0, "lateral": 300.0, "fore_aft": 400.0}
+    for number, mode in enumerate(record["modes"], start=1):
+        assert mode["number"] == number
+        assert set(mode) == {
+            "number", "frequency_hz", "damping_ratio", "name", "kinetic_energy", "strain_energy",
+        }  # fmt: skip
+        assert sum(mode["kinetic_energy"].values()) == pytest.approx(1.0)
+        assert sum(mode["strain_energy"].values()) == pytest.approx(1.0)
+        assert set(mode["strain_energy"]) == {"A", "B", "tyres"}
+
+
+def test_psd_json_is_the_solution_of_the_tuned_vehicle(capsys, folder):
+    record = printed_json(
+        capsys, "psd", folder, "--json", "--rates", "soft", "--set", "B.fore-aft=131 N/mm",
+        "--road", "rough", "--speed", "90 km/h",
+    )  # fmt: skip
+    assert set(record) == {
+        "vehicle", "rates", "road", "speed_m_per_s", "frequency_hz", "responses", "rating",
+    }  # fmt: skip
+    rates = {"A": MountRates(2e5, 1e5, 1e5), "B": MountRates(8e5, 3e5, 1.31e5)}
+    expected = solve(assemble(mounted_cabin()), rates, Conditions("rough", 25.0))
+    by_direction = {r["direction"]: r for r in record["responses"]}
+    assert {r["point"] for r in record["responses"]} == {"seat"}
+    for direction in ("vertical", "lateral", "fore-aft"):
+        psd = by_direction[direction]["psd_g2_per_hz"]
+        np.testing.assert_allclose(psd, expected.response(0, direction), rtol=1e-9)
+    assert by_direction["lateral"]["rms_g"] == pytest.approx(expected.rms[0, 1])
+    assert record["rating"]["mean_personal_rating"] == pytest.approx(
+        expected.rating.mean_personal_rating
+    )
+
+
+def test_wheels_json_has_a_response_for_every_load(capsys, folder):
+    record = printed_json(capsys, "wheels", folder, "--json")
+    (load,) = record["loads"]
+    assert (load["kind"], load["tyre"], load["amplitude"]) == ("radial force", "tyre 0.0 -0.7", 50.0)
+    assert [r["direction"] for r in load["responses"]] == ["vertical", "lateral", "fore-aft"]
+    assert len(load["responses"][0]["acceleration_g"]) == len(record["frequency_hz"])
+
+
+@pytest.mark.parametrize("command", ["psd", "wheels"])
+def test_tables_name_points_and_directions(capsys, folder, command):
+    assert main([command, folder]) == 0
+    out = capsys.readouterr().out
+    assert "seat" in out
+    assert "lateral" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["modes", "no/such/folder"], "no/such/folder"),
+        (["modes", "{}", "--rates", "hard"], "unknown rates 'hard'"),
+        (["modes", "{}", "--set", "C9.lateral=131 N/mm"], "unknown mount group 'C9'"),
+        (["modes", "{}", "--set", "A.sideways=131 N/mm"], "unknown direction 'sideways'"),
+        (["modes", "{}", "--set", "A.lateral=131"], "without a unit"),
+        (["modes", "{}", "--set", "A.lateral=131 N/furlong"], "unit of stiffness"),
+        (["modes", "{}", "--set", "A.lateral=-5 N/mm"], "zero or more"),
+        (["modes", "{}", "--set", "A.lateral=nan N/mm"], "expected a number"),
+        (["psd", "{}", "--road", "moon"], "unknown road 'moon'"),
+        (["psd", "{}", "--speed", "fast"], "expected a number"),
+        (["psd", "{}", "--speed", "0 km/h"], "more than zero"),
+        (["psd", "{}", "--speed", "9000 km/h"], "its table holds"),
+    ],
+)
+def test_what_the_user_can_put_right_is_one_message_and_status_2(capsys, folder, arguments, message):
+    assert main([a.format(folder) for a in arguments]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert message in captured.err
+    assert captured.err.startswith("modeviz: ")
+    assert captured.err.count("\n") == 1
+
+
+def test_the_program_ends_with_that_status_and_no_traceback(folder):
+    command = [sys.executable, "-m", "modeviz", "modes", folder, "--rates", "hard"]
+    run = subprocess.run(command, capture_output=True, text=True)
+    assert run.returncode == 2
+    assert "Traceback" not in run.stderr
+
+
+def test_a_wrong_option_is_status_2_too(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["modes", "--no-such-option"])
+    assert end.value.code == 2

@@ -1,0 +1,81 @@
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.response import direct_response
+from modeviz.errors import VehicleError
+from modeviz.ride.psd import acceleration_psd
+from modeviz.ride.roads import road_spectrum, track_forces
+from modeviz.ride.wheels import wheel_forces
+from modeviz.tuning.results import (
+    FREQUENCY_HZ,
+    Conditions,
+    solve,
+    solve_modal,
+    solve_wheels,
+)
+from modeviz.vehicle.connections import MountRates
+
+FLAT = Conditions("flat", 20.0)
+SOFT = {"A": MountRates(2e5, 1e5, 1e5)}
+
+
+@pytest.fixture(scope="module")
+def results():
+    return solve(assemble(mounted_cabin()), SOFT, FLAT)
+
+
+def test_the_ride_is_the_direct_solution_of_the_tuned_vehicle(results):
+    tuned = assemble(mounted_cabin().with_rates(SOFT))
+    f = FREQUENCY_HZ[::37]
+    seat = tuned.motion("cab", np.array([1.2, -0.4, 0.9]))[:3]
+    H = direct_response(tuned, f, track_forces(tuned, f, 20.0), seat)
+    S = road_spectrum(tuned.vehicle.road("flat"), f, 20.0)
+    np.testing.assert_allclose(results.psd[::37, 0], acceleration_psd(f, H, S), rtol=1e-8)
+
+
+def test_directions_are_told_apart(results):
+    np.testing.assert_array_equal(results.response(0, "vertical"), results.psd[:, 0, 2])
+    np.testing.assert_array_equal(results.response(0, "lateral"), results.psd[:, 0, 1])
+    np.testing.assert_array_equal(results.response(0, "fore-aft"), results.psd[:, 0, 0])
+
+
+def test_the_rating_is_of_the_first_point(results):
+    _, lateral, vertical = results.rms[0]
+    assert results.rating.mean_personal_rating == pytest.approx(10.9 - 80 * np.hypot(lateral, vertical))
+
+
+def test_the_largest_contributor_of_a_peak_is_a_mode_near_it(results):
+    highest = max(results.peaks(0, "vertical"), key=lambda p: p.psd)
+    f = results.modes.frequency_hz[highest.contributors[0].mode]
+    assert f == pytest.approx(highest.frequency_hz, rel=0.2)
+    assert highest.contributors[0].ratio == 1.0
+
+
+def test_a_mode_is_found_by_its_name(results):
+    i = results.mode_index("cab yaw")
+    assert results.names[i].name == "cab yaw"
+    assert results.mode_index("no such mode") is None
+
+
+def test_wheel_loads_are_the_direct_solution():
+    f = np.array([8.0, 11.0, 13.25])
+    system = assemble(mounted_cabin())
+    found = solve_wheels(system, {}, f)
+    seat = system.motion("cab", np.array([1.2, -0.4, 0.9]))[:3]
+    H = direct_response(system, f, wheel_forces(system, system.vehicle.wheel_loads, f), seat)[:, :, 0]
+    expected = np.abs(H) * (2 * np.pi * f[:, None]) ** 2 / 9.80665
+    np.testing.assert_allclose(found.acceleration_g[:, 0, 0], expected, rtol=1e-8)
+    np.testing.assert_allclose(found.mean((11.0, 13.25))[0, 0], expected[1:].mean(axis=0), rtol=1e-8)
+
+
+def test_a_road_that_is_not_there_is_an_error():
+    with pytest.raises(VehicleError, match=r"unknown road 'moon'.*flat, rough"):
+        solve(assemble(mounted_cabin()), {}, Conditions("moon", 20.0))
+
+
+def test_modes_need_no_road():
+    modal = solve_modal(assemble(mounted_cabin()), SOFT)
+    assert len(modal.names) == len(modal.modes.frequency_hz) == 12
+    assert sum(modal.kinetic_energy.values()) == pytest.approx(np.ones(12))

@@ -1,0 +1,115 @@
+import threading
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.tuning.results import Conditions, solve
+from modeviz.vehicle.connections import MountRates
+from modeviz.viewer.session import Session, first_state
+
+FLAT = Conditions("flat", 20.0)
+
+
+@pytest.fixture
+def session():
+    """A session whose answers are kept in `session.answers`, its failures in `session.failures`."""
+    vehicle = mounted_cabin()
+    answers, failures = [], []
+    session = Session(
+        vehicle, first_state(vehicle, vehicle.rates, FLAT), answers.append, failures.append
+    )
+    session.answers, session.failures = answers, failures
+    yield session
+    session.close()
+    assert not failures or session.expects_failure
+
+
+def test_it_opens_with_the_vehicles_own_rates_and_the_cabins_yaw(session):
+    session.start()
+    assert session.wait(20)
+    solved = session.answers[-1]
+    assert solved.now.names[solved.mode].name == "cab yaw"
+    np.testing.assert_array_equal(solved.now.psd, solved.base.psd)
+
+
+def test_a_change_of_rates_is_answered_with_what_solve_gives(session):
+    session.set_rate("A", "lateral", 1e5)
+    session.set_rates({"B": MountRates(5e5, 2e5, 3e5)})
+    assert session.wait(20)
+    solved = session.answers[-1]
+    vehicle = mounted_cabin()
+    rates = {"A": replace(vehicle.rates["A"], lateral=1e5), "B": MountRates(5e5, 2e5, 3e5)}
+    expected = solve(assemble(vehicle), rates, FLAT)
+    np.testing.assert_array_equal(solved.now.psd, expected.psd)
+    assert solved.state.rates == rates
+
+
+def test_the_last_of_many_quick_changes_is_what_stays(session):
+    for rate in np.linspace(1e5, 9e5, 60):
+        session.set_rate("A", "vertical", rate)
+    assert session.wait(30)
+    assert session.answers[-1].state.rates["A"].vertical == 9e5
+    assert len(session.answers) < 60
+
+
+def test_changes_from_several_threads_are_all_kept(session):
+    threads = [
+        threading.Thread(target=session.set_rate, args=(g, d, 2e5))
+        for g in "AB"
+        for d in ("vertical", "lateral", "fore_aft")
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert session.wait(30)
+    assert session.answers[-1].state.rates == {g: MountRates(2e5, 2e5, 2e5) for g in "AB"}
+
+
+def test_looking_at_another_mode_solves_nothing(session):
+    session.start()
+    assert session.wait(20)
+    before = session.answers[-1]
+    session.change(mode=before.now.names[8].name)
+    assert session.wait(20)
+    assert session.answers[-1].now is before.now
+    assert session.answers[-1].mode == 8
+
+
+def test_a_mode_is_followed_by_its_name_and_in_phase(session):
+    session.start()
+    assert session.wait(20)
+    for scale in np.linspace(1.0, 0.3, 12):
+        before = session.answers[-1]
+        session.set_rates({g: MountRates(8e5 * scale, 3e5 * scale, 4e5 * scale) for g in "AB"})
+        assert session.wait(20)
+        now = session.answers[-1]
+        assert now.now.names[now.mode].name == "cab yaw"
+        assert before.shape @ now.now.system.mass @ now.shape > 0
+    first, last = session.answers[0], session.answers[-1]
+    assert last.now.modes.frequency_hz[last.mode] < first.now.modes.frequency_hz[first.mode]
+
+
+def test_another_road_or_speed_is_solved_for_both_sets_of_rates(session):
+    session.start()
+    assert session.wait(20)
+    flat = session.answers[-1]
+    session.change(conditions=Conditions("rough", 20.0))
+    assert session.wait(20)
+    rough = session.answers[-1]
+    # Four times the power is twice the RMS.
+    np.testing.assert_allclose(rough.base.rms, 2 * flat.base.rms, rtol=1e-12)
+    np.testing.assert_allclose(rough.now.rms, 2 * flat.now.rms, rtol=1e-12)
+
+
+def test_a_failure_is_told_and_the_session_goes_on(session):
+    session.expects_failure = True
+    session.change(conditions=Conditions("moon", 20.0))
+    assert session.wait(20)
+    assert "unknown road 'moon'" in str(session.failures[-1])
+    session.change(conditions=FLAT)
+    assert session.wait(20)
+    assert session.answers[-1].now.conditions == FLAT

@@ -1,0 +1,66 @@
+import threading
+
+from modeviz.viewer.worker import Worker
+
+
+def test_a_burst_ends_with_its_last_job_and_skips_what_was_overtaken():
+    done, started, go_on = [], threading.Event(), threading.Event()
+
+    def work(job):
+        started.set()
+        go_on.wait(5)
+        done.append(job)
+
+    worker = Worker(work, fail=lambda e: None)
+    worker.submit(0)
+    started.wait(5)
+    for job in range(1, 50):
+        worker.submit(job)
+    go_on.set()
+    assert worker.wait(5)
+    assert done == [0, 49]
+    worker.close()
+
+
+def test_jobs_never_overlap():
+    running, most = 0, 0
+    lock = threading.Lock()
+
+    def work(_):
+        nonlocal running, most
+        with lock:
+            running += 1
+            most = max(most, running)
+        with lock:
+            running -= 1
+
+    worker = Worker(work, fail=lambda e: None)
+    threads = [
+        threading.Thread(target=lambda: [worker.submit(i) for i in range(200)]) for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert worker.wait(5)
+    assert most == 1
+    worker.close()
+
+
+def test_a_job_that_fails_is_told_and_the_next_is_done():
+    done, errors = [], []
+
+    def work(job):
+        if job == "bad":
+            raise ValueError("bad job")
+        done.append(job)
+
+    worker = Worker(work, errors.append)
+    worker.submit("bad")
+    assert worker.wait(5)
+    worker.submit("good")
+    assert worker.wait(5)
+    assert [str(e) for e in errors] == ["bad job"]
+    assert done == ["good"]
+    worker.close()
+    assert not worker._thread.is_alive()
