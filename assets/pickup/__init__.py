@@ -1,0 +1,1 @@
+"""The built-in pickup truck: its geometry, its numbers, its look."""
