@@ -154,6 +154,15 @@ def test_no_loads_give_no_residual_vectors(body, modes):
     assert residual_vectors(body, modes, np.zeros((body.n_dofs, 0))).shapes.shape == (body.n_dofs, 0)
 
 
+def test_loads_that_the_modes_answer_in_full_give_no_residual_vectors():
+    body = assemble(bar(n=3))
+    modes = free_modes(body, 23)  # all but the stiffest, which stretches
+    f = np.zeros((24, 2))
+    f[2, 0] = f[0, 1] = 1.0
+    assert residual_vectors(body, modes, f[:, :1]).shapes.shape == (24, 0)
+    assert residual_vectors(body, modes, f).shapes.shape == (24, 1)
+
+
 def test_residual_compliance_is_what_the_modes_left_out_would_add():
     body = assemble(bar(n=3))
     K, M = body.stiffness.toarray(), body.mass.toarray()

@@ -17,6 +17,9 @@ SHIFT = 40.0
 MECHANISM_HZ = 0.01
 """Below this a seventh mode is not elastic: the mesh has a loose part."""
 
+ROUNDING = 1e-9
+"""Of a response, what solving and projecting may leave where nothing is left."""
+
 N_RIGID = 6
 
 
@@ -73,7 +76,7 @@ def free_modes(matrices: Matrices, n_modes: int) -> ModalBasis:
     if omega_n_squared[N_RIGID] < (2 * np.pi * MECHANISM_HZ) ** 2:
         raise SolveError("the body moves without strain in more than six ways: a part of it is loose")
     phi = _without(R, phi[:, elastic], matrices.mass)
-    phi = phi / np.sqrt(np.einsum("ij,ij->j", phi, matrices.mass @ phi))
+    phi = phi / _norms(phi, matrices.mass)
     return ModalBasis(
         omega_n_squared=np.r_[np.zeros(N_RIGID), omega_n_squared[elastic]],
         shapes=np.hstack([R, _signed(phi)]),
@@ -125,14 +128,14 @@ def static_response(matrices: Matrices, loads: Floats) -> Floats:
 def residual_response(matrices: Matrices, modes: ModalBasis, loads: Floats) -> Floats:
     """What static loads deform beyond the given free modes, (n_dofs, n_loads).
 
-    u - Φ Ω⁻² Φᵀ f over the elastic modes, u the inertia-relief response.
+    The inertia-relief response u less its part in the modes, Φ Φᵀ M u = Φ Ω⁻² Φᵀ f. Zero where only
+    rounding is left.
     """
-    phi = modes.shapes[:, N_RIGID:]
-    modal = phi @ ((phi.T @ loads) / modes.omega_n_squared[N_RIGID:, None])
-    u = static_response(matrices, loads) - modal
+    u = static_response(matrices, loads)
+    rest = u
     for _ in range(2):
-        u = _without(modes.shapes, u, matrices.mass)
-    return u
+        rest = _without(modes.shapes, rest, matrices.mass)
+    return rest * (_norms(rest, matrices.mass) > ROUNDING * _norms(u, matrices.mass))
 
 
 def residual_vectors(matrices: Matrices, modes: ModalBasis, loads: Floats) -> ModalBasis:
@@ -175,6 +178,11 @@ def factorised(A: sp.csc_array) -> spl.SuperLU:
     )
 
 
+def _norms(u: Floats, mass: sp.csc_array) -> Floats:
+    """√(uᵀ M u) of each column."""
+    return np.sqrt(np.einsum("ij,ij->j", u, mass @ u))
+
+
 def _without(phi: Floats, u: Floats, mass: sp.csc_array) -> Floats:
     """The part of `u` that is orthogonal in mass to the orthonormal `phi`."""
     return u - phi @ (phi.T @ (mass @ u))
@@ -182,7 +190,7 @@ def _without(phi: Floats, u: Floats, mass: sp.csc_array) -> Floats:
 
 def _orthonormal(u: Floats, mass: sp.csc_array, dependent: float = 1e-10) -> Floats:
     """A basis, orthonormal in mass, of what the columns of `u` span."""
-    norms = np.sqrt(np.einsum("ij,ij->j", u, mass @ u))
+    norms = _norms(u, mass)
     u = u[:, norms > 0] / norms[norms > 0]
     gram, rotation = np.linalg.eigh(u.T @ (mass @ u))
     kept = gram > dependent * gram.max(initial=0.0)
