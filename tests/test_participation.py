@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from scipy import signal
 from small_vehicles import on_tyres, quarter_car, wheel
 
 from modeviz.dynamics.modes import Modes, solve_modes
@@ -83,6 +84,16 @@ def test_ripples_are_not_peaks():
     rippled = hill * 10 ** (0.04 * np.cos(2 * np.pi * 2.0 * (f - 12.0)))
     found = peaks(f, rippled, np.ones((291, 1)))
     assert [p.frequency_hz for p in found] == pytest.approx([12.0])
+
+
+def test_peaks_are_those_of_scipy():
+    rng = np.random.default_rng(4)
+    f = np.arange(3000.0)
+    psd = 10 ** np.cumsum(rng.normal(0, 0.05, 3000))
+    level = 10 * np.log10(psd)
+    expected, _ = signal.find_peaks(level, prominence=1.0)
+    assert [p.frequency_hz for p in peaks(f, psd, np.ones((3000, 1)))] == list(f[expected])
+    assert len(expected) > 100
 
 
 def test_contributors_are_ratios_to_the_largest():
