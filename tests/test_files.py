@@ -3,7 +3,9 @@
 import contextlib
 import dataclasses
 import json
+import re
 import tomllib
+import zipfile
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +18,8 @@ from modeviz.errors import VehicleError
 from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
 from modeviz.vehicle.files import read_vehicle, write_vehicle
 from modeviz.vehicle.meshfiles import read_mesh, write_mesh
+from modeviz.vehicle.scaling import written
+from modeviz.vehicle.vehicle import Vehicle
 
 RNG = np.random.default_rng(0)
 
@@ -107,6 +111,19 @@ def test_writing_twice_gives_the_same_bytes_wherever_the_numbers_come_from(folde
     assert content(folder) == content(tmp_path / "again")
 
 
+def test_archive_of_modes_has_no_date_of_its_own(folder):
+    with zipfile.ZipFile(folder / "bodies/cab.npz") as archive:
+        assert {info.date_time for info in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_names_of_any_characters_come_back(tmp_path):
+    name = "".join(map(chr, range(0x300)))
+    write_vehicle(replace(one_of_everything(), name=name, rate_sets={name: {}}), tmp_path / "a")
+    vehicle = read_vehicle(tmp_path / "a")
+    assert vehicle.name == name
+    assert list(vehicle.rate_sets) == [name]
+
+
 def test_file_is_in_the_units_it_names(folder):
     data = tomllib.loads((folder / "vehicle.toml").read_text())
     assert data["units"]["stiffness"] == "N/mm"
@@ -119,14 +136,65 @@ def test_file_is_in_the_units_it_names(folder):
     assert data["road"][0]["speed"] == 72.0
 
 
-def test_every_unit_of_the_file_counts(folder):
-    edit(folder, 'length = "m"', 'length = "mm"')
-    edit(folder, "at = [0.01, -0.02, 0.03]\nmass = 75.0", "at = [10, -20, 30]\nmass = 0.075")
-    edit(folder, 'mass = "kg"', 'mass = "t"')
-    edit(folder, "240.5", "0.2405")
-    vehicle = read_vehicle(folder)
-    np.testing.assert_allclose(vehicle.added_masses[0].position, [0.01, -0.02, 0.03], rtol=1e-15)
-    assert vehicle.added_masses[0].mass == pytest.approx(75.0, rel=1e-15)
+def numbers(vehicle: Vehicle) -> dict[str, list[np.ndarray]]:
+    """What of the vehicle each quantity is."""
+    body = vehicle.body("Engine & box")
+    assert isinstance(body, RigidBody)
+    joints, tyre, group = vehicle.connections, vehicle.tyres[0], vehicle.mount_groups[0]
+    rates = [group.rates, *group.bounds, vehicle.rate_sets["optimised"]["C1"]]
+    values = {
+        "length": [
+            body.center_of_gravity,
+            joints[0].points,
+            vehicle.added_masses[0].position,
+            vehicle.response_points[0].position,
+            tyre.wheel_center,
+            tyre.trail,
+        ],
+        "mass": [body.mass, vehicle.added_masses[0].mass],
+        "inertia": [body.inertia],
+        "stiffness": [*(c.stiffness for c in joints), *(r.as_tuple() for r in rates)],
+        "rotational_stiffness": [joints[1].rotational_stiffness],
+        "damping": [joints[2].damping],
+        "force": [vehicle.wheel_loads[1].amplitude],
+        "unbalance": [vehicle.wheel_loads[0].amplitude],
+        "speed": [vehicle.speed, vehicle.roads[0].speed],
+    }
+    return {quantity: [np.asarray(v) for v in found] for quantity, found in values.items()}
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit", "ratio"),
+    [
+        ("length", "mm", 1e-3),
+        ("mass", "lb", 0.45359237),
+        ("inertia", "kg mm²", 1e-6),
+        ("stiffness", "N/m", 1e-3),
+        ("rotational_stiffness", "N mm/rad", 1e-3),
+        ("damping", "N s/mm", 1e3),
+        ("force", "kN", 1e3),
+        ("unbalance", "g mm", 1e-3),
+        ("speed", "m/s", 3.6),
+    ],
+)
+def test_unit_scales_its_quantity_and_nothing_else(folder, quantity, unit, ratio):
+    before = numbers(read_vehicle(folder))
+    path = folder / "vehicle.toml"
+    path.write_text(
+        re.sub(rf'\n{quantity} = ".*"', f'\n{quantity} = "{unit}"', path.read_text(), count=1)
+    )
+    for name, found in numbers(read_vehicle(folder)).items():
+        for value, old in zip(found, before[name], strict=True):
+            expected = old * (ratio if name == quantity else 1)
+            np.testing.assert_allclose(value, expected, rtol=1e-15 if name == quantity else 0)
+
+
+def test_number_in_another_unit_is_short_and_within_one_rounding():
+    assert written(20.0, 1 / 3.6) == 72.0
+    assert written(131e3, 1e3) == 131.0
+    assert written(0.0123, 1e-3) == 12.3
+    for value in np.random.default_rng(4).lognormal(size=1000):
+        assert abs(written(value, 1e3) * 1e3 - value) <= np.spacing(value)
 
 
 @pytest.mark.parametrize(
@@ -336,7 +404,7 @@ def test_wrong_array_is_explained(folder, arrays, words):
 def test_file_cut_anywhere_is_refused(folder, name):
     whole = (folder / name).read_bytes()
     line_ends = {i + 1 for i, byte in enumerate(whole) if byte == 10 and name.endswith("csv")}
-    for length in range(0, len(whole), max(len(whole) // 50, 1)):
+    for length in (*range(0, len(whole), max(len(whole) // 50, 1)), len(whole) - 1):
         if length not in line_ends:
             (folder / name).write_bytes(whole[:length])
             assert f"{folder / name}: " in complaint(folder)
@@ -392,6 +460,26 @@ def test_folder_of_something_else_is_not_overwritten(tmp_path, stranger):
     with pytest.raises(VehicleError, match="not overwritten"):
         write_vehicle(one_of_everything(), tmp_path)
     assert path.read_text() == "mine"
+
+
+def test_vehicle_with_something_else_beside_it_is_not_overwritten(folder):
+    (folder / "notes.txt").write_text("mine")
+    with pytest.raises(VehicleError, match="not overwritten"):
+        write_vehicle(one_of_everything(), folder)
+
+
+def test_vehicle_that_cannot_be_moved_leaves_the_old_one(folder, monkeypatch):
+    before, rename = content(folder), Path.rename
+
+    def refuse_new(path: Path, target: Path) -> Path:
+        if path.name == "new":
+            raise OSError("device or resource busy")
+        return rename(path, target)
+
+    monkeypatch.setattr(Path, "rename", refuse_new)
+    with pytest.raises(VehicleError, match="resource busy"):
+        write_vehicle(one_of_everything(), folder)
+    assert content(folder) == before
 
 
 def test_file_is_not_overwritten_by_a_vehicle(tmp_path):

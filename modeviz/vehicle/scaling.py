@@ -80,11 +80,9 @@ def _spoken(quantity: str) -> str:
 
 def written(value: float, unit: float) -> float:
     """The shortest number of units that reads back to the SI `value`, or else the nearest."""
-    for digits in range(15, 18):
-        number = float(f"{value / unit:.{digits}g}")
-        if number * unit == value:
-            return number
-    return value / unit
+    number = value / unit
+    short = float(f"{number:.15g}")
+    return short if short * unit == value else number
 
 
 def _converted(data: Any, convert: Callable[[float, str], float], quantity: str | None = None) -> Any:
