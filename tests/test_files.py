@@ -16,7 +16,7 @@ from folders import flexible_body, one_of_everything, part
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
-from modeviz.vehicle.files import read_vehicle, write_vehicle
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.meshfiles import read_mesh, write_mesh
 from modeviz.vehicle.scaling import written
 from modeviz.vehicle.vehicle import Vehicle
@@ -109,6 +109,17 @@ def test_other_mesh_files_are_read_with_the_colour_of_the_toml(folder, suffix):
 def test_writing_twice_gives_the_same_bytes_wherever_the_numbers_come_from(folder, tmp_path):
     write_vehicle(read_vehicle(folder), tmp_path / "again")
     assert content(folder) == content(tmp_path / "again")
+
+
+def test_bytes_do_not_depend_on_how_arrays_lie_in_memory(folder, tmp_path):
+    vehicle = one_of_everything()
+    cab = replace(flexible_body(), shapes=np.asfortranarray(flexible_body().shapes))
+    write_vehicle(replace(vehicle, bodies=(cab, vehicle.bodies[1])), tmp_path / "x")
+    assert content(tmp_path / "x") == content(folder)
+
+
+def test_builtin_truck_is_a_vehicle_folder():
+    assert read_vehicle(builtin_vehicle()).tyres
 
 
 def test_archive_of_modes_has_no_date_of_its_own(folder):
