@@ -37,14 +37,12 @@ def center_of_gravity(system: System, bodies: Sequence[Body]) -> Floats:
 def energy_share(system: System, motions: Floats, shapes: Floats) -> Floats:
     """Share (n_motions, n_modes) of a mode's kinetic energy that is in a motion of the system.
 
-    (xᵀMφ)² / (xᵀMx φᵀMφ) for each column x of `motions`; the shares of motions that are orthogonal
-    in mass add up.
+    (xᵀMφ)² / xᵀMx for each column x of `motions` and each mass-normalised shape φ; the shares of
+    motions that are orthogonal in mass add up.
     """
-    M = system.mass
-    cross = motions.T @ M @ shapes
-    motion_mass = np.einsum("ij,ij->j", motions, M @ motions)
-    modal_mass = np.einsum("ij,ij->j", shapes, M @ shapes)
-    return cross**2 / (motion_mass[:, None] * modal_mass)
+    momentum = motions.T @ system.mass
+    motion_mass = np.einsum("ij,ji->i", momentum, motions)
+    return (momentum @ shapes) ** 2 / motion_mass[:, None]
 
 
 def rigid_share(system: System, bodies: Sequence[Body], shapes: Floats) -> Floats:
