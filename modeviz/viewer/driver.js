@@ -1,0 +1,167 @@
+// Draws x + amplitude Re(φ e^{iθ}) on the meshes of the page, every frame, from what driver.py sends.
+//
+// A shape and its colours are the points and colours of a hidden point cloud named after its mesh, the
+// opacity is that cloud's point size; amplitude, frequency and phase are the position of a hidden node.
+// State and failure are in window.__modeviz, where the browser tests read them.
+(prefix, driverName) => {
+  const PATIENCE = 30; // s: how long a mesh or viser itself may take to appear
+  const LONGEST_FRAME = 0.25; // s: a page that was in the background goes on where it was
+  const MATTE = { roughness: 0.6, metalness: 0.05 }; // under colours that mean something
+
+  const page = (window.__modeviz ??= {
+    weights: { value: [0, 0] },
+    phase: 0,
+    sought: null,
+    applied: 0,
+    error: null,
+  });
+  const turn = (page.turn = {}); // after a reconnect the script runs again, and takes over
+  const shown = new WeakMap(); // of each mesh's group, what it shows
+  const waiting = {}; // s, of each shape that has no mesh to go to yet
+  let before = performance.now();
+
+  function fail(problem) {
+    if (page.error) return;
+    page.error = String(problem);
+    console.error("modeviz: " + page.error);
+    const notice = document.createElement("div");
+    notice.textContent = "The shapes in this page do not move: " + page.error;
+    notice.style.cssText =
+      "position:fixed;top:12px;left:50%;transform:translateX(-50%);z-index:10000;padding:8px 14px;" +
+      "background:#c2452d;color:#fff;font:13px sans-serif;border-radius:4px;white-space:pre-wrap";
+    document.body.append(notice);
+  }
+
+  function wait(name, seconds) {
+    waiting[name] = (waiting[name] ?? 0) + seconds;
+    if (waiting[name] > PATIENCE) fail(`${name} has not appeared`);
+  }
+
+  // The weights of the real and the imaginary part now; true if they changed.
+  function turnPhase([amplitude, frequency, sought], seconds) {
+    if (sought !== page.sought) page.phase = page.sought = sought;
+    else page.phase += 2 * Math.PI * frequency * seconds;
+    page.phase %= 2 * Math.PI;
+    const weights = [amplitude * Math.cos(page.phase), -amplitude * Math.sin(page.phase)];
+    const changed = weights.some((weight, i) => weight !== page.weights.value[i]);
+    page.weights.value = weights;
+    return changed;
+  }
+
+  // Writes into the attribute, which is made at the first time; the primitives of a mesh share it.
+  function write(attributes, name, values, Attribute) {
+    if (attributes[name]) {
+      attributes[name].array.set(values);
+      attributes[name].needsUpdate = true;
+      return;
+    }
+    const isHalf = values instanceof Uint16Array;
+    attributes[name] = new Attribute(values.slice(), 3, !isHalf);
+    attributes[name].isFloat16BufferAttribute = isHalf;
+  }
+
+  function patch(material) {
+    material.onBeforeCompile = (shader) => {
+      shader.uniforms.modevizWeights = page.weights;
+      const add = (chunk, code) => {
+        if (!shader.vertexShader.includes(`#include <${chunk}>`)) fail(`three.js has no ${chunk}`);
+        shader.vertexShader = shader.vertexShader.replace(`#include <${chunk}>`, `#include <${chunk}>\n${code}`);
+      };
+      add("common", "attribute vec3 modevizReal, modevizImaginary; uniform vec2 modevizWeights;");
+      add("begin_vertex", "transformed += modevizWeights.x * modevizReal + modevizWeights.y * modevizImaginary;");
+      add(
+        "color_vertex",
+        `#ifdef USE_COLOR
+          vColor.rgb = mix(vColor.rgb / 12.92, pow((vColor.rgb + 0.055) / 1.055, vec3(2.4)), step(0.04045, vColor.rgb));
+        #endif`,
+      );
+    };
+    material.customProgramCacheKey = () => "modeviz";
+    material.polygonOffset = true; // leaves the edge lines in front of their own surface
+    material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
+    material.userData.own = {
+      color: material.color.clone(),
+      opacity: material.opacity,
+      roughness: material.roughness,
+      metalness: material.metalness,
+    };
+  }
+
+  // Skin takes the colours and the opacity of its body, glass the opacity; dressing keeps its own.
+  function dress(material, colored, opacity) {
+    const { own, skin } = material.userData;
+    if (skin || own.opacity < 1) material.opacity = own.opacity * opacity;
+    material.transparent = material.opacity < 1;
+    material.depthWrite = !material.transparent;
+    if (skin && own.opacity === 1) {
+      material.vertexColors = colored;
+      Object.assign(material, colored ? MATTE : { roughness: own.roughness, metalness: own.metalness });
+      if (colored) material.color.setRGB(1, 1, 1);
+      else material.color.copy(own.color);
+    }
+    material.needsUpdate = true;
+  }
+
+  // Gives a mesh its shape; true if that is done.
+  function apply(group, { points, colors, point_size: opacity }) {
+    const meshes = [];
+    group.traverse((object) => object.geometry?.index && meshes.push(object));
+    const n = points.length / 6;
+    if (!meshes.length || meshes.some((mesh) => mesh.geometry.attributes.position.count !== n)) return false;
+    const Attribute = meshes[0].geometry.attributes.position.constructor;
+    const colored = colors.length === 3 * n;
+    const last = shown.get(group);
+    const attributes = last?.attributes ?? {};
+    write(attributes, "modevizReal", points.subarray(0, 3 * n), Attribute);
+    write(attributes, "modevizImaginary", points.subarray(3 * n), Attribute);
+    if (colored) write(attributes, "color", colors, Attribute);
+    for (const mesh of meshes) {
+      for (const name in attributes) mesh.geometry.setAttribute(name, attributes[name]);
+      if (!mesh.material.userData.own) patch(mesh.material);
+      if (last?.colored !== colored || last.opacity !== opacity) dress(mesh.material, colored, opacity);
+      mesh.frustumCulled = false; // it moves out of the bounds it was loaded with
+    }
+    shown.set(group, { points, colors, colored, opacity, attributes });
+    page.applied += 1;
+    return true;
+  }
+
+  // Gives every mesh the newest shape that was sent for it; true if one of them changed.
+  function applyShapes(viewer, tree, seconds) {
+    let changed = false;
+    for (const [cloud, node] of Object.entries(tree.getState())) {
+      if (!node || !cloud.startsWith(prefix + "/")) continue;
+      const name = cloud.slice(prefix.length);
+      const sent = node.message.props;
+      if (!sent.points) continue;
+      const group = viewer.nodeRefFromName[name]?.children[0];
+      const last = group && shown.get(group);
+      const same = last?.points === sent.points && last.colors === sent.colors;
+      if (same && last.opacity === sent.point_size) continue;
+      if (group && apply(group, sent)) {
+        delete waiting[name];
+        changed = true;
+      } else wait(name, seconds);
+    }
+    return changed;
+  }
+
+  function frame() {
+    if (page.turn !== turn) return;
+    requestAnimationFrame(frame);
+    const now = performance.now();
+    const seconds = Math.min((now - before) / 1000, LONGEST_FRAME);
+    before = now;
+    try {
+      const viewer = window.__viserMutable;
+      const tree = window.__viserSceneTree;
+      if (!viewer?.scene || !tree) return wait("viser's scene", seconds);
+      const driver = viewer.nodePoseData[driverName];
+      const moved = driver ? turnPhase(driver.position, seconds) : false;
+      if (applyShapes(viewer, tree, seconds) || moved) viewer.requestRender();
+    } catch (error) {
+      fail(error.stack ?? error);
+    }
+  }
+  frame();
+}

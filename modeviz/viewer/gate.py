@@ -1,0 +1,104 @@
+"""What a page may say: every message from a browser is checked before viser acts on it.
+
+Values from a page are anybody's: viser stores 1e9 and NaN, and lets a page set any attribute of a
+widget. Here a message must be of a kind we use, and its value one that its widget can produce.
+"""
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import viser
+from viser import _messages
+from viser.infra import ClientId, WebsockClientConnection
+
+if TYPE_CHECKING:
+    from viser._gui_handles import _GuiInputHandle
+
+ALLOWED = (
+    _messages.GuiUpdateMessage,
+    _messages.ViewerCameraMessage,
+    _messages.GetRenderResponseMessage,
+    _messages.SceneNodeClickMessage,
+    _messages.CommandTriggerMessage,
+    _messages.FileTransferPartAck,
+)
+LONGEST_TEXT = 4000
+
+
+def gate_messages(server: viser.ViserServer) -> None:
+    """Puts the checks before a server's and all its clients' handling of messages."""
+    websock = server._websock_server
+    _gate(server, websock, None)
+    websock.on_client_connect(lambda connection: _gate(server, connection, connection))
+
+
+def _gate(server: viser.ViserServer, handler: Any, connection: WebsockClientConnection | None) -> None:
+    """Puts the checks before one handler of messages; a client's own also corrects its screen."""
+    handle = handler._handle_incoming_message
+
+    async def checked(client_id: ClientId, message: _messages.Message) -> None:
+        if not isinstance(message, ALLOWED):
+            return
+        if not isinstance(message, _messages.GuiUpdateMessage):
+            if _is_finite(vars(message)):
+                await handle(client_id, message)
+            return
+        widget = _widget(server, client_id, message.uuid)
+        if widget is None:
+            return
+        if set(message.updates) == {"value"} and is_possible(widget, message.updates["value"]):
+            await handle(client_id, message)
+        elif connection is not None:
+            true_value = {"value": widget._impl.value}
+            connection.queue_message(_messages.GuiUpdateMessage(message.uuid, true_value))
+
+    handler._handle_incoming_message = checked
+
+
+def _widget(server: viser.ViserServer, client_id: ClientId, uuid: str) -> "_GuiInputHandle | None":
+    """The widget of that id among the shared ones and the client's own."""
+    client = server.get_clients().get(client_id)
+    for gui in (server.gui, client.gui if client else None):
+        if gui is not None and uuid in gui._gui_input_handle_from_uuid:
+            return gui._gui_input_handle_from_uuid[uuid]
+    return None
+
+
+def is_possible(widget: "_GuiInputHandle", value: Any) -> bool:
+    """Whether a value is one that the widget can produce: of its type, in its range, of its choices."""
+    props, current = widget._impl.props, widget._impl.value
+    options = getattr(props, "options", None)
+    if options is not None:
+        return isinstance(value, str) and value in options
+    low, high = getattr(props, "min", None), getattr(props, "max", None)
+    if isinstance(current, tuple):
+        return (
+            isinstance(value, (tuple, list))
+            and len(value) == len(current)
+            and all(_is_number(v, _at(low, i), _at(high, i)) for i, v in enumerate(value))
+        )
+    if isinstance(current, bool):
+        return isinstance(value, bool)
+    if isinstance(current, (int, float)):
+        return _is_number(value, low, high)
+    return isinstance(current, str) and isinstance(value, str) and len(value) <= LONGEST_TEXT
+
+
+def _at(bound: Any, index: int) -> float | None:
+    """A bound of one component, from a bound for each or for all."""
+    return bound[index] if isinstance(bound, (tuple, list)) else bound
+
+
+def _is_number(value: Any, low: float | None, high: float | None) -> bool:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        return False
+    return (low is None or value >= low) and (high is None or value <= high)
+
+
+def _is_finite(value: Any) -> bool:
+    """Whether no number in a message is NaN or infinite, however deep."""
+    if isinstance(value, float):
+        return math.isfinite(value)
+    if isinstance(value, dict):
+        return all(map(_is_finite, value.values()))
+    return not isinstance(value, (tuple, list)) or all(map(_is_finite, value))

@@ -1,0 +1,100 @@
+import shutil
+from pathlib import Path
+
+import pytest
+from pages import wait_for
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from modeviz.viewer.doors import open_server
+
+FLAGS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+TIMEOUT_MS = 60_000
+
+
+def pytest_collection_modifyitems(items):
+    for item in items:
+        if Path(__file__).parent in item.path.parents:
+            item.add_marker(pytest.mark.browser)
+
+
+def chromium_path(installed: str) -> str:
+    """The system's Chromium, else Playwright's own."""
+    names = ("chromium", "chromium-browser", "google-chrome")
+    found = next(filter(None, map(shutil.which, names)), installed)
+    if not Path(found).exists():
+        pytest.fail("no Chromium: install one (apt install chromium, or playwright install chromium)")
+    return found
+
+
+@pytest.fixture(scope="session")
+def browser():
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=chromium_path(playwright.chromium.executable_path), args=FLAGS
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def server():
+    server = open_server(port=0)
+    server.scene.configure_default_lights(cast_shadow=False)
+    server.scene.configure_environment_map(None)  # half a minute of software rendering
+    yield server
+    server.stop()
+
+
+@pytest.fixture(scope="module")
+def opened_pages(browser: Browser):
+    """The errors of every page opened in this module, by page; it closes the pages."""
+    pages: dict[Page, list[str]] = {}
+    yield pages
+    for page in pages:
+        page.context.close()
+
+
+@pytest.fixture(scope="module")
+def open_page(browser: Browser, opened_pages):
+    """Opens a page on a server and waits for its scene."""
+
+    def open_page(server, viewport=(480, 360), query="?fixedDpr=1") -> Page:
+        size = {"width": viewport[0], "height": viewport[1]}
+        page = browser.new_context(viewport=size).new_page()
+        errors = opened_pages[page] = []
+        page.set_default_timeout(TIMEOUT_MS)
+        page.on("pageerror", lambda error: errors.append(f"page error: {error}"))
+        page.on("console", lambda message: message.type == "error" and errors.append(message.text))
+        page.goto(f"http://127.0.0.1:{server.get_port()}/{query}")
+        wait_for(page, "window.__viserMutable?.scene && window.__viserSceneTree")
+        return page
+
+    return open_page
+
+
+@pytest.fixture(scope="module")
+def page(server, open_page):
+    """The page that the tests of a module share, because loading one takes seconds."""
+    return open_page(server)
+
+
+@pytest.fixture(autouse=True)
+def no_errors(opened_pages):
+    """Fails a test in which a page reported an error; one that expects some takes them."""
+
+    def taken(page: Page) -> list[str]:
+        return [opened_pages[page].pop() for _ in list(opened_pages[page])][::-1]
+
+    yield taken
+    assert not [error for page in opened_pages for error in taken(page)]

@@ -1,0 +1,290 @@
+"""Who gets in, by raw HTTP, by websocket and in the page."""
+
+import gzip
+import http.client
+import math
+import socket
+
+import msgspec.msgpack
+import pytest
+import viser
+import zstandard
+from pages import wait_for
+from viser import _messages
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
+from modeviz.errors import ModevizError
+from modeviz.viewer.doors import open_server
+
+TOKEN = "a-long.secret_1"
+
+
+@pytest.fixture(scope="module")
+def locked():
+    """A server that others may reach, with the token."""
+    server = open_server("0.0.0.0", 0, token=TOKEN, title="Bench")
+    yield server
+    server.stop()
+
+
+def get(server, path="/", **headers):
+    """The answer to one HTTP request: status, headers, body."""
+    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=20)
+    connection.request("GET", path, headers=headers)
+    answer = connection.getresponse()
+    return answer.status, dict(answer.getheaders()), answer.read()
+
+
+def knock(server, origin, path="/", **headers):
+    """A websocket to the server as a page of `origin` would open it."""
+    return connect(
+        f"ws://127.0.0.1:{server.get_port()}{path}",
+        origin=origin,
+        subprotocols=[f"viser-v{viser.__version__}"],
+        additional_headers=headers,
+        open_timeout=20,
+        compression=None,
+    )
+
+
+def own_origin(server):
+    return f"http://127.0.0.1:{server.get_port()}"
+
+
+def refused_status(server, origin, path="/", **headers):
+    with pytest.raises(InvalidStatus) as refusal, knock(server, origin, path, **headers):
+        pass
+    return refusal.value.response.status_code
+
+
+def test_page_has_our_title_and_icon_and_may_not_be_framed(server):
+    status, headers, page = get(server)
+    assert status == 200
+    assert b"<title>modeviz</title>" in page
+    assert b'href="data:image/svg+xml;base64,' in page
+    assert "frame-ancestors 'none'" in headers["Content-Security-Policy"]
+
+
+def test_zipped_page_is_the_same_page(server):
+    status, headers, body = get(server, **{"Accept-Encoding": "gzip"})
+    assert (status, headers["Content-Encoding"]) == (200, "gzip")
+    assert int(headers["Content-Length"]) == len(body)
+    assert gzip.decompress(body) == get(server)[2]
+
+
+@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example", "10.0.0.1", ""])
+def test_foreign_host_is_refused(server, host):
+    assert get(server, Host=f"{host}:{server.get_port()}")[0] == 403
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "LOCALHOST", "[::1]"])
+def test_names_of_this_machine_are_welcome(server, host):
+    assert get(server, Host=f"{host}:{server.get_port()}")[0] == 200
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:1"])
+def test_foreign_origin_is_refused_at_page_and_websocket(server, origin):
+    assert get(server, Origin=origin)[0] == 403
+    assert refused_status(server, origin) == 403
+
+
+def test_websocket_without_an_origin_is_refused(server):
+    assert refused_status(server, None) == 403
+
+
+@pytest.mark.parametrize(
+    "parameter", ["websocket=ws://evil.example", "playbackPath=http://evil.example"]
+)
+def test_links_to_other_peoples_scenes_are_refused(server, parameter):
+    assert get(server, f"/?{parameter}")[0] == 403
+    assert refused_status(server, own_origin(server), f"/?{parameter}") == 403
+
+
+def test_own_page_may_open_a_websocket(server):
+    with knock(server, own_origin(server)) as socket:
+        assert socket.recv(timeout=20)
+
+
+def test_without_the_token_nobody_enters(locked):
+    assert get(locked)[0] == 403
+    assert get(locked, "/?token=wrong")[0] == 403
+    assert get(locked, Cookie=f"modeviz{locked.get_port()}=wrong")[0] == 403
+    assert refused_status(locked, own_origin(locked)) == 403
+    assert refused_status(locked, own_origin(locked), f"/?token={TOKEN}") == 403
+
+
+def test_link_with_the_token_is_exchanged_for_a_cookie_that_opens_page_and_websocket(locked):
+    status, headers, _ = get(locked, f"/?vehicle=truck&token={TOKEN}")
+    assert (status, headers["Location"]) == (303, "/?vehicle=truck")
+    assert "HttpOnly; SameSite=Strict" in headers["Set-Cookie"]
+    cookie = headers["Set-Cookie"].split(";")[0]
+    status, _, page = get(locked, headers["Location"], Cookie=cookie)
+    assert status == 200
+    assert b"<title>Bench</title>" in page
+    with knock(locked, own_origin(locked), Cookie=cookie) as socket:
+        assert socket.recv(timeout=20)
+
+
+def test_link_cannot_send_the_browser_elsewhere(locked):
+    assert get(locked, f"//evil.example?token={TOKEN}")[1]["Location"] == "/"
+    assert get(locked, f"/\\evil.example?token={TOKEN}")[1]["Location"] == "/evil.example"
+
+
+def test_shared_server_knows_its_addresses_but_no_foreign_name(locked):
+    port = locked.get_port()
+    cookie = f"modeviz{port}={TOKEN}"
+    for host in ("192.0.2.7", socket.gethostname(), "localhost"):
+        assert get(locked, Host=f"{host}:{port}", Cookie=cookie)[0] == 200
+    assert get(locked, Host=f"evil.example:{port}", Cookie=cookie)[0] == 403
+
+
+def test_port_in_use_is_an_error_that_says_so(server):
+    port = server.get_port()
+    with pytest.raises(ModevizError, match=f"port {port} of 127.0.0.1 is in use: choose another with"):
+        open_server(port=port)
+
+
+@pytest.mark.parametrize("port", [-1, 70000])
+def test_impossible_port_is_an_error_that_says_so(port):
+    with pytest.raises(ModevizError, match=f"cannot listen on port {port} of 127.0.0.1"):
+        open_server(port=port)
+
+
+def test_address_of_another_machine_is_an_error_that_says_so():
+    with pytest.raises(ModevizError, match=r"cannot listen on port 0 of 192\.0\.2\.1"):
+        open_server("192.0.2.1", 0, token=TOKEN)
+
+
+def test_other_machines_need_a_token():
+    with pytest.raises(ModevizError, match="a token is needed"):
+        open_server("0.0.0.0", 0)
+
+
+def test_token_that_would_break_a_cookie_is_refused():
+    with pytest.raises(ModevizError, match="letters, digits"):
+        open_server(port=0, token="a;b")
+
+
+def test_server_says_nothing_on_the_terminal(capfd):
+    open_server(port=0).stop()
+    assert capfd.readouterr().out == ""
+
+
+def test_public_tunnel_cannot_be_asked_for(server):
+    assert server.request_share_url() is None
+    handlers = server._websock_server._incoming_handlers
+    assert _messages.ShareUrlRequest not in handlers
+    assert _messages.ShareUrlDisconnect not in handlers
+
+
+@pytest.fixture(scope="module")
+def fence(server):
+    """A widget whose correction shows that everything said before has been handled."""
+    return server.gui.add_checkbox("Fence", False)
+
+
+def say(server, fence, *messages):
+    """Sends messages as a page would, and returns the corrections it gets until the fence's own."""
+    corrections = []
+    with knock(server, own_origin(server)) as socket:
+        for message in (*messages, update(fence, value="neither")):
+            socket.send(msgspec.msgpack.encode({"type": type(message).__name__, **vars(message)}))
+        while not corrections or corrections[-1]["uuid"] != fence._impl.uuid:
+            sent = decoded(socket.recv(timeout=20))
+            corrections += [m for m in sent if m["type"] == "GuiUpdateMessage"]
+    return corrections[:-1]
+
+
+def decoded(frame):
+    """The messages in what viser sends: two lengths, and a compressed msgpack."""
+    length = int.from_bytes(frame[8:16], "little")
+    unzipped = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + length])
+    return msgspec.msgpack.decode(unzipped)["messages"]
+
+
+def update(handle, **updates):
+    return _messages.GuiUpdateMessage(handle._impl.uuid, updates)
+
+
+@pytest.fixture(scope="module")
+def slider(server):
+    return server.gui.add_slider("Rate", min=0.0, max=10.0, step=0.1, initial_value=5.0)
+
+
+def test_possible_value_arrives(server, fence, slider):
+    say(server, fence, update(slider, value=7))
+    assert slider.value == 7.0
+    say(server, fence, update(slider, value=5))
+
+
+@pytest.mark.parametrize("value", [1e9, -0.1, math.nan, math.inf, "5", True, None, [5.0]])
+def test_impossible_slider_values_are_dropped(server, fence, slider, value):
+    say(server, fence, update(slider, value=value))
+    assert slider.value == 5.0
+
+
+def test_page_cannot_set_internal_attributes(server, fence, slider):
+    say(server, fence, update(slider, update_cb=[]))
+    say(server, fence, update(slider, value=6.0, removed=True))
+    assert slider.value == 5.0
+    assert not slider._impl.removed
+
+
+@pytest.mark.parametrize(
+    ("add", "possible", "impossible"),
+    [
+        (lambda gui: gui.add_dropdown("d", ("a", "b")), ["b"], ["c", 1, None, ["a"]]),
+        (lambda gui: gui.add_button_group("g", ("a", "b")), ["b"], ["c", True]),
+        (lambda gui: gui.add_checkbox("c", False), [True], [1, "true"]),
+        (lambda gui: gui.add_text("t", "x"), ["y"], ["y" * 4001, 3]),
+        (lambda gui: gui.add_number("n", 1, min=0, max=3), [2], [4, -1, math.nan]),
+        (
+            lambda gui: gui.add_vector3("v", (1.0, 2, 3), min=(0.0, 0, 0)),
+            [[3, 2, 1]],
+            [[1, 2], [-1, 2, 3]],
+        ),
+        (lambda gui: gui.add_multi_slider("m", 0, 9, 1, (1, 2)), [[3, 4]], [[3, 10], [1], "34"]),
+    ],
+)
+def test_every_widget_takes_what_it_can_produce_and_nothing_else(
+    server, fence, add, possible, impossible
+):
+    widget = add(server.gui)
+    start = widget.value
+    for value in impossible:
+        say(server, fence, update(widget, value=value))
+        assert widget.value == start
+    for value in possible:
+        say(server, fence, update(widget, value=value))
+        assert widget.value == (tuple(value) if isinstance(value, list) else value)
+    widget.remove()
+
+
+def test_refused_value_is_put_back_on_the_screen(server, fence):
+    number = server.gui.add_number("Speed", 20.0, min=0.0, max=50.0)
+    corrections = say(server, fence, update(number, value=1e9))
+    assert [(c["uuid"], c["updates"]) for c in corrections] == [(number._impl.uuid, {"value": 20.0})]
+    number.remove()
+
+
+def test_message_with_a_number_that_is_none_is_dropped(server, page):
+    client = next(iter(server.get_clients().values()))
+    wait_for(page, "window.__viserMutable.scene")
+    before = client.camera.position.copy()
+    page.evaluate(
+        """() => window.__viserMutable.sendMessage({
+            type: "ViewerCameraMessage", wxyz: [1, 0, 0, 0], position: [NaN, 0, 0],
+            fov: 1, near: 0.1, far: 10, image_height: 10, image_width: 10,
+            look_at: [0, 0, 0], up_direction: [0, 0, 1] })"""
+    )
+    page.wait_for_timeout(500)
+    assert (client.camera.position == before).all()
+
+
+def test_page_behind_the_token_works_in_a_browser(locked, open_page):
+    page = open_page(locked, query=f"?token={TOKEN}")
+    assert TOKEN not in page.url
+    wait_for(page, "window.__viserMutable.scene")
+    assert page.title() == "Bench"
+    assert locked.get_clients()
