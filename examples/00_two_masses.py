@@ -7,18 +7,13 @@ neither mass alone decides it.
 
 import numpy as np
 
-from modeviz.dynamics.assembly import assemble
-from modeviz.dynamics.energy import kinetic_energy
-from modeviz.dynamics.modes import solve_modes
-from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import Spring
-from modeviz.vehicle.vehicle import Vehicle
+import modeviz as mv
 
 FRAME_MASS, CAB_MASS, STIFFNESS = 330.0, 420.0, 2.2e6
 
-frame = RigidBody("frame", "frame", "frame", FRAME_MASS, np.array([0.0, 0.0, 0.5]), 50 * np.eye(3))
-cab = RigidBody("cab", "cabin", "cab", CAB_MASS, np.array([0.0, 0.0, 0.9]), 80 * np.eye(3))
-mount = Spring(
+frame = mv.RigidBody("frame", "frame", "frame", FRAME_MASS, np.array([0.0, 0.0, 0.5]), 50 * np.eye(3))
+cab = mv.RigidBody("cab", "cabin", "cab", CAB_MASS, np.array([0.0, 0.0, 0.9]), 80 * np.eye(3))
+mount = mv.Spring(
     "mount",
     "mounts",
     ("cab", "frame"),
@@ -26,10 +21,10 @@ mount = Spring(
     stiffness=np.array([0.0, 0.0, STIFFNESS]),
 )
 
-system = assemble(Vehicle("two masses", (frame, cab), (mount,)))
-modes = solve_modes(system)
+system = mv.assemble(mv.Vehicle("two masses", (frame, cab), (mount,)))
+modes = mv.solve_modes(system)
 frequency_hz = modes.frequency_hz[-1]
-cab_energy = kinetic_energy(system, modes.shapes)["cab"][-1]
+cab_energy = mv.kinetic_energy(system, modes.shapes)["cab"][-1]
 cab_mass_share = CAB_MASS / (CAB_MASS + FRAME_MASS)
 
 if __name__ == "__main__":

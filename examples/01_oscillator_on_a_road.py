@@ -7,15 +7,8 @@ acceleration is known in closed form, (π/2) f_n W (1 + 4ζ²)/(2ζ): least at �
 
 import numpy as np
 
-from modeviz.dynamics.assembly import assemble
-from modeviz.dynamics.response import direct_response
-from modeviz.ride.psd import acceleration_psd, rms
-from modeviz.ride.roads import road_spectrum, track_forces
+import modeviz as mv
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Tyre
-from modeviz.vehicle.loads import Road
-from modeviz.vehicle.vehicle import Vehicle
 
 MASS, NATURAL_HZ, SPEED = 300.0, 1.5, 20.0
 WHITE = 1e-4  # g²/Hz
@@ -25,7 +18,7 @@ CENTER = np.array([0.0, -0.4, 0.6])
 omega_n = 2 * np.pi * NATURAL_HZ
 frequency_hz = np.geomspace(1e-3, 1e3, 2000) * NATURAL_HZ
 height_psd = WHITE * STANDARD_GRAVITY**2 / (2 * np.pi * frequency_hz) ** 4
-road = Road(
+road = mv.Road(
     "white",
     "white acceleration",
     SPEED,
@@ -36,20 +29,20 @@ road = Road(
 
 def ride(damping_ratio: float) -> float:
     """RMS acceleration of the mass, g."""
-    spring = Tyre(
+    spring = mv.Tyre(
         "spring",
         "springs",
-        ("seat", GROUND),
+        ("seat", "ground"),
         points=np.array([CENTER, CENTER]),
         stiffness=np.array([0.0, 0.0, MASS * omega_n**2]),
         damping=np.array([0.0, 0.0, 2 * damping_ratio * omega_n * MASS]),
     )
-    seat = RigidBody("seat", "cabin", "seat", MASS, CENTER, 10 * np.eye(3))
-    system = assemble(Vehicle("oscillator", (seat,), (spring,)))
-    forces = track_forces(system, frequency_hz, SPEED)
-    response = direct_response(system, frequency_hz, forces, system.motion("seat", CENTER)[[2]])
-    psd = acceleration_psd(frequency_hz, response, road_spectrum(road, frequency_hz, SPEED))
-    return float(rms(frequency_hz, psd, band=(frequency_hz[0], frequency_hz[-1]))[0])
+    seat = mv.RigidBody("seat", "cabin", "seat", MASS, CENTER, 10 * np.eye(3))
+    system = mv.assemble(mv.Vehicle("oscillator", (seat,), (spring,)))
+    forces = mv.track_forces(system, frequency_hz, SPEED)
+    response = mv.direct_response(system, frequency_hz, forces, system.motion("seat", CENTER)[[2]])
+    psd = mv.acceleration_psd(frequency_hz, response, mv.road_spectrum(road, frequency_hz, SPEED))
+    return float(mv.rms(frequency_hz, psd, band=(frequency_hz[0], frequency_hz[-1]))[0])
 
 
 def theory(damping_ratio: float) -> float:
