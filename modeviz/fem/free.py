@@ -200,5 +200,5 @@ def _orthonormal(u: Floats, mass: sp.csc_array, dependent: float = 1e-10) -> Flo
 def _signed(phi: Floats) -> Floats:
     """The same shapes with their largest entry positive, the first where several are as large."""
     sizes = np.abs(phi)
-    first = np.argmax(sizes > 0.99 * sizes.max(axis=0, initial=0.0), axis=0)
+    first = np.argmax(sizes > 0.99 * sizes.max(axis=0), axis=0)
     return phi * np.sign(phi[first, np.arange(phi.shape[1])])

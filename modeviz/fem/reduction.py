@@ -52,7 +52,7 @@ def guyan_reduction(matrices: Matrices, masters: np.ndarray) -> ReducedMatrices:
             f"{matrices.n_dofs - 1}"
         )
     R = _scaled_rigid_motions(matrices)
-    if len(masters) < N_RIGID or np.linalg.matrix_rank(R[masters]) < N_RIGID:
+    if np.linalg.matrix_rank(R[masters]) < N_RIGID:
         raise SolveError(
             f"masters: the {len(masters)} found don't hold the body, expected some that show every "
             "rigid motion"
