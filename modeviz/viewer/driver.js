@@ -87,7 +87,8 @@
     };
   }
 
-  // Skin takes the colours and the opacity of its body, glass the opacity; dressing keeps its own.
+  // Skin takes the colours and the opacity of its body, glass the opacity; dressing keeps its own. On
+  // colours the edges are black.
   function dress(material, colored, opacity) {
     const { own, skin } = material.userData;
     if (skin || own.opacity < 1) material.opacity = own.opacity * opacity;
@@ -99,6 +100,7 @@
       if (colored) material.color.setRGB(1, 1, 1);
       else material.color.copy(own.color);
     }
+    if (material.isLineBasicMaterial) material.color.copy(own.color).multiplyScalar(colored ? 0 : 1);
     material.needsUpdate = true;
   }
 

@@ -1,0 +1,201 @@
+"""Marks on the vehicle: its mounts, the selected group's card, response points and tyre patches."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import viser
+from viser.transforms import SO3
+
+from modeviz.units import factor
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS, Mount, MountGroup, MountRates
+from modeviz.vehicle.vehicle import Vehicle
+
+RUBBER, SELECTED, WASHER, BLUE = (236, 190, 96), (242, 140, 24), (60, 64, 70), (43, 124, 196)
+RADIUS, HEIGHT = 0.045, 0.085
+"""m, of the rubber of the largest marker but for half."""
+
+RING_RADIUS = 0.13
+CARD_OFFSET = np.array([0.36, -0.55, -0.44])
+"""m, from a mount to the card of its group: out to our side and down, clear of the vehicle."""
+
+PATCH = (0.14, 0.10)
+"""m, half length and half width of the ring around a tyre patch."""
+
+PER_MM = factor("N/mm", "stiffness")
+
+
+class MountMarker:
+    """A mount: rubber between two washers, along its own axes, with its name."""
+
+    def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup) -> None:
+        """Draws a mount at rest and not selected."""
+        self._label_text = _short_name(mount, group)
+        axes = SO3.from_matrix(mount.axes.T).wxyz
+        path = f"/mounts/{mount.name.replace('/', '-')}"
+        scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.points[0])
+        self._rubber = scene.add_cylinder(
+            f"{path}/rubber", RADIUS, HEIGHT, color=RUBBER, cast_shadow=False
+        )
+        self._washers = [
+            scene.add_cylinder(
+                f"{path}/{side}", 1.38 * RADIUS, 0.165 * HEIGHT, color=WASHER, cast_shadow=False
+            )
+            for side in ("above", "below")
+        ]
+        self._ring = scene.add_line_segments(
+            f"{path}/ring",
+            _ellipse(RING_RADIUS, RING_RADIUS),
+            SELECTED,
+            thickness=3.0,
+            thickness_units="screen",
+            visible=False,
+        )
+        self._label = scene.add_label(
+            f"{path}/name", self._label_text, anchor="bottom-center", font_screen_scale=0.85
+        )
+
+    def on_click(self, callback: Callable[[], None]) -> None:
+        """Calls back when the mount is clicked."""
+        self._rubber.on_click(lambda _: callback())
+        for washer in self._washers:
+            washer.on_click(lambda _: callback())
+
+    def show(self, share: float, selected: bool, carded: bool) -> None:
+        """Draws the mount by its share of the largest group's energy, and as selected or not.
+
+        Args:
+            share: 0 to 1.
+            selected: whether its group is.
+            carded: whether the group's card hangs on this mount and names it.
+        """
+        size = 0.6 + 0.9 * float(np.sqrt(share))
+        self._rubber.scale = size
+        self._rubber.color = SELECTED if selected else RUBBER
+        for washer, side in zip(self._washers, (1, -1), strict=True):
+            washer.scale = size
+            washer.position = (0.0, 0.0, side * 0.53 * HEIGHT * size)
+        self._ring.visible = selected
+        self._label.position = (0.0, 0.0, 1.2 * HEIGHT * size)
+        self._label.visible = not carded
+
+
+class Card:
+    """What there is to say of the selected group, beside one of its mounts."""
+
+    def __init__(self, scene: viser.SceneApi) -> None:
+        """Makes an empty card."""
+        self._label = scene.add_label("/card", "", anchor="top-left", visible=False)
+        self._line = scene.add_line_segments(
+            "/card line",
+            np.zeros((1, 2, 3), np.float32),
+            SELECTED,
+            thickness=2.0,
+            thickness_units="screen",
+            visible=False,
+        )
+
+    def show(self, text: str, mount: Floats) -> None:
+        """Hangs the card on a mount; an empty text puts it away."""
+        self._label.visible = self._line.visible = bool(text)
+        self._label.text = text
+        self._label.position = mount + CARD_OFFSET
+        self._line.points = np.array([[mount, mount + CARD_OFFSET]], np.float32)
+
+
+class Markers:
+    """All marks of a vehicle."""
+
+    def __init__(
+        self, scene: viser.SceneApi, vehicle: Vehicle, on_select: Callable[[str], None]
+    ) -> None:
+        """Draws them; `on_select` is called with the group of a clicked mount."""
+        self._groups = {group.name: group for group in vehicle.mount_groups}
+        self._mounts = {
+            name: [MountMarker(scene, mount, group) for mount in group.mounts]
+            for name, group in self._groups.items()
+        }
+        for name, markers in self._mounts.items():
+            for marker in markers:
+                marker.on_click(lambda name=name: on_select(name))
+        self._card = Card(scene)
+        _add_points(scene, vehicle)
+        _add_patches(scene, vehicle)
+
+    def show(
+        self, selected: str, rates: Mapping[str, MountRates], shares: Mapping[str, float], mode: str
+    ) -> None:
+        """Draws each group by its share of a mode's strain energy, and the selected one's card.
+
+        Args:
+            selected: name of a group, or "" for none.
+            rates: what the card says.
+            shares: of the mode's strain energy, by group.
+            mode: what the mode is called.
+        """
+        largest = max(shares.values(), default=0.0) or 1.0
+        for name, markers in self._mounts.items():
+            nearest = _nearest_to_us(self._groups[name])
+            for i, marker in enumerate(markers):
+                is_selected = name == selected
+                marker.show(shares[name] / largest, is_selected, is_selected and i == nearest)
+        group = self._groups.get(selected)
+        if group is None:
+            self._card.show("", np.zeros(3))
+        else:
+            text = card_text(group, rates[selected], shares[selected], mode)
+            self._card.show(text, group.mounts[_nearest_to_us(group)].points[0])
+
+
+def card_text(group: MountGroup, rates: MountRates, share: float, mode: str) -> str:
+    """What the card of a group says: name, mounts, rates in N/mm and share of a mode's energy."""
+    sides = " + ".join(mount.name.removeprefix(group.name).strip() for mount in group.mounts)
+    title = f"{group.name}  {group.label}" + (f", {sides}" if sides else "")
+    named = zip(DIRECTIONS, rates.as_tuple(), strict=True)
+    values = "  ".join(f"{direction} {rate / PER_MM:.0f}" for direction, rate in named)
+    return f"{title}\n{values} N/mm\n{100 * share:.0f} % of strain energy in {mode}"
+
+
+def _short_name(mount: Mount, group: MountGroup) -> str:
+    """The group's name and the initial of what tells its mounts apart: "C1 L"."""
+    side = mount.name.removeprefix(group.name).strip()
+    return f"{group.name} {side[:1].upper()}".strip()
+
+
+def _nearest_to_us(group: MountGroup) -> int:
+    return int(np.argmin([mount.points[0][1] for mount in group.mounts]))
+
+
+def _add_points(scene: viser.SceneApi, vehicle: Vehicle) -> None:
+    """The response points; only those on our side are named, which is enough and less to read."""
+    for point in vehicle.response_points:
+        path = f"/points/{point.name.replace('/', '-')}"
+        scene.add_icosphere(path, 0.038, BLUE, position=point.position, cast_shadow=False)
+        if point.position[1] <= 0:
+            scene.add_label(
+                f"{path}/name",
+                point.name,
+                position=(0.0, 0.0, 0.05),
+                anchor="bottom-center",
+                font_screen_scale=0.8,
+            )
+
+
+def _add_patches(scene: viser.SceneApi, vehicle: Vehicle) -> None:
+    for tyre in vehicle.tyres:
+        x, y, _ = tyre.points[1]
+        scene.add_line_segments(
+            f"/patches/{tyre.name.replace('/', '-')}",
+            _ellipse(*PATCH),
+            BLUE,
+            thickness=2.0,
+            thickness_units="screen",
+            position=(x, y, 0.004),
+        )
+
+
+def _ellipse(along_x: float, along_y: float) -> np.ndarray:
+    """A closed ellipse as line segments, (48, 2, 3)."""
+    angle = np.linspace(0, 2 * np.pi, 49)
+    points = np.stack([along_x * np.cos(angle), along_y * np.sin(angle), 0 * angle], axis=1)
+    return np.stack([points[:-1], points[1:]], axis=1).astype(np.float32)

@@ -1,0 +1,135 @@
+"""The vehicle in the middle of the page: its bodies in a moving shape, its marks, the stage."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from modeviz.shapes.colors import displacement_colors
+from modeviz.shapes.gltf import glb
+from modeviz.shapes.motion import DRAWN_FRACTION, default_amplitude, displacement, vertex_shapes
+from modeviz.shapes.surface import Surface, surface
+from modeviz.vehicle.bodies import Body, FlexibleBody
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.driver import ShapeDriver
+from modeviz.viewer.markers import Markers
+from modeviz.viewer.session import Solved
+from modeviz.viewer.stage import DARK, FIELD_OF_VIEW, ISO, LIGHT, Stage, Theme, box, camera
+
+SHEET_ROLES = ("cabin", "bed")
+"""Bodies that hide others: they are seen through, and their outlines at rest are drawn."""
+
+SEE_THROUGH = 0.5
+
+
+class Scene:
+    """A vehicle on its stage. Handles are made once; what changes is assigned."""
+
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        vehicle: Vehicle,
+        dark: bool,
+        on_select: Callable[[str], None],
+    ) -> None:
+        """Draws a vehicle at rest.
+
+        Args:
+            server: where, for all its pages.
+            vehicle: what.
+            dark: whether the page is.
+            on_select: called with the group of a clicked mount.
+        """
+        scene, theme = server.scene, DARK if dark else LIGHT
+        self._vehicle, self._box = vehicle, box(vehicle)
+        self._server = server
+        self._stage = Stage(scene, self._box, theme)
+        self.driver = ShapeDriver(scene)
+        self._surfaces = {body.name: surface(body.mesh) for body in vehicle.bodies if body.mesh}
+        self._shapes = {
+            body.name: vertex_shapes(body, self._surfaces[body.name].vertices)
+            for body in self._drawn_bodies()
+        }
+        for body in self._drawn_bodies():
+            _add_body(self.driver, body, self._surfaces[body.name], theme)
+        self._ghosts = [
+            _add_ghost(scene, body, self._surfaces[body.name], theme)
+            for body in self._drawn_bodies()
+            if body.role in SHEET_ROLES
+        ]
+        self._markers = Markers(scene, vehicle, on_select)
+        self._aim_cameras()
+
+    def show(self, solved: Solved) -> None:
+        """Draws the answer of a session: its mode's shape and energy, and how it wants to be seen."""
+        state, system = solved.state, solved.now.system
+        coordinates = {name: solved.shape[dofs] for name, dofs in system.dofs.items()}
+        shares = {
+            group: float(solved.now.strain_energy[group][solved.mode]) for group in system.vehicle.rates
+        }
+        with self._server.atomic():
+            self.show_shape(coordinates, state.coloring == "displacement")
+            self.show_style(state.coloring == "displacement", state.see_through, state.ghost)
+            mode = solved.now.names[solved.mode].name
+            self._markers.show(state.group, system.vehicle.rates, shares, mode)
+
+    def show_shape(self, coordinates: Mapping[str, NDArray], colored: bool) -> None:
+        """Sends the page a shape, scaled so that it is clear to see at the driver's amplitude of one.
+
+        Args:
+            coordinates: of every body by name, (n_coordinates,), real or complex.
+            colored: whether bodies have the colours of their displacement.
+        """
+        shapes = {name: displacement(s, coordinates[name]) for name, s in self._shapes.items()}
+        scale = default_amplitude(shapes.values(), self._box.length)
+        largest = DRAWN_FRACTION * self._box.length
+        for name, shape in shapes.items():
+            drawn = scale * shape
+            colors = displacement_colors(drawn, largest) if colored else None
+            self.driver.show(_path(name), drawn, colors)
+
+    def show_style(self, colored: bool, see_through: bool, ghost: bool) -> None:
+        """Chooses light and transparency, and whether the outlines at rest are there."""
+        self._stage.light(colored)
+        opacity = SEE_THROUGH if see_through and not colored else 1.0
+        for body in self._drawn_bodies():
+            if body.role in SHEET_ROLES:
+                self.driver.set_opacity(_path(body.name), opacity)
+        for outline in self._ghosts:
+            outline.visible = ghost
+
+    def look(self, client: viser.ClientHandle, view: str) -> None:
+        """Turns a page's camera to one of `stage.VIEWS`."""
+        position, look_at = camera(self._box, view, client.camera.aspect)
+        with client.atomic():
+            client.camera.position = position
+            client.camera.look_at = look_at
+
+    def _drawn_bodies(self) -> list[Body]:
+        return [body for body in self._vehicle.bodies if body.name in self._surfaces]
+
+    def _aim_cameras(self) -> None:
+        """Points the cameras of pages to come at the vehicle, from as far as they are narrow."""
+        initial = self._server.initial_camera
+        initial.position, initial.look_at = camera(self._box, ISO, aspect=1.0)
+        initial.fov = FIELD_OF_VIEW
+        self._server.on_client_connect(lambda client: self.look(client, ISO))
+
+
+def _path(body: str) -> str:
+    return f"/vehicle/{body.replace('/', '-')}"
+
+
+def _add_body(driver: ShapeDriver, body: Body, drawn: Surface, theme: Theme) -> None:
+    edge_color = theme.edges if isinstance(body, FlexibleBody) else None
+    driver.add(_path(body.name), glb(drawn, edge_color), len(drawn.vertices), cast_shadow=True)
+
+
+def _add_ghost(
+    scene: viser.SceneApi, body: Body, drawn: Surface, theme: Theme
+) -> viser.LineSegmentsHandle:
+    """The outlines of a body at rest."""
+    points = drawn.vertices[drawn.edges].astype(np.float32)
+    path = f"/ghost/{body.name.replace('/', '-')}"
+    return scene.add_line_segments(path, points, theme.ghost, thickness=1.0, thickness_units="screen")

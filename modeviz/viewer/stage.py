@@ -1,0 +1,161 @@
+"""The stage: light, background, ground and camera, all placed by the size of the vehicle."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import viser
+
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.vehicle import Vehicle
+
+Color = tuple[int, int, int]
+
+FIELD_OF_VIEW = 0.52
+"""rad, vertical: that of a long lens, which keeps a vehicle's lines nearly parallel."""
+
+ISO = "Iso"
+VIEWS: Mapping[str, tuple[tuple[float, float, float], float]] = {
+    ISO: ((-4.6, -6.1, 2.75), 1.0),
+    "Side": ((0.0, -1.0, 0.08), 1.06),
+    "Front": ((-1.0, 0.0, 0.12), 0.78),
+    "Top": ((0.0, -0.02, 1.0), 1.06),
+    "Under": ((0.0, -0.02, -1.0), 1.06),
+}
+"""From which direction, and from how far in parts of `Box.distance`; the driver's side faces us."""
+
+
+@dataclass(frozen=True)
+class Theme:
+    """The colours of an empty stage."""
+
+    top: Color
+    bottom: Color
+    cells: Color
+    sections: Color
+    shadow: float
+    """Opacity of shadows on the ground."""
+    edges: Color
+    """The deformed borders and folds of a body."""
+    ghost: Color
+    """Those at rest."""
+
+
+LIGHT = Theme(
+    top=(223, 229, 235),
+    bottom=(250, 251, 252),
+    cells=(214, 220, 226),
+    sections=(196, 204, 212),
+    shadow=0.16,
+    edges=(30, 36, 44),
+    ghost=(120, 132, 146),
+)
+DARK = Theme(
+    top=(24, 28, 33),
+    bottom=(40, 46, 53),
+    cells=(70, 78, 88),
+    sections=(84, 93, 104),
+    shadow=0.28,
+    edges=(190, 200, 212),
+    ghost=(150, 160, 172),
+)
+
+
+@dataclass(frozen=True)
+class Box:
+    """The space a vehicle takes at rest."""
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+
+    @property
+    def length(self) -> float:
+        return max(self.high[0] - self.low[0], self.high[1] - self.low[1], 0.1)
+
+    @property
+    def look_at(self) -> Floats:
+        """Its middle, a little low: what matters are the mounts, and the card stands below."""
+        low, high = np.array(self.low), np.array(self.high)
+        return low + (high - low) * (0.5, 0.5, 0.3)
+
+    @property
+    def distance(self) -> float:
+        """From where it fills a camera that is as wide as it is high."""
+        return 2.1 * self.length
+
+
+def box(vehicle: Vehicle) -> Box:
+    """The space a vehicle takes: its meshes, or its connections if nothing is drawn."""
+    points = [part.vertices for body in vehicle.bodies for part in body.mesh]
+    points += [connection.points for connection in vehicle.all_connections]
+    everything = np.concatenate([*points, np.zeros((1, 3))])
+    return Box(tuple(everything.min(axis=0).tolist()), tuple(everything.max(axis=0).tolist()))
+
+
+def camera(box: Box, view: str, aspect: float) -> tuple[Floats, Floats]:
+    """Where the camera is and what it looks at, for one of `VIEWS`, m.
+
+    Args:
+        box: what to show.
+        view: one of `VIEWS`.
+        aspect: width over height of the picture; a narrow one is looked at from further away.
+    """
+    direction, factor = VIEWS[view]
+    distance = factor * box.distance * max(1.0, 0.98 / aspect)
+    return box.look_at + distance * np.array(direction) / np.linalg.norm(direction), box.look_at
+
+
+class Stage:
+    """Light, background and ground of a scene."""
+
+    def __init__(self, scene: viser.SceneApi, box: Box, theme: Theme) -> None:
+        """Sets the stage for a vehicle of that size."""
+        self._scene = scene
+        self._colored: bool | None = None
+        scene.set_up_direction("+z")
+        scene.world_axes.visible = False
+        scene.set_background_image(_gradient(theme), format="png")
+        scene.configure_default_lights(enabled=False)
+        self._key = scene.add_light_directional(
+            "/light/key", color=(255, 250, 242), cast_shadow=True, position=(-5.0, -7.0, 10.0)
+        )
+        scene.add_light_directional(
+            "/light/fill", color=(226, 236, 255), intensity=0.35, position=(6.0, 8.0, 5.0)
+        )
+        self._sky = scene.add_light_hemisphere(
+            "/light/sky", sky_color=(244, 248, 255), ground_color=(150, 150, 150)
+        )
+        _add_ground(scene, box, theme)
+        self.light(colored=False)
+
+    def light(self, colored: bool) -> None:
+        """Lights shining bodies, or dimmer ones whose colours mean something."""
+        if colored == self._colored:
+            return
+        self._colored = colored
+        self._key.intensity = 1.1 if colored else 2.0
+        self._sky.intensity = 0.4 if colored else 0.6
+        environment = 0.28 if colored else 0.55
+        self._scene.configure_environment_map("studio", environment_intensity=environment)
+
+
+def _gradient(theme: Theme) -> np.ndarray:
+    down = np.linspace(0, 1, 256)[:, None, None]
+    colors = np.array(theme.top) * (1 - down) + np.array(theme.bottom) * down
+    return np.repeat(colors.round().astype(np.uint8), 16, axis=1)
+
+
+def _add_ground(scene: viser.SceneApi, box: Box, theme: Theme) -> None:
+    scene.add_grid(
+        "/ground",
+        width=round(2.6 * box.length),
+        height=round(1.9 * box.length),
+        position=(float(box.look_at[0]), float(box.look_at[1]), 0.0),
+        cell_color=theme.cells,
+        cell_thickness=0.6,
+        section_color=theme.sections,
+        section_thickness=0.8,
+        fade_distance=3 * box.length,
+        fade_strength=2.0,
+        shadow_opacity=theme.shadow,
+    )
