@@ -26,6 +26,7 @@ class PsdPlot:
         self._now_color = "#5aa9ea" if dark else "#2b7cc4"
         base_color = "#8a95a1" if dark else "#98a2ad"
         self._text_color = "#b4bcc6" if dark else "#5b6670"
+        self._frame: tuple[int, int, tuple[float, ...]] = (-80, -20, ())
         empty = np.full(len(self._f), -60.0)
         self._chart = gui.add_uplot(
             (self._f, empty, empty),
@@ -39,8 +40,8 @@ class PsdPlot:
                     "points": {"show": False},
                 },
             ),
-            scales=self._scales(-80, -20),
-            axes=self._axes(-80, -20, ()),
+            scales=self._scales(*self._frame[:2]),
+            axes=self._axes(*self._frame),
             legend={"show": False},
             cursor={"sync": {"key": "psd"}, "drag": {"x": True, "y": False}},
             padding=(0, 18, 0, 0),
@@ -56,10 +57,12 @@ class PsdPlot:
             peaks_hz: where to mark a peak.
         """
         curves = [power_decibels(psd)[self._inside] for psd in (base, now)]
-        low, high = _range(curves)
         self._chart.data = (self._f, *curves)
-        self._chart.scales = self._scales(low, high)
-        self._chart.axes = self._axes(low, high, peaks_hz)
+        frame = (*_range(curves), tuple(round(f, 1) for f in peaks_hz))
+        if frame != self._frame:  # a chart with other axes is built anew and forgets its zoom
+            low, high, peaks = self._frame = frame
+            self._chart.scales = self._scales(low, high)
+            self._chart.axes = self._axes(low, high, peaks)
 
     def _scales(self, low: int, high: int) -> dict:
         return {"x": {"time": False, "range": SHOWN_HZ}, "y": {"range": (low, high)}}

@@ -1,0 +1,84 @@
+"""The floating card: the shown mode and how it moves. Nothing here solves anything."""
+
+from collections.abc import Callable
+
+import numpy as np
+import viser
+
+from modeviz.viewer.driver import ShapeDriver
+from modeviz.viewer.html import block, heading, sentence_case, span, style_sheet
+from modeviz.viewer.session import Solved
+
+START_SPEED_HZ = 0.5
+START_PHASE = 90.0
+PLAY, PAUSE, PREVIOUS, NEXT = "Play", "Pause", "◀ Mode", "Mode ▶"
+
+
+class AnimationCard:
+    """Name and frequency of the shown mode, amplitude, speed, phase, play, previous and next."""
+
+    def __init__(
+        self, gui: viser.GuiApi, driver: ShapeDriver, step_mode: Callable[[int], None]
+    ) -> None:
+        """Builds the controls and sets the shapes in motion.
+
+        Args:
+            gui: where.
+            driver: what moves the shapes.
+            step_mode: shows the next mode (+1) or the one before (-1).
+        """
+        self._driver, self._step_mode = driver, step_mode
+        self._style = style_sheet()
+        # The page's style sheet is in this element because it is always there.
+        self._head = gui.add_html(self._style)
+        self._amplitude = gui.add_slider(
+            "Amplitude", 0.0, 3.0, 0.05, 1.0, marks=(1.0,), hint="How far the shape is drawn"
+        )
+        self._speed = gui.add_slider(
+            "Speed",
+            0.0,
+            2.0,
+            0.05,
+            START_SPEED_HZ,
+            marks=(START_SPEED_HZ,),
+            hint="Cycles a second on screen",
+        )
+        self._phase = gui.add_slider(
+            "Phase",
+            0.0,
+            360.0,
+            5.0,
+            START_PHASE,
+            marks=(90.0, 180.0, 270.0),
+            hint="Stops at this phase, degrees",
+        )
+        self._transport = gui.add_button_group(
+            "Motion", (PAUSE, PREVIOUS, NEXT), hint="Stop or go on; the mode before or after this one"
+        )
+        self._amplitude.on_update(lambda _: driver.drive(amplitude=self._amplitude.value))
+        self._speed.on_update(lambda _: driver.drive(frequency_hz=self._speed.value))
+        self._phase.on_update(lambda _: self._hold())
+        self._transport.on_click(lambda _: self._press(self._transport.value))
+        driver.drive(frequency_hz=START_SPEED_HZ, running=True)
+
+    def show(self, solved: Solved) -> None:
+        """Names an answer's shown mode."""
+        modes, i = solved.now.modes, solved.mode
+        name = sentence_case(solved.now.names[i].name)
+        title = f'<span class="title">{name}  {modes.frequency_hz[i]:.2f} Hz</span>'
+        about = span(f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %", "dim")
+        self._head.content = self._style + block(heading(title, about))
+
+    def _hold(self) -> None:
+        self._run(False)
+        self._driver.seek(np.deg2rad(self._phase.value))
+
+    def _run(self, running: bool) -> None:
+        self._driver.drive(running=running)
+        self._transport.options = (PAUSE if running else PLAY, PREVIOUS, NEXT)
+
+    def _press(self, button: str) -> None:
+        if button in (PREVIOUS, NEXT):
+            self._step_mode(1 if button == NEXT else -1)
+        else:
+            self._run(button == PLAY)

@@ -1,0 +1,145 @@
+"""Right column, lower part: the modes and where the shown one has its energy."""
+
+import viser
+
+from modeviz.dynamics.naming import ModeName
+from modeviz.tuning.results import Results
+from modeviz.viewer.html import (
+    HiddenButtons,
+    block,
+    heading,
+    row,
+    sentence_case,
+    signed,
+    span,
+    table,
+)
+from modeviz.viewer.plots import ladder
+from modeviz.viewer.session import Session, Solved
+
+LISTED_HZ = (0.5, 21.0)
+"""Below, something moves freely; above, the ride ends."""
+
+N_ROWS = 40
+BODY_COLORS = ("#c4704e", "#4a749e", "#5c8668", "#9499a0", "#5d656f", "#b59a5a", "#7d6b8f", "#8a8378")
+
+
+class ModesPanel:
+    """The ladder of frequencies and a table whose rows show their mode when clicked."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Builds the table; `show` fills it."""
+        self._names: list[str] = []
+        self._buttons = HiddenButtons(gui, N_ROWS, lambda i: session.change(mode=self._names[i]))
+        self._content = gui.add_html("")
+
+    def show(self, solved: Solved) -> None:
+        """Lists the modes of an answer."""
+        base = {name.name: f for name, f in listed(solved.base).values()}
+        now = {name.name: f for name, f in listed(solved.now).values()}
+        self._names = list(now)[:N_ROWS]
+        rows = [
+            row(self._cells(i, mode, solved.now, base), chosen=mode == solved.mode)
+            for i, mode in enumerate(list(listed(solved.now))[:N_ROWS])
+        ]
+        drawing = ladder(base, now, solved.now.names[solved.mode].name)
+        self._content.content = block(drawing, table(("Mode", "Hz", "Δ Hz", "ζ %", "moves most"), rows))
+
+    def _cells(self, i: int, mode: int, now: Results, base: dict[str, float]) -> list[str]:
+        name, f = now.names[mode].name, now.modes.frequency_hz[mode]
+        change = f - base[name] if name in base else None
+        moved = max(now.kinetic_energy, key=lambda b: now.kinetic_energy[b][mode])
+        share = now.kinetic_energy[moved][mode]
+        return [
+            self._buttons.label(i, sentence_case(name)),
+            f"{f:.2f}",
+            span("new" if change is None else signed(change, 2), "dim" if not change else ""),
+            f"{100 * now.modes.damping_ratio[mode]:.1f}",
+            span(f"{now.vehicle.body(moved).label} {100 * share:.0f} %", "dim"),
+        ]
+
+
+class EnergyPanel:
+    """Kinetic energy of the shown mode by body, strain energy by mount group."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        """Makes room; `show` fills it."""
+        self._content = gui.add_html("")
+
+    def show(self, solved: Solved) -> None:
+        """Draws the shares of an answer's shown mode."""
+        name = sentence_case(solved.now.names[solved.mode].name)
+        self._content.content = block(
+            heading(f"{name}: kinetic energy by body"),
+            _kinetic(solved.now, solved.mode),
+            _strain(solved),
+        )
+
+
+def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
+    """The modes of the ride band by index: name and frequency."""
+    return {
+        i: (results.names[i], float(f))
+        for i, f in enumerate(results.modes.frequency_hz)
+        if LISTED_HZ[0] < f < LISTED_HZ[1]
+    }
+
+
+def _kinetic(results: Results, mode: int) -> str:
+    """One bar in the colours of the bodies, and its legend."""
+    shares = sorted(((e[mode], body) for body, e in results.kinetic_energy.items()), reverse=True)
+    shown = [
+        (share, results.vehicle.body(body).label, BODY_COLORS[i])
+        for i, (share, body) in enumerate(shares[: len(BODY_COLORS)])
+        if share > 0.01
+    ]
+    bars = "".join(
+        f'<i style="width:{100 * share:.1f}%;background:{color}" '
+        f'title="{label} {100 * share:.0f} %"></i>'
+        for share, label, color in shown
+    )
+    legend = " &nbsp; ".join(
+        f'<span style="white-space:nowrap"><i class="swatch" style="background:{color}"></i>'
+        f"{sentence_case(label)} {100 * share:.0f} %</span>"
+        for share, label, color in shown
+    )
+    return (
+        f'<div class="bar" style="height:11px">{bars}</div>'
+        f'<div style="font-size:11px;margin:4px 0 8px">{legend}</div>'
+    )
+
+
+def _strain(solved: Solved) -> str:
+    """A table of the mount groups: their share now and with the original rates."""
+    name = solved.now.names[solved.mode].name
+    before = solved.base.mode_index(name)
+    groups = [g.name for g in solved.now.vehicle.mount_groups]
+    now = {g: solved.now.strain_energy[g][solved.mode] for g in groups}
+    base = {g: solved.base.strain_energy[g][before] if before is not None else 0.0 for g in groups}
+    largest = max([*now.values(), *base.values(), 1e-9])
+    rows = [
+        row(
+            [
+                g,
+                _bars(now[g] / largest, base[g] / largest),
+                _percent(now[g]),
+                span(_percent(base[g]), "dim"),
+            ],
+            chosen=g == solved.state.group,
+        )
+        for g in groups
+    ]
+    return table(("Strain energy by mount group", "", "now", "original"), rows)
+
+
+def _bars(now: float, base: float) -> str:
+    """The share now above the one before, as parts of the largest."""
+    return "".join(
+        f'<div class="bar" style="height:{height}px;width:240px;margin-top:1px">'
+        f'<i style="width:{100 * share:.1f}%;background:var({color})"></i></div>'
+        for share, height, color in ((now, 6, "--mv-now"), (base, 3, "--mv-base"))
+    )
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.0f} %"

@@ -1,0 +1,117 @@
+"""Left column: the mount groups and their rates."""
+
+from collections.abc import Callable
+from dataclasses import fields
+
+import viser
+
+from modeviz.units import factor
+from modeviz.vehicle.connections import DIRECTIONS, MountGroup, MountRates, Rates
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.html import sentence_case, signed
+from modeviz.viewer.session import Session, Solved
+from modeviz.viewer.settle import WriteBack
+
+FIELDS = tuple(f.name for f in fields(MountRates))
+"""In the order of `DIRECTIONS`."""
+
+PER_MM = factor("N/mm", "stiffness")
+
+
+class MountsPanel:
+    """A folder for each mount group with a slider, N/mm, for each direction."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session, set_rates: Callable[[Rates], None]) -> None:
+        """Builds the controls.
+
+        Args:
+            gui: where.
+            session: what the sliders change.
+            set_rates: sets rates in the session and on every slider.
+        """
+        self._vehicle, self._session = session.vehicle, session
+        self._write_back = WriteBack()
+        self._folders: dict[str, viser.GuiFolderHandle] = {}
+        self._sliders: dict[tuple[str, str], viser.GuiInputHandle[float]] = {}
+        self._add_presets(gui, set_rates)
+        for group in self._vehicle.mount_groups:
+            self._add_group(gui, group)
+
+    def set_rates(self, rates: Rates) -> None:
+        """Puts rates that were not chosen with a slider on the sliders."""
+        for group, its_rates in rates.items():
+            for name in FIELDS:
+                self._sliders[group, name].value = getattr(its_rates, name) / PER_MM
+
+    def show(self, solved: Solved) -> None:
+        """Marks what was changed, and each group's share of the shown mode's energy."""
+        shown = solved.now.names[solved.mode].name
+        for group in self._vehicle.mount_groups:
+            share = solved.now.strain_energy[group.name][solved.mode]
+            self._folders[
+                group.name
+            ].label = f"{group.name}  {group.label}  ·  {100 * share:.0f} % of {shown} energy"
+            now = solved.state.rates[group.name]
+            for name, direction in zip(FIELDS, DIRECTIONS, strict=True):
+                label = _label(direction, getattr(now, name), getattr(group.rates, name))
+                self._sliders[group.name, name].label = label
+
+    def _add_presets(self, gui: viser.GuiApi, set_rates: Callable[[Rates], None]) -> None:
+        sets = rate_sets(self._vehicle)
+        load = gui.add_button_group("Load", tuple(sets), hint="Sets every rate to a known set")
+        load.on_click(lambda _: set_rates(sets[load.value]))
+        reset = gui.add_button_group(
+            "Reset", ("Selected group", "All"), hint="Back to the vehicle's own rates"
+        )
+
+        @reset.on_click
+        def _(_) -> None:
+            own, group = self._vehicle.rates, self._session.state.group
+            set_rates(own if reset.value == "All" else {group: own[group]})
+
+    def _add_group(self, gui: viser.GuiApi, group: MountGroup) -> None:
+        self._folders[group.name] = folder = gui.add_folder(f"{group.name}  {group.label}")
+        with folder:
+            for name, direction in zip(FIELDS, DIRECTIONS, strict=True):
+                self._sliders[group.name, name] = self._add_slider(gui, group, name, direction)
+
+    def _add_slider(
+        self, gui: viser.GuiApi, group: MountGroup, name: str, direction: str
+    ) -> viser.GuiInputHandle[float]:
+        own = getattr(group.rates, name) / PER_MM
+        softest, stiffest = (getattr(bound, name) / PER_MM for bound in group.bounds)
+        start = getattr(self._session.state.rates[group.name], name) / PER_MM
+        slider = gui.add_slider(
+            sentence_case(direction),
+            min=float(round(min(softest, start))),
+            max=float(round(max(stiffest, start))),
+            step=1.0,
+            initial_value=float(start),
+            marks=(float(round(own)),),
+            hint=f"{group.name} {group.label}, {direction} rate in N/mm; original {own:.0f}",
+        )
+
+        @slider.on_update
+        def _(event: viser.GuiEvent) -> None:
+            if event.client is None:
+                return
+            self._write_back.touch(slider)
+            self._session.change(group=group.name)
+            self._session.set_rate(group.name, name, slider.value * PER_MM)
+
+        return slider
+
+
+def rate_sets(vehicle: Vehicle) -> dict[str, Rates]:
+    """Every set of rates that can be loaded, under the name on its button."""
+    sets: dict[str, Rates] = {"Original": vehicle.rates}
+    for name, rates in vehicle.rate_sets.items():
+        sets.setdefault(sentence_case(name), {**vehicle.rates, **rates})
+    return sets
+
+
+def _label(direction: str, now: float, own: float) -> str:
+    """A direction, and its change in percent where there is one."""
+    percent = 100 * (now / own - 1) if own else 0.0
+    change = f"  {signed(percent, 0, ' %')}" if abs(percent) >= 0.5 else ""
+    return sentence_case(direction) + change

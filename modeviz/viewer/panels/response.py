@@ -1,0 +1,182 @@
+"""Right column, upper part: what the rates do to the ride."""
+
+import math
+from collections.abc import Sequence
+
+import viser
+
+from modeviz.ride.participation import Peak
+from modeviz.ride.psd import rms
+from modeviz.tuning.results import AXIS, FREQUENCY_HZ, Conditions, Results
+from modeviz.units import factor
+from modeviz.vehicle.loads import Road
+from modeviz.viewer.html import block, change, heading, number, sentence_case, signed, span
+from modeviz.viewer.plots import PsdPlot
+from modeviz.viewer.session import Session, Solved
+from modeviz.viewer.settle import WriteBack
+
+DIRECTIONS = ("lateral", "vertical")
+"""What is drawn at the driver's point, top down."""
+
+SHORT = {"lateral": "Lat.", "vertical": "Vert."}
+
+BAND = (11.0, 17.0)
+"""Hz: where the paper's optimised mounts act on the lateral response."""
+
+PEAK_BAND = (5.0, 25.0)
+"""Hz: below it mounts do nothing (Duncan, "The requirement")."""
+
+PEAK_GAP_HZ = 2.0
+SPEEDS = (20, 160)
+"""km/h: what is of interest."""
+
+N_PEAKS = 2
+N_CONTRIBUTORS = 3
+DRIVER = 0
+"""The response point that is shown: the vehicle's first."""
+
+
+class ResponsePanel:
+    """Four figures, the PSDs at the driver's point, and the modes in their peaks."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session, dark: bool) -> None:
+        """Builds the charts; `show` fills them."""
+        self._session = session
+        self._figures = gui.add_html("")
+        self._headings: dict[str, viser.GuiHtmlHandle] = {}
+        self._plots: dict[str, PsdPlot] = {}
+        for direction in DIRECTIONS:
+            self._headings[direction] = gui.add_html("")
+            self._plots[direction] = PsdPlot(gui, FREQUENCY_HZ, dark)
+        gui.add_html(block(heading("Peaks and the modes in them", "click a mode to see it move")))
+        self._peaks = {
+            (direction, i): PeakRow(gui, session) for direction in DIRECTIONS for i in range(N_PEAKS)
+        }
+
+    def show(self, solved: Solved) -> None:
+        """Draws an answer."""
+        base, now = solved.base, solved.now
+        self._figures.content = block(_figures(base, now))
+        point = now.vehicle.response_points[DRIVER].name
+        for direction in DIRECTIONS:
+            shown = strongest(now.peaks(DRIVER, direction, N_CONTRIBUTORS))
+            self._headings[direction].content = block(self._heading(point, direction, now))
+            self._plots[direction].show(
+                base.response(DRIVER, direction),
+                now.response(DRIVER, direction),
+                [p.frequency_hz for p in shown],
+            )
+            for i in range(N_PEAKS):
+                peak = shown[i] if i < len(shown) else None
+                self._peaks[direction, i].show(direction, peak, now)
+
+    def _heading(self, point: str, direction: str, now: Results) -> str:
+        left = f"{sentence_case(point)}, {direction} {span('dB re 1 g²/Hz', 'dim')}"
+        if direction == DIRECTIONS[0]:
+            return heading(
+                left,
+                '<i class="swatch" style="background:var(--mv-base)"></i>original &nbsp; '
+                '<i class="swatch" style="background:var(--mv-now)"></i>current',
+            )
+        speed = now.conditions.speed / factor("km/h", "speed")
+        return heading(left, f"{now.conditions.road}, {speed:.0f} km/h")
+
+
+class PeakRow:
+    """One peak: a button for each of the modes that make it."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Makes an empty row."""
+        self._modes: dict[str, str] = {}
+        self._buttons = gui.add_button_group("-", ("-",), hint="Share of each mode, largest first")
+        self._buttons.on_click(lambda _: session.change(mode=self._modes[self._buttons.value]))
+
+    def show(self, direction: str, peak: Peak | None, now: Results) -> None:
+        """Shows a peak, or nothing."""
+        self._buttons.visible = peak is not None
+        if peak is None:
+            return
+        names = [now.names[c.mode].name for c in peak.contributors]
+        texts = [
+            f"{sentence_case(name)} {c.ratio:.2f}"
+            for name, c in zip(names, peak.contributors, strict=True)
+        ]
+        self._modes = dict(zip(texts, names, strict=True))
+        self._buttons.label = f"{SHORT[direction]} {peak.frequency_hz:.1f} Hz"
+        self._buttons.options = tuple(texts)
+
+
+class RoadPanel:
+    """Which road, and how fast."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Builds the controls."""
+        self._session = session
+        labels = {road.label: road.name for road in session.vehicle.roads}
+        start = session.state.conditions
+        current = next(label for label, name in labels.items() if name == start.road)
+        road = gui.add_dropdown(
+            "Road", tuple(labels), initial_value=current, hint="What is driven over"
+        )
+        slowest, fastest = _speed_limits(session.vehicle.roads)
+        at_first = min(max(round(start.speed / factor("km/h", "speed")), slowest), fastest)
+        speed = gui.add_slider(
+            "Speed, km/h",
+            min=float(slowest),
+            max=float(fastest),
+            step=1.0,
+            initial_value=float(at_first),
+            hint="The same road at another speed; the rear wheels follow the front ones sooner",
+        )
+        write_back = WriteBack()
+
+        def changed(event: viser.GuiEvent) -> None:
+            if event.client is not None:
+                write_back.touch(event.target)
+                new = Conditions(labels[road.value], speed.value * factor("km/h", "speed"))
+                session.change(conditions=new)
+
+        road.on_update(changed)
+        speed.on_update(changed)
+
+
+def _speed_limits(roads: Sequence[Road]) -> tuple[int, int]:
+    """The speeds, whole km/h within `SPEEDS`, at which every road's table holds the whole band."""
+    slowest = max(FREQUENCY_HZ[-1] / road.frequency_hz[-1] * road.speed for road in roads)
+    fastest = min(FREQUENCY_HZ[0] / road.frequency_hz[0] * road.speed for road in roads)
+    per_kmh = factor("km/h", "speed")
+    return max(math.ceil(slowest / per_kmh), SPEEDS[0]), min(math.floor(fastest / per_kmh), SPEEDS[1])
+
+
+def strongest(peaks: tuple[Peak, ...]) -> list[Peak]:
+    """The `N_PEAKS` highest peaks of the ride band that stand apart, in rising frequency."""
+    chosen: list[Peak] = []
+    for peak in sorted(peaks, key=lambda p: -p.psd):
+        apart = all(abs(peak.frequency_hz - c.frequency_hz) > PEAK_GAP_HZ for c in chosen)
+        if PEAK_BAND[0] <= peak.frequency_hz <= PEAK_BAND[1] and apart:
+            chosen.append(peak)
+    return sorted(chosen[:N_PEAKS], key=lambda p: p.frequency_hz)
+
+
+def _figures(base: Results, now: Results) -> str:
+    """The rating and three RMS values with their change against the base."""
+    rating, before = now.rating.mean_personal_rating, base.rating.mean_personal_rating
+    better = span(f"{signed(rating - before, 2)} points", _kind(rating - before))
+    figures = [("Ride rating", number(rating, 2), "MPR", better)]
+    for direction in DIRECTIONS:
+        axis = AXIS[direction]
+        value, original = now.rms[DRIVER, axis], base.rms[DRIVER, axis]
+        figures.append((f"Seat {direction}", f"{value:.3f}", "g", change(value, original)))
+    value, original = (
+        float(rms(r.frequency_hz, r.response(DRIVER, "lateral"), BAND)) for r in (now, base)
+    )
+    figures.append((f"Lat. {BAND[0]:g}–{BAND[1]:g} Hz", f"{value:.3f}", "g", change(value, original)))
+    cells = "".join(
+        f"<div><span>{label}</span><b>{value} <small>{unit}</small></b>{delta}</div>"
+        for label, value, unit, delta in figures
+    )
+    return f'<div class="figures" title="{now.rating.note}">{cells}</div>'
+
+
+def _kind(gain: float) -> str:
+    return "dim" if abs(gain) < 0.005 else "good" if gain > 0 else "bad"
