@@ -7,10 +7,9 @@ import numpy as np
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import GROUND, Bolt, Connection, Damper, Spring, Tyre
 from pickup import box
-from pickup.parameters import Parameters
+from pickup.parameters import WHEELBASE, Parameters
 from pickup.sides import SIDES, Place, Side, on_side
 
-WHEELBASE = 2.98
 HALF_TRACK = 0.80
 WHEEL_RADIUS = 0.355
 """m: loaded tyre."""
@@ -33,8 +32,6 @@ TIE_ROD_ENDS = ((-0.16, 0.70, 0.38), (-0.16, 0.30, 0.40))
 RELAY_ROD = (-0.16, 0.30, 0.42)
 FRONT_JOINT = (1.25, 0.0, 0.48)
 REAR_JOINT = (2.72, 0.0, 0.37)
-SHACKLE_RISE = 0.05
-"""m: how much higher the leaf's rear shackle is than its front eye."""
 
 
 def connections(p: Parameters) -> tuple[Connection, ...]:
@@ -133,14 +130,12 @@ def _steering(p: Parameters, side: Side) -> Sequence[Connection]:
 def _rear_suspension(p: Parameters, side: Side) -> Sequence[Connection]:
     """A leaf spring is two half springs, hinged at the front eye and free to swing at the shackle."""
     bodies = ("rear axle", "frame")
-    eye = (WHEELBASE - p.leaf_half_length, p.leaf_y, p.leaf_z)
-    shackle = (WHEELBASE + p.leaf_half_length, p.leaf_y, p.leaf_z + SHACKLE_RISE)
     return [
         Spring(
             f"leaf eye {side}",
             "springs",
             bodies,
-            _same(eye, side),
+            _same(p.leaf_eye, side),
             stiffness=_xyz(p.leaf_fore_aft_rate, p.leaf_lateral_rate, p.half_leaf_rate),
             loss_factor=0.03,
         ),
@@ -148,7 +143,7 @@ def _rear_suspension(p: Parameters, side: Side) -> Sequence[Connection]:
             f"leaf shackle {side}",
             "springs",
             bodies,
-            _same(shackle, side),
+            _same(p.leaf_shackle, side),
             stiffness=_xyz(0.0, p.leaf_lateral_rate, p.half_leaf_rate),
             loss_factor=0.03,
         ),

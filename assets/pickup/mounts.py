@@ -37,18 +37,13 @@ SHEAR_RATIOS = (0.25, 0.80)
 
 def mount_groups(p: Parameters) -> tuple[MountGroup, ...]:
     """The five groups at their original rates."""
-    front_end = (p.front_end_mount_x, p.front_end_mount_y, p.front_end_mount_z)
-    cab_front = (p.cab_front_mount_x, p.cab_front_mount_y, p.cab_mount_z)
-    cab_rear = (p.cab_rear_mount_x, p.cab_rear_mount_y, p.cab_mount_z)
-    engine = (p.engine_mount_x, p.engine_mount_y, p.engine_mount_z)
-    transmission = (p.transmission_mount_x, 0.0, p.transmission_mount_z)
     body, powertrain = p.body_mount_loss_factor, p.engine_mount_loss_factor
     return (
-        _group("F", "front end", body, SHEAR_RATIOS, _pair("F", "front end", front_end)),
-        _group("C1", "cab front", body, SHEAR_RATIOS, _pair("C1", "cab", cab_front)),
-        _group("C2", "cab rear", body, SHEAR_RATIOS, _pair("C2", "cab", cab_rear)),
-        _group("E", "engine", powertrain, None, _pair("E", "engine", engine)),
-        _group("T", "transmission", powertrain, None, (_mount("T", "engine", transmission),)),
+        _group("F", "front end", body, SHEAR_RATIOS, _pair("F", "front end", p.front_end_mount)),
+        _group("C1", "cab front", body, SHEAR_RATIOS, _pair("C1", "cab", p.cab_front_mount)),
+        _group("C2", "cab rear", body, SHEAR_RATIOS, _pair("C2", "cab", p.cab_rear_mount)),
+        _group("E", "engine", powertrain, None, _pair("E", "engine", p.engine_mount)),
+        _group("T", "transmission", powertrain, None, (_mount("T", "engine", p.transmission_mount),)),
     )
 
 

@@ -7,6 +7,12 @@ what the fit wants and common sense holds back.
 
 from dataclasses import dataclass, field
 
+from pickup.sides import Place
+
+WHEELBASE = 2.98
+SHACKLE_RISE = 0.05
+"""m: how much higher the leaf's rear shackle is than its front eye."""
+
 
 def fitted(value: float, low: float, high: float) -> float:
     """A field the calibration may move between `low` and `high`."""
@@ -97,3 +103,33 @@ class Parameters:
     toe_x: float = fitted(0.560933, 0.56, 0.70)
     toe_y: float = fitted(0.293707, 0.20, 0.50)
     toe_z: float = fitted(0.783806, 0.60, 0.80)
+
+    @property
+    def engine_mount(self) -> Place:
+        return self.engine_mount_x, self.engine_mount_y, self.engine_mount_z
+
+    @property
+    def transmission_mount(self) -> Place:
+        return self.transmission_mount_x, 0.0, self.transmission_mount_z
+
+    @property
+    def front_end_mount(self) -> Place:
+        return self.front_end_mount_x, self.front_end_mount_y, self.front_end_mount_z
+
+    @property
+    def cab_front_mount(self) -> Place:
+        return self.cab_front_mount_x, self.cab_front_mount_y, self.cab_mount_z
+
+    @property
+    def cab_rear_mount(self) -> Place:
+        return self.cab_rear_mount_x, self.cab_rear_mount_y, self.cab_mount_z
+
+    @property
+    def leaf_eye(self) -> Place:
+        """The front end of the leaf spring, fixed to the frame."""
+        return WHEELBASE - self.leaf_half_length, self.leaf_y, self.leaf_z
+
+    @property
+    def leaf_shackle(self) -> Place:
+        """The rear end of the leaf spring, free to swing."""
+        return WHEELBASE + self.leaf_half_length, self.leaf_y, self.leaf_z + SHACKLE_RISE

@@ -4,8 +4,8 @@ import numpy as np
 
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Mesh, RigidBody, Role
-from pickup.connections import HALF_TRACK, WHEEL_RADIUS, WHEELBASE
-from pickup.parameters import Parameters
+from pickup.connections import HALF_TRACK, WHEEL_RADIUS
+from pickup.parameters import WHEELBASE, Parameters
 from pickup.sides import SIDES, Place, on_side
 
 PROPSHAFT_MASS = 14.0

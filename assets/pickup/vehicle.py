@@ -1,6 +1,6 @@
 """The whole truck, from its parameters."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,8 +53,13 @@ def components(p: Parameters) -> tuple[Component, ...]:
     )
 
 
-def pickup(p: Parameters) -> Vehicle:
-    """The truck at its original rates."""
+def pickup(p: Parameters, solve: Callable[..., FlexibleBody] = flexible_body) -> Vehicle:
+    """The truck at its original rates.
+
+    Args:
+        p: its numbers.
+        solve: what makes bodies of components; the calibration has one that remembers.
+    """
     groups, fixed = mount_groups(p), connections(p)
     joints = (*(m for g in groups for m in g.mounts), *fixed)
     masses, points = added_masses(p), response_points(p)
@@ -62,7 +67,7 @@ def pickup(p: Parameters) -> Vehicle:
     meshes = display_meshes({part.name: part.structure for part in parts}, p)
 
     def solved(part: Component) -> FlexibleBody:
-        return flexible_body(
+        return solve(
             part.name,
             part.role,
             part.name,

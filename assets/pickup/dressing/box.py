@@ -5,7 +5,6 @@ import numpy as np
 from modeviz.fem.mesh import FiniteElementMesh
 from modeviz.vehicle.arrays import Floats
 from pickup import box
-from pickup.connections import WHEELBASE
 from pickup.dressing.panels import (
     arch_lip,
     arch_outline,
@@ -16,6 +15,7 @@ from pickup.dressing.panels import (
     wheel_house,
 )
 from pickup.materials import Piece, both_sides
+from pickup.parameters import WHEELBASE
 from pickup.solids import block, line, rectangle, ribbon, swept
 
 PAINT = "box paint"
@@ -45,7 +45,7 @@ def _outer_side() -> list[Piece]:
 
     def low(x: Floats) -> Floats:
         sill = np.interp(x, [WHEELBASE + 0.4, REAR], [SILL, SILL + TAIL_RISE])
-        return np.minimum(arch_outline(x, WHEELBASE, sill), FLOOR)
+        return np.minimum(arch_outline(x, WHEELBASE, sill), FLOOR - 0.002)
 
     x = arch_stations(WHEELBASE, SILL, FRONT, REAR)
     panel = skirt(low, lambda x: np.full_like(x, FLOOR), x, y)

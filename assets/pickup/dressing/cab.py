@@ -46,15 +46,17 @@ def _side_glass() -> list[Piece]:
 
 def _door() -> list[Piece]:
     """The gaps around the door, its handle and its rubbing strip."""
-    outline = [(0.14, 2.9), (0.10, 2.0), (1, 1.9), (1, 1.08), (2, 1.08), (2, 2), (2, 2.96), (0.3, 2.96)]
+    shell = [side_point(*place) for place in ((1, 2), (1, 1.08), (2, 1.08), (2, 2))]
+    belt = [side_point(*place) for place in ((0.9, 2), (2, 2))]
+    divider = [side_point(*place) for place in ((1, 2), (1, 2.94))]
+    frame = [side_point(*place) for place in ((2, 2), (2, 2.94), (0.34, 2.94))]
+    rub = [side_point(along, 1.25) for along in (0.05, 1, 2, 2.95)]
     handle = side_point(1.86, 1.80)
-    rub = [side_point(s, 1.25) for s in (0.05, 1.0, 2.0, 2.95)]
     return [
-        Piece("seam", seam([side_point(*c) for c in outline[3:6]])),
-        Piece("seam", seam([side_point(*c) for c in ((1, 1.08), (1, 2))])),
-        Piece("seam", seam([side_point(*c) for c in ((0.9, 2.0), (2, 2.0))], width=0.016)),
-        Piece("seam", seam([side_point(*c) for c in ((1, 2.0), (1, 2.94))], width=0.014)),
-        Piece("seam", seam([side_point(*c) for c in ((2, 2.0), (2, 2.94), (0.34, 2.94))])),
+        Piece("seam", seam(shell)),
+        Piece("seam", seam(belt, width=0.016)),
+        Piece("seam", seam(divider, width=0.014)),
+        Piece("seam", seam(frame)),
         Piece("trim", block(shifted(handle, y=0.012), (0.13, 0.022, 0.026))),
         Piece("chrome", block(shifted(handle, x=0.03, y=0.020), (0.05, 0.016, 0.014))),
         Piece("trim", seam(rub, width=0.045)),

@@ -53,7 +53,7 @@ def _bank() -> list[Piece]:
 
 
 def _mount_arm(p: Parameters) -> list[Piece]:
-    seat = np.array([p.engine_mount_x, p.engine_mount_y, p.engine_mount_z])
+    seat = p.engine_mount
     return [
         Piece("steel", block(shifted(seat, y=-0.04, z=0.035), (0.11, 0.14, 0.03))),
         Piece("steel", block(shifted(seat, y=-0.06), (0.09, 0.03, 0.12))),
@@ -99,11 +99,10 @@ def _front_drive() -> list[Piece]:
 def _gearbox(p: Parameters) -> list[Piece]:
     x, _, z = FRONT_JOINT
     bell = [(0, 0), (0.19, 0), (0.185, 0.03), (0.12, 0.22), (0, 0.22)]
-    seat = np.array([p.transmission_mount_x, 0.0, p.transmission_mount_z])
     return [
         Piece("castings", revolved(bell, "x", (REAR_OF_BLOCK, 0, 0.60), 24)),
         Piece("castings", block((0.84, 0, 0.545), (0.34, 0.23, 0.22), rear=0.85)),
         Piece("dark", block((0.84, 0, 0.425), (0.28, 0.20, 0.04), top=1.08)),
         Piece("castings", tube([(1.02, 0, 0.51), (1.10, 0, 0.50), (x - 0.06, 0, z)], 0.062, n=16)),
-        Piece("steel", block(shifted(seat, z=-0.005), (0.10, 0.14, 0.03))),
+        Piece("steel", block(shifted(p.transmission_mount, z=-0.005), (0.10, 0.14, 0.03))),
     ]

@@ -56,19 +56,17 @@ def _crossmember(station: int) -> Surface:
 def _brackets(p: Parameters) -> list[Piece]:
     """Outriggers under the cab mounts, hats under the box, arms to the engine and front-end mounts."""
     outriggers = (
-        (RAIL[6], (p.cab_front_mount_x, p.cab_front_mount_y, p.cab_mount_z)),
-        (RAIL[9], (p.cab_rear_mount_x, p.cab_rear_mount_y, p.cab_mount_z)),
-        (RAIL[0], (p.front_end_mount_x, p.front_end_mount_y, p.front_end_mount_z)),
+        (RAIL[6], p.cab_front_mount),
+        (RAIL[9], p.cab_rear_mount),
+        (RAIL[0], p.front_end_mount),
     )
     pieces = [
         Piece(PAINT, surface)
         for base, seat in outriggers
         for surface in _outrigger(base, shifted(seat, z=-0.045))
     ]
-    engine = np.array([p.engine_mount_x, p.engine_mount_y, p.engine_mount_z])
-    pieces.append(
-        Piece(PAINT, _arm(RAIL[frame.ENGINE_CROSSMEMBER], shifted(engine, z=-0.03), 0.13, 0.07))
-    )
+    below_engine = shifted(p.engine_mount, z=-0.03)
+    pieces.append(Piece(PAINT, _arm(RAIL[frame.ENGINE_CROSSMEMBER], below_engine, 0.13, 0.07)))
     for station, tip in zip(frame.BOX_STATIONS, box.BRACKETS, strict=True):
         pieces.append(Piece(PAINT, _arm(RAIL[station], tip, 0.10, 0.08, up=(1, 0, 0))))
     return pieces
@@ -119,7 +117,7 @@ def _suspension_towers() -> list[Piece]:
 
 def _transmission_support(p: Parameters) -> list[Piece]:
     foot = RAIL[7] * [1, 0, 1]
-    seat = np.array([p.transmission_mount_x, 0.0, p.transmission_mount_z - 0.03])
+    seat = shifted(p.transmission_mount, z=-0.03)
     return [Piece(PAINT, _arm(foot, seat, 0.14, 0.10, up=(1, 0, 0)))]
 
 

@@ -15,7 +15,7 @@ from pickup.dressing.panels import (
     wheel_house,
 )
 from pickup.materials import Piece, both_sides
-from pickup.solids import block, circle, cylinder, line, swept, tube
+from pickup.solids import block, circle, line, swept, tube
 
 PAINT = "front end paint"
 CORNERS = front_end.corners()
@@ -33,6 +33,7 @@ def pieces(mesh: FiniteElementMesh) -> list[Piece]:
         *both_sides([*_arch(), *_lamps(), *_seams()]),
         *_grille(),
         *_radiator(),
+        *_under_the_hood(),
         Piece("trim", tube(line((0.30, 0.80, 1.13), (0.42, 0.82, 1.72), 3), 0.004, n=6, up=(0, 1, 0))),
     ]
 
@@ -101,6 +102,12 @@ def _radiator() -> list[Piece]:
     return [
         Piece("dark", block((-0.76, 0, 0.77), (0.05, 0.66, 0.42))),
         Piece("steel", tank),
-        Piece("trim", block((-0.28, 0.79, 0.96), (0.25, 0.17, 0.19))),  # battery
-        Piece("castings", cylinder(0.10, 0.10, "z", (0.10, -0.80, 0.98), 20)),  # brake booster side
+    ]
+
+
+def _under_the_hood() -> list[Piece]:
+    """Battery and washer bottle on the inner fenders."""
+    return [
+        Piece("trim", block((-0.28, 0.79, 0.96), (0.25, 0.17, 0.19))),
+        Piece("head lamp", block((-0.30, -0.80, 0.95), (0.16, 0.14, 0.16), top=0.9)),
     ]

@@ -12,16 +12,14 @@ from pickup.connections import (
     LOWER_BUSHES,
     REAR_DAMPER,
     REAR_JOINT,
-    SHACKLE_RISE,
     TIE_ROD_ENDS,
     UPPER_BALL_JOINT,
     UPPER_BUSHES,
     WHEEL_RADIUS,
-    WHEELBASE,
 )
 from pickup.dressing.wheels import wheel
 from pickup.materials import Piece, both_sides
-from pickup.parameters import Parameters
+from pickup.parameters import WHEELBASE, Parameters
 from pickup.solids import (
     block,
     circle,
@@ -139,7 +137,7 @@ def _wishbone(bushes: list, joint: Floats, radius: float) -> list[Piece]:
     """Two legs from the bushes to the ball joint, and the web between them."""
     front, rear = (np.array(b) for b in bushes)
     legs = [tube(line(bush, joint, 3), radius) for bush in (front, rear)]
-    web = grid([line(front, joint, 4)[1:], line(rear, joint, 4)[1:]])
+    web = grid([line(front, joint, 5)[1:-1], line(rear, joint, 5)[1:-1]])
     return [
         Piece("steel", joined([*legs, web])),
         *(Piece("trim", cylinder(0.034, 0.06, "x", bush, 10)) for bush in (front, rear)),
@@ -154,14 +152,11 @@ def _leaf_spring(p: Parameters) -> list[Piece]:
     leaves = []
     for n, share in enumerate((1.0, 0.75, 0.5)):
         t = np.linspace(-share, share, 11)
-        eye = np.where(t < 0, p.leaf_z, p.leaf_z + SHACKLE_RISE)
+        eye = np.where(t < 0, p.leaf_eye[2], p.leaf_shackle[2])
         z = seat + 0.013 * (2 - n) + (eye - seat - 0.04) * t**2
         path = np.stack([WHEELBASE + half * t, np.full_like(t, y), z], -1)
         leaves.append(swept(path, rectangle(0.062, 0.011)))
-    eyes = [
-        cylinder(0.026, 0.07, "y", (WHEELBASE + sign * half, y, z), 10)
-        for sign, z in ((-1, p.leaf_z), (1, p.leaf_z + SHACKLE_RISE))
-    ]
+    eyes = [cylinder(0.026, 0.07, "y", end, 10) for end in (p.leaf_eye, p.leaf_shackle)]
     bolts = [
         tube(
             [(WHEELBASE + dx, y, seat - 0.12), (WHEELBASE + dx, y, seat + 0.075)],
