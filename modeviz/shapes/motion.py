@@ -50,9 +50,10 @@ def displacement(shapes: NDArray[np.float32], coordinates: ArrayLike) -> NDArray
         coordinates: (n_coordinates,): one mode or response of the vehicle, this body's part of it.
     """
     q = np.asarray(coordinates)
-    parts = np.stack([np.real(q), np.imag(q)], axis=-1).astype(np.float32)
-    real, imaginary = np.moveaxis(shapes @ parts, -1, 0)
-    return real + 1j * imaginary if np.iscomplexobj(q) else real
+    if np.iscomplexobj(q):
+        return displacement(shapes, np.real(q)) + 1j * displacement(shapes, np.imag(q))
+    flat = shapes.reshape(-1, shapes.shape[-1])
+    return (flat @ q.astype(np.float32)).reshape(shapes.shape[:-1])
 
 
 def animated(vertices: Floats, shape: NDArray, amplitude: float, phase: float) -> Floats:

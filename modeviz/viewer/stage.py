@@ -81,7 +81,7 @@ class Box:
     @property
     def distance(self) -> float:
         """From where it fills a camera that is as wide as it is high."""
-        return 2.1 * self.length
+        return 2.2 * self.length
 
 
 def box(vehicle: Vehicle) -> Box:

@@ -1,0 +1,206 @@
+import numpy as np
+import pytest
+from pages import wait_for
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.tuning.results import Conditions, solve_modal
+from modeviz.vehicle.bodies import Attachment, FlexibleBody, Material, MeshPart, RigidBody
+from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
+from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.scene import Scene
+from modeviz.viewer.session import Solved, State
+
+HALF = 2.0**-11  # relative rounding of half precision
+QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+FACES = QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+CENTER = np.array([0.0, 0.0, 1.0])
+RATES = MountRates(2e5, 1e5, 5e4)
+
+
+def corners(center, size):
+    cube = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    return np.asarray(center) + cube * size
+
+
+def cab():
+    """A cab of 400 kg that only moves rigidly, in mass-normalised coordinates."""
+    nodes = corners(CENTER, (4.0, 1.6, 0.8))
+    scale = np.array([20.0, 20, 20, 10, 25, 25])  # √m, and √I of a plausible block
+
+    def rigid(position):
+        motion = np.eye(6)
+        motion[:3, 3:] = np.stack([np.cross(e, position - CENTER) for e in np.eye(3)], axis=1)
+        return motion / scale
+
+    mesh = (MeshPart("paint", nodes, FACES, Material((202, 134, 98))),)
+    attachments = tuple(
+        Attachment(name, np.array(at), rigid(np.array(at)))
+        for name, at in (("left", (0.0, -0.7, 0.6)), ("right", (0.0, 0.7, 0.6)))
+    )
+    shapes = np.stack([rigid(node) for node in nodes])
+    return FlexibleBody("cab", "cabin", "cab", np.zeros(6), 0, 0.0, attachments, nodes, shapes, mesh)
+
+
+def axle():
+    mesh = (MeshPart("steel", corners((0, 0, 0.3), (0.2, 1.8, 0.2)), FACES, Material((92, 96, 102))),)
+    return RigidBody("axle", "unsprung", "axle", 100.0, np.array([0, 0, 0.3]), 20 * np.eye(3), mesh)
+
+
+# Where the first of two nodes is on the page, once the camera looks along the line through both.
+PLACES = """
+(() => {
+  const { camera, canvas, nodeRefFromName } = window.__viserMutable;
+  const onPicture = (name) =>
+    nodeRefFromName[name]?.getWorldPosition(camera.position.clone()).project(camera);
+  const [near, far] = a.names.map(onPicture);
+  if (!near || !far || Math.abs(near.x - far.x) > 0.01) return null;
+  const box = canvas.getBoundingClientRect();
+  return [box.left + ((near.x + 1) / 2) * box.width, box.top + ((1 - near.y) / 2) * box.height];
+})()
+"""
+
+
+@pytest.fixture(scope="module")
+def vehicle():
+    mounts = tuple(
+        Mount(f"C {side}", "C", ("cab", "axle"), np.tile([0.0, y, 0.6], (2, 1)))
+        for side, y in (("left", -0.7), ("right", 0.7))
+    )
+    bounds = (MountRates(1.0, 1.0, 1.0), MountRates(1e6, 1e6, 1e6))
+    ground = np.tile([0.0, -0.8, 0.0], (2, 1))
+    tyre = Tyre("tyre", "tyres", ("axle", GROUND), ground, np.array([1e5, 1e5, 2e5]))
+    return Vehicle(
+        "small",
+        (cab(), axle()),
+        (tyre,),
+        (MountGroup("C", "cab", RATES, 0.1, bounds, mounts),),
+        response_points=(ResponsePoint("seat", "cab", np.array([0.0, -0.7, 0.6])),),
+    )
+
+
+@pytest.fixture(scope="module")
+def modal(vehicle):
+    return solve_modal(assemble(vehicle), {})
+
+
+@pytest.fixture(scope="module")
+def chosen():
+    return []
+
+
+@pytest.fixture(scope="module")
+def scene(server, vehicle, chosen):
+    # loading an environment map takes half a minute of software rendering
+    server.scene.configure_environment_map = lambda *_, **__: None
+    return Scene(server, vehicle, False, chosen.append)
+
+
+@pytest.fixture(scope="module")
+def page(server, scene, open_page):
+    return open_page(server, viewport=(900, 400))  # the control panel leaves the middle free
+
+
+def solved(modal, mode=6, **fields):
+    state = State({"C": RATES}, Conditions("none", 20.0), "", **({"group": "C"} | fields))
+    return Solved(state, modal, modal, mode, modal.modes.shapes[:, mode], 0.0)
+
+
+def node(page, name):
+    """The properties of a node of the scene."""
+    return page.evaluate("name => window.__viserSceneTree.getState()[name]?.message.props", name)
+
+
+def drawn(page, body, n_applied):
+    """The shape the page draws, and the first material, once it has taken over `n_applied` shapes."""
+    wait_for(page, "window.__modeviz.applied >= a.n", n=n_applied)
+    bits, opacity, colored = page.evaluate(
+        """name => {
+          let mesh;
+          const group = window.__viserMutable.nodeRefFromName[name];
+          group.traverse((object) => { if (object.geometry?.index) mesh ??= object; });
+          const shape = Array.from(mesh.geometry.attributes.modevizReal.array);
+          return [shape, mesh.material.opacity, mesh.material.vertexColors];
+        }""",
+        f"/vehicle/{body}",
+    )
+    return np.array(bits, np.uint16).view(np.float16).astype(float).reshape(-1, 3), opacity, colored
+
+
+def show(scene, page, answer):
+    """Draws an answer, and waits until every body of the page has changed."""
+    before = page.evaluate("window.__modeviz.applied")
+    scene.show(answer)
+    return before + 2
+
+
+def test_shape_is_drawn_in_proportion_with_its_largest_at_a_fortieth_of_the_length(scene, page, modal):
+    mode = 7
+    n_applied = show(scene, page, solved(modal, mode, see_through=False))
+    bodies = [drawn(page, body, n_applied)[0] for body in ("cab", "axle")]
+    assert max(np.linalg.norm(b, axis=1).max() for b in bodies) == pytest.approx(4.0 / 40, rel=HALF)
+    q = modal.modes.shapes[modal.system.dofs["axle"], mode]
+    exact = q[:3] + np.cross(q[3:], corners((0, 0, 0.3), (0.2, 1.8, 0.2)) - [0, 0, 0.3])
+    cab_q = modal.modes.shapes[modal.system.dofs["cab"], mode]
+    cab_exact = modal.vehicle.body("cab").shapes[:, :3] @ cab_q
+    factor = 0.1 / max(np.linalg.norm(exact, axis=1).max(), np.linalg.norm(cab_exact, axis=1).max())
+    assert bodies[1] == pytest.approx(factor * exact, abs=0.1 * HALF)
+    assert bodies[0] == pytest.approx(factor * cab_exact, abs=0.1 * HALF)
+
+
+def test_cab_is_seen_through_and_axle_is_not(scene, page, modal):
+    n_applied = show(scene, page, solved(modal, 8, see_through=True))
+    assert drawn(page, "cab", n_applied)[1:] == (0.5, False)
+    assert drawn(page, "axle", n_applied)[1:] == (1, False)
+
+
+def test_displacement_colors_are_on_opaque_bodies(scene, page, modal):
+    n_applied = show(scene, page, solved(modal, 9, coloring="displacement", see_through=True))
+    assert drawn(page, "cab", n_applied)[1:] == (1, True)
+    assert drawn(page, "axle", n_applied)[1:] == (1, True)
+
+
+def test_outlines_at_rest_are_those_of_the_cab_and_can_be_put_away(scene, page, modal):
+    visible = "window.__viserSceneTree.getState()['/ghost/cab'].visibility === a.wanted"
+    for wanted in (False, True):
+        scene.show(solved(modal, ghost=wanted))
+        wait_for(page, visible, wanted=wanted)
+    assert node(page, "/ghost/axle") is None
+
+
+def test_card_says_what_the_selected_group_is_and_does(scene, page, modal):
+    mode = 8
+    scene.show(solved(modal, mode))
+    share = modal.strain_energy["C"][mode]
+    text = (
+        "C  cab, left + right\nvertical 200  lateral 100  fore-aft 50 N/mm\n"
+        f"{100 * share:.0f} % of strain energy in {modal.names[mode].name}"
+    )
+    wait_for(
+        page, "window.__viserSceneTree.getState()['/card'].message.props.text === a.text", text=text
+    )
+    assert page.evaluate("window.__viserSceneTree.getState()['/mounts/C left/ring'].visibility")
+    scene.show(solved(modal, mode, group=""))
+    wait_for(page, "!window.__viserSceneTree.getState()['/card'].visibility")
+    assert not page.evaluate("window.__viserSceneTree.getState()['/mounts/C left/ring'].visibility")
+
+
+def test_markers_stand_at_the_mounts_and_points(scene, page):
+    positions = page.evaluate(
+        """names => names.map((name) => window.__viserMutable.nodePoseData[name].position)""",
+        ["/mounts/C left", "/mounts/C right", "/points/seat", "/patches/tyre"],
+    )
+    expected = [[0, -0.7, 0.6], [0, 0.7, 0.6], [0, -0.7, 0.6], [0, -0.8, 0.004]]
+    assert np.array(positions) == pytest.approx(np.array(expected), abs=1e-6)
+
+
+def test_clicking_a_mount_selects_its_group(server, scene, page, chosen):
+    client = next(iter(server.get_clients().values()))
+    scene.look(client, "Side")
+    seen = wait_for(page, PLACES, names=["/mounts/C left/rubber", "/mounts/C right/rubber"])
+    page.mouse.move(*seen)
+    page.mouse.click(*seen)
+    for _ in range(200):
+        if not chosen:
+            page.wait_for_timeout(100)
+    assert chosen == ["C"]

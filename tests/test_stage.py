@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+from small_vehicles import tyre, wheel
+
+from modeviz.vehicle.bodies import Material, MeshPart, RigidBody
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.stage import FIELD_OF_VIEW, VIEWS, Box, box, camera
+
+TRUCK = Box((-1.05, -1.0, 0.0), (4.35, 1.0, 1.8))
+CORNERS = np.array([[x, y, z] for x in (-1.05, 4.35) for y in (-1, 1) for z in (0, 1.8)])
+
+
+def on_picture(points, position, look_at, aspect):
+    """Where a camera sees points, from -1 to 1 across and up its picture."""
+    forward = (look_at - position) / np.linalg.norm(look_at - position)
+    right = np.cross(forward, [0, 0, 1.0])
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    seen = (points - position) @ np.stack([right, up, forward], axis=1)
+    half = np.tan(FIELD_OF_VIEW / 2)
+    return seen[:, :2] / seen[:, 2:] / [half * aspect, half]
+
+
+@pytest.mark.parametrize("view", VIEWS)
+@pytest.mark.parametrize("aspect", [0.8, 0.98, 1.6])
+def test_vehicle_is_inside_every_view_and_fills_a_good_part_of_it(view, aspect):
+    seen = np.abs(on_picture(CORNERS, *camera(TRUCK, view, aspect), aspect))
+    assert seen.max() < 1
+    assert seen[:, 0].max() > 0.35
+
+
+def test_first_view_has_the_front_on_the_left_and_the_drivers_side_towards_us():
+    position, look_at = camera(TRUCK, "Iso", 1.0)
+    front, rear, top, ground = on_picture(
+        np.array([[-1.05, 0, 0.5], [4.35, 0, 0.5], [1.6, 0, 1.8], [1.6, 0, 0]]), position, look_at, 1.0
+    )
+    assert front[0] < rear[0]
+    assert ground[1] < top[1]
+    assert position[1] < TRUCK.low[1]
+
+
+def test_box_holds_meshes_connections_and_the_ground():
+    part = MeshPart(
+        "p", np.array([[0, 0, 1.0], [5, 0, 1], [0, 2, 2]]), [[0, 1, 2]], Material((0, 0, 0))
+    )
+    body = RigidBody("body", "cabin", "body", 1.0, np.zeros(3), np.eye(3), (part,))
+    axle = wheel("axle", x=-1.0, y=-0.5)
+    found = box(Vehicle("v", (body, axle), (tyre(axle),)))
+    assert (found.low, found.high) == ((-1.0, -0.5, 0.0), (5.0, 2.0, 2.0))
+    assert found.length == 6.0
+
+
+def test_vehicle_without_meshes_or_connections_still_has_a_place():
+    assert box(Vehicle("v", (wheel("axle"),), ())).length > 0
