@@ -74,7 +74,16 @@ def test_zipped_page_is_the_same_page(server):
     assert gzip.decompress(body) == get(server)[2]
 
 
-@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example", "10.0.0.1", ""])
+def test_page_is_given_to_who_names_no_encoding(server):
+    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=20)
+    connection.putrequest("GET", "/", skip_accept_encoding=True)
+    connection.endheaders()
+    assert connection.getresponse().status == 200
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "127.0.0.1.evil.example", "10.0.0.1", "me@127.0.0.1", "[::1", ""]
+)
 def test_foreign_host_is_refused(server, host):
     assert get(server, Host=f"{host}:{server.get_port()}")[0] == 403
 
