@@ -21,7 +21,7 @@ FLAT_BELOW = 0.2
 
 def roads() -> tuple[Road, Road]:
     """Road 1, rough, its tracks in opposition; road 2, concrete slabs with tar strips."""
-    f = np.arange(0.05, 60.025, 0.05, dtype=np.float64)
+    f = np.arange(0.05, 150.025, 0.05, dtype=np.float64)  # 0.1 to 40 Hz from 20 to 144 km/h
     return (
         Road("road 1", "Road 1, rough", SPEED, f, road_1(np.maximum(f, FLAT_BELOW))),
         Road("road 2", "Road 2, tar strips", SPEED, f, road_2(np.maximum(f, FLAT_BELOW))),
