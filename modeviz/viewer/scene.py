@@ -10,7 +10,8 @@ from modeviz.shapes.colors import displacement_colors
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import DRAWN_FRACTION, default_amplitude, displacement, vertex_shapes
 from modeviz.shapes.surface import Surface, surface
-from modeviz.vehicle.bodies import Body, FlexibleBody
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.markers import Markers
@@ -18,9 +19,12 @@ from modeviz.viewer.session import Solved
 from modeviz.viewer.stage import DARK, FIELD_OF_VIEW, ISO, LIGHT, Stage, Theme, box, camera
 
 SHEET_ROLES = ("cabin", "bed")
-"""Bodies that hide others: they are seen through, and their outlines at rest are drawn."""
+"""Bodies that hide others: they are seen through, and their outlines are drawn."""
 
 SEE_THROUGH = 0.5
+
+UNTOUCHED = 1e-3
+"""m: a camera this close to where it was put has not been moved by anybody."""
 
 
 class Scene:
@@ -59,6 +63,7 @@ class Scene:
             if body.role in SHEET_ROLES
         ]
         self._markers = Markers(scene, vehicle, on_select)
+        self._views: dict[int, tuple[str, Floats]] = {}
         self._aim_cameras()
 
     def show(self, solved: Solved) -> None:
@@ -102,6 +107,7 @@ class Scene:
     def look(self, client: viser.ClientHandle, view: str) -> None:
         """Turns a page's camera to one of `stage.VIEWS`."""
         position, look_at = camera(self._box, view, client.camera.aspect)
+        self._views[client.client_id] = view, position
         with client.atomic():
             client.camera.position = position
             client.camera.look_at = look_at
@@ -110,11 +116,29 @@ class Scene:
         return [body for body in self._vehicle.bodies if body.name in self._surfaces]
 
     def _aim_cameras(self) -> None:
-        """Points the cameras of pages to come at the vehicle, from as far as they are narrow."""
+        """Points the cameras of pages to come at the vehicle."""
         initial = self._server.initial_camera
         initial.position, initial.look_at = camera(self._box, ISO, aspect=1.0)
         initial.fov = FIELD_OF_VIEW
-        self._server.on_client_connect(lambda client: self.look(client, ISO))
+
+        @self._server.on_client_connect
+        def _(client: viser.ClientHandle) -> None:
+            self.look(client, ISO)
+            client.camera.on_update(lambda _: self._keep_framed(client))
+
+        @self._server.on_client_disconnect
+        def _(client: viser.ClientHandle) -> None:
+            self._views.pop(client.client_id, None)
+
+    def _keep_framed(self, client: viser.ClientHandle) -> None:
+        """Looks again when the picture's shape has changed, unless somebody has moved the camera."""
+        if client.client_id not in self._views:
+            return
+        view, position = self._views[client.client_id]
+        framed, _ = camera(self._box, view, client.camera.aspect)
+        is_untouched = np.allclose(client.camera.position, position, atol=UNTOUCHED)
+        if is_untouched and not np.allclose(framed, position, atol=UNTOUCHED):
+            self.look(client, view)
 
 
 def _path(body: str) -> str:
@@ -122,7 +146,7 @@ def _path(body: str) -> str:
 
 
 def _add_body(driver: ShapeDriver, body: Body, drawn: Surface, theme: Theme) -> None:
-    edge_color = theme.edges if isinstance(body, FlexibleBody) else None
+    edge_color = theme.edges if body.role in SHEET_ROLES else None
     driver.add(_path(body.name), glb(drawn, edge_color), len(drawn.vertices), cast_shadow=True)
 
 

@@ -194,6 +194,30 @@ def test_markers_stand_at_the_mounts_and_points(scene, page):
     assert np.array(positions) == pytest.approx(np.array(expected), abs=1e-6)
 
 
+def test_view_stays_framed_when_the_page_narrows_until_somebody_moves_the_camera(server, scene, page):
+    def distance():
+        return np.linalg.norm(client.camera.position - client.camera.look_at)
+
+    def after_resize(width):
+        page.set_viewport_size({"width": width, "height": 400})
+        for _ in range(100):
+            page.wait_for_timeout(100)
+            if client.camera.image_width == width:
+                break
+        page.wait_for_timeout(500)
+        return distance()
+
+    client = next(iter(server.get_clients().values()))
+    scene.look(client, "Iso")
+    wide = distance()
+    assert after_resize(200) == pytest.approx(wide * 0.98 / 0.5, rel=1e-3)
+    assert after_resize(900) == pytest.approx(wide, rel=1e-3)
+    client.camera.position = np.add(client.camera.position, [0.5, 0, 0])
+    moved = distance()
+    assert after_resize(200) == pytest.approx(moved, rel=1e-3)
+    after_resize(900)
+
+
 def test_clicking_a_mount_selects_its_group(server, scene, page, chosen):
     client = next(iter(server.get_clients().values()))
     scene.look(client, "Side")
