@@ -1,0 +1,170 @@
+"""The page as a whole: opens the server, lays out the panels and draws every answer."""
+
+import threading
+import traceback
+
+import viser
+from threadpoolctl import threadpool_limits
+
+from modeviz.errors import ModevizError
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.doors import open_server
+from modeviz.viewer.html import block, heading
+from modeviz.viewer.panels.animation import AnimationCard
+from modeviz.viewer.panels.modes import EnergyPanel, ModesPanel, listed
+from modeviz.viewer.panels.mounts import MountsPanel, rate_sets
+from modeviz.viewer.panels.response import ResponsePanel, RoadPanel
+from modeviz.viewer.panels.view import PicturePanel, ViewPanel
+from modeviz.viewer.scene import Scene
+from modeviz.viewer.session import Session, Solved, first_state
+
+LEFT_WIDTH, RIGHT_WIDTH, CARD_WIDTH = 376, 484, 380
+BRAND = {False: (32, 104, 168), True: (64, 146, 214)}
+"""By darkness: the light page's blue is too dim in the dark."""
+
+
+class App:
+    """A server with one tuning session; everybody who opens the page sees the same."""
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        rates: Rates,
+        conditions: Conditions,
+        server: viser.ViserServer,
+        dark: bool = False,
+    ) -> None:
+        """Builds the page and asks for the first answer.
+
+        Args:
+            vehicle: with the rates that all is compared with.
+            rates: to start with.
+            conditions: to start with.
+            server: an open one, see `doors.open_server`.
+            dark: whether the page is dark.
+        """
+        self.server, self._gui = server, server.gui
+        self.session = Session(
+            vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
+        )
+        self._sets = rate_sets(vehicle)
+        self._gui.configure_theme(
+            dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
+        )
+        self._scene = Scene(server, vehicle, dark, self._select)
+        self._lay_out(dark)
+        self.session.start()
+
+    def close(self) -> None:
+        """Ends the session and the server."""
+        self.session.close()
+        self.server.stop()
+
+    def _lay_out(self, dark: bool) -> None:
+        gui, session = self._gui, self.session
+        gui.main_panel.dock_left()
+        gui.main_panel.set_width(LEFT_WIDTH)
+        self._mounts = MountsPanel(gui, session, self._set_rates)
+        tabs = gui.add_tab_group()
+        with tabs.add_tab("View", viser.Icon.EYE):
+            ViewPanel(gui, session, self._scene.look)
+        with tabs.add_tab("Pictures", viser.Icon.CAMERA):
+            PicturePanel(gui, self._file_name)
+        self._status = gui.add_html("")
+
+        right = gui.add_panel()
+        with right.add_tab("Response", viser.Icon.CHART_LINE):
+            self._response = ResponsePanel(gui, session, dark)
+            tabs = gui.add_tab_group()
+            with tabs.add_tab("Modes", viser.Icon.WAVE_SINE):
+                self._modes = ModesPanel(gui, session)
+            with tabs.add_tab("Energy", viser.Icon.CHART_BAR):
+                self._energy = EnergyPanel(gui)
+        with right.add_tab("Road", viser.Icon.ROAD):
+            RoadPanel(gui, session)
+        right.dock_right()
+        right.set_width(RIGHT_WIDTH)
+
+        card = gui.add_panel()
+        with card.add_tab("Shown mode", viser.Icon.PLAYER_PLAY):
+            self._animation = AnimationCard(gui, self._scene.driver, self._step_mode)
+        card.float(x=24, y=-24, width=CARD_WIDTH)
+
+    def _show(self, solved: Solved) -> None:
+        """Draws an answer: the panels in one batch, the scene in another, which waits for a frame."""
+        self._last = solved
+        with self.server.atomic():
+            self._gui.set_panel_label(f"{solved.now.vehicle.name}  ·  {self._variant(solved)}")
+            self._mounts.show(solved)
+            self._response.show(solved)
+            self._modes.show(solved)
+            self._energy.show(solved)
+            self._animation.show(solved)
+            self._status.content = block(_status(solved))
+        self._scene.show(solved)
+
+    def _tell_failure(self, error: Exception) -> None:
+        """Says what went wrong; the last good answer stays on the screen."""
+        if not isinstance(error, ModevizError):
+            traceback.print_exception(error)
+        for client in self.server.get_clients().values():
+            client.add_notification("Not solved", str(error), color="red")
+
+    def _set_rates(self, rates: Rates) -> None:
+        self._mounts.set_rates(rates)
+        self.session.set_rates(rates)
+
+    def _select(self, group: str) -> None:
+        self.session.change(group=group)
+
+    def _step_mode(self, step: int) -> None:
+        names = [name.name for name, _ in listed(self._last.now).values()]
+        shown = self._last.now.names[self._last.mode].name
+        at = names.index(shown) + step if shown in names else 0
+        self.session.change(mode=names[at % len(names)])
+
+    def _variant(self, solved: Solved) -> str:
+        """What the present rates are called."""
+        for name, rates in self._sets.items():
+            if dict(rates) == dict(solved.state.rates):
+                return name
+        return "Trial"
+
+    def _file_name(self) -> str:
+        solved = self._last
+        mode = solved.now.names[solved.mode].name
+        return f"{solved.now.vehicle.name} {mode}".lower().replace(" ", "-")
+
+
+def _status(solved: Solved) -> str:
+    """How long the answer took."""
+    dot = '<i class="swatch" style="background:var(--mv-good);border-radius:50%"></i>'
+    return heading(f"{dot}Solved", f"{1000 * solved.seconds:.0f} ms")
+
+
+def serve(
+    vehicle: Vehicle,
+    rates: Rates,
+    conditions: Conditions,
+    host: str,
+    port: int,
+    token: str | None,
+    dark: bool,
+) -> None:
+    """Shows a vehicle until interrupted.
+
+    Raises:
+        ModevizError: the port is in use, or the address needs a token.
+    """
+    # Two BLAS threads on these sizes, beside a browser, are far slower than one.
+    with threadpool_limits(limits=1, user_api="blas"):
+        server = open_server(host, port, token, title=f"{vehicle.name} · modeviz")
+        app = App(vehicle, rates, conditions, server, dark)
+        query = f"/?token={token}" if token else ""
+        print(f"{vehicle.name} is at http://{host}:{port}{query}  (Ctrl+C ends)", flush=True)
+        try:
+            threading.Event().wait()
+        finally:
+            app.close()
