@@ -99,6 +99,8 @@ def test_tables_name_points_and_directions(capsys, folder, command):
         (["psd", "{}", "--speed", "fast"], "expected a number"),
         (["psd", "{}", "--speed", "0 km/h"], "more than zero"),
         (["psd", "{}", "--speed", "9000 km/h"], "its table holds"),
+        (["view", "{}", "--port", "99999999"], "port"),
+        (["view", "{}", "--host", "0.0.0.0"], "token"),
     ],
 )
 def test_what_the_user_can_put_right_is_one_message_and_status_2(capsys, folder, arguments, message):
