@@ -69,7 +69,7 @@ def is_possible(widget: "_GuiInputHandle", value: Any) -> bool:
     props, current = widget._impl.props, widget._impl.value
     options = getattr(props, "options", None)
     if options is not None:
-        return isinstance(value, str) and value in options
+        return value in options
     low, high = getattr(props, "min", None), getattr(props, "max", None)
     if isinstance(current, tuple):
         return (

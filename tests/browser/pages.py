@@ -1,5 +1,7 @@
 """Reading what a page holds."""
 
+import time
+from collections.abc import Callable
 from typing import Any
 
 from playwright.sync_api import Page
@@ -9,3 +11,11 @@ def wait_for(page: Page, expression: str, **arguments: Any) -> Any:
     """Waits until a JavaScript expression of `a`, the arguments, is true, and returns its value."""
     handle = page.wait_for_function(f"a => {expression}", arg=arguments, polling=100)
     return handle.json_value()
+
+
+def wait_until(page: Page, reached: Callable[[], Any], seconds: float = 30.0) -> None:
+    """Waits until something is true here, while the page goes on."""
+    deadline = time.monotonic() + seconds
+    while not reached():
+        assert time.monotonic() < deadline, "the page did not get there in time"
+        page.wait_for_timeout(50)

@@ -279,6 +279,14 @@ def test_refused_value_is_put_back_on_the_screen(server, fence):
     number.remove()
 
 
+def test_message_of_a_kind_we_do_not_use_is_dropped(server, fence):
+    heard = []
+    kind = _messages.GuiButtonHoldMessage
+    server._websock_server.register_handler(kind, lambda _, message: heard.append(message))
+    say(server, fence, kind("no widget", 10.0))
+    assert not heard
+
+
 def test_message_with_a_number_that_is_none_is_dropped(server, fence):
     camera = _messages.ViewerCameraMessage(
         wxyz=(1.0, 0, 0, 0),
