@@ -1,8 +1,16 @@
 """The built-in pickup against the paper's published numbers."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
-from compare_with_paper import ACCELERATION_FALL, CAB_YAW_OPTIMISED, FREQUENCIES, compare
+from compare_with_paper import (
+    ACCELERATION_FALL,
+    CAB_YAW_OPTIMISED,
+    FREQUENCIES,
+    compare,
+    markdown,
+)
 
 from modeviz.dynamics.response import direct_response
 from modeviz.ride.roads import track_forces
@@ -51,3 +59,8 @@ def test_the_modes_kept_in_a_response_are_enough(comparison):
     modal = (seat @ kept.shapes) @ comparison.original.coordinates[indices]
     scale = np.abs(direct).max(axis=(1, 2), keepdims=True)
     assert (np.abs(modal - direct) / scale).max() < 0.01
+
+
+def test_the_readme_shows_what_the_comparison_prints(comparison):
+    readme = Path(__file__).parents[1].joinpath("README.md").read_text().splitlines()
+    assert [line for line in markdown(comparison).splitlines() if line not in readme] == []
