@@ -1,0 +1,224 @@
+"""The whole page on the built-in pickup, used as an engineer would."""
+
+import io
+import json
+import re
+
+import numpy as np
+import pytest
+from pages import wait_for
+from PIL import Image
+
+from modeviz.cli import main
+from modeviz.dynamics.assembly import assemble
+from modeviz.tuning.results import FREQUENCY_HZ, Conditions, solve_modal
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.viewer.app import App
+from modeviz.viewer.plots import SHOWN_HZ
+
+GROUPS = ("F", "C1", "C2", "E", "T")
+DIRECTIONS = ("vertical", "lateral", "fore-aft")
+CAB = "/vehicle/cab"
+SOLVE_S = 120
+
+CHARTS = "Object.values(window.__viserTestpoints?.uplots ?? {})"
+CURRENT = f"{CHARTS}.map((c) => Array.from(c.chart.data[2]))"
+SHAPE = """
+(() => {
+  let found = null;
+  window.__viserMutable.nodeRefFromName[a.name]?.traverse((object) => {
+    found ??= object.geometry?.attributes?.modevizReal?.array;
+  });
+  return found && Array.from(found);
+})()
+"""
+CLOSE_NOTICES = (
+    "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
+)
+TITLE = "document.querySelector('.mv .title')?.textContent"
+
+
+@pytest.fixture(scope="module")
+def app(server):
+    vehicle = read_vehicle(builtin_vehicle())
+    app = App(vehicle, vehicle.rates, Conditions("road 1", vehicle.speed), server)
+    # Rendering in software would take nearly all the time of these tests.
+    server.scene.configure_environment_map(None)
+    app._scene._stage._key.cast_shadow = False
+    app._animation._run(False)
+    yield app
+    app.session.close()
+
+
+@pytest.fixture(scope="module")
+def page(app, server, open_page):
+    page = open_page(server, viewport=(980, 640))  # a narrow scene between the panels: drawn fast
+    wait_for(page, "document.querySelectorAll('.mantine-Slider-thumb').length >= 15")
+    wait_for(page, f"{CHARTS}.length === 2 && {TITLE}")
+    wait_for(page, SHAPE, name=CAB)
+    page.evaluate(CLOSE_NOTICES)
+    return page
+
+
+@pytest.fixture(autouse=True)
+def original(app, page):
+    """Every test starts with the original rates solved and shown."""
+    app._set_rates(app.session.vehicle.rates)
+    app.session.change(mode="cab yaw", conditions=Conditions("road 1", 20.0))
+    assert app.session.wait(SOLVE_S)
+    wait_for(page, f"{TITLE}?.startsWith(a.title)", title=title(app, "cab yaw"))
+
+
+def title(app, name, rates=None):
+    """How the card should be headed when the mode of that name is shown."""
+    results = solve_modal(assemble(app.session.vehicle), rates or {})
+    f = results.modes.frequency_hz[results.mode_index(name)]
+    return f"{name.capitalize()}  {f:.2f} Hz"
+
+
+def thumb(page, group, direction):
+    number = 3 * GROUPS.index(group) + DIRECTIONS.index(direction)
+    return page.locator(".mantine-Slider-thumb").nth(number)
+
+
+def value(slider):
+    return float(slider.get_attribute("aria-valuenow"))
+
+
+def drag(page, slider, target):
+    """Drags a slider with the mouse, then steps with the arrow keys to the exact value."""
+    low, high = (float(slider.get_attribute(f"aria-value{end}")) for end in ("min", "max"))
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    track = slider.locator("xpath=../..").bounding_box()
+    y = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + box["width"] / 2, y)
+    page.mouse.down()
+    page.mouse.move(track["x"] + track["width"] * (target - low) / (high - low), y, steps=10)
+    page.mouse.up()
+    slider.focus()
+    for _ in range(60):
+        off = round(target - value(slider))
+        if off == 0:
+            return
+        page.keyboard.press("ArrowRight" if off > 0 else "ArrowLeft")
+    raise AssertionError(f"the slider stays at {value(slider)}, {target} was wanted")
+
+
+def printed(capsys, *arguments):
+    capsys.readouterr()
+    assert main([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def chart_db(record, direction):
+    """What the chart of the driver's point should show of a printed record."""
+    (response,) = [
+        r for r in record["responses"] if (r["point"], r["direction"]) == ("seat track left", direction)
+    ]
+    f = FREQUENCY_HZ
+    inside = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
+    return 10 * np.log10(np.array(response["psd_g2_per_hz"])[inside])
+
+
+def test_dragged_rates_give_what_the_command_line_prints(app, page, capsys):
+    charts, shape = page.evaluate(CURRENT), page.evaluate(f"a => {SHAPE}", {"name": CAB})
+    assert value(thumb(page, "C2", "lateral")) == 294
+    drag(page, thumb(page, "C2", "lateral"), 131)
+    drag(page, thumb(page, "F", "fore-aft"), 130)
+
+    settings = "--set", "C2.lateral=131 N/mm", "--set", "F.fore-aft=130 N/mm"
+    modes = printed(capsys, "modes", *settings)["modes"]
+    (yaw,) = [m["frequency_hz"] for m in modes if m["name"] == "cab yaw"]
+    wait_for(page, f"{TITLE}.startsWith(a.title)", title=f"Cab yaw  {yaw:.2f} Hz")
+    assert yaw < 11.3
+
+    record = printed(capsys, "psd", *settings)
+    for drawn, before, direction in zip(
+        page.evaluate(CURRENT), charts, ("lateral", "vertical"), strict=True
+    ):
+        np.testing.assert_allclose(drawn, chart_db(record, direction), atol=1e-6)
+        assert np.abs(np.subtract(drawn, before)).max() > 1.0
+
+    now = page.evaluate(f"a => {SHAPE}", {"name": CAB})
+    assert len(now) == len(shape)
+    assert np.abs(np.subtract(now, shape)).max() > 0
+
+
+def test_the_mode_follows_while_the_slider_moves(page):
+    slider = thumb(page, "C2", "lateral")
+    box, titles = slider.bounding_box(), [page.evaluate(TITLE)]
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(1, 4):
+        page.mouse.move(x - 5 * step, y)
+        titles.append(wait_for(page, f"{TITLE} !== a.last && {TITLE}", last=titles[-1]))
+    page.mouse.up()
+    frequencies = [float(t.split()[2]) for t in titles]
+    assert frequencies == sorted(frequencies, reverse=True)
+
+
+def test_optimised_rates_come_and_go_with_a_click(app, page):
+    optimised = app.session.vehicle.rate_sets["optimised"]
+    page.get_by_role("button", name="Optimised", exact=True).click()
+    wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "cab yaw", optimised))
+    assert value(thumb(page, "C1", "vertical")) == 2100
+    page.get_by_role("button", name="All", exact=True).click()
+    wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "cab yaw"))
+    assert value(thumb(page, "C1", "vertical")) == 1094
+
+
+def test_a_click_in_the_mode_table_shows_that_mode(app, page):
+    before = page.evaluate(f"a => {SHAPE}", {"name": CAB})
+    page.locator(".mv td label", has_text="First torsion").click()
+    wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "first torsion"))
+    now = page.evaluate(f"a => {SHAPE}", {"name": CAB})
+    assert np.abs(np.subtract(now, before)).max() > 0.01
+
+
+def test_a_click_on_a_peaks_contributor_shows_that_mode(app, page):
+    page.get_by_role("button", name=re.compile(r"^Rear tramp 0\.\d\d$")).first.click()
+    wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "rear tramp"))
+
+
+def test_what_a_page_loses_is_put_back(app, page):
+    """viser throttles all widgets with one timer; the server's value must reach the screen."""
+    slider = app._mounts._sliders["C2", "lateral"]
+    page.evaluate(
+        """(uuid) => window.__viserMutable.sendMessage({
+            type: "GuiUpdateMessage", uuid, updates: { value: 200.0 } })""",
+        slider._impl.uuid,
+    )
+    # The page itself still draws the old value, as after a lost message; then it gets the server's.
+    wait_for(page, "document.querySelectorAll('.mantine-Slider-thumb')[7].ariaValueNow === '200'")
+    assert app.session.wait(SOLVE_S)
+    assert app.session.state.rates["C2"].lateral == 200e3
+
+
+def test_a_picture_has_the_chosen_size_and_shows_the_truck(page):
+    page.set_viewport_size({"width": 1500, "height": 500})
+    page.get_by_role("button", name="Iso", exact=True).click()
+    page.get_by_role("tab", name="Pictures").click()
+    with page.expect_download(timeout=120_000) as download:
+        page.get_by_role("button", name="Save picture").click()
+    assert download.value.suggested_filename == "pickup-cab-yaw.png"
+    picture = Image.open(io.BytesIO(download.value.path().read_bytes()))
+    assert picture.size == (1920, 1080)
+    pixels = np.asarray(picture.convert("RGB"), float)
+    assert pixels.std(axis=(0, 1)).min() > 10
+    # The front end is blue, the cab orange: both are there.
+    red, _, blue = np.moveaxis(pixels, -1, 0)
+    assert ((blue - red) > 25).mean() > 0.005
+    assert ((red - blue) > 25).mean() > 0.005
+
+
+def test_another_road_is_solved(page, capsys):
+    page.get_by_role("tab", name="Road").click()
+    page.get_by_role("combobox", name="Road").click()
+    page.get_by_role("option", name="Road 2").click()
+    page.get_by_role("tab", name="Response").click()
+    wait_for(page, "document.body.textContent.includes('road 2, 72 km/h')")
+    record = printed(capsys, "psd", "--road", "road 2")
+    wait_for(page, f"{CHARTS}.length === 2")
+    np.testing.assert_allclose(page.evaluate(CURRENT)[0], chart_db(record, "lateral"), atol=1e-6)
