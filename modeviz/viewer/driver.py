@@ -101,10 +101,6 @@ class ShapeDriver:
         """Multiplies the opacity of a mesh's skin and glass."""
         self._clouds[name].point_size = factor
 
-    def set_visible(self, name: str, visible: bool) -> None:
-        """Shows or hides a mesh."""
-        self._meshes[name].visible = visible
-
     def drive(
         self,
         amplitude: float | None = None,
