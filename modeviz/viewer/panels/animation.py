@@ -5,8 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import viser
 
+from modeviz.shapes.colors import DISPLACEMENT_STOPS
 from modeviz.viewer.driver import ShapeDriver
-from modeviz.viewer.html import block, heading, sentence_case, span, style_sheet
+from modeviz.viewer.html import block, heading, sentence_case, style_sheet
 from modeviz.viewer.session import Solved
 
 START_SPEED_HZ = 0.5
@@ -66,8 +67,9 @@ class AnimationCard:
         modes, i = solved.now.modes, solved.mode
         name = sentence_case(solved.now.names[i].name)
         title = f'<span class="title">{name}  {modes.frequency_hz[i]:.2f} Hz</span>'
-        about = span(f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %", "dim")
-        self._head.content = self._style + block(heading(title, about))
+        about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
+        scale = _color_scale() if solved.state.coloring == "displacement" else ""
+        self._head.content = self._style + block(heading(title, about), scale)
 
     def _hold(self) -> None:
         self._run(False)
@@ -82,3 +84,13 @@ class AnimationCard:
             self._step_mode(1 if button == NEXT else -1)
         else:
             self._run(button == PLAY)
+
+
+def _color_scale() -> str:
+    """What the colours of the displacement mean."""
+    ticks = "".join(f"<span>{percent} %</span>" for percent in (0, 25, 50, 75, 100))
+    return (
+        heading("Displacement", "relative to the largest on the bodies")
+        + '<div class="scale" style="background:linear-gradient(90deg,'
+        + f'{",".join(DISPLACEMENT_STOPS)})"></div><div class="ticks dim">{ticks}</div>'
+    )

@@ -72,6 +72,7 @@ class EnergyPanel:
         self._content.content = block(
             heading(f"{name}: kinetic energy by body"),
             _kinetic(solved.now, solved.mode),
+            heading("Strain energy by mount group"),
             _strain(solved),
         )
 
@@ -129,13 +130,13 @@ def _strain(solved: Solved) -> str:
         )
         for g in groups
     ]
-    return table(("Strain energy by mount group", "", "now", "original"), rows)
+    return table(("", "", "now", "original"), rows)
 
 
 def _bars(now: float, base: float) -> str:
     """The share now above the one before, as parts of the largest."""
     return "".join(
-        f'<div class="bar" style="height:{height}px;width:240px;margin-top:1px">'
+        f'<div class="bar" style="height:{height}px;margin-top:1px">'
         f'<i style="width:{100 * share:.1f}%;background:var({color})"></i></div>'
         for share, height, color in ((now, 6, "--mv-now"), (base, 3, "--mv-base"))
     )
