@@ -190,6 +190,7 @@ def test_same_phase_can_be_sought_again(driver, page):
 def test_removed_and_added_mesh_with_other_vertices_shows_its_new_shape(driver, page):
     driver.remove(NAME)
     wait_for(page, "!window.__viserMutable.nodeRefFromName[a.name]", name=NAME)
+    wait_for(page, "!window.__viserSceneTree.getState()['/_shape' + a.name]", name=NAME)
     small = surface((MeshPart("panel", PANEL, FACES, Material((1, 2, 3))),))
     driver.add(NAME, glb(small), 4)
     driver.show(NAME, SHAPE * 7)
