@@ -12,10 +12,10 @@ import msgspec
 from modeviz.errors import VehicleError, check_unique, located, unknown
 from modeviz.units import factor, parse
 from modeviz.vehicle.connections import DIRECTIONS, MountRates, Rates
-from modeviz.vehicle.decoding import decode
-from modeviz.vehicle.disk import read_text, write_text
-from modeviz.vehicle.records import RatesRecord
-from modeviz.vehicle.scaling import written
+from modeviz.vehicle.files.decoding import decode
+from modeviz.vehicle.files.disk import read_text, write_text
+from modeviz.vehicle.files.records import RatesRecord
+from modeviz.vehicle.files.scaling import written
 from modeviz.vehicle.vehicle import Vehicle
 
 ORIGINAL = "original"

@@ -1,7 +1,7 @@
 """The vehicle folder: `vehicle.toml`, and beside it the bodies' modes and meshes and the roads.
 
 FOLDER/vehicle.toml says everything but arrays, in the units that its `units` table declares; the keys
-are the fields of the records in `modeviz.vehicle.records`. FOLDER/bodies/NAME.npz has the modes of a
+are the fields of the records in `records`. FOLDER/bodies/NAME.npz has the modes of a
 flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a road's spectra; all in SI.
 """
 
@@ -15,13 +15,12 @@ import msgspec
 
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
-from modeviz.vehicle.bodyfiles import write_flexible_body
 from modeviz.vehicle.connections import Bolt, Connection, Damper, Spring, Tyre
-from modeviz.vehicle.decoding import decode
-from modeviz.vehicle.disk import file_stems, read_text, replace_folder, write_text
-from modeviz.vehicle.loads import Road
-from modeviz.vehicle.meshfiles import write_mesh
-from modeviz.vehicle.records import (
+from modeviz.vehicle.files.decoding import decode
+from modeviz.vehicle.files.disk import file_stems, read_text, replace_folder, write_text
+from modeviz.vehicle.files.meshes import write_mesh
+from modeviz.vehicle.files.modal import write_flexible_body
+from modeviz.vehicle.files.records import (
     AddedMassRecord,
     ConnectionRecord,
     FlexibleBodyRecord,
@@ -34,9 +33,10 @@ from modeviz.vehicle.records import (
     VehicleRecord,
     WheelLoadRecord,
 )
-from modeviz.vehicle.roadfiles import write_road
-from modeviz.vehicle.scaling import WRITTEN_UNITS, from_si, to_si
-from modeviz.vehicle.toml import to_toml
+from modeviz.vehicle.files.roads import write_road
+from modeviz.vehicle.files.scaling import WRITTEN_UNITS, from_si, to_si
+from modeviz.vehicle.files.toml import to_toml
+from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 
 VEHICLE_FILE = "vehicle.toml"
@@ -61,7 +61,7 @@ def builtin_vehicle() -> Path:
     Raises:
         VehicleError: it is in neither place.
     """
-    package = Path(__file__).parents[1]
+    package = Path(__file__).parents[2]
     for home in (package, package.parent):
         if (home / "assets" / "truck" / VEHICLE_FILE).is_file():
             return home / "assets" / "truck"

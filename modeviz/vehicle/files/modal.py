@@ -8,7 +8,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Mesh, Role
-from modeviz.vehicle.disk import read_bytes
+from modeviz.vehicle.files.disk import read_bytes
 
 KINDS = {
     "omega_n_squared": ("f", 1),

@@ -14,12 +14,12 @@ from msgspec import Meta
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role
-from modeviz.vehicle.bodyfiles import read_flexible_body
 from modeviz.vehicle.connections import Connection, Mount, MountGroup, MountRates
-from modeviz.vehicle.disk import inside
+from modeviz.vehicle.files.disk import inside
+from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
+from modeviz.vehicle.files.modal import read_flexible_body
+from modeviz.vehicle.files.roads import read_road
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad, WheelLoadKind
-from modeviz.vehicle.meshfiles import DEFAULT_COLOR, read_mesh
-from modeviz.vehicle.roadfiles import read_road
 
 Name = Annotated[str, Meta(min_length=1)]
 Positive = Annotated[float, Meta(gt=0)]

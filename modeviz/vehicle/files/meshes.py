@@ -11,7 +11,7 @@ from trimesh.exchange.gltf import export_glb
 
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
-from modeviz.vehicle.disk import read_bytes
+from modeviz.vehicle.files.disk import read_bytes
 
 MESH_SUFFIXES = (".glb", ".stl", ".obj", ".ply")
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.errors import VehicleError, located
-from modeviz.vehicle.disk import read_text, write_text
+from modeviz.vehicle.files.disk import read_text, write_text
 from modeviz.vehicle.loads import Road
 
 COLUMNS = ("frequency_hz", "left", "right", "cross_real", "cross_imag")

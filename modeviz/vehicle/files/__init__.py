@@ -1,0 +1,5 @@
+"""The vehicle folder on disk: the only reader and writer."""
+
+from modeviz.vehicle.files.folder import builtin_vehicle as builtin_vehicle
+from modeviz.vehicle.files.folder import read_vehicle as read_vehicle
+from modeviz.vehicle.files.folder import write_vehicle as write_vehicle
