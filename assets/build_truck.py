@@ -1,9 +1,13 @@
-"""Builds the pickup that comes with modeviz: python assets/build_truck.py [FOLDER]."""
+"""Builds the pickup that comes with modeviz: python assets/build_truck.py [FOLDER].
+
+Prints the static stiffness of its bare frame, cab and box.
+"""
 
 import sys
 from pathlib import Path
 
 from pickup.parameters import Parameters
+from pickup.stiffness import static_stiffness
 from pickup.vehicle import pickup
 
 from modeviz.vehicle.files import write_vehicle
@@ -11,4 +15,7 @@ from modeviz.vehicle.files import write_vehicle
 TRUCK = Path(__file__).parent / "truck"
 
 if __name__ == "__main__":
-    write_vehicle(pickup(Parameters()), Path(sys.argv[1]) if len(sys.argv) > 1 else TRUCK)
+    parameters = Parameters()
+    for name, stiffness in static_stiffness(parameters).items():
+        print(f"bare {name}: {stiffness}")
+    write_vehicle(pickup(parameters), Path(sys.argv[1]) if len(sys.argv) > 1 else TRUCK)

@@ -12,11 +12,11 @@ from pickup.lattice import Lattice
 from pickup.mounts import OPTIMISED, ORIGINAL
 from pickup.parameters import Parameters
 from pickup.sections import box_member, steel_sheet
+from pickup.stiffness import StaticStiffness, static_stiffness
 from pickup.vehicle import components, pickup
 
 from modeviz.fem.free import center_of_gravity, free_modes
 from modeviz.fem.matrices import assemble
-from modeviz.fem.statics import beaming_stiffness, station, torsional_stiffness
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
@@ -121,14 +121,14 @@ def test_a_component_rings_as_in_the_study(name):
 
 
 def test_the_bare_frame_is_as_stiff_as_in_the_study():
-    frame = matrices("frame")
-    front, middle, rear = (
-        station(frame.nodes, np.array(place))
-        for place in ((0, 0.38, 0.5), (1.6, 0.45, 0.44), (2.98, 0.48, 0.64))
-    )
-    per_degree = torsional_stiffness(frame, front, rear) / factor("N m/deg", "rotational stiffness")
+    frame = static_stiffness(STUDY)["frame"]
+    per_degree = frame.torsion / factor("N m/deg", "rotational stiffness")
     assert per_degree == pytest.approx(936, abs=0.5)
-    assert beaming_stiffness(frame, front, middle, rear) == pytest.approx(2860e3, abs=5e3)
+    assert frame.beaming == pytest.approx(2860e3, abs=5e3)
+
+
+def test_static_stiffness_is_told_in_an_engineers_units():
+    assert str(StaticStiffness(936 * 180 / np.pi, 2.86e6)) == "torsion 936 N m/deg, beaming 2860 N/mm"
 
 
 def test_lattice_interpolates_between_its_corners():
