@@ -9,6 +9,9 @@ from modeviz.dynamics.assembly import System
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 
+RESOLVED_HZ = 0.05
+"""The largest frequency that rounding may give to what moves freely."""
+
 
 @dataclass(frozen=True, eq=False)
 class Modes:
@@ -53,8 +56,10 @@ def solve_modes(system: System, n_modes: int | None = None) -> Modes:
         n_modes: how many, all if None.
 
     Raises:
-        SolveError: the mass matrix is not positive definite.
+        SolveError: the mass matrix is not positive definite, or a spring is so stiff that rounding
+            drowns the slow modes.
     """
+    _check_resolved(system)
     last = min(n_modes or system.n_dofs, system.n_dofs) - 1
     try:
         omega_squared, phi = scipy.linalg.eigh(
@@ -64,6 +69,18 @@ def solve_modes(system: System, n_modes: int | None = None) -> Modes:
         raise SolveError(f"the modes cannot be found: {error}") from None
     omega = np.sqrt(np.maximum(omega_squared, 0.0))
     return Modes(omega / (2 * np.pi), phi, _damping_ratio(system, omega, phi))
+
+
+def _check_resolved(system: System) -> None:
+    """Raises SolveError unless slow modes stand out from rounding, in ω² about ε times the largest."""
+    omega_squared = np.diag(system.stiffness) / np.diag(system.mass)
+    stiffest = int(omega_squared.argmax())
+    if np.finfo(np.float64).eps * omega_squared[stiffest] > (2 * np.pi * RESOLVED_HZ) ** 2:
+        raise SolveError(
+            f"the slow modes drown in rounding: {system.dof_names[stiffest]!r} is held so stiffly that "
+            f"alone it rings at {np.sqrt(omega_squared[stiffest]) / (2 * np.pi):.1g} Hz; soften the "
+            "stiffest connection there"
+        )
 
 
 def _damping_ratio(system: System, omega: Floats, phi: Floats) -> Floats:
