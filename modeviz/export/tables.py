@@ -1,9 +1,11 @@
 """Results as text tables for a terminal."""
 
-import math
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from modeviz.ride.participation import Peak
+from modeviz.ride.psd import power_decibels
 from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.vehicle import Vehicle
@@ -57,7 +59,7 @@ def psd_table(results: Results) -> str:
             [
                 direction,
                 f"{peak.frequency_hz:.1f}",
-                f"{10 * math.log10(peak.psd):.1f}",
+                f"{power_decibels(np.array(peak.psd)):.1f}",
                 _modes_in(results, peak),
             ]
             for direction in ("lateral", "vertical")
@@ -73,7 +75,7 @@ def wheels_table(vehicle: Vehicle, results: WheelResults) -> str:
     means = results.mean(WHEEL_BAND) * 1000
     blocks = [
         table(
-            [f"{point.name}, 1000 g, mean {low:g} to {high:g} Hz", *AXIS],
+            [f"{point.name}, 0.001 g, mean {low:g} to {high:g} Hz", *AXIS],
             [
                 [load.name, *(f"{means[i, j, axis]:.2f}" for axis in AXIS.values())]
                 for i, load in enumerate(vehicle.wheel_loads)
