@@ -4,7 +4,7 @@ from small_meshes import plate
 
 from modeviz.errors import VehicleError
 from modeviz.fem.attachments import OnFootprint, OnNearestNodes, OnNode, unit_loads
-from modeviz.fem.matrices import rigid_motions
+from modeviz.vehicle.rigid import rigid_motions
 
 NODES = plate(4).nodes
 POSITION = np.array([0.3, 0.4, 0.2])

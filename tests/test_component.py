@@ -6,7 +6,8 @@ from modeviz.errors import SolveError
 from modeviz.fem.attachments import OnFootprint, OnNearestNodes, OnNode, unit_loads
 from modeviz.fem.component import flexible_body, modal_properties
 from modeviz.fem.free import free_modes, residual_compliance, static_response
-from modeviz.fem.matrices import assemble, rigid_motions
+from modeviz.fem.matrices import assemble
+from modeviz.vehicle.rigid import rigid_motions
 
 MESH = twisted_plate()
 ATTACHMENTS = (

@@ -8,8 +8,9 @@ from small_meshes import BAR, STEEL, bar, plate, shell
 
 from modeviz.fem.elements import TUBE_SHEAR_FACTOR
 from modeviz.fem.free import free_modes, lowest_modes
-from modeviz.fem.matrices import assemble, rigid_motions
+from modeviz.fem.matrices import assemble
 from modeviz.fem.mesh import BeamSection, ShellSection
+from modeviz.vehicle.rigid import rigid_motions
 
 E, RHO = STEEL["youngs_modulus"], STEEL["density"]
 G = E / 2.6

@@ -14,8 +14,9 @@ from modeviz.fem.free import (
     rigid_modes,
     static_response,
 )
-from modeviz.fem.matrices import assemble, rigid_motions
+from modeviz.fem.matrices import assemble
 from modeviz.fem.mesh import FiniteElementMesh
+from modeviz.vehicle.rigid import rigid_motions
 
 
 @pytest.fixture(scope="module")

@@ -7,9 +7,10 @@ from small_meshes import bar, plate, twisted_plate
 
 from modeviz.errors import SolveError
 from modeviz.fem.free import free_modes
-from modeviz.fem.matrices import assemble, rigid_motions
+from modeviz.fem.matrices import assemble
 from modeviz.fem.mesh import PointMass
 from modeviz.fem.reduction import guyan_reduction, lowest_ratio_masters
+from modeviz.vehicle.rigid import rigid_motions
 
 
 @pytest.fixture(scope="module")

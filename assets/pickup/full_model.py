@@ -9,13 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from modeviz.dynamics.rigid import rigid_motion
 from modeviz.fem.attachments import AttachmentPoint
 from modeviz.fem.free import lowest_modes
 from modeviz.fem.matrices import Matrices, assemble
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND, Connection
+from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 from pickup.parameters import Parameters
 from pickup.vehicle import attachments, components
@@ -109,7 +109,7 @@ class _Builder:
         """Rows (6, n_dofs): how a named place of a body moves."""
         owner = self._vehicle.body(body)
         if isinstance(owner, RigidBody):
-            local = sp.csr_array(rigid_motion(position - owner.center_of_gravity))
+            local = sp.csr_array(rigid_motions(position - owner.center_of_gravity))
         else:
             local = self._places[body][name].motion(self._meshes[body].nodes)
         own = self.dofs[body]

@@ -12,10 +12,10 @@ from functools import cached_property
 
 import numpy as np
 
-from modeviz.dynamics.rigid import rigid_motion
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.connections import GROUND, Connection, Rates
+from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 
 RIGID_DOFS = ("x", "y", "z", "rx", "ry", "rz")
@@ -156,8 +156,8 @@ def _local_motion(body: Body, position: Floats) -> Floats:
     """Rows (6, n) that give the motion of a point in the body's own coordinates."""
     if isinstance(body, FlexibleBody):
         attachment = body.nearest_attachment(position)
-        return rigid_motion(position - attachment.position) @ attachment.shapes
-    return rigid_motion(position - body.center_of_gravity)
+        return rigid_motions(position - attachment.position) @ attachment.shapes
+    return rigid_motions(position - body.center_of_gravity)
 
 
 def _coefficients(connection: Connection) -> tuple[Floats, Floats, Floats]:

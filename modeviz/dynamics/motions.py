@@ -6,9 +6,9 @@ import numpy as np
 
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.modes import Modes
-from modeviz.dynamics.rigid import rigid_motion
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
+from modeviz.vehicle.rigid import rigid_motions
 
 
 def rigid_coordinates(system: System, bodies: Sequence[Body], center: Floats) -> Floats:
@@ -20,10 +20,10 @@ def rigid_coordinates(system: System, bodies: Sequence[Body], center: Floats) ->
             rigid_modes = at.shapes[:, : body.N_RIGID]
             start = system.dofs[body.name].start
             X[start : start + body.N_RIGID] = np.linalg.solve(
-                rigid_modes, rigid_motion(at.position - center)
+                rigid_modes, rigid_motions(at.position - center)
             )
         else:
-            X[system.dofs[body.name]] = rigid_motion(body.center_of_gravity - center)
+            X[system.dofs[body.name]] = rigid_motions(body.center_of_gravity - center)
     return X
 
 

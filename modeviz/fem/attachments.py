@@ -9,8 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from modeviz.errors import VehicleError
-from modeviz.fem.matrices import rigid_motions
 from modeviz.vehicle.arrays import Floats, frozen
+from modeviz.vehicle.rigid import rigid_motions
 
 Axis = Literal["x", "y", "z"]
 

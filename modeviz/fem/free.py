@@ -8,8 +8,9 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as spl
 
 from modeviz.errors import SolveError
-from modeviz.fem.matrices import Matrices, rigid_motions
+from modeviz.fem.matrices import Matrices
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.rigid import rigid_motions
 
 SHIFT = 40.0
 """rad²/s², (1 Hz)²: what shift-invert adds to ω² so that rigid motion has stiffness."""

@@ -8,6 +8,7 @@ import scipy.sparse as sp
 from modeviz.errors import ModevizError
 from modeviz.fem.mesh import FiniteElementMesh, PointMass
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.rigid import rigid_motions
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,23 +29,6 @@ class Matrices:
     def scaled(self, stiffness_factor: float, mass_factor: float) -> "Matrices":
         """The same body of a material so many times as stiff and as heavy."""
         return replace(self, mass=self.mass * mass_factor, stiffness=self.stiffness * stiffness_factor)
-
-
-def rigid_motions(offsets: Floats) -> Floats:
-    """The motion at each offset from a point, (..., 6, 6), per motion of that point.
-
-    u = u₀ + θ × r for small rotations; the rotation is the same everywhere.
-
-    Args:
-        offsets: (..., 3), m.
-    """
-    x, y, z = np.moveaxis(np.asarray(offsets), -1, 0)
-    T = np.zeros((*x.shape, 6, 6))
-    T[...] = np.eye(6)
-    T[..., 0, 4], T[..., 0, 5] = z, -y
-    T[..., 1, 3], T[..., 1, 5] = -z, x
-    T[..., 2, 3], T[..., 2, 4] = y, -x
-    return T
 
 
 def assemble(mesh: FiniteElementMesh) -> Matrices:

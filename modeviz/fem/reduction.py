@@ -10,8 +10,9 @@ import numpy as np
 
 from modeviz.errors import SolveError
 from modeviz.fem.free import N_RIGID, factorised
-from modeviz.fem.matrices import Matrices, rigid_motions
+from modeviz.fem.matrices import Matrices
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.rigid import rigid_motions
 
 CLEARLY = 0.3
 """How much of a motion must be new for it to count as independent."""
