@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import trimesh
 
-from modeviz.shapes.colors import srgb_to_linear
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart
+from modeviz.vehicle.srgb import srgb_to_linear
 
 VERTICES = np.array([[0.0, 0, 0], [1.5, 0, 0], [1.5, 1, 0], [0, 1, 0.25]])
 PANEL = MeshPart("panel", VERTICES, np.array([[0, 1, 2], [0, 2, 3]]), Material((202, 134, 98)))

@@ -1,25 +1,13 @@
-"""Colours: between sRGB and linear light, and from displacements to the colours of vertices."""
+"""From displacements to the colours of vertices."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from modeviz.shapes.motion import peak_displacement
 from modeviz.vehicle.arrays import Floats
 
 DISPLACEMENT_STOPS = ("#3a5480", "#3e8aa0", "#96bea0", "#ecce78", "#e28446", "#b02c34")
 """sRGB from no displacement to the largest, equally spaced."""
-
-
-def srgb_to_linear(srgb: ArrayLike) -> Floats:
-    """Linear light of sRGB values, both 0 to 1 (IEC 61966-2-1)."""
-    c = np.asarray(srgb, float)
-    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
-
-
-def linear_to_srgb(linear: ArrayLike) -> Floats:
-    """The sRGB values of linear light, both 0 to 1 (IEC 61966-2-1)."""
-    c = np.asarray(linear, float)
-    return np.where(c <= 0.0031308, c * 12.92, 1.055 * np.maximum(c, 0) ** (1 / 2.4) - 0.055)
 
 
 def color_map(values: Floats) -> NDArray[np.uint8]:

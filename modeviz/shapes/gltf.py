@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.shapes.colors import srgb_to_linear
 from modeviz.shapes.surface import Patch, Surface
 from modeviz.vehicle.bodies import Material
+from modeviz.vehicle.srgb import srgb_to_linear
 
 FLOAT, UNSIGNED_INT = 5126, 5125
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963

@@ -12,6 +12,7 @@ from trimesh.exchange.gltf import export_glb
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 from modeviz.vehicle.files.disk import read_bytes
+from modeviz.vehicle.srgb import linear_to_srgb, srgb_to_linear
 
 MESH_SUFFIXES = (".glb", ".stl", ".obj", ".ply")
 
@@ -89,7 +90,7 @@ def _materials(content: bytes) -> dict[str, Material]:
 def _material(data: dict[str, Any]) -> Material:
     surface = data.get("pbrMetallicRoughness", {})
     *linear, opacity = surface.get("baseColorFactor", [1.0, 1.0, 1.0, 1.0])
-    red, green, blue = np.rint(255 * _srgb(np.array(linear))).astype(int).tolist()
+    red, green, blue = np.rint(255 * linear_to_srgb(linear)).astype(int).tolist()
     return Material(
         (red, green, blue),
         opacity,
@@ -103,7 +104,10 @@ def _gltf_material(part: MeshPart) -> dict[str, Any]:
     return {
         "name": part.name,
         "pbrMetallicRoughness": {
-            "baseColorFactor": [*_linear(np.array(material.color) / 255).tolist(), material.opacity],
+            "baseColorFactor": [
+                *srgb_to_linear(np.array(material.color) / 255).tolist(),
+                material.opacity,
+            ],
             "roughnessFactor": material.roughness,
             "metallicFactor": material.metallic,
         },
@@ -114,12 +118,3 @@ def _gltf_material(part: MeshPart) -> dict[str, Any]:
 
 def _material_name(surface: trimesh.Trimesh) -> str:
     return str(getattr(getattr(surface.visual, "material", None), "name", ""))
-
-
-def _linear(srgb: np.ndarray) -> np.ndarray:
-    """IEC 61966-2-1: what glTF keeps of a colour that a screen shows."""
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
-
-
-def _srgb(linear: np.ndarray) -> np.ndarray:
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
