@@ -52,7 +52,7 @@ WHEEL_ACCELERATIONS = np.array(
          [[11.5, 7.7], [4.9, 4.2]], [[3.9, 8.0], [1.9, 1.5]]],
     ]
 )  # fmt: skip
-"""Tables 5 and 6, 1000 g, mean 11 to 16 Hz: (points, loads, directions, original or optimised)."""
+"""Tables 5 and 6, 0.001 g, mean 11 to 16 Hz: (points, loads, directions, original or optimised)."""
 
 PARTICIPATION = {
     ("road 1", "vertical"): [
@@ -138,7 +138,7 @@ def _frequency(results: Results, name: str) -> float:
 
 
 def _wheel_accelerations(system: System, rates) -> Floats:
-    """(points, loads, directions), 1000 g, of the left wheels' force variations."""
+    """(points, loads, directions), 0.001 g, of the left wheels' force variations."""
     vehicle = system.vehicle
     means = 1000 * solve_wheels(system, rates, WHEEL_HZ).mean((WHEEL_HZ[0], WHEEL_HZ[-1]))
     loads = [w.name for w in vehicle.wheel_loads]
