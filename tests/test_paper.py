@@ -47,18 +47,19 @@ def test_wheel_responses_change_as_in_tables_5_and_6(comparison):
     assert comparison.right_signs >= 14
 
 
-def test_the_modes_kept_in_a_response_are_enough(comparison):
-    """Against the direct solution of the whole system, in the band the mounts act on."""
-    system = comparison.original.system
-    f = np.array([1.6, 5.0, 8.6, 11.6, 13.0, 16.8, 25.0])
-    point = system.vehicle.response_points[0]
-    seat = system.motion(point.body, point.position)[:3]
-    direct = direct_response(system, f, track_forces(system, f, 20.0), seat)
-    kept = comparison.original.modes
-    indices = np.round(f * 10).astype(int) - 1
-    modal = (seat @ kept.shapes) @ comparison.original.coordinates[indices]
+@pytest.mark.parametrize("rates", ["original", "optimised"])
+def test_the_modes_kept_in_a_response_miss_at_most_1_2_percent(comparison, rates):
+    """At every response point, against the direct solution of the whole system."""
+    results = getattr(comparison, rates)
+    system, kept = results.system, results.modes
+    indices = np.array([9, 15, 20, 49, 85, 109, 115, 119, 129, 139, 154, 169, 209, 259, 299, 399])
+    f = results.frequency_hz[indices]
+    rows = [system.motion(p.body, p.position)[:3] for p in system.vehicle.response_points]
+    read = np.vstack(rows)
+    direct = direct_response(system, f, track_forces(system, f, 20.0), read)
+    modal = (read @ kept.shapes) @ results.coordinates[indices]
     scale = np.abs(direct).max(axis=(1, 2), keepdims=True)
-    assert (np.abs(modal - direct) / scale).max() < 0.01
+    assert (np.abs(modal - direct) / scale).max() < 0.012
 
 
 def test_the_readme_shows_what_the_comparison_prints(comparison):
