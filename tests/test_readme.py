@@ -1,9 +1,13 @@
 """The README: what it shows runs, and what it links to is there."""
 
+import json
 import re
 from pathlib import Path
 
 import pytest
+
+from modeviz.cli import main
+from modeviz.vehicle.files import builtin_vehicle
 
 CHECKOUT = Path(__file__).parents[1]
 README = (CHECKOUT / "README.md").read_text()
@@ -18,6 +22,26 @@ def test_solve_prints_the_cab_yaw_of_each_set_of_rates(capsys: pytest.CaptureFix
     assert original == pytest.approx(11.7, rel=0.012)
     assert optimised == pytest.approx(9.8, abs=0.15)
     assert optimised < softer < original
+
+
+def keys(value) -> set[str]:
+    """Every key of a record but names of bodies and groups, which stand under keys of their own."""
+    if isinstance(value, list):
+        return set().union(*map(keys, value))
+    if not isinstance(value, dict):
+        return set()
+    named = {"rates", "kinetic_energy", "strain_energy"}
+    inner = (keys(list(v.values())) if k in named else keys(v) for k, v in value.items())
+    return set(value).union(*inner)
+
+
+@pytest.mark.parametrize("command", ["modes", "psd", "wheels"])
+def test_json_has_the_keys_that_the_readme_documents(command, capsys: pytest.CaptureFixture[str]):
+    (documented,) = re.findall(rf"^{command} +(\{{.*?)^(?=\w)", README, re.DOTALL | re.MULTILINE)
+    (rates,) = re.findall(r"^rates +(\{.*?)^```", README, re.DOTALL | re.MULTILINE)
+    assert main([command, str(builtin_vehicle()), "--json"]) == 0
+    printed = keys(json.loads(capsys.readouterr().out))
+    assert printed == set(re.findall(r'"(\w+)"', documented + rates))
 
 
 def test_links_lead_to_files_of_the_checkout():
