@@ -1,5 +1,6 @@
 """The page as a whole: opens the server, lays out the panels and draws every answer."""
 
+import logging
 import threading
 import traceback
 
@@ -158,6 +159,8 @@ def serve(
     Raises:
         ModevizError: the port is in use, or the address needs a token.
     """
+    # What is no request, such as a port scan, is nothing the user can put right.
+    logging.getLogger("websockets").setLevel(logging.CRITICAL)
     # Two BLAS threads on these sizes, beside a browser, are far slower than one.
     with threadpool_limits(limits=1, user_api="blas"):
         server = open_server(host, port, token, title=f"{vehicle.name} · modeviz")

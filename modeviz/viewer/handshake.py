@@ -52,7 +52,7 @@ class Door:
 
         def process_request(connection: ServerConnection, request: Request) -> Response | None:
             if not self.is_open:
-                return _answer(503, "starting")
+                return _answer(503, "starting", Refresh="1")
             refusal = self.refusal(request) or self.token_answer(connection.local_address[1], request)
             if refusal or _is_websocket(request):
                 return refusal or inner(connection, request)
