@@ -13,8 +13,9 @@ def modes_only(vehicle: Vehicle) -> Vehicle:
     """The vehicle as the paper models it: normal modes alone, residual compliance at the bolts.
 
     No body keeps its residual vectors. What truncation takes from the first body of each bolt is put
-    in series with the bolt, 1/k' = 1/k + R in each direction; the second is taken as stiff, as the
-    paper does with the cab (Duncan, "Modal synthesis theory and modeling").
+    in series with the bolt, 1/k' = 1/k + R in each direction by itself, the paper's one-dimensional
+    spring; the second body of `Bolt.bodies` is taken as stiff, as the paper does with the cab (Duncan,
+    "Modal synthesis theory and modeling").
     """
     return replace(
         vehicle,

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
+from modeviz.ride.psd import amplitude_decibels
 from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
@@ -73,9 +74,10 @@ def wheels_record(vehicle: Vehicle, results: WheelResults) -> Record:
     """Harmonic response to each wheel load.
 
     `{"vehicle", "rates", "frequency_hz": [...], "loads": [{"load", "kind", "tyre", "amplitude",
-    "responses": [{"point", "direction", "acceleration_g": [...peak]}]}]}`; the amplitude is in N,
-    of an unbalance in kg m.
+    "responses": [{"point", "direction", "acceleration_g": [...peak], "acceleration_db": [...re 1 g]}]
+    }]}`; the amplitude is in N, of an unbalance in kg m.
     """
+    decibels = amplitude_decibels(results.acceleration_g)
     loads = [
         {
             "load": load.name,
@@ -87,6 +89,7 @@ def wheels_record(vehicle: Vehicle, results: WheelResults) -> Record:
                     "point": point.name,
                     "direction": direction,
                     "acceleration_g": results.acceleration_g[:, i, j, axis].tolist(),
+                    "acceleration_db": decibels[:, i, j, axis].tolist(),
                 }
                 for j, point in enumerate(vehicle.response_points)
                 for direction, axis in AXIS.items()

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from modeviz.ride.participation import Peak
-from modeviz.ride.psd import power_decibels
+from modeviz.ride.psd import amplitude_decibels, power_decibels
 from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.vehicle import Vehicle
@@ -70,14 +70,22 @@ def psd_table(results: Results) -> str:
 
 
 def wheels_table(vehicle: Vehicle, results: WheelResults) -> str:
-    """Mean peak acceleration at each point for each load, as the paper's Tables 5 and 6."""
+    """Mean peak acceleration at each point for each load, as the paper's Tables 5 and 6.
+
+    In brackets the highest in that band, dB re 1 g.
+    """
     low, high = WHEEL_BAND
     means = results.mean(WHEEL_BAND) * 1000
+    inside = (results.frequency_hz >= low) & (results.frequency_hz <= high)
+    highest = amplitude_decibels(results.acceleration_g[inside].max(axis=0))
     blocks = [
         table(
-            [f"{point.name}, 0.001 g, mean {low:g} to {high:g} Hz", *AXIS],
+            [f"{point.name}, {low:g} to {high:g} Hz: mean, 0.001 g (highest, dB re 1 g)", *AXIS],
             [
-                [load.name, *(f"{means[i, j, axis]:.2f}" for axis in AXIS.values())]
+                [
+                    load.name,
+                    *(f"{means[i, j, axis]:.2f} ({highest[i, j, axis]:.1f})" for axis in AXIS.values()),
+                ]
                 for i, load in enumerate(vehicle.wheel_loads)
             ],
         )
