@@ -2,13 +2,14 @@
 
 import argparse
 import json
+import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Sequence, Sized
 from importlib.metadata import version
 from pathlib import Path
 
 from modeviz.dynamics.assembly import assemble
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record, modes_record, psd_record, wheels_record
 from modeviz.export.tables import modes_table, psd_table, wheels_table
 from modeviz.tuning.rates import resolve_rates
@@ -30,9 +31,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     try:
         options.run(options)
+        sys.stdout.flush()
     except ModevizError as error:
         print(f"modeviz: {error}", file=sys.stderr)
         return 2
+    except BrokenPipeError:
+        # Whoever reads, such as `head`, has enough; Python would fail again when it flushes at its end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except KeyboardInterrupt:
         return 130
     return 0
@@ -105,15 +110,30 @@ def _vehicle(options: argparse.Namespace) -> Vehicle:
 
 
 def _conditions(options: argparse.Namespace, vehicle: Vehicle) -> Conditions:
-    if not vehicle.roads:
-        raise ModevizError(f"vehicle {vehicle.name!r} has no road: give its vehicle.toml a [[road]]")
-    speed = parse(options.speed, "speed") if options.speed else vehicle.speed
-    if speed <= 0:
-        raise ModevizError(f"--speed: found {options.speed!r}, expected more than zero")
+    _need(vehicle, "road", vehicle.roads)
+    _need(vehicle, "response point", vehicle.response_points)
+    speed = vehicle.speed if options.speed is None else _speed(options.speed)
     return Conditions(vehicle.road(options.road or vehicle.roads[0].name).name, speed)
 
 
+def _speed(text: str) -> float:
+    with located("--speed"):
+        speed = parse(text, "speed")
+        if speed <= 0:
+            raise ModevizError(f"found {text!r}, expected more than zero")
+    return speed
+
+
+def _need(vehicle: Vehicle, what: str, found: Sized) -> None:
+    """Raises ModevizError unless the vehicle has some of what a command shows."""
+    if not found:
+        key = what.replace(" ", "_")
+        raise ModevizError(f"vehicle {vehicle.name!r} has no {what}: give its vehicle.toml a [[{key}]]")
+
+
 def _modes(options: argparse.Namespace) -> None:
+    if not options.below > 0:
+        raise ModevizError(f"--below: found {options.below:g} Hz, expected more than zero")
     results = solve_modal(assemble(_vehicle(options)), {})
     if options.json:
         _print_json(modes_record(results, options.below))
@@ -123,7 +143,6 @@ def _modes(options: argparse.Namespace) -> None:
 
 def _psd(options: argparse.Namespace) -> None:
     vehicle = _vehicle(options)
-    _need_points(vehicle)
     results = solve(assemble(vehicle), {}, _conditions(options, vehicle))
     if options.json:
         _print_json(psd_record(results))
@@ -133,7 +152,8 @@ def _psd(options: argparse.Namespace) -> None:
 
 def _wheels(options: argparse.Namespace) -> None:
     vehicle = _vehicle(options)
-    _need_points(vehicle)
+    _need(vehicle, "response point", vehicle.response_points)
+    _need(vehicle, "wheel load", vehicle.wheel_loads)
     results = solve_wheels(assemble(vehicle), {}, FREQUENCY_HZ)
     if options.json:
         _print_json(wheels_record(vehicle, results))
@@ -155,14 +175,6 @@ def _view(options: argparse.Namespace) -> None:
         options.token,
         options.dark,
     )
-
-
-def _need_points(vehicle: Vehicle) -> None:
-    if not vehicle.response_points:
-        raise ModevizError(
-            f"vehicle {vehicle.name!r} has no response point: "
-            "give its vehicle.toml a [[response_point]]"
-        )
 
 
 def _print_json(record: Record) -> None:

@@ -1,6 +1,7 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -88,7 +89,7 @@ def test_tables_name_points_and_directions(capsys, folder, command):
     ("arguments", "message"),
     [
         (["modes", "no/such/folder"], "no/such/folder"),
-        (["modes", "{}", "--rates", "hard"], "unknown rates 'hard'"),
+        (["modes", "{}", "--rates", "hard"], "there are original, soft, or give"),
         (["modes", "{}", "--set", "C9.lateral=131 N/mm"], "unknown mount group 'C9'"),
         (["modes", "{}", "--set", "A.sideways=131 N/mm"], "unknown direction 'sideways'"),
         (["modes", "{}", "--set", "A.lateral=131"], "without a unit"),
@@ -96,10 +97,13 @@ def test_tables_name_points_and_directions(capsys, folder, command):
         (["modes", "{}", "--set", "A.lateral=-5 N/mm"], "zero or more"),
         (["modes", "{}", "--set", "A.lateral=nan N/mm"], "expected a number"),
         (["psd", "{}", "--road", "moon"], "unknown road 'moon'"),
-        (["psd", "{}", "--speed", "fast"], "expected a number"),
         (["psd", "{}", "--speed", "0 km/h"], "more than zero"),
+        (["psd", "{}", "--speed", "fast"], "--speed: found 'fast'"),
         (["psd", "{}", "--speed", "9000 km/h"], "its table holds"),
-        (["view", "{}", "--port", "99999999"], "port"),
+        (["modes", "{}", "--below", "nan"], "--below: found nan Hz"),
+        (["view", "{}", "--port", "99999999"], "expected 0 to 65535"),
+        (["view", "{}", "--port", "-1"], "expected 0 to 65535"),
+        (["view", "{}", "--port", "0", "--speed", "9000 km/h"], "its table holds"),
         (["view", "{}", "--host", "0.0.0.0"], "token"),
     ],
 )
@@ -110,6 +114,34 @@ def test_what_the_user_can_put_right_is_one_message_and_status_2(capsys, folder,
     assert message in captured.err
     assert captured.err.startswith("modeviz: ")
     assert captured.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("command", "field", "message"),
+    [
+        ("psd", "roads", "has no road: give its vehicle.toml a [[road]]"),
+        ("psd", "response_points", "has no response point"),
+        ("wheels", "response_points", "has no response point"),
+        ("wheels", "wheel_loads", "has no wheel load: give its vehicle.toml a [[wheel_load]]"),
+        ("view", "roads", "has no road"),
+        ("view", "response_points", "has no response point"),
+    ],
+)
+def test_a_vehicle_without_what_a_command_shows_is_refused(tmp_path, capsys, command, field, message):
+    write_vehicle(replace(mounted_cabin(), **{field: ()}), tmp_path / "bare")
+    assert main([command, str(tmp_path / "bare")]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_reader_that_has_enough_is_no_error(folder):
+    command = [sys.executable, "-m", "modeviz", "psd", folder, "--json"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        assert run.stdout
+        assert run.stderr
+        run.stdout.readline()
+        run.stdout.close()
+        assert run.stderr.read() == ""
+    assert run.returncode == 0
 
 
 def test_the_program_ends_with_that_status_and_no_traceback(folder):

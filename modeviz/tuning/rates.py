@@ -109,7 +109,7 @@ def _chosen(vehicle: Vehicle, choice: str) -> Rates:
         return vehicle.rate_sets[choice]
     if Path(choice).suffix:
         return read_rates(Path(choice), vehicle)
-    known = unknown("rates", choice, (ORIGINAL, *vehicle.rate_sets))
+    known = unknown("rates", choice, dict.fromkeys((ORIGINAL, *vehicle.rate_sets)))
     raise VehicleError(f"{known}, or give a .json or .csv file")
 
 

@@ -159,10 +159,9 @@ def solve_wheels(system: System, rates: Rates, frequency_hz: Floats) -> WheelRes
     loads = system.vehicle.wheel_loads
     q = modal_coordinates(system, modes, frequency_hz, wheel_forces(system, loads, frequency_hz))
     H = (_output_rows(system) @ modes.shapes) @ q
-    g = harmonic_acceleration(frequency_hz, H)
-    return WheelResults(
-        frequency_hz, g.transpose(0, 2, 1).reshape(len(frequency_hz), len(loads), -1, 3)
-    )
+    g = harmonic_acceleration(frequency_hz, H).transpose(0, 2, 1)
+    n_points = len(system.vehicle.response_points)
+    return WheelResults(frequency_hz, g.reshape(len(frequency_hz), len(loads), n_points, 3))
 
 
 def _spectrum(vehicle: Vehicle, conditions: Conditions) -> Complexes:

@@ -47,6 +47,7 @@ class App:
             dark: whether the page is dark.
         """
         self.server, self._gui = server, server.gui
+        self._last: Solved | None = None
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
@@ -121,6 +122,8 @@ class App:
         self.session.change(group=group)
 
     def _step_mode(self, step: int) -> None:
+        if self._last is None:
+            return
         names = [name.name for name, _ in listed(self._last.now).values()]
         shown = self._last.now.names[self._last.mode].name
         at = names.index(shown) + step if shown in names else 0
@@ -134,9 +137,9 @@ class App:
         return "Trial"
 
     def _file_name(self) -> str:
-        solved = self._last
-        mode = solved.now.names[solved.mode].name
-        return f"{solved.now.vehicle.name} {mode}".lower().replace(" ", "-")
+        solved, name = self._last, self.session.vehicle.name
+        mode = f" {solved.now.names[solved.mode].name}" if solved else ""
+        return f"{name}{mode}".lower().replace(" ", "-")
 
 
 def _status(solved: Solved) -> str:
@@ -157,14 +160,19 @@ def serve(
     """Shows a vehicle until interrupted.
 
     Raises:
-        ModevizError: the port is in use, or the address needs a token.
+        ModevizError: the port is in use, the address needs a token, or the road does not go with the
+            speed.
     """
     # What is no request, such as a port scan, is nothing the user can put right.
     logging.getLogger("websockets").setLevel(logging.CRITICAL)
     # Two BLAS threads on these sizes, beside a browser, are far slower than one.
     with threadpool_limits(limits=1, user_api="blas"):
         server = open_server(host, port, token, title=f"{vehicle.name} · modeviz")
-        app = App(vehicle, rates, conditions, server, dark)
+        try:
+            app = App(vehicle, rates, conditions, server, dark)
+        except ModevizError:
+            server.stop()
+            raise
         query = f"/?token={token}" if token else ""
         print(f"{vehicle.name} is at http://{host}:{port}{query}  (Ctrl+C ends)", flush=True)
         try:

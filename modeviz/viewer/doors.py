@@ -59,12 +59,15 @@ def open_server(
         title: of the page.
 
     Raises:
-        ModevizError: the port is in use, the address is not this machine's, or the token is missing.
+        ModevizError: the port is none or in use, the address is not this machine's, or the token is
+            missing.
     """
     if host not in LOOPBACK and not token:
         raise ModevizError(f"other machines reach {host}: a token is needed, give one with --token")
     if token and not re.fullmatch(r"[\w.~-]+", token, re.ASCII):
         raise ModevizError("token: expected letters, digits, '-', '.', '_' and '~' only")
+    if not 0 <= port <= 65535:
+        raise ModevizError(f"port: found {port}, expected 0 to 65535")
     _check_free(host, port)
     server = Server(host, port, token, title)
     if port and server.get_port() != port:
@@ -80,10 +83,10 @@ def _check_free(host: str, port: int) -> None:
         with socket.socket(family, socket.SOCK_STREAM) as probe:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             probe.bind((host, port))
-    except (OSError, OverflowError) as error:
-        if isinstance(error, OSError) and error.errno == errno.EADDRINUSE:
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
             raise ModevizError(_in_use(host, port)) from None
-        raise ModevizError(f"cannot listen on port {port} of {host}: {error}") from None
+        raise ModevizError(f"cannot listen on port {port} of {host}: {error.strerror}") from None
 
 
 def _in_use(host: str, port: int) -> str:

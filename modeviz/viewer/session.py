@@ -81,7 +81,12 @@ class Session:
         return self._state
 
     def start(self) -> None:
-        """Asks for the first answer."""
+        """Solves with the vehicle's own rates and asks for the first answer.
+
+        Raises:
+            ModevizError: there is no answer on that road at that speed.
+        """
+        self._solve_base(self._state.conditions)
         self._worker.submit(self._state)
 
     def change(self, **fields: Any) -> None:

@@ -1,5 +1,6 @@
 """Left column: the mount groups and their rates."""
 
+import math
 from collections.abc import Callable
 from dataclasses import fields
 
@@ -33,7 +34,8 @@ class MountsPanel:
         self._write_back = WriteBack()
         self._folders: dict[str, viser.GuiFolderHandle] = {}
         self._sliders: dict[tuple[str, str], viser.GuiInputHandle[float]] = {}
-        self._add_presets(gui, set_rates)
+        if self._vehicle.mount_groups:
+            self._add_presets(gui, set_rates)
         for group in self._vehicle.mount_groups:
             self._add_group(gui, group)
 
@@ -83,8 +85,8 @@ class MountsPanel:
         start = getattr(self._session.state.rates[group.name], name) / PER_MM
         slider = gui.add_slider(
             sentence_case(direction),
-            min=float(round(min(softest, start))),
-            max=float(round(max(stiffest, start))),
+            min=float(math.floor(min(softest, start))),
+            max=float(math.ceil(max(stiffest, start))),
             step=1.0,
             initial_value=float(start),
             marks=(float(round(own)),),
