@@ -12,6 +12,7 @@ import socket
 from base64 import b64encode
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from html import escape
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
 from websockets import Headers
@@ -131,7 +132,7 @@ class Door:
 
 def _named_page(page: bytes | bytearray, title: str) -> bytes:
     icon = "data:image/svg+xml;base64," + b64encode(ICON.encode()).decode()
-    html = page.decode().replace("<title>Viser</title>", f"<title>{title}</title>", 1)
+    html = page.decode().replace("<title>Viser</title>", f"<title>{escape(title)}</title>", 1)
     return re.sub(r'(<link\s+rel="icon"\s+href=)"[^"]*"', rf'\1"{icon}"', html, count=1).encode()
 
 

@@ -317,3 +317,12 @@ def test_page_behind_the_token_works_in_a_browser(locked, open_page):
     wait_for(page, "window.__viserMutable.scene")
     assert page.title() == "Bench"
     wait_for(page, "document.querySelector('canvas')")
+
+
+def test_a_vehicles_name_brings_no_markup_into_the_page():
+    server = open_server(port=0, title="R&D </title><b>")
+    try:
+        _, _, body = get(server)
+    finally:
+        server.stop()
+    assert b"<title>R&amp;D &lt;/title&gt;&lt;b&gt;</title>" in body

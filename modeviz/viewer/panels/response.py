@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from html import escape
 
 import viser
 
@@ -79,7 +80,7 @@ class ResponsePanel:
                 '<i class="swatch" style="background:var(--mv-now)"></i>current',
             )
         speed = now.conditions.speed / factor("km/h", "speed")
-        return heading(left, f"{now.conditions.road}, {speed:.0f} km/h")
+        return heading(left, f"{escape(now.conditions.road)}, {speed:.0f} km/h")
 
 
 class PeakRow:
