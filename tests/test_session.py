@@ -35,6 +35,15 @@ def test_it_opens_with_the_vehicles_own_rates_and_the_cabins_yaw(session):
     np.testing.assert_array_equal(solved.now.psd, solved.base.psd)
 
 
+def test_a_name_that_no_mode_has_opens_with_the_slowest_that_is_not_free(session):
+    loose = dict.fromkeys("AB", MountRates(0, 0, 0))
+    session.change(mode="nothing yaw", rates=loose)
+    assert session.wait(20)
+    solved = session.answers[-1]
+    f = solved.now.modes.frequency_hz
+    assert solved.mode == np.flatnonzero(f > 0.5)[0] == 6
+
+
 def test_a_change_of_rates_is_answered_with_what_solve_gives(session):
     session.set_rate("A", "lateral", 1e5)
     session.set_rates({"B": MountRates(5e5, 2e5, 3e5)})

@@ -15,6 +15,9 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.worker import Worker
 
+FREE_HZ = 0.5
+"""Below, something moves freely."""
+
 Coloring = Literal["bodies", "displacement"]
 
 
@@ -141,12 +144,12 @@ class Session:
         return now, time.perf_counter() - begin
 
     def _follow(self, now: Results, name: str) -> int:
-        """The mode of that name, or the one most like the last shown where the name is not given."""
+        """The mode of that name, else the one most like the last shown, at first the slowest."""
         named = now.mode_index(name)
         if named is not None:
             return named
         if self._last is None:
-            return 0
+            return min(int(np.searchsorted(now.modes.frequency_hz, FREE_HZ)), len(now.names) - 1)
         likeness = now.modes.shapes.T @ now.system.mass @ self._last.shape
         return int(np.abs(likeness).argmax())
 

@@ -1,5 +1,7 @@
 """Right column, lower part: the modes and where the shown one has its energy."""
 
+from html import escape
+
 import viser
 
 from modeviz.dynamics.naming import ModeName
@@ -15,10 +17,10 @@ from modeviz.viewer.html import (
     table,
 )
 from modeviz.viewer.plots import ladder
-from modeviz.viewer.session import Session, Solved
+from modeviz.viewer.session import FREE_HZ, Session, Solved
 
-LISTED_HZ = (0.5, 21.0)
-"""Below, something moves freely; above, the ride ends."""
+LISTED_HZ = (FREE_HZ, 21.0)
+"""Above, the ride ends."""
 
 N_ROWS = 40
 BODY_COLORS = ("#c4704e", "#4a749e", "#5c8668", "#9499a0", "#5d656f", "#b59a5a", "#7d6b8f", "#8a8378")
@@ -55,7 +57,7 @@ class ModesPanel:
             f"{f:.2f}",
             span("new" if change is None else signed(change, 2), "dim" if not change else ""),
             f"{100 * now.modes.damping_ratio[mode]:.1f}",
-            span(f"{now.vehicle.body(moved).label} {100 * share:.0f} %", "dim"),
+            span(f"{escape(now.vehicle.body(moved).label)} {100 * share:.0f} %", "dim"),
         ]
 
 
@@ -96,7 +98,7 @@ def _kinetic(results: Results, mode: int) -> str:
     ]
     bars = "".join(
         f'<i style="width:{100 * share:.1f}%;background:{color}" '
-        f'title="{label} {100 * share:.0f} %"></i>'
+        f'title="{escape(label)} {100 * share:.0f} %"></i>'
         for share, label, color in shown
     )
     legend = " &nbsp; ".join(
@@ -121,7 +123,7 @@ def _strain(solved: Solved) -> str:
     rows = [
         row(
             [
-                g,
+                escape(g),
                 _bars(now[g] / largest, base[g] / largest),
                 _percent(now[g]),
                 span(_percent(base[g]), "dim"),
