@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from pages import wait_for
+from pages import wait_for, wait_until
 from PIL import Image
 
 from modeviz.cli import main
@@ -222,3 +222,14 @@ def test_another_road_is_solved(page, capsys):
     record = printed(capsys, "psd", "--road", "road 2")
     wait_for(page, f"{CHARTS}.length === 2")
     np.testing.assert_allclose(page.evaluate(CURRENT)[0], chart_db(record, "lateral"), atol=1e-6)
+
+
+def test_the_motion_plays_and_stops_with_a_click(app, page):
+    driver = app._scene.driver
+    page.get_by_role("button", name="Play", exact=True).click()
+    wait_until(page, lambda: driver._running)
+    page.get_by_role("button", name="Pause", exact=True).click()
+    wait_until(page, lambda: not driver._running)
+    page.get_by_role("button", name="Play", exact=True).click()
+    wait_until(page, lambda: driver._running)
+    app._animation._run(False)
