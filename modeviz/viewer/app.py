@@ -143,9 +143,10 @@ class App:
 
 
 def _status(solved: Solved) -> str:
-    """How long the answer took."""
+    """How long the answer took, where it was not there already."""
     dot = '<i class="swatch" style="background:var(--mv-good);border-radius:50%"></i>'
-    return heading(f"{dot}Solved", f"{1000 * solved.seconds:.0f} ms")
+    milliseconds = 1000 * solved.seconds
+    return heading(f"{dot}Solved", f"{milliseconds:.0f} ms" if milliseconds >= 1 else "")
 
 
 def serve(
