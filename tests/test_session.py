@@ -56,6 +56,19 @@ def test_a_change_of_rates_is_answered_with_what_solve_gives(session):
     assert solved.state.rates == rates
 
 
+def test_moving_a_rate_selects_its_group(session):
+    session.set_rate("B", "lateral", 1e5)
+    assert session.state.group == "B"
+
+
+def test_the_cabin_is_called_after_its_heaviest_body_wherever_that_is_listed():
+    vehicle = mounted_cabin()
+    hood = replace(vehicle.bodies[0], name="hood", label="hood", mass=50.0)
+    for bodies in ((hood, *vehicle.bodies), (*vehicle.bodies, hood)):
+        state = first_state(replace(vehicle, bodies=bodies), vehicle.rates, FLAT)
+        assert state.mode == "cab yaw"
+
+
 def test_the_last_of_many_quick_changes_is_what_stays(session):
     for rate in np.linspace(1e5, 9e5, 60):
         session.set_rate("A", "vertical", rate)

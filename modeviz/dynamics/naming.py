@@ -117,11 +117,11 @@ def _body_scores(system: System, modes: Modes) -> dict[str, Floats]:
     """Cabin and powertrain on their mounts, and the two of them together."""
     scores: dict[str, Floats] = {}
     cab_moves = engine_moves = np.zeros(len(modes.frequency_hz))
-    if cabin := _of_role(system.vehicle, "cabin"):
+    if cabin := unit_of_role(system.vehicle, "cabin"):
         _, _, heave, _, pitch, yaw = rigid_share(system, cabin.bodies, modes.shapes)
         scores[f"{cabin.word} yaw"] = yaw
         cab_moves = heave + pitch
-    if powertrain := _of_role(system.vehicle, "powertrain"):
+    if powertrain := unit_of_role(system.vehicle, "powertrain"):
         _, _, heave, roll, pitch, _ = rigid_share(system, powertrain.bodies, modes.shapes)
         scores |= {f"{powertrain.word} pitch": pitch, f"{powertrain.word} roll": roll}
         engine_moves = pitch + heave / 2
@@ -181,7 +181,7 @@ def _axle_words(vehicle: Vehicle) -> list[str]:
     return ["front", *(f"axle {i}" for i in range(2, n)), "rear"][:n] if n > 1 else ["wheel"] * n
 
 
-def _of_role(vehicle: Vehicle, role: Role) -> Unit | None:
+def unit_of_role(vehicle: Vehicle, role: Role) -> Unit | None:
     """The bodies of a role as one unit, called after the one with most modes or mass."""
     bodies = tuple(b for b in vehicle.bodies if b.role == role)
     if not bodies:
@@ -200,7 +200,7 @@ def _mass(body: Body) -> float:
 def _units(vehicle: Vehicle) -> list[Unit]:
     """Every body in one unit: roles that move as one, axles, and the rest by themselves."""
     together: tuple[Role, ...] = ("cabin", "frame", "bed", "powertrain")
-    units = [unit for role in together if (unit := _of_role(vehicle, role))]
+    units = [unit for role in together if (unit := unit_of_role(vehicle, role))]
     for word, (_, wheels) in zip(_axle_words(vehicle), _axles(vehicle), strict=True):
         label = wheels[0].label if len(wheels) == 1 else f"{word} wheels"
         units.append(Unit(label, tuple(wheels)))

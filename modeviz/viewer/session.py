@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.naming import unit_of_role
 from modeviz.tuning.results import Conditions, Results, solve
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
@@ -105,10 +106,11 @@ class Session:
             self._worker.submit(self._state)
 
     def set_rate(self, group: str, direction: str, rate: float) -> None:
-        """Asks for one other rate, N/m; the direction is a field of `MountRates`."""
+        """Asks for another rate, N/m, in a field of `MountRates`, and selects its group."""
         with self._lock:
             changed = replace(self._state.rates[group], **{direction: rate})
-            self._state = replace(self._state, rates={**self._state.rates, group: changed})
+            rates = {**self._state.rates, group: changed}
+            self._state = replace(self._state, rates=rates, group=group)
             self._worker.submit(self._state)
 
     def wait(self, timeout: float) -> bool:
@@ -160,7 +162,7 @@ class Session:
 
 
 def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State:
-    """What a session opens with: the rates given and the lowest mode of the cabin on its mounts."""
+    """What a session opens with: the rates given and the yaw of the cabin on its mounts."""
     group = vehicle.mount_groups[0].name if vehicle.mount_groups else ""
-    cabins = [b for b in vehicle.bodies if b.role == "cabin"]
-    return State(dict(rates), conditions, f"{cabins[-1].label} yaw" if cabins else "", group)
+    cabin = unit_of_role(vehicle, "cabin")
+    return State(dict(rates), conditions, f"{cabin.word} yaw" if cabin else "", group)

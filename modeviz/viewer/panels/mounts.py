@@ -98,7 +98,6 @@ class MountsPanel:
             if event.client is None:
                 return
             self._write_back.touch(slider)
-            self._session.change(group=group.name)
             self._session.set_rate(group.name, name, slider.value * PER_MM)
 
         return slider
