@@ -34,6 +34,9 @@ class System:
     stiffness: Floats
     structural_damping: Floats
     """K_g: the imaginary part of the complex stiffness."""
+    connection_motions: Floats
+    """Rows (6 n_connections, n_dofs): how each of `vehicle.all_connections` is stretched and turned
+    along its local axes, see `relative_motion`."""
 
     @property
     def n_dofs(self) -> int:
@@ -65,8 +68,8 @@ class System:
     @cached_property
     def mount_motions(self) -> Floats:
         """Rows (3 n_mounts, n_dofs): how every mount is stretched along its local axes."""
-        rows = [self.relative_motion(mount)[:3] for mount in self.vehicle.mounts]
-        return np.vstack([np.zeros((0, self.n_dofs)), *rows])
+        by_connection = self.connection_motions.reshape(-1, 6, self.n_dofs)
+        return by_connection[: len(self.vehicle.mounts), :3].reshape(-1, self.n_dofs)
 
     def with_rates(self, rates: Rates) -> "System":
         """The system of the same vehicle with other mount rates, K + RᵀΔkR.
@@ -76,7 +79,7 @@ class System:
         """
         vehicle = self.vehicle.with_rates(rates)
         R = self.mount_motions
-        change = _mount_stiffness(vehicle) - _mount_stiffness(self.vehicle)
+        change = mount_stiffness(vehicle) - mount_stiffness(self.vehicle)
         return replace(
             self,
             vehicle=vehicle,
@@ -93,7 +96,7 @@ def assemble(vehicle: Vehicle) -> System:
     for body in vehicle.bodies:
         own = dofs[body.name], dofs[body.name]
         M[own], C[own], K[own] = _body_matrices(body)
-    bare = System(vehicle, dofs, M, C, K, np.zeros_like(K))
+    bare = System(vehicle, dofs, M, C, K, np.zeros_like(K), np.zeros((0, n_dofs)))
     for added in vehicle.added_masses:
         R = bare.motion(added.body, added.position)[:3]
         M += added.mass * R.T @ R
@@ -110,11 +113,12 @@ def assemble(vehicle: Vehicle) -> System:
         damping=C + (R.T * c) @ R,
         stiffness=K + (R.T * k) @ R,
         structural_damping=(R.T * (g * k)) @ R,
+        connection_motions=R,
     )
 
 
-def _mount_stiffness(vehicle: Vehicle) -> Complexes:
-    """Complex rates k (1 + jg) of every mount along its local axes, (3 n_mounts,)."""
+def mount_stiffness(vehicle: Vehicle) -> Complexes:
+    """Complex rates k (1 + jg), N/m, of every mount along its local axes, (3 n_mounts,)."""
     rates = [mount.stiffness * (1 + 1j * mount.loss_factor) for mount in vehicle.mounts]
     return np.concatenate([np.zeros(0, complex), *rates])
 
