@@ -10,6 +10,7 @@ from modeviz.dynamics.modes import solve_complex_modes as solve_complex_modes
 from modeviz.dynamics.modes import solve_modes as solve_modes
 from modeviz.dynamics.naming import ModeName as ModeName
 from modeviz.dynamics.naming import name_modes as name_modes
+from modeviz.dynamics.naming import prepare_names as prepare_names
 from modeviz.dynamics.response import direct_response as direct_response
 from modeviz.dynamics.response import modal_response as modal_response
 from modeviz.dynamics.truncation import modes_only as modes_only

@@ -5,11 +5,11 @@ import pytest
 from oracles import Beam
 
 from modeviz.dynamics.assembly import assemble
-from modeviz.dynamics.modes import solve_modes
-from modeviz.dynamics.motions import center_of_gravity, energy_share, rigid_coordinates, rigid_share
-from modeviz.dynamics.naming import name_modes
+from modeviz.dynamics.modes import Modes, solve_modes
+from modeviz.dynamics.naming import ModeName, name_modes, prepare_names
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import Spring, Tyre
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -54,7 +54,7 @@ def car():
 def names_and_frequencies(vehicle, n_modes=None):
     system = assemble(vehicle)
     modes = solve_modes(system, n_modes)
-    names = name_modes(system, modes)
+    names = name_modes(prepare_names(system), modes)
     return {n.name: f for n, f in zip(names, modes.frequency_hz, strict=True)}
 
 
@@ -87,7 +87,7 @@ def test_the_lowest_bending_of_a_frame_is_its_first_beaming():
 def test_every_mode_has_a_name_of_its_own():
     system = assemble(car())
     modes = solve_modes(system)
-    names = [n.name for n in name_modes(system, modes)]
+    names = [n.name for n in name_modes(prepare_names(system), modes)]
     assert len(set(names)) == len(names) == len(modes.frequency_hz)
 
 
@@ -116,26 +116,34 @@ def test_a_vehicle_of_two_masses_still_gets_names():
     assert all(name for name in found)
 
 
-def test_shares_of_a_rigid_bodys_six_motions_sum_to_one():
-    body = rigid("a", "cabin", 7, (1, 2, 3), (1, 2, 3))
-    system = assemble(Vehicle("one", (body,), ()))
-    shapes = np.random.default_rng(1).normal(size=(6, 4))
-    shapes /= np.sqrt(np.einsum("ij,ij->j", shapes, system.mass @ shapes))
-    assert rigid_share(system, [body], shapes).sum(axis=0) == pytest.approx(np.ones(4))
+@pytest.fixture(scope="module")
+def truck():
+    return assemble(read_vehicle(builtin_vehicle()))
 
 
-def test_flexible_and_rigid_bodies_move_as_one():
-    beam = Beam(6)
-    rail, block = beam.body("rail"), rigid("block", "cabin", 30, (0.5, 1.0, 0.4), (1, 1, 1))
-    system = assemble(Vehicle("two", (rail, block), ()))
-    center = center_of_gravity(system, (rail, block))
-    # The beam weighs 40 kg about x = 1 m.
-    np.testing.assert_allclose(center, [(40 * 1.0 + 30 * 0.5) / 70, 30 / 70, 12 / 70], atol=1e-6)
-    X = rigid_coordinates(system, (rail, block), center)
-    np.testing.assert_allclose(
-        system.motion("rail", beam.nodes[6]) @ X[:, 5],
-        [0 + center[1], 2.0 - center[0], 0, 0, 0, 1.0],
-        atol=1e-6,
-    )
-    yaw = X[:, 5:] / np.sqrt(X[:, 5] @ system.mass @ X[:, 5])
-    assert energy_share(system, X, yaw)[5, 0] == pytest.approx(1.0)
+@pytest.mark.parametrize("rates", ["original", "optimised"])
+def test_names_below_25_hz_do_not_depend_on_how_many_modes_are_asked(truck, rates):
+    namer = prepare_names(truck)
+    modes = solve_modes(truck.with_rates(truck.vehicle.rate_sets[rates]), 100)
+
+    def names(count):
+        lowest = Modes(modes.frequency_hz[:count], modes.shapes[:, :count], modes.damping_ratio[:count])
+        return [
+            n.name
+            for n, f in zip(name_modes(namer, lowest), lowest.frequency_hz, strict=True)
+            if f < 25
+        ]
+
+    assert len(names(40)) > 20
+    assert names(40) == names(60) == names(100)
+
+
+def test_one_namer_serves_whatever_the_rates_are(truck):
+    optimised = truck.with_rates(truck.vehicle.rate_sets["optimised"])
+    modes = solve_modes(optimised, 40)
+    assert name_modes(prepare_names(truck), modes) == name_modes(prepare_names(optimised), modes)
+
+
+def test_a_name_for_less_than_half_of_the_mode_is_spoken_as_a_guess():
+    assert ModeName("cab yaw", 0.49).spoken == "~cab yaw"
+    assert ModeName("cab yaw", 0.5).spoken == "cab yaw"

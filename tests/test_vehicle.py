@@ -127,6 +127,10 @@ def test_part_that_cannot_be_is_refused(value, changes, words):
             {"connections": (TYRE, Connection("link", "links", SPRING.bodies, SPRING.points))},
             "connection 'link': expected a Spring, Bolt, Damper or Tyre",
         ),
+        (
+            {"connections": (replace(SPRING, group="cab"), TYRE)},
+            "connection 'arm': group 'cab' is the name of a body",
+        ),
         ({"mount_groups": (GROUP, GROUP)}, "'C1 left' is there twice"),
         ({"roads": (ROAD, ROAD)}, "road 'road 1' is there twice"),
         ({"wheel_loads": VEHICLE.wheel_loads[:1] * 2}, "wheel load 'unbalance left' is there twice"),

@@ -66,6 +66,12 @@ class System:
         return np.kron(np.eye(2), connection.axes) @ rows
 
     @cached_property
+    def connection_stiffness(self) -> Floats:
+        """Real stiffness of each row of `connection_motions`, (6 n_connections,), N/m and N m/rad."""
+        k = [(c.stiffness, c.rotational_stiffness) for c in self.vehicle.all_connections]
+        return np.array(k).reshape(-1)
+
+    @cached_property
     def mount_motions(self) -> Floats:
         """Rows (3 n_mounts, n_dofs): how every mount is stretched along its local axes."""
         by_connection = self.connection_motions.reshape(-1, 6, self.n_dofs)
@@ -104,7 +110,8 @@ def assemble(vehicle: Vehicle) -> System:
         return bare
     R = np.vstack([bare.relative_motion(c) for c in vehicle.all_connections])
     k, c, g = (
-        np.concatenate(v) for v in zip(*map(_coefficients, vehicle.all_connections), strict=True)
+        np.concatenate(v)
+        for v in zip(*map(connection_coefficients, vehicle.all_connections), strict=True)
     )
     return System(
         vehicle,
@@ -164,7 +171,7 @@ def _local_motion(body: Body, position: Floats) -> Floats:
     return rigid_motions(position - body.center_of_gravity)
 
 
-def _coefficients(connection: Connection) -> tuple[Floats, Floats, Floats]:
+def connection_coefficients(connection: Connection) -> tuple[Floats, Floats, Floats]:
     """Stiffness, damping and loss factor of the six relative motions, (6,) each."""
     k = np.concatenate([connection.stiffness, connection.rotational_stiffness])
     c = np.concatenate([connection.damping, np.zeros(3)])

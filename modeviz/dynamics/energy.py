@@ -5,41 +5,59 @@ from collections.abc import Mapping
 import numpy as np
 
 from modeviz.dynamics.assembly import System
+from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
-
-FREE_HZ = 1e-3
-"""Below this a mode strains nothing; its energy is rounding."""
 
 
 def kinetic_energy(system: System, shapes: Floats) -> Mapping[str, Floats]:
     """Each body's share of a mode's kinetic energy, (n_modes,) by body; they sum to one.
 
-    T_b = φ_bᵀ (Mφ)_b / φᵀMφ, added masses counted with the body that carries them.
+    T_b = φ_bᵀ M_b φ_b / φᵀMφ, added masses counted with the body that carries them: mass couples no
+    two bodies.
     """
-    products = shapes * (system.mass @ shapes)
-    total = products.sum(axis=0)
-    return {body: products[dofs].sum(axis=0) / total for body, dofs in system.dofs.items()}
+    own = system.dofs.values()
+    momentum = np.concatenate([system.mass[dofs, dofs] @ shapes[dofs] for dofs in own])
+    energy = np.add.reduceat(shapes * momentum, [dofs.start for dofs in own])
+    return dict(zip(system.dofs, energy / energy.sum(axis=0), strict=True))
 
 
-def strain_energy(system: System, shapes: Floats) -> Mapping[str, Floats]:
+def strain_energy(
+    system: System, shapes: Floats, mount_stiffness: Floats | None = None
+) -> Mapping[str, Floats]:
     """Each flexible body's and each connection group's share, (n_modes,) by name; they sum to one.
 
-    A body has its modal stiffness, a connection k δ² of its relative motion δ. A group that bears a
-    body's name is added to the body. A mode that moves freely has no shares: zeros.
+    A body has its modal stiffness, a connection k δ² of its relative motion δ. A mode that moves freely
+    has no shares: zeros.
+
+    Args:
+        system: what vibrates.
+        shapes: mass-normalised, (n_dofs, n_modes).
+        mount_stiffness: N/m along the local axes of every mount, (3 n_mounts,), in place of its own.
     """
-    energy = {
-        body.name: body.omega_n_squared @ shapes[system.dofs[body.name]] ** 2
-        for body in system.vehicle.bodies
-        if isinstance(body, FlexibleBody)
-    }
-    for connection in system.vehicle.all_connections:
-        k = np.concatenate([connection.stiffness, connection.rotational_stiffness])
-        stretch = k @ (system.relative_motion(connection) @ shapes) ** 2
-        energy[connection.group] = energy.get(connection.group, 0.0) + stretch
-    total = sum(energy.values(), np.zeros(shapes.shape[1]))
-    modal_mass = np.einsum("ij,ij->j", shapes, system.mass @ shapes)
-    strained = total > (2 * np.pi * FREE_HZ) ** 2 * modal_mass
-    return {
-        name: np.where(strained, e, 0.0) / np.where(strained, total, 1.0) for name, e in energy.items()
-    }
+    bodies = [body for body in system.vehicle.bodies if isinstance(body, FlexibleBody)]
+    groups, stretch = _group_energy(system, shapes, mount_stiffness)
+    energy = np.array(
+        [body.omega_n_squared @ shapes[system.dofs[body.name]] ** 2 for body in bodies] + [*stretch]
+    ).reshape(-1, shapes.shape[1])
+    total = energy.sum(axis=0)
+    free = total < (2 * np.pi * RESOLVED_HZ) ** 2
+    shares = np.where(free, 0.0, energy) / np.where(free, 1.0, total)
+    return dict(zip([*(body.name for body in bodies), *groups], shares, strict=True))
+
+
+def _group_energy(
+    system: System, shapes: Floats, mount_stiffness: Floats | None
+) -> tuple[list[str], Floats]:
+    """The connection groups and twice the strain energy of each, (n_groups, n_modes), J."""
+    k = system.connection_stiffness
+    if mount_stiffness is not None:
+        k = k.copy()
+        k.reshape(-1, 6)[: len(system.vehicle.mounts), :3] = mount_stiffness.reshape(-1, 3)
+    stretch = k[:, None] * (system.connection_motions @ shapes) ** 2
+    by_connection = stretch.reshape(-1, 6, shapes.shape[1]).sum(axis=1)
+    group_of = [connection.group for connection in system.vehicle.all_connections]
+    number = {group: i for i, group in enumerate(dict.fromkeys(group_of))}
+    energy = np.zeros((len(number), shapes.shape[1]))
+    np.add.at(energy, np.array([number[g] for g in group_of], int), by_connection)
+    return list(number), energy

@@ -1,11 +1,14 @@
-"""How much of a mode is a given motion: bodies moving as one, wheels in phase, a frame twisting."""
+"""Rows that read a motion out of a shape: bodies moving as one, wheels in phase, a frame twisting.
+
+They know the mass and the geometry, never a spring: one set serves whatever the mount rates are.
+"""
 
 from collections.abc import Sequence
 
 import numpy as np
 
 from modeviz.dynamics.assembly import System
-from modeviz.dynamics.modes import Modes
+from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.rigid import rigid_motions
@@ -34,21 +37,21 @@ def center_of_gravity(system: System, bodies: Sequence[Body]) -> Floats:
     return np.array([m[1, 5], -m[0, 5], m[0, 4]]) / m[0, 0]
 
 
-def energy_share(system: System, motions: Floats, shapes: Floats) -> Floats:
-    """Share (n_motions, n_modes) of a mode's kinetic energy that is in a motion of the system.
+def share_rows(system: System, motions: Floats) -> Floats:
+    """Rows (n_motions, n_dofs) that, times a shape and squared, give its energy in each motion.
 
-    (xᵀMφ)² / xᵀMx for each column x of `motions` and each mass-normalised shape φ; the shares of
-    motions that are orthogonal in mass add up.
+    xᵀM / √(xᵀMx) for each column x of `motions`, so that (rows φ)² is its share of the kinetic energy
+    of a mass-normalised shape φ; the shares of motions that are orthogonal in mass add up.
     """
     momentum = motions.T @ system.mass
     motion_mass = np.einsum("ij,ji->i", momentum, motions)
-    return (momentum @ shapes) ** 2 / motion_mass[:, None]
+    return momentum / np.sqrt(motion_mass)[:, None]
 
 
-def rigid_share(system: System, bodies: Sequence[Body], shapes: Floats) -> Floats:
-    """Share (6, n_modes) of x, y, z, rx, ry, rz of bodies moving as one about their common centre."""
+def rigid_rows(system: System, bodies: Sequence[Body]) -> Floats:
+    """Share rows (6, n_dofs) of x, y, z, rx, ry, rz of bodies as one, about their common centre."""
     center = center_of_gravity(system, bodies)
-    return energy_share(system, rigid_coordinates(system, bodies, center), shapes)
+    return share_rows(system, rigid_coordinates(system, bodies, center))
 
 
 def wheel_motions(system: System, wheels: Sequence[Body]) -> Floats:
@@ -68,29 +71,40 @@ def wheel_motions(system: System, wheels: Sequence[Body]) -> Floats:
     return np.stack([hop, tramp], axis=1)
 
 
-def ends_vertical(system: System, ends_x: tuple[float, float], shapes: Floats) -> Floats:
-    """Vertical motion (2, n_modes) of the whole vehicle's best rigid motion at two stations x."""
+def end_rows(system: System, ends_x: tuple[float, float]) -> Floats:
+    """Rows (2, n_dofs): vertical motion of the whole vehicle's best rigid motion at two stations x."""
     X = rigid_coordinates(system, system.vehicle.bodies, np.zeros(3))
-    M = system.mass
-    motion = np.linalg.solve(X.T @ M @ X, X.T @ M @ shapes)
+    momentum = X.T @ system.mass
+    motion = np.linalg.solve(momentum @ X, momentum)
     return np.stack([motion[2] - x * motion[4] for x in ends_x])
 
 
-def frame_flexibility(system: System, frame: FlexibleBody, modes: Modes) -> Floats:
-    """What each mode adds to a frame's flexibility in beaming and in torsion, (2, n_modes).
+def bending_rows(system: System, frame: FlexibleBody) -> Floats:
+    """Rows (2, n_dofs): how a frame twists and how it beams.
 
-    Beaming: the ends' mean height less the middle's. Torsion: the roll of the front less that of the
-    rear. A mode's part of the static flexibility is (its value in that measure)² / ω²; so of several
-    modes that bend a frame the lowest stands out. In proportion to the largest; free modes have none.
+    Torsion: the roll of the front less that of the rear, rad. Beaming: the ends' mean height less the
+    middle's, m.
     """
     first, last = np.quantile(frame.nodes[:, 0], [0.02, 0.98])
     stations = np.linspace(first, last, 3)
     (front, front_roll), (middle, _), (rear, rear_roll) = (_section(frame, x) for x in stations)
-    measures = np.stack([(front + rear) / 2 - middle, front_roll - rear_roll])
-    amplitudes = measures @ modes.shapes[system.dofs[frame.name]]
-    omega_squared = modes.omega_n_squared
-    free = omega_squared < 1.0
-    flexibility = np.where(free, 0.0, amplitudes**2 / np.where(free, 1.0, omega_squared))
+    rows = np.zeros((2, system.n_dofs))
+    rows[:, system.dofs[frame.name]] = front_roll - rear_roll, (front + rear) / 2 - middle
+    return rows
+
+
+def flexibility_share(amplitudes: Floats, omega_n_squared: Floats) -> Floats:
+    """What each mode adds to a frame's static flexibility, in proportion to the largest.
+
+    A mode's part is (its amplitude)² / ω², so of several modes that bend a frame the lowest stands out.
+    Free modes have none.
+
+    Args:
+        amplitudes: what `bending_rows` read, (2, n_modes).
+        omega_n_squared: (n_modes,).
+    """
+    free = omega_n_squared < (2 * np.pi * RESOLVED_HZ) ** 2
+    flexibility = np.where(free, 0.0, amplitudes**2 / np.where(free, 1.0, omega_n_squared))
     largest = flexibility.max(axis=1, keepdims=True)
     return flexibility / np.where(largest > 0, largest, 1.0)
 

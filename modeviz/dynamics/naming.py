@@ -2,7 +2,7 @@
 
 Each named motion gives every mode a score from 0 to 1, the share of the motion in the mode; one
 assignment, solved as a whole, hands the names out. What is left is called after the bodies that move
-most and how they do. Nothing here knows a particular vehicle: bodies enter by their role.
+most and how they do.
 """
 
 from collections.abc import Iterable
@@ -12,24 +12,26 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from modeviz.dynamics.assembly import System
+from modeviz.dynamics.catalogue import Shares, named_motions
 from modeviz.dynamics.energy import kinetic_energy
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.motions import (
-    ends_vertical,
-    energy_share,
-    frame_flexibility,
-    rigid_share,
+    bending_rows,
+    end_rows,
+    flexibility_share,
+    rigid_rows,
+    share_rows,
     wheel_motions,
 )
+from modeviz.dynamics.roles import Axle, Unit, axles, units
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import Body, FlexibleBody, Role
-from modeviz.vehicle.vehicle import Vehicle
+from modeviz.vehicle.bodies import FlexibleBody
 
 MINIMUM_SCORE = 0.3
 """Below this a mode is not called by a named motion."""
 
-RIDE_SHARE = 0.7
-"""A mode with more than this in the rigid motion of the whole vehicle is a ride mode."""
+WEAK_SCORE = 0.5
+"""Below this most of the mode's energy is in other motions than the one it is called after."""
 
 MOTION_WORDS = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
 
@@ -42,170 +44,98 @@ class ModeName:
     score: float
     """Share of that motion in the mode, 0 to 1."""
 
+    @property
+    def spoken(self) -> str:
+        """As shown to people: "~cab yaw" where the name fits weakly."""
+        return f"~{self.name}" if self.score < WEAK_SCORE else self.name
+
 
 @dataclass(frozen=True, eq=False)
-class Unit:
-    """Bodies that are spoken of together: the cab with its front end, an axle's wheels."""
+class Namer:
+    """What names need of a vehicle, whatever its mount rates: words and the rows of its motions."""
 
-    word: str
-    bodies: tuple[Body, ...]
+    system: System
+    axles: tuple[Axle, ...]
+    units: tuple[Unit, ...]
+    rows: Floats
+    """(n_rows, n_dofs): share rows of the whole vehicle as one body, of each axle's hop and tramp and
+    of all that moves as one in the units; then `end_rows` if there are two axles, and `bending_rows`
+    if there is a frame."""
+    blocks: tuple[int, ...]
+    """Where in `rows` each of those but the first begins."""
 
 
-def name_modes(system: System, modes: Modes) -> tuple[ModeName, ...]:
+def prepare_names(system: System) -> Namer:
+    """What `name_modes` needs, made once for a vehicle."""
+    its_axles, its_units = axles(system.vehicle), units(system.vehicle)
+    none = np.zeros((0, system.n_dofs))
+    frame = next(
+        (b for b in system.vehicle.bodies if isinstance(b, FlexibleBody) and b.role == "frame"), None
+    )
+    blocks = [
+        rigid_rows(system, system.vehicle.bodies),
+        np.vstack([none, *(share_rows(system, wheel_motions(system, a.wheels)) for a in its_axles)]),
+        np.vstack([rigid_rows(system, bodies) for unit in its_units for bodies in unit.as_one]),
+        end_rows(system, (its_axles[0].x, its_axles[-1].x)) if len(its_axles) > 1 else none,
+        bending_rows(system, frame) if frame else none,
+    ]
+    ends = np.cumsum([len(rows) for rows in blocks])
+    return Namer(system, its_axles, its_units, np.vstack(blocks), tuple(ends[:-1]))
+
+
+def name_modes(namer: Namer, modes: Modes) -> tuple[ModeName, ...]:
     """A name for each mode, no name twice."""
-    catalogue = named_motions(system, modes)
+    shares = _shares(namer, modes)
+    described = _describe(shares)
+    catalogue = named_motions(shares)
     names = list(catalogue)
-    scores = np.array([catalogue[n] for n in names]).reshape(len(names), len(modes.frequency_hz))
+    scores = np.array([catalogue[n] for n in names]).reshape(len(names), len(described))
     rows, columns = linear_sum_assignment(-scores)
     given = {
         int(mode): ModeName(names[row], float(scores[row, mode]))
         for row, mode in zip(rows, columns, strict=True)
         if scores[row, mode] >= MINIMUM_SCORE
     }
-    described = _describe(system, modes)
-    return _without_repeats(given.get(i, described[i]) for i in range(len(described)))
+    return _without_repeats(given.get(i, name) for i, name in enumerate(described))
 
 
-def named_motions(system: System, modes: Modes) -> dict[str, Floats]:
-    """The score (n_modes,) of every mode in each named motion the vehicle can have."""
-    whole = rigid_share(system, system.vehicle.bodies, modes.shapes)
-    ride = whole.sum(axis=0) > RIDE_SHARE
-    scores = {n: s * ride for n, s in _ride_motions(system, modes, whole).items()}
-    for motions in (_wheel_scores, _frame_scores, _body_scores):
-        scores |= {n: s * ~ride for n, s in motions(system, modes).items()}
-    return scores
+def _shares(namer: Namer, modes: Modes) -> Shares:
+    """What each mode has of the vehicle's motions."""
+    n_modes = modes.shapes.shape[1]
+    whole, wheels, rigid, ends, bending = np.split(namer.rows @ modes.shapes, namer.blocks)
+    energy = kinetic_energy(namer.system, modes.shapes)
+    starts = np.cumsum([0] + [len(unit.as_one) for unit in namer.units])[:-1]
+    return Shares(
+        namer.axles,
+        namer.units,
+        whole=whole**2,
+        ends=ends,
+        wheels=wheels.reshape(-1, 2, n_modes) ** 2,
+        bending=flexibility_share(bending, modes.omega_n_squared),
+        rigid=np.add.reduceat(rigid.reshape(-1, 6, n_modes) ** 2, starts),
+        energy=np.array([sum(energy[b.name] for b in unit.bodies) for unit in namer.units]),
+    )
 
 
-def _ride_motions(system: System, modes: Modes, whole: Floats) -> dict[str, Floats]:
-    """The vehicle as one body on its suspension.
+def _describe(shares: Shares) -> list[ModeName]:
+    """Each mode after the unit with most kinetic energy and the largest of its rigid motions.
 
-    Bounce is heave and pitch about a far point, at the end that moves; pitch also goes fore and aft.
+    "engine yaw", or "box flexing" where less than half of the unit's energy is rigid.
     """
-    axles = _axles(system.vehicle)
-    if len(axles) < 2:
-        return {}
-    fore_aft, lateral, heave, roll, pitch, _ = whole
-    front, rear = ends_vertical(system, (axles[0][0], axles[-1][0]), modes.shapes) ** 2
-    moves = front + rear > 0
-    at_front = np.where(moves, front / np.where(moves, front + rear, 1.0), 0.5)
-    return {
-        "roll": lateral + roll,
-        "front bounce": (heave + pitch) * at_front,
-        "rear bounce": (heave + pitch) * (1 - at_front),
-        "pitch": fore_aft + pitch,
-    }
-
-
-def _wheel_scores(system: System, modes: Modes) -> dict[str, Floats]:
-    """Wheels against their tyres: in phase, they hop; in antiphase, they tramp."""
-    scores = {}
-    for word, (_, wheels) in zip(_axle_words(system.vehicle), _axles(system.vehicle), strict=True):
-        hop, tramp = energy_share(system, wheel_motions(system, wheels), modes.shapes)
-        scores |= {f"{word} hop": hop, f"{word} tramp": tramp}
-    return scores
-
-
-def _frame_scores(system: System, modes: Modes) -> dict[str, Floats]:
-    for body in system.vehicle.bodies:
-        if isinstance(body, FlexibleBody) and body.role == "frame":
-            beaming, torsion = frame_flexibility(system, body, modes)
-            return {"first torsion": torsion, "first beaming": beaming}
-    return {}
-
-
-def _body_scores(system: System, modes: Modes) -> dict[str, Floats]:
-    """Cabin and powertrain on their mounts, and the two of them together."""
-    scores: dict[str, Floats] = {}
-    cab_moves = engine_moves = np.zeros(len(modes.frequency_hz))
-    if cabin := unit_of_role(system.vehicle, "cabin"):
-        _, _, heave, _, pitch, yaw = rigid_share(system, cabin.bodies, modes.shapes)
-        scores[f"{cabin.word} yaw"] = yaw
-        cab_moves = heave + pitch
-    if powertrain := unit_of_role(system.vehicle, "powertrain"):
-        _, _, heave, roll, pitch, _ = rigid_share(system, powertrain.bodies, modes.shapes)
-        scores |= {f"{powertrain.word} pitch": pitch, f"{powertrain.word} roll": roll}
-        engine_moves = pitch + heave / 2
-    if cabin and powertrain:
-        both = np.minimum(2 * np.sqrt(engine_moves * cab_moves), 1.0)
-        scores[f"{powertrain.word} pitch and {cabin.word} bounce"] = both
-    return scores
-
-
-def _describe(system: System, modes: Modes) -> list[ModeName]:
-    """Each mode after the unit with most kinetic energy and the largest of its rigid motions."""
-    units = _units(system.vehicle)
-    energy = kinetic_energy(system, modes.shapes)
-    unit_energy = np.array([sum(energy[b.name] for b in unit.bodies) for unit in units])
-    motions = np.array([_unit_motions(system, unit, modes.shapes) for unit in units])
-    whole = rigid_share(system, system.vehicle.bodies, modes.shapes)
-    names = []
-    for i in range(modes.shapes.shape[1]):
-        if whole[:, i].sum() > RIDE_SHARE:
-            names.append(_motion_name("vehicle", whole[:, i], 1.0))
-        else:
-            most = int(unit_energy[:, i].argmax())
-            names.append(_motion_name(units[most].word, motions[most, :, i], unit_energy[most, i]))
-    return names
-
-
-def _motion_name(word: str, rigid: Floats, energy: float) -> ModeName:
-    """Called "engine yaw", or "box flexing" where less than half of the unit's energy is rigid."""
-    if rigid.sum() < energy / 2:
-        return ModeName(f"{word} flexing", float(energy))
-    return ModeName(f"{word} {MOTION_WORDS[int(rigid.argmax())]}", float(rigid.max()))
-
-
-def _unit_motions(system: System, unit: Unit, shapes: Floats) -> Floats:
-    """Rigid shares (6, n_modes) of the unit as one, or of an axle's wheels about their own centres."""
-    if unit.bodies[0].role == "unsprung":
-        return sum(
-            (rigid_share(system, [b], shapes) for b in unit.bodies), np.zeros((6, shapes.shape[1]))
-        )
-    return rigid_share(system, unit.bodies, shapes)
-
-
-def _axles(vehicle: Vehicle) -> list[tuple[float, list[Body]]]:
-    """Each axle's station x and the bodies that carry its tyres, front to rear."""
-    axles: dict[float, list[Body]] = {}
-    for tyre in sorted(vehicle.tyres, key=lambda t: t.wheel_center[0]):
-        station = next((x for x in axles if abs(x - tyre.wheel_center[0]) < 0.3), tyre.wheel_center[0])
-        carriers = axles.setdefault(float(station), [])
-        carrier = vehicle.body(tyre.bodies[0])
-        if carrier not in carriers:
-            carriers.append(carrier)
-    return list(axles.items())
-
-
-def _axle_words(vehicle: Vehicle) -> list[str]:
-    n = len(_axles(vehicle))
-    return ["front", *(f"axle {i}" for i in range(2, n)), "rear"][:n] if n > 1 else ["wheel"] * n
-
-
-def unit_of_role(vehicle: Vehicle, role: Role) -> Unit | None:
-    """The bodies of a role as one unit, called after the one with most modes or mass."""
-    bodies = tuple(b for b in vehicle.bodies if b.role == role)
-    if not bodies:
-        return None
-    return Unit(max(bodies, key=_mass).label, bodies)
-
-
-def _mass(body: Body) -> float:
-    """Mass in kg; a flexible body's follows from its rigid modes."""
-    if not isinstance(body, FlexibleBody):
-        return body.mass
-    to_modes = np.linalg.inv(body.attachments[0].shapes[:, : body.N_RIGID])
-    return float(to_modes[:, 0] @ to_modes[:, 0])
-
-
-def _units(vehicle: Vehicle) -> list[Unit]:
-    """Every body in one unit: roles that move as one, axles, and the rest by themselves."""
-    together: tuple[Role, ...] = ("cabin", "frame", "bed", "powertrain")
-    units = [unit for role in together if (unit := unit_of_role(vehicle, role))]
-    for word, (_, wheels) in zip(_axle_words(vehicle), _axles(vehicle), strict=True):
-        label = wheels[0].label if len(wheels) == 1 else f"{word} wheels"
-        units.append(Unit(label, tuple(wheels)))
-    taken = {b.name for unit in units for b in unit.bodies}
-    return units + [Unit(b.label, (b,)) for b in vehicle.bodies if b.name not in taken]
+    most = shares.energy.argmax(axis=0)
+    each = np.arange(len(most))
+    words = [
+        "vehicle" if ride else shares.units[i].word for ride, i in zip(shares.ride, most, strict=True)
+    ]
+    energy = np.where(shares.ride, 1.0, shares.energy[most, each])
+    rigid = np.where(shares.ride, shares.whole, shares.rigid[most, :, each].T)
+    flexes = rigid.sum(axis=0) < energy / 2
+    motions = np.where(flexes, "flexing", np.array(MOTION_WORDS)[rigid.argmax(axis=0)])
+    scores = np.where(flexes, energy, rigid.max(axis=0))
+    return [
+        ModeName(f"{word} {motion}", float(score))
+        for word, motion, score in zip(words, motions, scores, strict=True)
+    ]
 
 
 def _without_repeats(names: Iterable[ModeName]) -> tuple[ModeName, ...]:

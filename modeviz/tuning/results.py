@@ -9,7 +9,7 @@ import numpy as np
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes, solve_modes
-from modeviz.dynamics.naming import ModeName, name_modes
+from modeviz.dynamics.naming import ModeName, name_modes, prepare_names
 from modeviz.dynamics.response import modal_coordinates
 from modeviz.ride.participation import Peak, participation, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
@@ -113,7 +113,7 @@ def solve_modal(system: System, rates: Rates) -> ModalResults:
     """
     system = system.with_rates(rates)
     modes = solve_modes(system, N_MODES)
-    return ModalResults(system, modes, name_modes(system, modes))
+    return ModalResults(system, modes, name_modes(prepare_names(system), modes))
 
 
 def solve(system: System, rates: Rates, conditions: Conditions) -> Results:

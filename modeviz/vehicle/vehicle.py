@@ -119,6 +119,12 @@ class Vehicle:
             check_unique(kind, (item.name for item in items))
         if GROUND in (body.name for body in self.bodies):
             raise VehicleError(f"body {GROUND!r}: that name means what does not move; take another")
+        for connection in self.all_connections:
+            if connection.group in (body.name for body in self.bodies):
+                raise VehicleError(
+                    f"connection {connection.name!r}: group {connection.group!r} is the name of a "
+                    "body; their energies are reported side by side, so take another"
+                )
 
     def _check_references(self) -> None:
         """Raises VehicleError unless every tyre and mount group that is named exists."""

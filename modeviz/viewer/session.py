@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from modeviz.dynamics.assembly import assemble
-from modeviz.dynamics.naming import unit_of_role
+from modeviz.dynamics.roles import unit_of_role
 from modeviz.tuning.results import Conditions, Results, solve
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
