@@ -1,0 +1,94 @@
+"""Clocks and gauges: median times in alternating order, the machine's rate, memory."""
+
+import multiprocessing
+import os
+import platform
+import resource
+import statistics
+import sys
+import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import ProcessPoolExecutor
+from typing import ParamSpec, TypeVar
+
+import numpy as np
+import scipy
+import threadpoolctl
+
+ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"), "1")
+"""The environment in which every BLAS and every process started uses one thread."""
+
+TURN_S = 0.3
+"""What is fast is repeated for so long at each turn."""
+
+GEMM_SIZE = 384
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def in_own_process(function: Callable[P, T], *arguments: P.args, **keywords: P.kwargs) -> T:
+    """What a function of a module returns, run in a new process: its peak memory is the call's own."""
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(1, context) as pool:
+        return pool.submit(function, *arguments, **keywords).result()
+
+
+def medians(calls: Mapping[str, Callable[[], object]], n_rounds: int) -> dict[str, float]:
+    """Median seconds of each call, all in turn, in reverse order every other round."""
+    times: dict[str, list[float]] = {name: [] for name in calls}
+    for number in range(n_rounds):
+        for name in list(calls)[:: -1 if number % 2 else 1]:
+            times[name] += turn(calls[name])
+    return {name: statistics.median(values) for name, values in times.items()}
+
+
+def turn(call: Callable[[], object]) -> list[float]:
+    """Seconds of each of the calls that fit into a turn, one at least."""
+    times: list[float] = []
+    while sum(times) < TURN_S:
+        begin = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - begin)
+    return times
+
+
+def gemm_rate() -> float:
+    """Real floating-point operations a second in a product of complex matrices."""
+    A = np.random.default_rng(0).standard_normal((2, GEMM_SIZE, GEMM_SIZE))
+    Z = A[0] + 1j * A[1]
+    return 8 * GEMM_SIZE**3 / statistics.median(turn(lambda: Z @ Z))
+
+
+def peak_bytes() -> int:
+    """The most memory this process has held."""
+    unit = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+
+
+def machine() -> dict[str, object]:
+    """What was measured on."""
+    return {
+        "processor": _processor(),
+        "cores": os.cpu_count(),
+        "system": platform.system(),
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "scipy": scipy.__version__,
+        "blas": [
+            {key: library[key] for key in ("internal_api", "version", "num_threads")}
+            for library in threadpoolctl.threadpool_info()
+            if library["user_api"] == "blas"
+        ],
+        "gemm_gflops": gemm_rate() / 1e9,
+    }
+
+
+def _processor() -> str:
+    """The processor's name where the system tells it."""
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            names = [line.partition(":")[2].strip() for line in file if line.startswith("model name")]
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor()

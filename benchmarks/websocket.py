@@ -1,0 +1,165 @@
+"""A slider dragged through a real websocket, as the page in a browser drags it."""
+
+import io
+import multiprocessing
+import socket
+import statistics
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from multiprocessing.connection import Connection
+from typing import Any
+
+import msgspec
+import numpy as np
+import viser
+import zstandard
+from viser import _messages
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection as Page
+from websockets.typing import Origin, Subprotocol
+
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.viewer.app import serve
+
+N_MOVES = 60
+PATIENCE_S = 60.0
+
+Message = dict[str, Any]
+
+
+def drag() -> dict[str, float]:
+    """Drags the first slider of the built-in truck's page over its range.
+
+    Returns:
+        "websocket_ms", the median from a move to its new spectrum, and "server_ms", the processor time
+        of the whole server for a move.
+    """
+    with _server() as (port, clock), _page(port) as page:
+        slider, spectrum = _widgets(page)
+        low, high = (slider["props"][end] for end in ("min", "max"))
+        rates = np.linspace(low, high, N_MOVES).round()
+        _move(page, slider, rates[-1], spectrum)  # what is done once is not the drag's
+        begin = _processor_s(clock)
+        times = [_move(page, slider, rate, spectrum) for rate in rates]
+        used = _processor_s(clock) - begin
+    return {"websocket_ms": 1e3 * statistics.median(times), "server_ms": 1e3 * used / N_MOVES}
+
+
+def _move(page: Page, slider: Message, rate: float, spectrum: Message) -> float:
+    """Seconds from a move of the slider until its spectrum is here."""
+    begin = time.perf_counter()
+    _send(page, _messages.GuiUpdateMessage(slider["uuid"], {"value": float(rate)}))
+    for message in _received(page):
+        if message.get("uuid") == spectrum["uuid"] and "data" in message.get("updates", ()):
+            break
+    return time.perf_counter() - begin
+
+
+def _widgets(page: Page) -> tuple[Message, Message]:
+    """The first slider and, once it has been drawn, the first spectrum."""
+    slider = spectrum = None
+    for message in _received(page):
+        if message["type"] == "GuiSliderMessage":
+            slider = slider or message
+        elif message["type"] == "GuiUplotMessage":
+            spectrum = spectrum or message
+        if slider and spectrum:
+            break
+    assert slider
+    assert spectrum
+    return slider, spectrum
+
+
+def _received(page: Page) -> Iterator[Message]:
+    """What the server sends: two lengths before each compressed msgpack of messages."""
+    while True:
+        frame = page.recv(timeout=PATIENCE_S)
+        assert isinstance(frame, bytes)
+        length = int.from_bytes(frame[8:16], "little")
+        content = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + length])
+        yield from msgspec.msgpack.decode(content)["messages"]
+
+
+def _send(page: Page, message: _messages.Message) -> None:
+    page.send(msgspec.msgpack.encode({"type": type(message).__name__, **vars(message)}))
+
+
+@contextmanager
+def _page(port: int) -> Iterator[Page]:
+    """A page that has opened; viser knows it once it has told its camera."""
+    camera = _messages.ViewerCameraMessage(
+        wxyz=(1.0, 0.0, 0.0, 0.0),
+        position=(5.0, 5.0, 3.0),
+        fov=1.0,
+        near=0.1,
+        far=100.0,
+        image_height=600,
+        image_width=800,
+        look_at=(0.0, 0.0, 0.0),
+        up_direction=(0.0, 0.0, 1.0),
+    )
+    with _connect(port) as page:
+        _send(page, camera)
+        yield page
+
+
+def _connect(port: int) -> Page:
+    """Knocks until the server has started."""
+    deadline = time.monotonic() + PATIENCE_S
+    while True:
+        try:
+            return connect(
+                f"ws://127.0.0.1:{port}",
+                origin=Origin(f"http://127.0.0.1:{port}"),
+                subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+                compression=None,
+                max_size=None,
+            )
+        except (ConnectionRefusedError, InvalidStatus):
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(0.1)
+
+
+@contextmanager
+def _server() -> Iterator[tuple[int, Connection]]:
+    """The port of the built-in truck's page in a process of its own, and that process's clock."""
+    port = _free_port()
+    context = multiprocessing.get_context("spawn")
+    clock, far_end = context.Pipe()
+    process = context.Process(target=_serve, args=(port, far_end), daemon=True)
+    process.start()
+    try:
+        yield port, clock
+    finally:
+        process.terminate()
+        process.join()
+
+
+def _serve(port: int, clock: Connection) -> None:
+    """Serves the page, and tells the processor time used so far when asked."""
+    threading.Thread(target=_tell_processor_s, args=(clock,), daemon=True).start()
+    vehicle = read_vehicle(builtin_vehicle())
+    conditions = Conditions(vehicle.roads[0].name, vehicle.speed)
+    with redirect_stdout(io.StringIO()):
+        serve(vehicle, vehicle.rates, conditions, "127.0.0.1", port, token=None, dark=False)
+
+
+def _tell_processor_s(clock: Connection) -> None:
+    while clock.recv():
+        clock.send(time.process_time())
+
+
+def _processor_s(clock: Connection) -> float:
+    clock.send(True)
+    return clock.recv()
+
+
+def _free_port() -> int:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        return taken.getsockname()[1]
