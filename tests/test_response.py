@@ -5,7 +5,7 @@ from test_modes import mass_on_a_string, oscillator, spring
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
-from modeviz.dynamics.response import direct_response, modal_response
+from modeviz.dynamics.response import check_frequencies, direct_response, modal_response
 from modeviz.errors import SolveError
 from modeviz.vehicle.connections import Damper, Spring
 from modeviz.vehicle.vehicle import Vehicle
@@ -75,8 +75,46 @@ def test_damping_off_the_diagonal_counts():
     assert np.abs(uncoupled.sum(axis=1) / coupled - 1).max() > 0.1
 
 
-def test_an_undamped_resonance_on_the_grid_is_an_error():
-    k = (2 * np.pi * 2.0) ** 2
-    system = assemble(Vehicle("m", (mass_on_a_string("m", 1.0),), (spring(("m", "ground"), k),)))
-    with pytest.raises(SolveError, match=r"2\.0 Hz"):
+def string(k, m=1.0):
+    return assemble(Vehicle("m", (mass_on_a_string("m", m),), (spring(("m", "ground"), k),)))
+
+
+@pytest.mark.parametrize("beside", [0.0, 1e-15, 1e-12, 1e-10])
+def test_an_undamped_resonance_on_the_grid_is_an_error(beside):
+    system = string((2 * np.pi * 2.0) ** 2 * (1 + beside))
+    with pytest.raises(SolveError, match=r"at 2\.0 Hz.*damping"):
         direct_response(system, np.array([2.0]), force_on_z(1), Z)
+
+
+def test_a_line_a_thousandth_beside_an_undamped_resonance_is_right():
+    k, f = 7.0, np.sqrt(7.0 / 3.0) / (2 * np.pi) * 1.001
+    H = direct_response(string(k, 3.0), np.array([f]), force_on_z(1), Z)
+    assert H[0, 0, 0] == pytest.approx(1 / (k * (1 - 1.001**2)), rel=1e-11)
+
+
+def test_an_output_that_no_force_reaches_is_still():
+    sideways = np.eye(6)[:1]
+    H = direct_response(oscillator(), np.array([0.5, 3.0]), force_on_z(2), sideways)
+    assert not H.any()
+
+
+@pytest.mark.parametrize(
+    ("frequency_hz", "found"),
+    [
+        ([0.0, 1.0], "0 Hz at place 1"),
+        ([1.0, -2.0], "-2 Hz at place 2"),
+        ([1.0, np.nan], "nan Hz at place 2"),
+        ([1.0, np.inf], "inf Hz at place 2"),
+        ([1.0, 10.0, 10.0], "10 Hz twice"),
+        ([1.0, 3.0, 2.0], "3 Hz before 2 Hz"),
+        ([[1.0, 2.0]], r"shape \(1, 2\)"),
+    ],
+)
+def test_frequencies_that_cannot_be_solved_are_named(frequency_hz, found):
+    with pytest.raises(SolveError, match=f"found {found}"):
+        check_frequencies(np.array(frequency_hz))
+
+
+def test_direct_response_checks_its_frequencies():
+    with pytest.raises(SolveError, match="10 Hz twice"):
+        direct_response(oscillator(), np.array([10.0, 10.0]), force_on_z(2), Z)

@@ -7,6 +7,9 @@ from modeviz.dynamics.modes import Modes
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 
+ACCURACY = 1e-9
+"""Of a direct solve, relative to the best of the responses in a direction; less is an error."""
+
 
 def direct_response(
     system: System, frequency_hz: Floats, forces: Complexes, outputs: Floats
@@ -17,19 +20,45 @@ def direct_response(
 
     Args:
         system: what vibrates.
-        frequency_hz: (n_freqs,).
+        frequency_hz: (n_freqs,), rising, above zero.
         forces: F, (n_freqs, n_dofs, n_inputs), generalised forces per unit of input.
         outputs: R, (n_outputs, n_dofs), rows that read the answer.
 
     Raises:
-        SolveError: an undamped resonance lies exactly on a frequency.
+        SolveError: the frequencies are not such, or one lies on an undamped resonance.
     """
+    check_frequencies(frequency_hz)
     K = system.stiffness + 1j * system.structural_damping
+    stiffness, mass = np.abs(K), np.abs(system.mass)
     H = np.empty((len(frequency_hz), len(outputs), forces.shape[2]), complex)
     for i, omega in enumerate(2 * np.pi * np.asarray(frequency_hz)):
         Z = K - omega**2 * system.mass + 1j * omega * system.damping
-        H[i] = outputs @ _solve(Z, forces[i], frequency_hz[i])
+        directions = np.hstack([forces[i], outputs.T], dtype=complex)
+        x = _solve(Z, directions, frequency_hz[i])
+        check_accuracy(stiffness + omega**2 * mass, x, directions.T @ x, frequency_hz[i])
+        H[i] = outputs @ x[:, : forces.shape[2]]
     return H
+
+
+def check_frequencies(frequency_hz: Floats) -> None:
+    """Checks that responses can be solved at these frequencies, hertz.
+
+    Raises:
+        SolveError: they are not a row of finite values above zero, each larger than the last.
+    """
+    f = np.asarray(frequency_hz, float)
+    if f.ndim != 1:
+        raise SolveError(f"frequency_hz: found shape {f.shape}, expected one row of values")
+    wrong = ~(np.isfinite(f) & (f > 0))
+    if wrong.any():
+        place = int(wrong.argmax())
+        raise SolveError(
+            f"frequency_hz: found {f[place]:g} Hz at place {place + 1}, expected a finite value above 0"
+        )
+    if (np.diff(f) <= 0).any():
+        place = int((np.diff(f) <= 0).argmax())
+        found = "twice" if f[place] == f[place + 1] else f"before {f[place + 1]:g} Hz"
+        raise SolveError(f"frequency_hz: found {f[place]:g} Hz {found}, expected rising values")
 
 
 def modal_response(
@@ -59,11 +88,38 @@ def modal_coordinates(
     return q
 
 
+def check_accuracy(parts: Floats, x: Complexes, G: Complexes, frequency_hz: float) -> None:
+    """Checks that rounding left G = PᵀZ⁻¹P as accurate as `ACCURACY`.
+
+    Summing up Z and solving Z x = P change Z by about ε times the size of its parts and so G by
+    xᵀδZ x, in whatever units (N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed.,
+    ch. 7 and 9). Near an undamped resonance that grows as G².
+
+    Args:
+        parts: (n, n), what |Z| would be had no parts cancelled, as |K| + ω²|M|.
+        x: Z⁻¹P, (n, n_directions).
+        G: (n_directions, n_directions).
+        frequency_hz: where, to say so.
+
+    Raises:
+        SolveError: in some direction no receptance is.
+    """
+    size = np.abs(x)
+    error = np.sqrt(np.finfo(float).eps * np.einsum("ij,ij->j", size, parts @ size))
+    if not (np.outer(error, error) <= ACCURACY * np.abs(G)).any(axis=1).all():
+        raise resonance_error(frequency_hz)
+
+
+def resonance_error(frequency_hz: float) -> SolveError:
+    """Says that there is no response at a frequency, and what to do."""
+    return SolveError(
+        f"no accurate response at {frequency_hz} Hz: an undamped resonance lies there; give it damping "
+        "or shift the frequency"
+    )
+
+
 def _solve(Z: Complexes, F: Complexes, frequency_hz: float) -> Complexes:
     try:
         return np.linalg.solve(Z, F)
     except np.linalg.LinAlgError:
-        raise SolveError(
-            f"an undamped resonance lies exactly at {frequency_hz} Hz: give it damping or shift "
-            "the frequency"
-        ) from None
+        raise resonance_error(frequency_hz) from None

@@ -1,0 +1,185 @@
+"""Displacement per unit force between chosen directions of a vehicle, at many frequencies.
+
+    G(ω) = P Z(ω)⁻¹ Pᵀ,  Z = K + jK_g + jωC - ω²M
+
+Dual assembly: each body stands alone in mass-normalised modal coordinates, where its dynamic stiffness
+Z_b = ω_n² - ω² + jωc is diagonal, and what joins the bodies enters by its forces λ. Most coordinates e
+are eliminated; some, u, are kept with the forces:
+
+    [ Z_u              R_uᵀ             ] [u]   [       P_uᵀ       ]
+    [ R_u   -(1/z + R_e Z_e⁻¹ R_eᵀ)     ] [λ] = [ -R_e Z_e⁻¹ P_eᵀ  ]
+
+z = k (1 + jg) + jωc for a connection, -ω²m for an added mass (D. de Klerk, D. J. Rixen, S. N.
+Voormeeren, "General framework for dynamic substructuring", AIAA Journal 46(5), 2008).
+"""
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from modeviz.dynamics.assembly import System, connection_coefficients
+from modeviz.dynamics.response import check_accuracy, check_frequencies, resonance_error
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.bodies import Body, FlexibleBody
+
+N_THREADS = min(4, os.cpu_count() or 1)
+"""Frequencies solved side by side: LAPACK does not hold the interpreter's lock."""
+
+SOFT = 1e-4
+"""A coordinate is kept where by itself it is softer than this part of the stiffness its joints give
+it, as a rigid one at low frequency: eliminated, it would cost as many digits."""
+
+
+def receptances(
+    system: System,
+    frequency_hz: Floats,
+    rows: Floats,
+    progress: Callable[[float], None] | None = None,
+) -> Complexes:
+    """G (n_freqs, n_rows, n_rows): displacement along each of `rows` per unit force along each.
+
+    Memory beside the result: for each thread a few complex matrices of the size of all joined
+    directions, kept coordinates and rows together, whatever the number of modes and frequencies.
+
+    Args:
+        system: what vibrates.
+        frequency_hz: (n_freqs,), rising, above zero.
+        rows: P, (n_rows, n_dofs).
+        progress: told the fraction that is done, up to one.
+
+    Raises:
+        SolveError: the frequencies are not such, or one lies on an undamped resonance.
+    """
+    check_frequencies(frequency_hz)
+    parts = _disassemble(system, rows)
+    G = np.empty((len(frequency_hz), len(rows), len(rows)), complex)
+    with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(N_THREADS) as pool:
+        for i, G_i in enumerate(pool.map(parts.receptance, frequency_hz)):
+            G[i] = G_i
+            if progress:
+                progress((i + 1) / len(frequency_hz))
+    return G
+
+
+@dataclass(frozen=True, eq=False)
+class _Joints:
+    """What joins bodies or is carried by them: springs and dampers first, then added masses."""
+
+    stiffness: Complexes
+    damping: Floats
+    mass: Floats
+    """(n_joints,) each."""
+
+    def dynamic_stiffness(self, omega: float) -> Complexes:
+        return self.stiffness + 1j * omega * self.damping - omega**2 * self.mass
+
+
+@dataclass(frozen=True, eq=False)
+class _Disassembled:
+    """Bodies by themselves, in mass-normalised coordinates, and what joins them.
+
+    Directions are those of the joints, then the rows asked for.
+    """
+
+    joints: _Joints
+    omega_n_squared: Floats
+    damping: Floats
+    """(n_dofs,) each."""
+    motions: Floats
+    """(n_directions, n_dofs)."""
+    moved: tuple[tuple[slice, np.ndarray], ...]
+    """The coordinates of each body, and which directions they move."""
+
+    def receptance(self, frequency_hz: float) -> Complexes:
+        """G at one frequency: the matrix bordered by the rows, condensed to them."""
+        matrix, scale = self._bordered(2 * np.pi * frequency_hz)
+        n = len(scale)
+        matrix[:n] *= scale[:, None]
+        matrix[:, :n] *= scale
+        S, B = matrix[:n, :n], matrix[:n, n:]
+        try:
+            X = np.linalg.solve(S, B)
+        except np.linalg.LinAlgError:
+            raise resonance_error(frequency_hz) from None
+        G = B.T @ X - matrix[n:, n:]
+        parts = np.abs(S)
+        np.fill_diagonal(parts, 1)
+        check_accuracy(parts, X, G, frequency_hz)
+        return G
+
+    def _bordered(self, omega: float) -> tuple[Complexes, Floats]:
+        """The matrix of u, λ and rows, and what scales the parts of its diagonal to one for u and λ."""
+        z = self.joints.dynamic_stiffness(omega)
+        Z = self.omega_n_squared - omega**2 + 1j * omega * self.damping
+        squares = self.motions[: len(z)] ** 2
+        kept = np.abs(Z) < SOFT * (self.omega_n_squared + np.abs(z) @ squares)
+        per_force = np.divide(1, Z, out=np.zeros_like(Z), where=~kept)
+        n_kept = np.count_nonzero(kept)
+        matrix = np.zeros((n_kept + len(self.motions),) * 2, complex)
+        matrix[:n_kept, :n_kept] = np.diag(Z[kept])
+        matrix[n_kept:, :n_kept] = self.motions[:, kept]
+        matrix[:n_kept, n_kept:] = self.motions[:, kept].T
+        matrix[n_kept:, n_kept:] = -self._flexibility(per_force)
+        joints = np.arange(n_kept, n_kept + len(z))
+        matrix[joints, joints] -= 1 / z
+        own_parts = self.omega_n_squared + omega**2
+        joint_parts = 1 / np.abs(z) + squares @ (own_parts * np.abs(per_force) ** 2)
+        return matrix, 1 / np.sqrt(np.concatenate([own_parts[kept], joint_parts]))
+
+    def _flexibility(self, per_force: Complexes) -> Complexes:
+        """R_e Z_e⁻¹ R_eᵀ, (n_directions, n_directions), from the diagonal of Z_e⁻¹."""
+        A = np.zeros((len(self.motions), len(self.motions)), complex)
+        for own, moved in self.moved:
+            Q, d = self.motions[moved, own], per_force[own]
+            A[np.ix_(moved, moved)] += (Q * d.real) @ Q.T + 1j * ((Q * d.imag) @ Q.T)
+        return A
+
+
+def _disassemble(system: System, rows: Floats) -> _Disassembled:
+    bodies = system.vehicle.bodies
+    directions, joints = _joints(system)
+    motions = np.vstack([directions, rows])
+    for body in bodies:
+        own = system.dofs[body.name]
+        motions[:, own] = motions[:, own] @ _normalising(body)
+    omega_n_squared, damping = np.hstack([_modal_coefficients(b) for b in bodies])
+    moved = [(own, np.flatnonzero(motions[:, own].any(axis=1))) for own in system.dofs.values()]
+    return _Disassembled(joints, omega_n_squared, damping, motions, tuple(moved))
+
+
+def _joints(system: System) -> tuple[Floats, _Joints]:
+    """Directions (n_joints, n_dofs) that are joined, and by what. Without a rate there is no joint."""
+    vehicle = system.vehicle
+    coefficients = map(connection_coefficients, vehicle.all_connections)
+    k, c, g = np.hstack([np.zeros((3, 0)), *map(np.array, coefficients)])
+    joined = (k > 0) | (c > 0)
+    carried = [system.motion(a.body, a.position)[:3] for a in vehicle.added_masses]
+    mass = np.repeat([a.mass for a in vehicle.added_masses], 3)
+    none = np.zeros(len(mass))
+    joints = _Joints(
+        stiffness=np.r_[(k * (1 + 1j * g))[joined], none],
+        damping=np.r_[c[joined], none],
+        mass=np.r_[np.zeros(np.count_nonzero(joined)), mass],
+    )
+    return np.vstack([system.connection_motions[joined], *carried]), joints
+
+
+def _normalising(body: Body) -> Floats:
+    """T, (n, n): a body's coordinates are T times mass-normalised ones, TᵀMT = I."""
+    if isinstance(body, FlexibleBody):
+        return np.eye(body.n_modes)
+    T = np.zeros((6, 6))
+    T[:3, :3] = np.eye(3) / np.sqrt(body.mass)
+    T[3:, 3:] = np.linalg.inv(np.linalg.cholesky(body.inertia)).T
+    return T
+
+
+def _modal_coefficients(body: Body) -> tuple[Floats, Floats]:
+    """ω_n² and the viscous damping 2ζω_n of each mass-normalised coordinate, (n,) each."""
+    if isinstance(body, FlexibleBody):
+        return body.omega_n_squared, 2 * body.damping_ratio * np.sqrt(body.omega_n_squared)
+    return np.zeros(6), np.zeros(6)
