@@ -1,6 +1,6 @@
 import pytest
 
-from modeviz.viewer.html import change, number, row, sentence_case, signed, table
+from modeviz.viewer.html import change, number, row, sentence_case, signed, table, title
 
 
 @pytest.mark.parametrize(
@@ -29,9 +29,13 @@ def test_less_is_better():
     assert change(1.0, 1.0) == '<span class="dim">0.0 %</span>'
 
 
-def test_names_of_a_vehicle_cannot_bring_markup():
-    assert sentence_case("<b>cab</b> yaw") == "&lt;b&gt;cab&lt;/b&gt; yaw"
-    assert sentence_case("cab yaw") == "Cab yaw"
+def test_names_of_a_vehicle_cannot_bring_markup_into_a_page():
+    assert title("<b>cab</b> yaw") == "&lt;b&gt;cab&lt;/b&gt; yaw"
+    assert title("cab yaw") == "Cab yaw"
+
+
+def test_names_on_widgets_are_shown_as_they_are():
+    assert sentence_case("front & rear") == "Front & rear"
 
 
 def test_a_table_has_its_chosen_row_marked():

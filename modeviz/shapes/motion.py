@@ -20,7 +20,7 @@ DRAWN_FRACTION = 0.025
 
 
 def vertex_shapes(body: Body, vertices: Floats) -> NDArray[np.float32]:
-    """The displacement of every vertex in every coordinate of its body, (n_vertices, 3, n_coordinates).
+    """The displacement of every vertex in every coordinate of its body, (n_coordinates, n_vertices, 3).
 
     A rigid body's coordinates are x, y, z, rx, ry, rz at its centre of gravity, a flexible one's its
     modes. The vertices of a flexible body follow its nearest nodes: each would carry the vertex along
@@ -33,27 +33,26 @@ def vertex_shapes(body: Body, vertices: Floats) -> NDArray[np.float32]:
         vertices: (n_vertices, 3), m, in vehicle coordinates.
     """
     if isinstance(body, RigidBody):
-        shapes = np.eye(6)[None]
-        return _carried(shapes, vertices - body.center_of_gravity).astype(np.float32)
+        shapes = _carried(np.eye(6)[None], vertices - body.center_of_gravity)
+        return _coordinates_first(shapes.astype(np.float32))
     nearest, weights = _carriers(body, vertices)
     shapes = np.zeros((len(vertices), 3, body.n_modes), np.float32)
     for node, weight in zip(nearest.T, weights.T, strict=True):
         shapes += weight[:, None, None] * _carried(body.shapes[node], vertices - body.nodes[node])
-    return shapes
+    return _coordinates_first(shapes)
 
 
 def displacement(shapes: NDArray[np.float32], coordinates: ArrayLike) -> NDArray:
     """The displacement of every vertex, (n_vertices, 3), real or complex as the coordinates are.
 
     Args:
-        shapes: (n_vertices, 3, n_coordinates), from `vertex_shapes`.
+        shapes: (n_coordinates, n_vertices, 3), from `vertex_shapes`.
         coordinates: (n_coordinates,): one mode or response of the vehicle, this body's part of it.
     """
     q = np.asarray(coordinates)
     if np.iscomplexobj(q):
         return displacement(shapes, np.real(q)) + 1j * displacement(shapes, np.imag(q))
-    flat = shapes.reshape(-1, shapes.shape[-1])
-    return (flat @ q.astype(np.float32)).reshape(shapes.shape[:-1])
+    return (q.astype(np.float32) @ shapes.reshape(len(q), -1)).reshape(shapes.shape[1:])
 
 
 def animated(vertices: Floats, shape: NDArray, amplitude: float, phase: float) -> Floats:
@@ -73,10 +72,12 @@ def animated(vertices: Floats, shape: NDArray, amplitude: float, phase: float) -
 def peak_displacement(shape: NDArray) -> Floats:
     """The largest distance of every vertex from its place during a cycle, (n_vertices,).
 
-    A vertex runs around an ellipse, whose longer half axis is √((u·ū + |u·u|)/2).
+    A vertex runs around an ellipse, whose longer half axis is √((u·ū + |u·u|)/2); √(u·u) if u is real.
     """
     u = np.asarray(shape)
-    return np.sqrt((np.sum(np.abs(u) ** 2, axis=-1) + np.abs(np.sum(u * u, axis=-1))) / 2)
+    if np.isrealobj(u):
+        return np.sqrt(_dot(u, u))
+    return np.sqrt((np.real(_dot(u, np.conj(u))) + np.abs(_dot(u, u))) / 2)
 
 
 def default_amplitude(shapes: Iterable[NDArray], length: float) -> float:
@@ -106,3 +107,13 @@ def _carried(shapes: NDArray, offset: Floats) -> NDArray:
     """What six motions of a point are `offset` away from it, u + θ x r: (n, 3, n_coordinates)."""
     translation, rotation = shapes[:, :3], shapes[:, 3:]
     return translation + np.cross(rotation, offset[..., None].astype(shapes.dtype), axis=1)
+
+
+def _dot(u: NDArray, v: NDArray) -> NDArray:
+    """u·v of every vertex, (n_vertices,); far faster by column than along an axis of three."""
+    return u[:, 0] * v[:, 0] + u[:, 1] * v[:, 1] + u[:, 2] * v[:, 2]
+
+
+def _coordinates_first(shapes: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Contiguous by coordinate: a displacement is then found in less than half the time."""
+    return np.ascontiguousarray(np.moveaxis(shapes, -1, 0))

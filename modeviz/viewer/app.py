@@ -11,6 +11,7 @@ from modeviz.errors import ModevizError
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.assign import assign
 from modeviz.viewer.doors import open_server
 from modeviz.viewer.html import block, heading
 from modeviz.viewer.panels.animation import AnimationCard
@@ -48,6 +49,7 @@ class App:
         """
         self.server, self._gui = server, server.gui
         self._last: Solved | None = None
+        self._title = ""
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
@@ -98,14 +100,20 @@ class App:
         """Draws an answer: the panels in one batch, the scene in another, which waits for a frame."""
         self._last = solved
         with self.server.atomic():
-            self._gui.set_panel_label(f"{solved.now.vehicle.name}  ·  {self._variant(solved)}")
+            self._show_title(f"{solved.now.vehicle.name}  ·  {self._variant(solved)}")
             self._mounts.show(solved)
             self._response.show(solved)
             self._modes.show(solved)
             self._energy.show(solved)
             self._animation.show(solved)
-            self._status.content = block(_status(solved))
+            assign(self._status, content=block(_status(solved)))
+        self.server.flush()
         self._scene.show(solved)
+
+    def _show_title(self, title: str) -> None:
+        if title != self._title:
+            self._title = title
+            self._gui.set_panel_label(title)
 
     def _tell_failure(self, error: Exception) -> None:
         """Says what went wrong; the last good answer stays on the screen."""
@@ -146,7 +154,8 @@ def _status(solved: Solved) -> str:
     """How long the answer took, where it was not there already."""
     dot = '<i class="swatch" style="background:var(--mv-good);border-radius:50%"></i>'
     milliseconds = 1000 * solved.seconds
-    return heading(f"{dot}Solved", f"{milliseconds:.0f} ms" if milliseconds >= 1 else "")
+    decimals = 0 if milliseconds >= 10 else 1
+    return heading(f"{dot}Solved", f"{milliseconds:.{decimals}f} ms" if milliseconds >= 0.05 else "")
 
 
 def serve(

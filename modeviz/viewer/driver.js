@@ -2,6 +2,7 @@
 //
 // A shape and its colours are the points and colours of a hidden point cloud named after its mesh, the
 // opacity is that cloud's point size; amplitude, frequency and phase are the position of a hidden node.
+// The points are the real parts of all vertices, followed by the imaginary ones if the shape is complex.
 // State and failure are in window.__modeviz, where the browser tests read them.
 (prefix, driverName) => {
   const PATIENCE = 30; // s: how long a mesh or viser itself may take to appear
@@ -108,14 +109,16 @@
   function apply(group, { points, colors, point_size: opacity }) {
     const meshes = [];
     group.traverse((object) => object.geometry?.index && meshes.push(object));
-    const n = points.length / 6;
-    if (!meshes.length || meshes.some((mesh) => mesh.geometry.attributes.position.count !== n)) return false;
-    const Attribute = meshes[0].geometry.attributes.position.constructor;
+    if (!meshes.length) return false;
+    const { count: n, constructor: Attribute } = meshes[0].geometry.attributes.position;
+    const complex = points.length === 6 * n;
+    if (!complex && points.length !== 3 * n) return false;
     const colored = colors.length === 3 * n;
     const last = shown.get(group);
     const attributes = last?.attributes ?? {};
     write(attributes, "modevizReal", points.subarray(0, 3 * n), Attribute);
-    write(attributes, "modevizImaginary", points.subarray(3 * n), Attribute);
+    if (complex) write(attributes, "modevizImaginary", points.subarray(3 * n), Attribute);
+    else if (!last || last.complex) write(attributes, "modevizImaginary", new Uint16Array(3 * n), Attribute);
     if (colored) write(attributes, "color", colors, Attribute);
     for (const mesh of meshes) {
       for (const name in attributes) mesh.geometry.setAttribute(name, attributes[name]);
@@ -123,7 +126,7 @@
       if (last?.colored !== colored || last.opacity !== opacity) dress(mesh.material, colored, opacity);
       mesh.frustumCulled = false; // it moves out of the bounds it was loaded with
     }
-    shown.set(group, { points, colors, colored, opacity, attributes });
+    shown.set(group, { points, colors, complex, colored, opacity, attributes });
     page.applied += 1;
     return true;
   }

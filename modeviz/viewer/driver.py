@@ -1,17 +1,20 @@
 """Moving shapes in the page: each mesh is sent once, after that only shapes travel.
 
-Leans on private parts of viser 1.1.1: `RunJavascriptMessage` here, in driver.js `__viserMutable`,
-`__viserSceneTree` and three.js' names of shader chunks. tests/browser/test_driver.py fails when they
-change.
+Leans on private parts of viser 1.1.1: `RunJavascriptMessage` and `_queue_update` here, in driver.js
+`__viserMutable`, `__viserSceneTree` and three.js' names of shader chunks. tests/browser/test_driver.py
+fails when they change.
 """
 
 import json
+from dataclasses import dataclass, field
 from importlib.resources import files
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
 from viser import _messages
+
+from modeviz.viewer.assign import assign
 
 PREFIX = "/_shape"
 """Where the hidden point clouds are; the rest of their name is their mesh's."""
@@ -25,6 +28,30 @@ NO_COLORS = np.zeros(3, np.uint8)
 LARGEST = float(np.finfo(np.float16).max)
 
 
+@dataclass(frozen=True)
+class DrivenMesh:
+    """A mesh of the page and the hidden point cloud that tells it how to move."""
+
+    mesh: viser.GlbHandle
+    cloud: viser.PointCloudHandle
+    n_vertices: int
+    sent: dict[str, bytes] = field(default_factory=dict)
+    """The newest content of the cloud's arrays, by property."""
+
+    def send(self, name: str, array: NDArray) -> None:
+        """Sends an array of the cloud if it is new; assigning it costs viser five passes over it."""
+        content = array.tobytes()
+        if content != self.sent.get(name):
+            self.sent[name] = content
+            own = np.frombuffer(content, array.dtype).reshape(array.shape)
+            self.cloud._queue_update(name, own)
+
+    def remove(self) -> None:
+        """Takes both out of the page."""
+        self.cloud.remove()
+        self.mesh.remove()
+
+
 class ShapeDriver:
     """The shapes of a scene and the one phase in which they all move.
 
@@ -35,8 +62,7 @@ class ShapeDriver:
     def __init__(self, scene: viser.SceneApi) -> None:
         """Starts the page's script in a scene; its meshes stand still until told otherwise."""
         self._scene = scene
-        self._clouds: dict[str, viser.PointCloudHandle] = {}
-        self._meshes: dict[str, viser.GlbHandle] = {}
+        self._meshes: dict[str, DrivenMesh] = {}
         self._amplitude, self._frequency_hz, self._running = 1.0, 1.0, False
         self._phase, self._n_seeks = 0.0, 0
         scene.add_frame(PREFIX, show_axes=False, visible=False)
@@ -56,26 +82,26 @@ class ShapeDriver:
             cast_shadow: whether it shades the ground, which sees it undeformed.
         """
         with self._scene._websock_interface.atomic():
-            self._meshes[name] = self._scene.add_glb(
-                name, glb, cast_shadow=cast_shadow, receive_shadow=False
-            )
-            self._clouds[name] = self._scene.add_point_cloud(
+            mesh = self._scene.add_glb(name, glb, cast_shadow=cast_shadow, receive_shadow=False)
+            cloud = self._scene.add_point_cloud(
                 PREFIX + name,
-                np.zeros((2 * n_vertices, 3), np.float16),
+                np.zeros((n_vertices, 3), np.float16),
                 NO_COLORS,
                 point_size=1.0,
                 precision="float16",
                 visible=False,
             )
+        self._meshes[name] = DrivenMesh(mesh, cloud, n_vertices)
 
     def remove(self, name: str) -> None:
         """Removes a mesh and its shape."""
         with self._scene._websock_interface.atomic():
-            self._clouds.pop(name).remove()
             self._meshes.pop(name).remove()
 
     def show(self, name: str, shape: NDArray, colors: NDArray[np.uint8] | None = None) -> None:
         """Sends a mesh its shape φ and its colours; the last one sent is what every page shows.
+
+        A real shape is half as long on the way as a complex one, and what has not changed stays here.
 
         Args:
             name: as it was added.
@@ -85,21 +111,22 @@ class ShapeDriver:
         Raises:
             ValueError: another number of vertices, or a value that is not finite or too large.
         """
-        cloud = self._clouds[name]
-        points = np.concatenate([np.real(shape), np.imag(shape)])
-        if points.shape != cloud.points.shape:
-            raise ValueError(f"{name}: found a shape of {points.shape}, expected {cloud.points.shape}")
-        if not np.abs(points).max(initial=0.0) <= LARGEST:
+        driven = self._meshes[name]
+        expected = (driven.n_vertices, 3)
+        if shape.shape != expected:
+            raise ValueError(f"{name}: found a shape of {shape.shape}, expected {expected}")
+        if colors is not None and colors.shape != expected:
+            raise ValueError(f"{name}: found colours of {colors.shape}, expected {expected}")
+        parts = np.concatenate([np.real(shape), np.imag(shape)]) if np.iscomplexobj(shape) else shape
+        if not np.abs(parts).max(initial=0.0) <= LARGEST:
             raise ValueError(f"{name}: a displacement is not finite or beyond {LARGEST:.0f}")
-        if colors is not None and colors.shape != np.shape(shape):
-            raise ValueError(f"{name}: found colours of {colors.shape}, expected {np.shape(shape)}")
         with self._scene._websock_interface.atomic():
-            cloud.points = points.astype(np.float16)
-            cloud.colors = NO_COLORS if colors is None else colors
+            driven.send("points", parts.astype(np.float16))
+            driven.send("colors", NO_COLORS if colors is None else colors)
 
     def set_opacity(self, name: str, factor: float) -> None:
         """Multiplies the opacity of a mesh's skin and glass."""
-        self._clouds[name].point_size = factor
+        assign(self._meshes[name].cloud, point_size=factor)
 
     def drive(
         self,

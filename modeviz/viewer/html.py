@@ -43,16 +43,20 @@ def span(text: str, kind: str) -> str:
 
 
 def sentence_case(name: str) -> str:
+    """A name with a capital, for a widget, which shows it as it is."""
+    return name[:1].upper() + name[1:]
+
+
+def title(name: str) -> str:
     """A name with a capital, safe to put into a page."""
-    return escape(name[:1].upper() + name[1:])
+    return escape(sentence_case(name))
 
 
 def signed(value: float, decimals: int, unit: str = "") -> str:
     """A change with its sign and a true minus; nothing but the number where it rounds to zero."""
-    text = f"{abs(value):.{decimals}f}{unit}"
-    if round(abs(value), decimals) == 0:
-        return text
-    return ("+" if value > 0 else MINUS) + text
+    text = f"{abs(value):.{decimals}f}"
+    sign = "" if float(text) == 0 else "+" if value > 0 else MINUS
+    return f"{sign}{text}{unit}"
 
 
 def number(value: float, decimals: int) -> str:

@@ -10,10 +10,17 @@ from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, Mount, MountGroup, MountRates
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.assign import assign
 
 RUBBER, SELECTED, WASHER, BLUE = (236, 190, 96), (242, 140, 24), (60, 64, 70), (43, 124, 196)
 RADIUS, HEIGHT = 0.045, 0.085
 """m, of the rubber of the largest marker but for half."""
+
+WASHER_Z, LABEL_Z = 0.53 * HEIGHT, 1.2 * HEIGHT
+"""m, above the middle of the rubber."""
+
+SIZE_STEP = 0.05
+"""Of a marker's size, 2 mm: no eye sees it, and a drag changes few markers at a time."""
 
 RING_RADIUS = 0.13
 CARD_OFFSET = np.array([0.36, -0.55, -0.44])
@@ -39,9 +46,14 @@ class MountMarker:
         )
         self._washers = [
             scene.add_cylinder(
-                f"{path}/{side}", 1.38 * RADIUS, 0.165 * HEIGHT, color=WASHER, cast_shadow=False
+                f"{path}/{side}",
+                1.38 * RADIUS,
+                0.165 * HEIGHT,
+                color=WASHER,
+                cast_shadow=False,
+                position=(0.0, 0.0, z),
             )
-            for side in ("above", "below")
+            for side, z in (("above", WASHER_Z), ("below", -WASHER_Z))
         ]
         self._ring = scene.add_line_segments(
             f"{path}/ring",
@@ -52,7 +64,11 @@ class MountMarker:
             visible=False,
         )
         self._label = scene.add_label(
-            f"{path}/name", self._label_text, anchor="bottom-center", font_screen_scale=0.85
+            f"{path}/name",
+            self._label_text,
+            position=(0.0, 0.0, LABEL_Z),
+            anchor="bottom-center",
+            font_screen_scale=0.85,
         )
 
     def on_click(self, callback: Callable[[], None]) -> None:
@@ -69,15 +85,19 @@ class MountMarker:
             selected: whether its group is.
             carded: whether the group's card hangs on this mount and names it.
         """
-        size = 0.6 + 0.9 * float(np.sqrt(share))
+        self._resize(SIZE_STEP * round((0.6 + 0.9 * float(np.sqrt(share))) / SIZE_STEP))
+        assign(self._rubber, color=SELECTED if selected else RUBBER)
+        assign(self._ring, visible=selected)
+        assign(self._label, visible=not carded)
+
+    def _resize(self, size: float) -> None:
+        if size == self._rubber.scale:
+            return
         self._rubber.scale = size
-        self._rubber.color = SELECTED if selected else RUBBER
-        for washer, side in zip(self._washers, (1, -1), strict=True):
+        for washer, z in zip(self._washers, (WASHER_Z, -WASHER_Z), strict=True):
             washer.scale = size
-            washer.position = (0.0, 0.0, side * 0.53 * HEIGHT * size)
-        self._ring.visible = selected
-        self._label.position = (0.0, 0.0, 1.2 * HEIGHT * size)
-        self._label.visible = not carded
+            washer.position = (0.0, 0.0, z * size)
+        self._label.position = (0.0, 0.0, LABEL_Z * size)
 
 
 class Card:
@@ -97,10 +117,12 @@ class Card:
 
     def show(self, text: str, mount: Floats) -> None:
         """Hangs the card on a mount; an empty text puts it away."""
-        self._label.visible = self._line.visible = bool(text)
-        self._label.text = text
-        self._label.position = mount + CARD_OFFSET
-        self._line.points = np.array([[mount, mount + CARD_OFFSET]], np.float32)
+        assign(self._label, visible=bool(text), text=text)
+        assign(self._line, visible=bool(text))
+        corner = mount + CARD_OFFSET
+        if not np.array_equal(corner, self._label.position):
+            self._label.position = corner
+            self._line.points = np.array([[mount, corner]], np.float32)
 
 
 class Markers:

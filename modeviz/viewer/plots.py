@@ -7,7 +7,7 @@ import viser
 
 from modeviz.ride.psd import power_decibels
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.html import MINUS, sentence_case
+from modeviz.viewer.html import MINUS, title
 
 SHOWN_HZ = (1.0, 25.0)
 FONT = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
@@ -149,7 +149,7 @@ def ladder(base: dict[str, float], now: dict[str, float], shown: str) -> str:
     parts.append(f'<text x="0" y="14" font-size="11" fill="{dim}">original</text>')
     parts.append(f'<text x="0" y="{bottom + 25}" font-size="11" fill="{strong}">now</text>')
     if shown in names:
-        label = f"{sentence_case(shown)} {base[shown]:.2f} → {now[shown]:.2f}"
+        label = f"{title(shown)} {base[shown]:.2f} → {now[shown]:.2f}"
         middle = min(max(x(base[shown]), 110), width - 90)
         parts.append(text(middle, 22, label, "var(--mantine-color-text)", 'font-weight="600"'))
     return f'<svg viewBox="0 0 {width} 100" width="100%" style="display:block">{"".join(parts)}</svg>'

@@ -13,6 +13,7 @@ from modeviz.shapes.surface import Surface, surface
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.assign import assign
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.markers import Markers
 from modeviz.viewer.session import Solved
@@ -102,7 +103,7 @@ class Scene:
             if body.role in SHEET_ROLES:
                 self.driver.set_opacity(_path(body.name), opacity)
         for outline in self._ghosts:
-            outline.visible = ghost
+            assign(outline, visible=ghost)
 
     def look(self, client: viser.ClientHandle, view: str) -> None:
         """Turns a page's camera to one of `stage.VIEWS`."""

@@ -6,6 +6,7 @@ value again sends nothing, so it is queued here by viser's private message.
 """
 
 import threading
+import time
 
 import viser
 from viser import _messages
@@ -21,21 +22,29 @@ class WriteBack:
         """Starts with nothing touched."""
         self._lock = threading.Lock()
         self._touched: dict[str, viser.GuiInputHandle] = {}
-        self._timer: threading.Timer | None = None
+        self._due = 0.0
 
     def touch(self, widget: viser.GuiInputHandle) -> None:
         """Notes that somebody moved a widget."""
         with self._lock:
+            is_first = not self._touched
             self._touched[widget._impl.uuid] = widget
-            if self._timer:
-                self._timer.cancel()
-            self._timer = threading.Timer(DELAY, self._send)
-            self._timer.daemon = True
-            self._timer.start()
+            self._due = time.monotonic() + DELAY
+        if is_first:
+            threading.Thread(target=self._send_when_due, name="write back", daemon=True).start()
 
-    def _send(self) -> None:
-        with self._lock:
-            touched, self._touched = self._touched, {}
-        for uuid, widget in touched.items():
+    def _send_when_due(self) -> None:
+        for uuid, widget in self._settled().items():
             message = _messages.GuiUpdateMessage(uuid, {"value": widget.value})
             widget._impl.gui_api._websock_interface.queue_message(message)
+
+    def _settled(self) -> dict[str, viser.GuiInputHandle]:
+        """Waits until nothing has been touched for `DELAY`, and takes what was."""
+        wait = DELAY
+        while True:
+            time.sleep(wait)
+            with self._lock:
+                wait = self._due - time.monotonic()
+                if wait <= 0:
+                    touched, self._touched = self._touched, {}
+                    return touched

@@ -6,9 +6,11 @@ import numpy as np
 import viser
 
 from modeviz.shapes.colors import DISPLACEMENT_STOPS
+from modeviz.viewer.assign import assign
 from modeviz.viewer.driver import ShapeDriver
-from modeviz.viewer.html import block, heading, sentence_case, style_sheet
+from modeviz.viewer.html import block, heading, style_sheet, title
 from modeviz.viewer.session import Solved
+from modeviz.viewer.settle import WriteBack
 
 START_SPEED_HZ = 0.5
 START_PHASE = 90.0
@@ -59,17 +61,20 @@ class AnimationCard:
         self._amplitude.on_update(lambda _: driver.drive(amplitude=self._amplitude.value))
         self._speed.on_update(lambda _: driver.drive(frequency_hz=self._speed.value))
         self._phase.on_update(lambda _: self._hold())
+        write_back = WriteBack()
+        for slider in (self._amplitude, self._speed, self._phase):
+            slider.on_update(lambda event: write_back.touch(event.target))
         self._transport.on_click(lambda _: self._press(self._transport.value))
         driver.drive(frequency_hz=START_SPEED_HZ, running=True)
 
     def show(self, solved: Solved) -> None:
         """Names an answer's shown mode."""
         modes, i = solved.now.modes, solved.mode
-        name = sentence_case(solved.now.names[i].name)
-        title = f'<span class="title">{name}  {modes.frequency_hz[i]:.2f} Hz</span>'
+        name = title(solved.now.names[i].name)
+        mode = f'<span class="title">{name}  {modes.frequency_hz[i]:.2f} Hz</span>'
         about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
         scale = _color_scale() if solved.state.coloring == "displacement" else ""
-        self._head.content = self._style + block(heading(title, about), scale)
+        assign(self._head, content=self._style + block(heading(mode, about), scale))
 
     def _hold(self) -> None:
         self._run(False)

@@ -2,19 +2,21 @@
 
 from html import escape
 
+import numpy as np
 import viser
 
 from modeviz.dynamics.naming import ModeName
 from modeviz.tuning.results import Results
+from modeviz.viewer.assign import assign
 from modeviz.viewer.html import (
     HiddenButtons,
     block,
     heading,
     row,
-    sentence_case,
     signed,
     span,
     table,
+    title,
 )
 from modeviz.viewer.plots import ladder
 from modeviz.viewer.session import FREE_HZ, Session, Solved
@@ -32,32 +34,41 @@ class ModesPanel:
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Builds the table; `show` fills it."""
         self._names: list[str] = []
-        self._buttons = HiddenButtons(gui, N_ROWS, lambda i: session.change(mode=self._names[i]))
+        self._buttons = HiddenButtons(gui, N_ROWS, lambda i: self._select(session, i))
         self._content = gui.add_html("")
+
+    def _select(self, session: Session, i: int) -> None:
+        names = self._names
+        if i < len(names):  # else a shorter list came between the click and here
+            session.change(mode=names[i])
 
     def show(self, solved: Solved) -> None:
         """Lists the modes of an answer."""
-        base = {name.name: f for name, f in listed(solved.base).values()}
-        now = {name.name: f for name, f in listed(solved.now).values()}
-        self._names = list(now)[:N_ROWS]
+        now = solved.now
+        before = {name.name: f for name, f in listed(solved.base).values()}
+        after = {name.name: f for name, f in listed(now).values()}
+        self._names = list(after)[:N_ROWS]
+        moved = _moves_most(now)
         rows = [
-            row(self._cells(i, mode, solved.now, base), chosen=mode == solved.mode)
-            for i, mode in enumerate(list(listed(solved.now))[:N_ROWS])
+            row(self._cells(i, mode, now, before, moved[mode]), chosen=mode == solved.mode)
+            for i, mode in enumerate(list(listed(now))[:N_ROWS])
         ]
-        drawing = ladder(base, now, solved.now.names[solved.mode].name)
-        self._content.content = block(drawing, table(("Mode", "Hz", "Δ Hz", "ζ %", "moves most"), rows))
+        drawing = ladder(before, after, now.names[solved.mode].name)
+        modes = table(("Mode", "Hz", "Δ Hz", "ζ %", "moves most"), rows)
+        assign(self._content, content=block(drawing, modes))
 
-    def _cells(self, i: int, mode: int, now: Results, base: dict[str, float]) -> list[str]:
-        name, f = now.names[mode].name, now.modes.frequency_hz[mode]
-        change = f - base[name] if name in base else None
-        moved = max(now.kinetic_energy, key=lambda b: now.kinetic_energy[b][mode])
-        share = now.kinetic_energy[moved][mode]
+    def _cells(
+        self, i: int, mode: int, now: Results, before: dict[str, float], moved: tuple[str, float]
+    ) -> list[str]:
+        name, f = now.names[mode].name, float(now.modes.frequency_hz[mode])
+        change = f - before[name] if name in before else None
+        body, share = moved
         return [
-            self._buttons.label(i, sentence_case(name)),
+            self._buttons.label(i, title(name)),
             f"{f:.2f}",
             span("new" if change is None else signed(change, 2), "dim" if not change else ""),
             f"{100 * now.modes.damping_ratio[mode]:.1f}",
-            span(f"{escape(now.vehicle.body(moved).label)} {100 * share:.0f} %", "dim"),
+            span(f"{escape(now.vehicle.body(body).label)} {100 * share:.0f} %", "dim"),
         ]
 
 
@@ -70,22 +81,33 @@ class EnergyPanel:
 
     def show(self, solved: Solved) -> None:
         """Draws the shares of an answer's shown mode."""
-        name = sentence_case(solved.now.names[solved.mode].name)
-        self._content.content = block(
+        name = title(solved.now.names[solved.mode].name)
+        content = block(
             heading(f"{name}: kinetic energy by body"),
             _kinetic(solved.now, solved.mode),
             heading("Strain energy by mount group"),
             _strain(solved),
         )
+        assign(self._content, content=content)
 
 
 def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
     """The modes of the ride band by index: name and frequency."""
     return {
-        i: (results.names[i], float(f))
-        for i, f in enumerate(results.modes.frequency_hz)
+        i: (results.names[i], f)
+        for i, f in enumerate(results.modes.frequency_hz.tolist())
         if LISTED_HZ[0] < f < LISTED_HZ[1]
     }
+
+
+def _moves_most(results: Results) -> list[tuple[str, float]]:
+    """For every mode the body with the largest share of its kinetic energy, and that share."""
+    bodies = list(results.kinetic_energy)
+    shares = np.stack(list(results.kinetic_energy.values()))
+    return [
+        (bodies[i], share)
+        for i, share in zip(shares.argmax(axis=0), shares.max(axis=0).tolist(), strict=True)
+    ]
 
 
 def _kinetic(results: Results, mode: int) -> str:
@@ -103,7 +125,7 @@ def _kinetic(results: Results, mode: int) -> str:
     )
     legend = " &nbsp; ".join(
         f'<span style="white-space:nowrap"><i class="swatch" style="background:{color}"></i>'
-        f"{sentence_case(label)} {100 * share:.0f} %</span>"
+        f"{title(label)} {100 * share:.0f} %</span>"
         for share, label, color in shown
     )
     return (

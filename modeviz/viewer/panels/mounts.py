@@ -9,6 +9,7 @@ import viser
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.assign import assign
 from modeviz.viewer.html import sentence_case, signed
 from modeviz.viewer.session import Session, Solved
 from modeviz.viewer.settle import WriteBack
@@ -50,13 +51,12 @@ class MountsPanel:
         shown = solved.now.names[solved.mode].name
         for group in self._vehicle.mount_groups:
             share = solved.now.strain_energy[group.name][solved.mode]
-            self._folders[
-                group.name
-            ].label = f"{group.name}  {group.label}  ·  {100 * share:.0f} % of {shown} energy"
+            energy = f"{100 * share:.0f} % of {shown} energy"
+            assign(self._folders[group.name], label=f"{group.name}  {group.label}  ·  {energy}")
             now = solved.state.rates[group.name]
             for name, direction in zip(FIELDS, DIRECTIONS, strict=True):
                 label = _label(direction, getattr(now, name), getattr(group.rates, name))
-                self._sliders[group.name, name].label = label
+                assign(self._sliders[group.name, name], label=label)
 
     def _add_presets(self, gui: viser.GuiApi, set_rates: Callable[[Rates], None]) -> None:
         sets = rate_sets(self._vehicle)

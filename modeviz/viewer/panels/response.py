@@ -1,6 +1,7 @@
 """Right column, upper part: what the rates do to the ride."""
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from html import escape
 
@@ -11,7 +12,8 @@ from modeviz.ride.psd import rms
 from modeviz.tuning.results import AXIS, FREQUENCY_HZ, Conditions, Results
 from modeviz.units import factor
 from modeviz.vehicle.loads import Road
-from modeviz.viewer.html import block, change, heading, number, sentence_case, signed, span
+from modeviz.viewer.assign import assign
+from modeviz.viewer.html import block, change, heading, number, sentence_case, signed, span, title
 from modeviz.viewer.plots import PsdPlot
 from modeviz.viewer.session import Session, Solved
 from modeviz.viewer.settle import WriteBack
@@ -57,11 +59,11 @@ class ResponsePanel:
     def show(self, solved: Solved) -> None:
         """Draws an answer."""
         base, now = solved.base, solved.now
-        self._figures.content = block(_figures(base, now))
+        assign(self._figures, content=block(_figures(base, now)))
         point = now.vehicle.response_points[DRIVER].name
         for direction in DIRECTIONS:
             shown = strongest(now.peaks(DRIVER, direction, N_CONTRIBUTORS))
-            self._headings[direction].content = block(self._heading(point, direction, now))
+            assign(self._headings[direction], content=block(_heading(point, direction, now)))
             self._plots[direction].show(
                 base.response(DRIVER, direction),
                 now.response(DRIVER, direction),
@@ -71,17 +73,6 @@ class ResponsePanel:
                 peak = shown[i] if i < len(shown) else None
                 self._peaks[direction, i].show(direction, peak, now)
 
-    def _heading(self, point: str, direction: str, now: Results) -> str:
-        left = f"{sentence_case(point)}, {direction} {span('dB re 1 g²/Hz', 'dim')}"
-        if direction == DIRECTIONS[0]:
-            return heading(
-                left,
-                '<i class="swatch" style="background:var(--mv-base)"></i>original &nbsp; '
-                '<i class="swatch" style="background:var(--mv-now)"></i>current',
-            )
-        speed = now.conditions.speed / factor("km/h", "speed")
-        return heading(left, f"{escape(now.conditions.road)}, {speed:.0f} km/h")
-
 
 class PeakRow:
     """One peak: a button for each of the modes that make it."""
@@ -90,11 +81,16 @@ class PeakRow:
         """Makes an empty row."""
         self._modes: dict[str, str] = {}
         self._buttons = gui.add_button_group("-", ("-",), hint="Share of each mode, largest first")
-        self._buttons.on_click(lambda _: session.change(mode=self._modes[self._buttons.value]))
+        self._buttons.on_click(lambda _: self._select(session))
+
+    def _select(self, session: Session) -> None:
+        mode = self._modes.get(self._buttons.value)
+        if mode is not None:  # else another answer came between the click and here
+            session.change(mode=mode)
 
     def show(self, direction: str, peak: Peak | None, now: Results) -> None:
         """Shows a peak, or nothing."""
-        self._buttons.visible = peak is not None
+        assign(self._buttons, visible=peak is not None)
         if peak is None:
             return
         names = [now.names[c.mode].name for c in peak.contributors]
@@ -103,8 +99,8 @@ class PeakRow:
             for name, c in zip(names, peak.contributors, strict=True)
         ]
         self._modes = dict(zip(texts, names, strict=True))
-        self._buttons.label = f"{SHORT[direction]} {peak.frequency_hz:.1f} Hz"
-        self._buttons.options = tuple(texts)
+        label = f"{SHORT[direction]} {peak.frequency_hz:.1f} Hz"
+        assign(self._buttons, label=label, options=tuple(texts))
 
 
 class RoadPanel:
@@ -113,7 +109,7 @@ class RoadPanel:
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Builds the controls."""
         self._session = session
-        labels = {road.label: road.name for road in session.vehicle.roads}
+        labels = _road_labels(session.vehicle.roads)
         start = session.state.conditions
         current = next(label for label, name in labels.items() if name == start.road)
         road = gui.add_dropdown(
@@ -139,6 +135,27 @@ class RoadPanel:
 
         road.on_update(changed)
         speed.on_update(changed)
+
+
+def _heading(point: str, direction: str, now: Results) -> str:
+    left = f"{title(point)}, {direction} {span('dB re 1 g²/Hz', 'dim')}"
+    if direction == DIRECTIONS[0]:
+        return heading(
+            left,
+            '<i class="swatch" style="background:var(--mv-base)"></i>original &nbsp; '
+            '<i class="swatch" style="background:var(--mv-now)"></i>current',
+        )
+    speed = now.conditions.speed / factor("km/h", "speed")
+    return heading(left, f"{escape(now.conditions.road)}, {speed:.0f} km/h")
+
+
+def _road_labels(roads: Sequence[Road]) -> dict[str, str]:
+    """The roads' names by what they are called on screen, with the name too where labels are alike."""
+    count = Counter(road.label for road in roads)
+    return {
+        road.label if count[road.label] == 1 else f"{road.label} ({road.name})": road.name
+        for road in roads
+    }
 
 
 def _speed_limits(roads: Sequence[Road]) -> tuple[int, int]:
