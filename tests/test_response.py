@@ -92,6 +92,14 @@ def test_a_line_a_thousandth_beside_an_undamped_resonance_is_right():
     assert H[0, 0, 0] == pytest.approx(1 / (k * (1 - 1.001**2)), rel=1e-11)
 
 
+def test_a_spring_too_stiff_for_the_direct_solve_is_an_error():
+    bodies = mass_on_a_string("a", 2.0), mass_on_a_string("b", 3.0)
+    springs = spring(("a", "ground"), 800.0), spring(("a", "b"), 1e14)
+    system = assemble(Vehicle("pair", bodies, springs))
+    with pytest.raises(SolveError, match=r"at 0\.5 Hz.*too stiff"):
+        direct_response(system, np.array([0.5]), force_on_z(1, 12), np.eye(12)[2:3])
+
+
 def test_an_output_that_no_force_reaches_is_still():
     sideways = np.eye(6)[:1]
     H = direct_response(oscillator(), np.array([0.5, 3.0]), force_on_z(2), sideways)

@@ -22,7 +22,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeviz.dynamics.assembly import System, connection_coefficients
-from modeviz.dynamics.response import check_accuracy, check_frequencies, resonance_error
+from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 
@@ -32,6 +32,9 @@ N_THREADS = min(4, os.cpu_count() or 1)
 SOFT = 1e-4
 """A coordinate is kept where by itself it is softer than this part of the stiffness its joints give
 it, as a rigid one at low frequency: eliminated, it would cost as many digits."""
+
+ACCURACY = 1e-9
+"""What is promised of receptances, relative to the largest of their row; less is an error."""
 
 
 def receptances(
@@ -104,11 +107,11 @@ class _Disassembled:
         try:
             X = np.linalg.solve(S, B)
         except np.linalg.LinAlgError:
-            raise resonance_error(frequency_hz) from None
+            raise drowned(frequency_hz) from None
         G = B.T @ X - matrix[n:, n:]
         parts = np.abs(S)
         np.fill_diagonal(parts, 1)
-        check_accuracy(parts, X, G, frequency_hz)
+        check_accuracy(parts, X, G, frequency_hz, ACCURACY)
         return G
 
     def _bordered(self, omega: float) -> tuple[Complexes, Floats]:

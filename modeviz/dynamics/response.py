@@ -7,8 +7,8 @@ from modeviz.dynamics.modes import Modes
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 
-ACCURACY = 1e-9
-"""Of a direct solve, relative to the best of the responses in a direction; less is an error."""
+DIRECT_ACCURACY = 1e-6
+"""What the direct solve promises: a bolt of 1e11 N/m beside a spring of 1e3 N/m costs it eight digits."""
 
 
 def direct_response(
@@ -25,7 +25,8 @@ def direct_response(
         outputs: R, (n_outputs, n_dofs), rows that read the answer.
 
     Raises:
-        SolveError: the frequencies are not such, or one lies on an undamped resonance.
+        SolveError: the frequencies are not such, one lies on an undamped resonance, or rounding of
+            the stiffest spring drowns the answer.
     """
     check_frequencies(frequency_hz)
     K = system.stiffness + 1j * system.structural_damping
@@ -35,7 +36,8 @@ def direct_response(
         Z = K - omega**2 * system.mass + 1j * omega * system.damping
         directions = np.hstack([forces[i], outputs.T], dtype=complex)
         x = _solve(Z, directions, frequency_hz[i])
-        check_accuracy(stiffness + omega**2 * mass, x, directions.T @ x, frequency_hz[i])
+        parts = stiffness + omega**2 * mass
+        check_accuracy(parts, x, directions.T @ x, frequency_hz[i], DIRECT_ACCURACY)
         H[i] = outputs @ x[:, : forces.shape[2]]
     return H
 
@@ -67,7 +69,10 @@ def modal_response(
     """The same in modal coordinates, keeping the damping that couples them.
 
     Exact when `modes` are all of the system's; otherwise what the modes left out would add
-    statically is missing. Arguments and errors as `direct_response`.
+    statically is missing. Arguments as `direct_response`.
+
+    Raises:
+        SolveError: an undamped resonance lies exactly on a frequency.
     """
     q = modal_coordinates(system, modes, frequency_hz, forces)
     return (outputs @ modes.shapes) @ q
@@ -88,8 +93,10 @@ def modal_coordinates(
     return q
 
 
-def check_accuracy(parts: Floats, x: Complexes, G: Complexes, frequency_hz: float) -> None:
-    """Checks that rounding left G = PᵀZ⁻¹P as accurate as `ACCURACY`.
+def check_accuracy(
+    parts: Floats, x: Complexes, G: Complexes, frequency_hz: float, accuracy: float
+) -> None:
+    """Checks that rounding left G = PᵀZ⁻¹P accurate.
 
     Summing up Z and solving Z x = P change Z by about ε times the size of its parts and so G by
     xᵀδZ x, in whatever units (N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed.,
@@ -100,21 +107,22 @@ def check_accuracy(parts: Floats, x: Complexes, G: Complexes, frequency_hz: floa
         x: Z⁻¹P, (n, n_directions).
         G: (n_directions, n_directions).
         frequency_hz: where, to say so.
+        accuracy: wanted, relative to the best known receptance in each direction.
 
     Raises:
-        SolveError: in some direction no receptance is.
+        SolveError: in some direction there is none that accurate.
     """
     size = np.abs(x)
     error = np.sqrt(np.finfo(float).eps * np.einsum("ij,ij->j", size, parts @ size))
-    if not (np.outer(error, error) <= ACCURACY * np.abs(G)).any(axis=1).all():
-        raise resonance_error(frequency_hz)
+    if not (np.outer(error, error) <= accuracy * np.abs(G)).any(axis=1).all():
+        raise drowned(frequency_hz)
 
 
-def resonance_error(frequency_hz: float) -> SolveError:
-    """Says that there is no response at a frequency, and what to do."""
+def drowned(frequency_hz: float) -> SolveError:
+    """Says at which frequency rounding drowns the response, why, and what to do."""
     return SolveError(
-        f"no accurate response at {frequency_hz} Hz: an undamped resonance lies there; give it damping "
-        "or shift the frequency"
+        f"no accurate response at {frequency_hz} Hz: an undamped resonance lies there (give it damping "
+        "or shift the frequency) or a spring is too stiff beside the others (soften it)"
     )
 
 
@@ -122,4 +130,4 @@ def _solve(Z: Complexes, F: Complexes, frequency_hz: float) -> Complexes:
     try:
         return np.linalg.solve(Z, F)
     except np.linalg.LinAlgError:
-        raise resonance_error(frequency_hz) from None
+        raise drowned(frequency_hz) from None
