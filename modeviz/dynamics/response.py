@@ -8,7 +8,7 @@ from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 
 DIRECT_ACCURACY = 1e-6
-"""What the direct solve promises: a bolt of 1e11 N/m beside a spring of 1e3 N/m costs it eight digits."""
+"""What the direct solve promises: 1e11 N/m beside a spring of 1e3 N/m costs it eight digits."""
 
 
 def direct_response(
