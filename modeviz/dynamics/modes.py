@@ -1,6 +1,7 @@
 """Natural frequencies, shapes and damping of a system."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -48,34 +49,49 @@ class ComplexModes:
         return -self.eigenvalue.real / np.abs(self.eigenvalue)
 
 
-def solve_modes(system: System, n_modes: int | None = None) -> Modes:
+def solve_modes(system: System, n_modes: int | None = None, below_hz: float | None = None) -> Modes:
     """The lowest undamped modes, K φ = ω² M φ.
 
     Args:
         system: what vibrates.
         n_modes: how many, all if None.
+        below_hz: up to which frequency, instead of how many.
 
     Raises:
         SolveError: the mass matrix is not positive definite, or a spring is so stiff that rounding
             drowns the slow modes.
     """
     _check_resolved(system)
-    last = min(n_modes or system.n_dofs, system.n_dofs) - 1
+    subset: dict[str, Any] = {"subset_by_index": [0, min(n_modes or system.n_dofs, system.n_dofs) - 1]}
+    if below_hz is not None:
+        subset = {"subset_by_value": [-np.inf, (2 * np.pi * below_hz) ** 2]}
     try:
         omega_squared, phi = scipy.linalg.eigh(
-            system.stiffness, system.mass, subset_by_index=[0, last], check_finite=False
+            system.stiffness, system.mass, check_finite=False, **subset
         )
     except scipy.linalg.LinAlgError as error:
         raise SolveError(f"the modes cannot be found: {error}") from None
     omega = np.sqrt(np.maximum(omega_squared, 0.0))
-    return Modes(omega / (2 * np.pi), phi, _damping_ratio(system, omega, phi))
+    viscous = np.einsum("ij,ij->j", phi, system.damping @ phi)
+    structural = np.einsum("ij,ij->j", phi, system.structural_damping @ phi)
+    return Modes(omega / (2 * np.pi), phi, damping_ratio(omega, viscous, structural))
+
+
+def rounding(system: System) -> float:
+    """The error that arithmetic makes in ω², rad²/s²: ε times the largest in the system."""
+    return float(np.finfo(np.float64).eps * _omega_squared_alone(system).max())
+
+
+def _omega_squared_alone(system: System) -> Floats:
+    """ω² of each coordinate with all others held, (n_dofs,)."""
+    return np.diag(system.stiffness) / np.diag(system.mass)
 
 
 def _check_resolved(system: System) -> None:
-    """Raises SolveError unless slow modes stand out from rounding, in ω² about ε times the largest."""
-    omega_squared = np.diag(system.stiffness) / np.diag(system.mass)
+    """Raises SolveError unless slow modes stand out from rounding."""
+    omega_squared = _omega_squared_alone(system)
     stiffest = int(omega_squared.argmax())
-    if np.finfo(np.float64).eps * omega_squared[stiffest] > (2 * np.pi * RESOLVED_HZ) ** 2:
+    if rounding(system) > (2 * np.pi * RESOLVED_HZ) ** 2:
         raise SolveError(
             f"the slow modes drown in rounding: {system.dof_names[stiffest]!r} is held so stiffly that "
             f"alone it rings at {np.sqrt(omega_squared[stiffest]) / (2 * np.pi):.1g} Hz; soften the "
@@ -83,13 +99,16 @@ def _check_resolved(system: System) -> None:
         )
 
 
-def _damping_ratio(system: System, omega: Floats, phi: Floats) -> Floats:
-    """ζ = (ω φᵀCφ + φᵀK_gφ) / 2ω²; zero where ω is."""
-    viscous = np.einsum("ij,ij->j", phi, system.damping @ phi) * omega
-    structural = np.einsum("ij,ij->j", phi, system.structural_damping @ phi)
-    twice_energy = 2 * omega**2
+def damping_ratio(omega: Floats, viscous: Floats, structural: Floats) -> Floats:
+    """ζ = (ω φᵀCφ + φᵀK_gφ) / 2ω² of each mode, (n_modes,); zero where ω is.
+
+    Args:
+        omega: rad/s.
+        viscous: φᵀCφ.
+        structural: φᵀK_gφ.
+    """
     free = omega < 1e-3
-    return np.where(free, 0.0, (viscous + structural) / np.where(free, 1.0, twice_energy))
+    return np.where(free, 0.0, (viscous * omega + structural) / np.where(free, 1.0, 2 * omega**2))
 
 
 def solve_complex_modes(system: System, modes: Modes) -> ComplexModes:
