@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.dynamics.assembly import System, assemble
 from modeviz.ride.psd import rms
+from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import AXIS, Conditions, Results, solve, solve_wheels
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
@@ -121,12 +121,15 @@ class Comparison:
 def compare(vehicle: Vehicle | None = None) -> Comparison:
     """Solves a vehicle, the built-in one if none is given, with both sets of rates."""
     vehicle = vehicle or read_vehicle(builtin_vehicle())
-    system = assemble(vehicle)
+    prepared = prepare(vehicle)
+    at_wheels = prepare(vehicle, WHEEL_HZ)
     road_1 = Conditions("road 1", vehicle.speed)
     optimised = vehicle.rate_sets["optimised"]
-    before, after = (_wheel_accelerations(system, rates) for rates in ({}, optimised))
+    before, after = (_wheel_accelerations(at_wheels, rates) for rates in ({}, optimised))
     return Comparison(
-        solve(system, {}, road_1), solve(system, optimised, road_1), np.stack([before, after], axis=-1)
+        solve(prepared, {}, road_1),
+        solve(prepared, optimised, road_1),
+        np.stack([before, after], axis=-1),
     )
 
 
@@ -137,10 +140,10 @@ def _frequency(results: Results, name: str) -> float:
     return float(results.modes.frequency_hz[mode])
 
 
-def _wheel_accelerations(system: System, rates) -> Floats:
+def _wheel_accelerations(prepared: Prepared, rates) -> Floats:
     """(points, loads, directions), 0.001 g, of the left wheels' force variations."""
-    vehicle = system.vehicle
-    means = 1000 * solve_wheels(system, rates, WHEEL_HZ).mean((WHEEL_HZ[0], WHEEL_HZ[-1]))
+    vehicle = prepared.vehicle
+    means = 1000 * solve_wheels(prepared, rates).mean((WHEEL_HZ[0], WHEEL_HZ[-1]))
     loads = [w.name for w in vehicle.wheel_loads]
     points = [p.name for p in vehicle.response_points]
     rows = [loads.index(name.replace(" ", " left ", 1)) for name in LOADS]
@@ -194,9 +197,9 @@ def _wheels(comparison: Comparison) -> list[str]:
 
 def _participation(comparison: Comparison) -> list[str]:
     lines = ["| Tables 2 and 3 | Paper: peak and its modes | Ours, nearest peak |", "|---|---|---|"]
-    system = comparison.original.system
+    prepared = comparison.original.prepared
     for (road, direction), peaks in PARTICIPATION.items():
-        results = solve(system, {}, Conditions(road, system.vehicle.speed))
+        results = solve(prepared, {}, Conditions(road, prepared.vehicle.speed))
         found = results.peaks(0, direction, 2)
         for f, *modes in peaks:
             ours = min(found, key=lambda peak, f=f: abs(peak.frequency_hz - f))

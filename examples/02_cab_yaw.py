@@ -10,10 +10,10 @@ import modeviz as mv
 BAND = (11.0, 17.0)  # Hz, where the paper sees the greatest change
 
 vehicle = mv.read_vehicle(mv.builtin_vehicle())
-system = mv.assemble(vehicle)
+prepared = mv.prepare(vehicle)
 conditions = mv.Conditions("road 1", vehicle.speed)
 original, optimised = (
-    mv.solve(system, rates, conditions) for rates in (vehicle.rates, vehicle.rate_sets["optimised"])
+    mv.solve(prepared, rates, conditions) for rates in (vehicle.rates, vehicle.rate_sets["optimised"])
 )
 
 

@@ -24,6 +24,10 @@ from modeviz.ride.rating import rate as rate
 from modeviz.ride.roads import road_spectrum as road_spectrum
 from modeviz.ride.roads import track_forces as track_forces
 from modeviz.ride.wheels import wheel_forces as wheel_forces
+from modeviz.tuning.preparation import Prepared as Prepared
+from modeviz.tuning.preparation import PreparedModes as PreparedModes
+from modeviz.tuning.preparation import prepare as prepare
+from modeviz.tuning.preparation import prepare_modes as prepare_modes
 from modeviz.tuning.rates import read_rates as read_rates
 from modeviz.tuning.rates import resolve_rates as resolve_rates
 from modeviz.tuning.rates import write_rates as write_rates

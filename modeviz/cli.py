@@ -7,14 +7,17 @@ import sys
 from collections.abc import Sequence, Sized
 from importlib.metadata import version
 from pathlib import Path
+from typing import get_args
 
-from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.basis import TOP_HZ, Method
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record, modes_record, psd_record, wheels_record
 from modeviz.export.tables import modes_table, psd_table, wheels_table
+from modeviz.tuning.preparation import Prepared, prepare, prepare_modes
 from modeviz.tuning.rates import resolve_rates
-from modeviz.tuning.results import FREQUENCY_HZ, Conditions, solve, solve_modal, solve_wheels
+from modeviz.tuning.results import Conditions, solve, solve_modal, solve_wheels
 from modeviz.units import parse
+from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -62,6 +65,12 @@ def _parser() -> argparse.ArgumentParser:
 
     modes = _command(commands, "modes", _modes, "frequencies, damping, names and energies")
     modes.add_argument("--below", type=float, default=25.0, metavar="HZ", help="default 25")
+    modes.add_argument(
+        "--method",
+        choices=get_args(Method),
+        default="enriched",
+        help="enriched (default), classic: the paper's equation on the original modes, or exact",
+    )
     _add_json(modes)
 
     psd = _command(commands, "psd", _psd, "accelerations on a road and their rating")
@@ -104,9 +113,24 @@ def _add_json(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="print JSON instead of a table")
 
 
-def _vehicle(options: argparse.Namespace) -> Vehicle:
+def _vehicle_and_rates(options: argparse.Namespace) -> tuple[Vehicle, Rates]:
+    """The vehicle with its own rates, and the rates chosen."""
     vehicle = read_vehicle(options.vehicle or builtin_vehicle())
-    return resolve_rates(vehicle, options.rates, options.settings)
+    return vehicle, resolve_rates(vehicle, options.rates, options.settings).rates
+
+
+def _prepare(vehicle: Vehicle) -> Prepared:
+    """Prepares a vehicle and shows on a terminal how far that is."""
+    if not sys.stderr.isatty():
+        return prepare(vehicle)
+    try:
+        return prepare(vehicle, progress=_tell_progress)
+    finally:
+        print(end="\r\x1b[K", file=sys.stderr, flush=True)
+
+
+def _tell_progress(done: float) -> None:
+    print(end=f"\rpreparing {done:4.0%}", file=sys.stderr, flush=True)
 
 
 def _conditions(options: argparse.Namespace, vehicle: Vehicle) -> Conditions:
@@ -134,7 +158,9 @@ def _need(vehicle: Vehicle, what: str, found: Sized) -> None:
 def _modes(options: argparse.Namespace) -> None:
     if not options.below > 0:
         raise ModevizError(f"--below: found {options.below:g} Hz, expected more than zero")
-    results = solve_modal(assemble(_vehicle(options)), {})
+    vehicle, rates = _vehicle_and_rates(options)
+    prepared = prepare_modes(vehicle, max(options.below, TOP_HZ))
+    results = solve_modal(prepared, rates, options.method)
     if options.json:
         _print_json(modes_record(results, options.below))
     else:
@@ -142,8 +168,9 @@ def _modes(options: argparse.Namespace) -> None:
 
 
 def _psd(options: argparse.Namespace) -> None:
-    vehicle = _vehicle(options)
-    results = solve(assemble(vehicle), {}, _conditions(options, vehicle))
+    vehicle, rates = _vehicle_and_rates(options)
+    conditions = _conditions(options, vehicle)
+    results = solve(_prepare(vehicle), rates, conditions)
     if options.json:
         _print_json(psd_record(results))
     else:
@@ -151,21 +178,21 @@ def _psd(options: argparse.Namespace) -> None:
 
 
 def _wheels(options: argparse.Namespace) -> None:
-    vehicle = _vehicle(options)
+    vehicle, rates = _vehicle_and_rates(options)
     _need(vehicle, "response point", vehicle.response_points)
     _need(vehicle, "wheel load", vehicle.wheel_loads)
-    results = solve_wheels(assemble(vehicle), {}, FREQUENCY_HZ)
+    results = solve_wheels(_prepare(vehicle), rates)
+    tuned = vehicle.with_rates(rates)
     if options.json:
-        _print_json(wheels_record(vehicle, results))
+        _print_json(wheels_record(tuned, results))
     else:
-        print(wheels_table(vehicle, results))
+        print(wheels_table(tuned, results))
 
 
 def _view(options: argparse.Namespace) -> None:
     from modeviz.viewer.app import serve
 
-    vehicle = read_vehicle(options.vehicle or builtin_vehicle())
-    start = resolve_rates(vehicle, options.rates, options.settings).rates
+    vehicle, start = _vehicle_and_rates(options)
     serve(
         vehicle,
         start,

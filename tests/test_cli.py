@@ -8,7 +8,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
-from modeviz.dynamics.assembly import assemble
+from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import write_vehicle
@@ -57,7 +57,7 @@ def test_psd_json_is_the_solution_of_the_tuned_vehicle(capsys, folder):
         "vehicle", "rates", "road", "speed_m_per_s", "frequency_hz", "responses", "rating",
     }  # fmt: skip
     rates = {"A": MountRates(2e5, 1e5, 1e5), "B": MountRates(8e5, 3e5, 1.31e5)}
-    expected = solve(assemble(mounted_cabin()), rates, Conditions("rough", 25.0))
+    expected = solve(prepare(mounted_cabin()), rates, Conditions("rough", 25.0))
     by_direction = {r["direction"]: r for r in record["responses"]}
     assert {r["point"] for r in record["responses"]} == {"seat"}
     for direction in ("vertical", "lateral", "fore-aft"):

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.dynamics.assembly import assemble
 from modeviz.export.records import wheels_record
 from modeviz.export.tables import wheels_table
+from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import solve_wheels
 
 FREQUENCY_HZ = np.array([11.0, 13.0, 16.0])
@@ -12,7 +12,7 @@ FREQUENCY_HZ = np.array([11.0, 13.0, 16.0])
 
 def solved():
     vehicle = mounted_cabin()
-    return vehicle, solve_wheels(assemble(vehicle), {}, FREQUENCY_HZ)
+    return vehicle, solve_wheels(prepare(vehicle, FREQUENCY_HZ), {})
 
 
 def test_harmonic_response_is_in_g_and_in_decibels_of_it():

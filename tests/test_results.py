@@ -8,13 +8,8 @@ from modeviz.errors import VehicleError
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.ride.wheels import wheel_forces
-from modeviz.tuning.results import (
-    FREQUENCY_HZ,
-    Conditions,
-    solve,
-    solve_modal,
-    solve_wheels,
-)
+from modeviz.tuning.preparation import FREQUENCY_HZ, prepare, prepare_modes
+from modeviz.tuning.results import Conditions, solve, solve_modal, solve_wheels
 from modeviz.vehicle.connections import MountRates
 
 FLAT = Conditions("flat", 20.0)
@@ -23,7 +18,7 @@ SOFT = {"A": MountRates(2e5, 1e5, 1e5)}
 
 @pytest.fixture(scope="module")
 def results():
-    return solve(assemble(mounted_cabin()), SOFT, FLAT)
+    return solve(prepare(mounted_cabin()), SOFT, FLAT)
 
 
 def test_the_ride_is_the_direct_solution_of_the_tuned_vehicle(results):
@@ -62,7 +57,7 @@ def test_a_mode_is_found_by_its_name(results):
 def test_wheel_loads_are_the_direct_solution():
     f = np.array([8.0, 11.0, 13.25])
     system = assemble(mounted_cabin())
-    found = solve_wheels(system, {}, f)
+    found = solve_wheels(prepare(mounted_cabin(), f), {})
     seat = system.motion("cab", np.array([1.2, -0.4, 0.9]))[:3]
     H = direct_response(system, f, wheel_forces(system, system.vehicle.wheel_loads, f), seat)[:, :, 0]
     expected = np.abs(H) * (2 * np.pi * f[:, None]) ** 2 / 9.80665
@@ -72,10 +67,10 @@ def test_wheel_loads_are_the_direct_solution():
 
 def test_a_road_that_is_not_there_is_an_error():
     with pytest.raises(VehicleError, match=r"unknown road 'moon'.*flat, rough"):
-        solve(assemble(mounted_cabin()), {}, Conditions("moon", 20.0))
+        solve(prepare(mounted_cabin()), {}, Conditions("moon", 20.0))
 
 
 def test_modes_need_no_road():
-    modal = solve_modal(assemble(mounted_cabin()), SOFT)
+    modal = solve_modal(prepare_modes(mounted_cabin()), SOFT)
     assert len(modal.names) == len(modal.modes.frequency_hz) == 12
     assert sum(modal.kinetic_energy.values()) == pytest.approx(np.ones(12))

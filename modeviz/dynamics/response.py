@@ -74,22 +74,41 @@ def modal_response(
     Raises:
         SolveError: an undamped resonance lies exactly on a frequency.
     """
-    q = modal_coordinates(system, modes, frequency_hz, forces)
-    return (outputs @ modes.shapes) @ q
+    phi = modes.shapes
+    q = modal_coordinates(
+        modes.omega_n_squared,
+        phi.T @ system.damping @ phi,
+        phi.T @ system.structural_damping @ phi,
+        frequency_hz,
+        phi.T @ forces,
+    )
+    return (outputs @ phi) @ q
 
 
 def modal_coordinates(
-    system: System, modes: Modes, frequency_hz: Floats, forces: Complexes
+    omega_n_squared: Floats,
+    damping: Floats,
+    structural_damping: Floats,
+    frequency_hz: Floats,
+    modal_forces: Complexes,
 ) -> Complexes:
-    """How much of each mode is in the response: q, (n_freqs, n_modes, n_inputs)."""
-    phi = modes.shapes
-    C = phi.T @ system.damping @ phi
-    K = np.diag(modes.omega_n_squared) + 1j * (phi.T @ system.structural_damping @ phi)
-    identity = np.eye(phi.shape[1])
-    modal_forces = phi.T @ forces
+    """How much of each mode is in a response: q, (n_freqs, n_modes, n_inputs).
+
+    (Ω² - ω²I + jωφᵀCφ + jφᵀK_gφ) q = φᵀF
+
+    Args:
+        omega_n_squared: (n_modes,).
+        damping: φᵀCφ, (n_modes, n_modes).
+        structural_damping: φᵀK_gφ, (n_modes, n_modes).
+        frequency_hz: (n_freqs,).
+        modal_forces: φᵀF, (n_freqs, n_modes, n_inputs).
+    """
+    K = np.diag(omega_n_squared) + 1j * structural_damping
+    identity = np.eye(len(K))
     q = np.empty(modal_forces.shape, complex)
     for i, omega in enumerate(2 * np.pi * np.asarray(frequency_hz)):
-        q[i] = _solve(K - omega**2 * identity + 1j * omega * C, modal_forces[i], frequency_hz[i])
+        Z = K - omega**2 * identity + 1j * omega * damping
+        q[i] = _solve(Z, modal_forces[i], frequency_hz[i])
     return q
 
 

@@ -57,22 +57,24 @@ def contributors(participations: Floats, count: int) -> tuple[Contributor, ...]:
 def peaks(
     frequency_hz: Floats, psd: Floats, participations: Floats, count: int = 2
 ) -> tuple[Peak, ...]:
-    """The peaks of a response in rising frequency, with the `count` largest contributors to each.
+    """Peaks with the `count` largest contributors to each.
 
     Args:
-        frequency_hz: (n_freqs,).
-        psd: (n_freqs,) of the response.
-        participations: (n_freqs, n_modes), see `participation`.
+        frequency_hz: (n_peaks,), see `peak_lines`.
+        psd: (n_peaks,), of the response there.
+        participations: (n_peaks, n_modes), see `participation`.
         count: how many modes to name.
     """
     return tuple(
-        Peak(float(frequency_hz[i]), float(psd[i]), contributors(participations[i], count))
-        for i in _prominent_maxima(power_decibels(psd))
+        Peak(float(f), float(level), contributors(parts, count))
+        for f, level, parts in zip(frequency_hz, psd, participations, strict=True)
     )
 
 
-def _prominent_maxima(level: Floats) -> list[int]:
+def peak_lines(psd: Floats) -> list[int]:
+    """Where a response (n_freqs,) has its peaks, rising, `PROMINENCE_DB` above the dips beside them."""
     # scipy.signal finds them too, but importing it costs half of a program's start.
+    level = power_decibels(psd)
     before, here, after = level[:-2], level[1:-1], level[2:]
     maxima = np.flatnonzero((before < here) & (here >= after)) + 1
     return [i for i in maxima.tolist() if _prominence(level, i) >= PROMINENCE_DB]

@@ -51,7 +51,12 @@ def harmonic_acceleration(frequency_hz: Floats, displacement: Complexes) -> Floa
 
 
 def rms(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = RIDE_BAND) -> Floats:
-    """Root of the integral of a one-sided PSD over a band, by the trapezium rule.
+    """Root of the mean square over a band; arguments as `mean_square`."""
+    return np.sqrt(mean_square(frequency_hz, psd, band))
+
+
+def mean_square(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = RIDE_BAND) -> Floats:
+    """The integral of a one-sided PSD over a band, by the trapezium rule.
 
     Args:
         frequency_hz: (n_freqs,), rising.
@@ -59,10 +64,10 @@ def rms(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = RIDE_BAND
         band: Hz; only the part that `frequency_hz` covers counts.
 
     Returns:
-        (...), the unit.
+        (...), unit².
     """
     line = make_interp_spline(frequency_hz, psd, k=1)
-    return np.sqrt(line.integrate(*band, extrapolate=False))
+    return line.integrate(*band, extrapolate=False)
 
 
 def power_decibels(psd: Floats) -> Floats:

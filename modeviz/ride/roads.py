@@ -7,6 +7,7 @@ from modeviz.errors import ModevizError
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Tyre
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.vehicle import Vehicle
 
 LEFT, RIGHT = 0, 1
 """The tracks, where they are inputs: left is y < 0."""
@@ -18,10 +19,6 @@ NO_POWER = np.finfo(np.float64).tiny
 def track_forces(system: System, frequency_hz: Floats, speed: float) -> Complexes:
     """Generalised forces per unit displacement of the left and the right track.
 
-    F = Rᵀ (k (1 + jg) + jωc) ẑ e^{-jωτ}: the ground end of a tyre rises with the road and the tyre's
-    springs and dampers, R their relative motion, push the wheel. A tyre whose patch is L behind the
-    frontmost meets the same road τ = L / V later.
-
     Args:
         system: what the tyres belong to.
         frequency_hz: (n_freqs,).
@@ -30,14 +27,38 @@ def track_forces(system: System, frequency_hz: Floats, speed: float) -> Complexe
     Returns:
         (n_freqs, n_dofs, 2), N/m; to be used with `road_spectrum` at the same speed.
     """
-    omega = 2 * np.pi * np.asarray(frequency_hz)
-    F = np.zeros((len(omega), system.n_dofs, 2), complex)
-    for tyre in system.vehicle.tyres:
-        delay = np.exp(-1j * omega * lag(tyre, system.vehicle.tyres, speed))
-        up = tyre.axes[:, 2]
-        push = tyre.stiffness * (1 + 1j * tyre.loss_factor) + 1j * omega[:, None] * tyre.damping
-        F[:, :, track(tyre)] += (push * up * delay[:, None]) @ system.relative_motion(tyre)[:3]
-    return F
+    return tyre_directions(system).T @ track_amplitudes(system.vehicle, frequency_hz, speed)
+
+
+def tyre_directions(system: System) -> Floats:
+    """Rows (3 n_tyres, n_dofs): how every tyre is stretched along its local axes."""
+    rows = [system.relative_motion(tyre)[:3] for tyre in system.vehicle.tyres]
+    return np.vstack([np.zeros((0, system.n_dofs)), *rows])
+
+
+def track_amplitudes(vehicle: Vehicle, frequency_hz: Floats, speed: float) -> Complexes:
+    """Force along each of `tyre_directions` per unit displacement of the left and the right track.
+
+    (k (1 + jg) + jωc) ẑ e^{-jωτ}: the ground end of a tyre rises with the road and the tyre's springs
+    and dampers push the wheel. A tyre whose patch is L behind the frontmost meets the same road
+    τ = L / V later.
+
+    Args:
+        vehicle: whose tyres.
+        frequency_hz: (n_freqs,).
+        speed: V, m/s.
+
+    Returns:
+        (n_freqs, 3 n_tyres, 2), N/m.
+    """
+    omega = 2 * np.pi * np.asarray(frequency_hz)[:, None]
+    tyres = vehicle.tyres
+    amplitudes = np.zeros((len(omega), len(tyres), 3, 2), complex)
+    for i, tyre in enumerate(tyres):
+        push = tyre.stiffness * (1 + 1j * tyre.loss_factor) + 1j * omega * tyre.damping
+        delay = np.exp(-1j * omega * lag(tyre, tyres, speed))
+        amplitudes[:, i, :, track(tyre)] = push * tyre.axes[:, 2] * delay
+    return amplitudes.reshape(len(omega), 3 * len(tyres), 2)
 
 
 def track(tyre: Tyre) -> int:

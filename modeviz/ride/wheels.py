@@ -8,8 +8,11 @@ from modeviz.dynamics.assembly import System
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Tyre
 from modeviz.vehicle.loads import WheelLoad
+from modeviz.vehicle.vehicle import Vehicle
 
 X, Y, Z = 0, 1, 2
+VERTICAL, FORE_AFT, LATERAL = 0, 1, 2
+"""The directions of each wheel's loads, see `wheel_directions`."""
 
 
 def wheel_forces(system: System, loads: Sequence[WheelLoad], frequency_hz: Floats) -> Complexes:
@@ -20,25 +23,37 @@ def wheel_forces(system: System, loads: Sequence[WheelLoad], frequency_hz: Float
         loads: each at its own amplitude.
         frequency_hz: (n_freqs,), of the force: the wheel's revolutions per second.
     """
+    return wheel_directions(system).T @ wheel_amplitudes(system.vehicle, loads, frequency_hz)
+
+
+def wheel_directions(system: System) -> Floats:
+    """Rows (3 n_tyres, n_dofs) along which wheel loads act.
+
+    For each tyre: vertical and fore-aft motion of the wheel's centre, lateral motion of the wheel on
+    the ground, the pneumatic trail behind its centre.
+    """
+    rows = [np.zeros((0, system.n_dofs))]
+    for tyre in system.vehicle.tyres:
+        center = system.motion(tyre.bodies[0], tyre.wheel_center)
+        patch = system.motion(tyre.bodies[0], _lateral_force_point(tyre))
+        rows.append(np.stack([center[Z], center[X], patch[Y]]))
+    return np.vstack(rows)
+
+
+def wheel_amplitudes(vehicle: Vehicle, loads: Sequence[WheelLoad], frequency_hz: Floats) -> Complexes:
+    """Peak force of each load along each of `wheel_directions`, (n_freqs, 3 n_tyres, n_loads), N."""
     omega = 2 * np.pi * np.asarray(frequency_hz)
-    tyres = {tyre.name: tyre for tyre in system.vehicle.tyres}
-    columns = [_forces(system, load, tyres[load.tyre], omega) for load in loads]
-    return np.stack(columns, axis=-1) if columns else np.zeros((len(omega), system.n_dofs, 0), complex)
-
-
-def _forces(system: System, load: WheelLoad, tyre: Tyre, omega: Floats) -> Complexes:
-    """(n_freqs, n_dofs)."""
-    wheel = tyre.bodies[0]
-    center = system.motion(wheel, tyre.wheel_center)
-    if load.kind == "unbalance":
-        # The wheel rolls towards -x, so the heavy spot passes the rear a quarter turn before the top.
-        rotating = center[Z] + 1j * center[X]
-        return load.amplitude * omega[:, None] ** 2 * rotating
-    if load.kind == "radial force":
-        row = center[Z]
-    else:
-        row = system.motion(wheel, _lateral_force_point(tyre))[Y]
-    return np.broadcast_to(load.amplitude * row, (len(omega), system.n_dofs)).astype(complex)
+    numbers = {tyre.name: i for i, tyre in enumerate(vehicle.tyres)}
+    amplitudes = np.zeros((len(omega), len(numbers), 3, len(loads)), complex)
+    for j, load in enumerate(loads):
+        wheel = amplitudes[:, numbers[load.tyre], :, j]
+        if load.kind == "unbalance":
+            # The wheel rolls towards -x: the heavy spot passes the rear a quarter turn before the top.
+            wheel[:, VERTICAL] = load.amplitude * omega**2
+            wheel[:, FORE_AFT] = 1j * load.amplitude * omega**2
+        else:
+            wheel[:, VERTICAL if load.kind == "radial force" else LATERAL] = load.amplitude
+    return amplitudes.reshape(len(omega), 3 * len(numbers), len(loads))
 
 
 def _lateral_force_point(tyre: Tyre) -> Floats:

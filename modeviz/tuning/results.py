@@ -7,25 +7,22 @@ from functools import cached_property
 import numpy as np
 
 from modeviz.dynamics.assembly import System
+from modeviz.dynamics.basis import BandModes, Method, band_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
-from modeviz.dynamics.modes import Modes, solve_modes
-from modeviz.dynamics.naming import ModeName, name_modes, prepare_names
+from modeviz.dynamics.modes import Modes
+from modeviz.dynamics.naming import ModeName, name_modes
 from modeviz.dynamics.response import modal_coordinates
-from modeviz.ride.participation import Peak, participation, peaks
+from modeviz.dynamics.trust import Trust
+from modeviz.ride.participation import Peak, participation, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
-from modeviz.ride.roads import road_spectrum, track_forces
-from modeviz.ride.wheels import wheel_forces
+from modeviz.ride.roads import road_spectrum, track_amplitudes
+from modeviz.ride.wheels import wheel_amplitudes
+from modeviz.tuning.preparation import FREQUENCY_HZ as FREQUENCY_HZ
+from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
 from modeviz.vehicle.vehicle import Vehicle
-
-N_MODES = 100
-"""Vehicle modes in a response; on the pickup they reach 120 Hz and miss up to 1.2 % of the largest
-response at a frequency (tests/test_paper.py)."""
-
-FREQUENCY_HZ = np.arange(1, 401) / 10
-"""The band of the paper's RMS values, 0 to 40 Hz, without zero."""
 
 AXIS: dict[str, int] = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
 """Where a direction is among x, y, z."""
@@ -42,26 +39,46 @@ class Conditions:
 
 @dataclass(frozen=True, eq=False)
 class ModalResults:
-    """A vehicle's modes, what they are called and where their energy is."""
+    """A vehicle's modes in the prepared band, what they are called and where their energy is."""
 
-    system: System
-    modes: Modes
+    prepared: PreparedModes
+    rates: Rates
+    """Of every mount group."""
+    band: BandModes
     names: tuple[ModeName, ...]
     """One for each mode."""
 
     @property
+    def modes(self) -> Modes:
+        return self.band.modes
+
+    @property
+    def trust(self) -> Trust:
+        return self.band.trust
+
+    @property
+    def system(self) -> System:
+        """The matrices with the vehicle's own rates."""
+        return self.prepared.system
+
+    @cached_property
     def vehicle(self) -> Vehicle:
-        return self.system.vehicle
+        """With these rates."""
+        return self.prepared.vehicle.with_rates(self.rates)
+
+    @cached_property
+    def _mount_rates(self) -> Floats:
+        return np.real(self.prepared.mount_stiffness(self.rates)).astype(np.float64)
 
     @cached_property
     def kinetic_energy(self) -> Mapping[str, Floats]:
         """Share of each body, (n_modes,) by name."""
-        return kinetic_energy(self.system, self.modes.shapes)
+        return kinetic_energy(self.prepared.system, self.modes.shapes)
 
     @cached_property
     def strain_energy(self) -> Mapping[str, Floats]:
         """Share of each flexible body and connection group, (n_modes,) by name."""
-        return strain_energy(self.system, self.modes.shapes)
+        return strain_energy(self.prepared.system, self.modes.shapes, self._mount_rates)
 
     def mode_index(self, name: str) -> int | None:
         """Which mode is called that; None if no mode is."""
@@ -72,13 +89,15 @@ class ModalResults:
 class Results(ModalResults):
     """A vehicle's modes, and its ride on one road."""
 
+    prepared: Prepared
     conditions: Conditions
-    coordinates: Complexes
-    """(n_freqs, n_modes, 2): modal coordinates per unit displacement of the left and right track."""
     psd: Floats
     """(n_freqs, n_points, 3): acceleration x, y, z of each response point, g²/Hz."""
 
-    frequency_hz = FREQUENCY_HZ
+    @property
+    def frequency_hz(self) -> Floats:
+        """(n_freqs,)."""
+        return self.prepared.frequency_hz
 
     @cached_property
     def rms(self) -> Floats:
@@ -95,45 +114,72 @@ class Results(ModalResults):
         return self.psd[:, point, AXIS[direction]]
 
     def peaks(self, point: int, direction: str, count: int = 3) -> tuple[Peak, ...]:
-        """The peaks of that response with the modes that make them."""
-        output = _output_rows(self.system)[3 * point + AXIS[direction]] @ self.modes.shapes
-        parts = participation(output, self.coordinates, _spectrum(self.vehicle, self.conditions))
-        return peaks(self.frequency_hz, self.response(point, direction), parts, count)
+        """The peaks of that response with the modes of the band that make them, the largest first."""
+        psd = self.response(point, direction)
+        lines = peak_lines(psd)
+        f = self.frequency_hz[lines]
+        output = self.prepared.outputs[3 * point + AXIS[direction]] @ self.modes.shapes
+        parts = participation(output, self._modal_coordinates(f), self._spectrum(f))
+        return peaks(f, psd[lines], parts, count)
+
+    def _modal_coordinates(self, frequency_hz: Floats) -> Complexes:
+        """How much of each mode the two tracks make, (n_freqs, n_modes, 2)."""
+        prepared, band = self.prepared, self.band
+        along = prepared.input_directions[prepared.tyre_inputs] @ band.modes.shapes
+        amplitudes = track_amplitudes(prepared.vehicle, frequency_hz, self.conditions.speed)
+        return modal_coordinates(
+            band.modes.omega_n_squared,
+            band.damping,
+            band.structural_damping,
+            frequency_hz,
+            along.T @ amplitudes,
+        )
+
+    def _spectrum(self, frequency_hz: Floats) -> Complexes:
+        road = self.prepared.vehicle.road(self.conditions.road)
+        return road_spectrum(road, frequency_hz, self.conditions.speed)
 
 
-def solve_modal(system: System, rates: Rates) -> ModalResults:
+def solve_modal(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> ModalResults:
     """The modes of a vehicle with other mount rates.
 
     Args:
-        system: of the vehicle, made once.
-        rates: of the groups that differ from it.
+        prepared: see `prepare` and `prepare_modes`.
+        rates: of the groups that differ from the vehicle's own.
+        method: how modes are found.
 
     Raises:
         VehicleError: a group that the vehicle does not have.
     """
-    system = system.with_rates(rates)
-    modes = solve_modes(system, N_MODES)
-    return ModalResults(system, modes, name_modes(prepare_names(system), modes))
+    band = band_modes(prepared.basis, prepared.mount_stiffness(rates), method)
+    return ModalResults(
+        prepared, prepared.all_rates(rates), band, name_modes(prepared.namer, band.modes)
+    )
 
 
-def solve(system: System, rates: Rates, conditions: Conditions) -> Results:
-    """Modes and ride of a vehicle with other mount rates.
+def solve(
+    prepared: Prepared, rates: Rates, conditions: Conditions, method: Method = "enriched"
+) -> Results:
+    """Modes and ride of a vehicle with other mount rates; the ride is exact whatever the method.
 
     Args:
-        system: of the vehicle, made once.
-        rates: of the groups that differ from it.
+        prepared: see `prepare`.
+        rates: of the groups that differ from the vehicle's own.
         conditions: road and speed.
+        method: how modes are found.
 
     Raises:
         VehicleError: a group or a road that the vehicle does not have.
+        SolveError: with these rates an undamped resonance lies on a frequency.
     """
-    modal = solve_modal(system, rates)
-    forces = track_forces(modal.system, FREQUENCY_HZ, conditions.speed)
-    q = modal_coordinates(modal.system, modal.modes, FREQUENCY_HZ, forces)
-    H = (_output_rows(modal.system) @ modal.modes.shapes) @ q
-    psd = acceleration_psd(FREQUENCY_HZ, H, _spectrum(modal.vehicle, conditions))
-    by_point = psd.reshape(len(FREQUENCY_HZ), -1, 3)
-    return Results(modal.system, modal.modes, modal.names, conditions, q, by_point)
+    modal = solve_modal(prepared, rates, method)
+    f = prepared.frequency_hz
+    spectrum = road_spectrum(prepared.vehicle.road(conditions.road), f, conditions.speed)
+    amplitudes = track_amplitudes(prepared.vehicle, f, conditions.speed)
+    driven = prepared.receptances.driven(amplitudes, prepared.tyre_inputs)
+    H = driven.response(prepared.mount_stiffness(rates))
+    psd = acceleration_psd(f, H, spectrum).reshape(len(f), -1, 3)
+    return Results(prepared, modal.rates, modal.band, modal.names, conditions, psd)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,25 +198,11 @@ class WheelResults:
         return self.acceleration_g[inside].mean(axis=0)
 
 
-def solve_wheels(system: System, rates: Rates, frequency_hz: Floats) -> WheelResults:
+def solve_wheels(prepared: Prepared, rates: Rates) -> WheelResults:
     """The response to every wheel load of the vehicle; arguments and errors as `solve`."""
-    system = system.with_rates(rates)
-    modes = solve_modes(system, N_MODES)
-    loads = system.vehicle.wheel_loads
-    q = modal_coordinates(system, modes, frequency_hz, wheel_forces(system, loads, frequency_hz))
-    H = (_output_rows(system) @ modes.shapes) @ q
-    g = harmonic_acceleration(frequency_hz, H).transpose(0, 2, 1)
-    n_points = len(system.vehicle.response_points)
-    return WheelResults(frequency_hz, g.reshape(len(frequency_hz), len(loads), n_points, 3))
-
-
-def _spectrum(vehicle: Vehicle, conditions: Conditions) -> Complexes:
-    """The road's two-track spectrum as met at that speed, (n_freqs, 2, 2), m²/Hz."""
-    return road_spectrum(vehicle.road(conditions.road), FREQUENCY_HZ, conditions.speed)
-
-
-def _output_rows(system: System) -> Floats:
-    """Rows (3 n_points, n_dofs) that read x, y, z of every response point."""
-    points = system.vehicle.response_points
-    rows = [system.motion(p.body, p.position)[:3] for p in points]
-    return np.vstack([np.zeros((0, system.n_dofs)), *rows])
+    vehicle, f = prepared.vehicle, prepared.frequency_hz
+    amplitudes = wheel_amplitudes(vehicle, vehicle.wheel_loads, f)
+    driven = prepared.receptances.driven(amplitudes, prepared.wheel_inputs)
+    H = driven.response(prepared.mount_stiffness(rates))
+    g = harmonic_acceleration(f, H).transpose(0, 2, 1)
+    return WheelResults(f, g.reshape(len(f), len(vehicle.wheel_loads), -1, 3))

@@ -8,8 +8,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.assembly import System
 from modeviz.dynamics.roles import unit_of_role
+from modeviz.tuning.check import Check, check_exactly
+from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import Conditions, Results, solve
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
@@ -18,6 +20,12 @@ from modeviz.viewer.worker import Worker
 
 FREE_HZ = 0.5
 """Below, something moves freely."""
+
+REST = 0.3
+"""s without a change after which an answer is checked: longer than the pauses within a drag."""
+
+TELL_EVERY = 0.5
+"""s between two words on how far a check is."""
 
 Coloring = Literal["bodies", "displacement"]
 
@@ -51,10 +59,15 @@ class Solved:
     """Of the shown mode, (n_dofs,), in phase with the one shown before."""
     seconds: float
     """What the solve took."""
+    check: Check | None
+    """How far `now` is from the exact answer, as far as that is known."""
 
 
 class Session:
-    """Keeps the newest state and answers it; `show` is called in one thread, never twice at once."""
+    """Keeps the newest state and answers it, and checks what it answered when nothing changes.
+
+    `show` is called in one thread, never twice at once.
+    """
 
     def __init__(
         self,
@@ -63,7 +76,7 @@ class Session:
         show: Callable[[Solved], None],
         fail: Callable[[Exception], None],
     ) -> None:
-        """Assembles the vehicle once; nothing is solved before `start`.
+        """Nothing is solved before `start`.
 
         Args:
             vehicle: with the rates that all is compared with.
@@ -72,78 +85,129 @@ class Session:
             fail: tells what went wrong; the last good answer stays.
         """
         self.vehicle = vehicle
-        self._system = assemble(vehicle)
         self._show = show
         self._lock = threading.Lock()
         self._state = state
-        self._base: Results | None = None
+        self._prepared: Prepared
+        self._base: Results
+        self._is_prepared = self._is_closed = False
         self._last: Solved | None = None
+        self._checked: Results | None = None
+        self._check: Check | None = None
         self._worker: Worker[State] = Worker(self._answer, fail)
+        self._checker: Worker[Solved] = Worker(self._settle, fail)
 
     @property
     def state(self) -> State:
         return self._state
 
-    def start(self) -> None:
-        """Solves with the vehicle's own rates and asks for the first answer.
+    def start(self, progress: Callable[[float], None] | None = None) -> None:
+        """Prepares the vehicle, solves with its own rates and asks for the first answer.
+
+        Args:
+            progress: told the fraction of the preparation that is done.
 
         Raises:
             ModevizError: there is no answer on that road at that speed.
         """
-        self._solve_base(self._state.conditions)
-        self._worker.submit(self._state)
+        self._prepared = prepare(self.vehicle, progress=progress)
+        self._base = solve(self._prepared, {}, self._state.conditions)
+        with self._lock:
+            self._is_prepared = True
+            self._worker.submit(self._state)
 
     def change(self, **fields: Any) -> None:
         """Asks for a state that differs in some fields; returns at once."""
         with self._lock:
-            self._state = replace(self._state, **fields)
-            self._worker.submit(self._state)
+            self._submit(replace(self._state, **fields))
 
     def set_rates(self, rates: Rates) -> None:
         """Asks for other rates in the groups that are named."""
         with self._lock:
-            self._state = replace(self._state, rates={**self._state.rates, **rates})
-            self._worker.submit(self._state)
+            self._submit(replace(self._state, rates={**self._state.rates, **rates}))
 
     def set_rate(self, group: str, direction: str, rate: float) -> None:
         """Asks for another rate, N/m, in a field of `MountRates`, and selects its group."""
         with self._lock:
             changed = replace(self._state.rates[group], **{direction: rate})
             rates = {**self._state.rates, group: changed}
-            self._state = replace(self._state, rates=rates, group=group)
-            self._worker.submit(self._state)
+            self._submit(replace(self._state, rates=rates, group=group))
 
     def wait(self, timeout: float) -> bool:
         """Waits until the newest state is answered; whether that came within `timeout` seconds."""
         return self._worker.wait(timeout)
 
+    def wait_checked(self, timeout: float) -> bool:
+        """Waits until the newest answer is checked; whether that came within `timeout` seconds."""
+        return self._worker.wait(timeout) and self._checker.wait(timeout)
+
     def close(self) -> None:
-        """Ends the session's thread."""
+        """Ends the session's threads."""
+        self._is_closed = True
         self._worker.close()
+        self._checker.close()
+
+    def _submit(self, state: State) -> None:
+        """Keeps a state; it is answered once the vehicle is prepared."""
+        self._state = state
+        if self._is_prepared:
+            self._worker.submit(state)
 
     def _answer(self, state: State) -> None:
         begin = time.perf_counter()
         base = self._solve_base(state.conditions)
-        now, seconds = self._solve_now(state, base, begin)
+        last = self._last
+        if last and _asks_for_the_same(last.state, state):
+            now, seconds = last.now, last.seconds
+        else:
+            now = solve(self._prepared, state.rates, state.conditions)
+            seconds = time.perf_counter() - begin
         mode = self._follow(now, state.mode)
-        shape = self._in_phase(now, now.modes.shapes[:, mode])
-        self._last = Solved(state, base, now, mode, shape, seconds)
+        shape = self._in_phase(now.modes.shapes[:, mode])
+        check = self._check if self._checked is now else None
+        self._last = Solved(state, base, now, mode, shape, seconds, check)
         self._show(self._last)
+        if self._checked is not now:
+            self._checked, self._check = now, None
+            self._checker.submit(self._last)
 
     def _solve_base(self, conditions: Conditions) -> Results:
-        if self._base is None or self._base.conditions != conditions:
-            self._base = solve(self._system, {}, conditions)
+        if self._base.conditions != conditions:
+            self._base = solve(self._prepared, {}, conditions)
         return self._base
 
-    def _solve_now(self, state: State, base: Results, begin: float) -> tuple[Results, float]:
-        """The answer for the state's rates, solved only if they or the road are new."""
-        if state.rates == self.vehicle.rates:
-            return base, time.perf_counter() - begin
-        last = self._last
-        if last and (last.state.rates, last.state.conditions) == (state.rates, state.conditions):
-            return last.now, last.seconds
-        now = solve(self._system, state.rates, state.conditions)
-        return now, time.perf_counter() - begin
+    def _settle(self, solved: Solved) -> None:
+        """Once nothing changes: makes the next drag cheap, and checks the answer bit by bit."""
+        if not self._comes_to_rest(solved):
+            return
+        self._prepared = self._prepared.near(solved.state.rates)
+        told = 0.0
+        for check in check_exactly(solved.now):
+            if not self._is_current(solved):
+                return
+            if check.is_complete or time.perf_counter() - told > TELL_EVERY:
+                told = time.perf_counter()
+                self._tell(solved.now, check)
+
+    def _is_current(self, solved: Solved) -> bool:
+        """Whether an answer is still to what is asked for."""
+        return not self._is_closed and _asks_for_the_same(self._state, solved.state)
+
+    def _tell(self, now: Results, check: Check) -> None:
+        """Has the answer shown again with what is now known of it."""
+        with self._lock:
+            if self._checked is now:
+                self._check = check
+                self._worker.submit(self._state)
+
+    def _comes_to_rest(self, solved: Solved) -> bool:
+        """Waits for `REST`; whether nothing else was asked for meanwhile."""
+        end = time.perf_counter() + REST
+        while time.perf_counter() < end:
+            if not self._is_current(solved):
+                return False
+            time.sleep(REST / 20)
+        return True
 
     def _follow(self, now: Results, name: str) -> int:
         """The mode of that name, else the one most like the last shown, at first the slowest."""
@@ -152,13 +216,22 @@ class Session:
             return named
         if self._last is None:
             return min(int(np.searchsorted(now.modes.frequency_hz, FREE_HZ)), len(now.names) - 1)
-        likeness = now.modes.shapes.T @ now.system.mass @ self._last.shape
+        likeness = now.modes.shapes.T @ self._system.mass @ self._last.shape
         return int(np.abs(likeness).argmax())
 
-    def _in_phase(self, now: Results, shape: Floats) -> Floats:
+    def _in_phase(self, shape: Floats) -> Floats:
         """The shape, turned so that it does not jump by half a cycle from the one before."""
-        turned = self._last is not None and self._last.shape @ now.system.mass @ shape < 0
+        turned = self._last is not None and self._last.shape @ self._system.mass @ shape < 0
         return -shape if turned else shape
+
+    @property
+    def _system(self) -> System:
+        return self._prepared.system
+
+
+def _asks_for_the_same(one: State, other: State) -> bool:
+    """Whether two states have the same answer and differ at most in what is shown of it."""
+    return one.rates == other.rates and one.conditions == other.conditions
 
 
 def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State:

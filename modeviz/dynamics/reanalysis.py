@@ -1,0 +1,211 @@
+"""Responses after a change of mount rates: structural modification on receptances.
+
+With G the displacements per unit force between mount springs, outputs and inputs at one set of rates,
+and Δ the change of the springs' complex rates, the vehicle with the new rates has
+
+    G' = G - G_·m Δ (I + G_mm Δ)⁻¹ G_m·
+
+(H. N. Özgüven, "Structural modifications using frequency response functions", Mechanical Systems and
+Signal Processing 4(1), 1990). It is exact for the full model and needs no solve larger than the number
+of springs that change.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modeviz.dynamics.assembly import System, mount_stiffness
+from modeviz.dynamics.receptance import receptances
+from modeviz.dynamics.response import drowned
+from modeviz.errors import SolveError
+from modeviz.vehicle.arrays import Complexes, Floats
+
+POLE = 1e10
+"""A change of rates that magnifies a stretch more than this has an undamped pole at the frequency:
+damped resonances stay below 1e5, on a pole rounding alone gives about 1e15."""
+
+
+@dataclass(frozen=True, eq=False)
+class Receptances:
+    """What a vehicle's mount springs, outputs and inputs do to each other, at some mount rates."""
+
+    frequency_hz: Floats
+    """(n_freqs,)."""
+    mount_stiffness: Complexes
+    """(n_springs,), N/m: the complex rates at which they hold."""
+    springs: Complexes
+    """(n_freqs, n_springs, n_springs): stretch of each spring per unit force along another."""
+    outputs: Complexes
+    """(n_freqs, n_springs, n_outputs): stretch per unit force along an output; also the reverse."""
+    inputs: Complexes
+    """(n_freqs, n_springs, n_inputs): stretch per unit of input."""
+    direct: Complexes
+    """(n_freqs, n_outputs, n_inputs): displacement of each output per unit of input."""
+
+    @property
+    def n_bytes(self) -> int:
+        """The memory that the arrays take."""
+        return sum(a.nbytes for a in (self.springs, self.outputs, self.inputs, self.direct))
+
+    def driven(self, amplitudes: Complexes, inputs: slice = slice(None)) -> "Receptances":
+        """The same with other inputs: each a sum of some of the present ones.
+
+        Args:
+            amplitudes: (n_freqs, n_inputs, n_loads), of these inputs in each load.
+            inputs: which of the present ones.
+        """
+        return Receptances(
+            self.frequency_hz,
+            self.mount_stiffness,
+            self.springs,
+            self.outputs,
+            self.inputs[:, :, inputs] @ amplitudes,
+            self.direct[:, :, inputs] @ amplitudes,
+        )
+
+    def modified(self, stiffness: Complexes) -> "Receptances":
+        """The same at other mount rates, all of it.
+
+        Args:
+            stiffness: (n_springs,), complex rates, N/m.
+
+        Raises:
+            SolveError: with these rates an undamped resonance lies on a frequency.
+        """
+        columns = np.dstack([self.springs, self.outputs, self.inputs])
+        changed, forces = self._forces(stiffness, columns)
+        columns = columns - self.springs[:, :, changed] @ forces
+        n_springs, n_outputs = self.outputs.shape[1:]
+        springs, outputs, inputs = np.split(columns, [n_springs, n_springs + n_outputs], axis=2)
+        direct = (
+            self.direct - _transposed(self.outputs[:, changed]) @ forces[:, :, n_springs + n_outputs :]
+        )
+        return Receptances(self.frequency_hz, stiffness, springs, outputs, inputs, direct)
+
+    def response(self, stiffness: Complexes) -> Complexes:
+        """Displacement of each output per unit of input at other mount rates.
+
+        Args:
+            stiffness: (n_springs,), complex rates, N/m; only those that differ cost anything.
+
+        Returns:
+            (n_freqs, n_outputs, n_inputs).
+
+        Raises:
+            SolveError: with these rates an undamped resonance lies on a frequency.
+        """
+        changed, forces = self._forces(stiffness, self.inputs)
+        return self.direct - _transposed(self.outputs[:, changed]) @ forces
+
+    def response_gradient(self, stiffness: Complexes) -> tuple[Complexes, Complexes, Complexes]:
+        """The response at other mount rates, and what its derivatives are made of.
+
+        ∂H/∂k_s = -a_s b_sᵀ for the complex rate of each spring, receptances at the new rates.
+
+        Args:
+            stiffness: (n_springs,), complex rates, N/m.
+
+        Returns:
+            H (n_freqs, n_outputs, n_inputs), a (n_freqs, n_springs, n_outputs), displacement of each
+            output per unit force in a spring, and b (n_freqs, n_springs, n_inputs), stretch of each
+            spring per unit of input.
+
+        Raises:
+            SolveError: with these rates an undamped resonance lies on a frequency.
+        """
+        columns = np.dstack([self.outputs, self.inputs])
+        changed, forces = self._forces(stiffness, columns)
+        columns = columns - self.springs[:, :, changed] @ forces
+        n_outputs = self.outputs.shape[2]
+        H = self.direct - _transposed(self.outputs[:, changed]) @ forces[:, :, n_outputs:]
+        return H, columns[:, :, :n_outputs], columns[:, :, n_outputs:]
+
+    @cached_property
+    def _sizes(self) -> Floats:
+        """What stretches are scaled by, (n_springs,): the root of each spring's largest receptance."""
+        own = np.abs(np.diagonal(self.springs, axis1=1, axis2=2))
+        return np.sqrt(np.maximum(own.max(axis=0, initial=0.0), np.finfo(np.float64).tiny))
+
+    def _forces(self, stiffness: Complexes, stretches: Complexes) -> tuple[NDArray[np.intp], Complexes]:
+        """Which springs change, and the forces Δ (I + G_mm Δ)⁻¹ b that this adds to stretches b.
+
+        Stretches are scaled by u = √|G_ii| and forces by 1 + |Δ| u², so that nothing is large or small
+        whether a rate is zero or practically rigid.
+        """
+        changed = np.flatnonzero(stiffness != self.mount_stiffness)
+        u = self._sizes[changed]
+        change = (stiffness - self.mount_stiffness)[changed] * u**2
+        weight = 1 / (1 + np.abs(change))
+        A = self.springs[:, changed[:, None], changed] * (change * weight / np.multiply.outer(u, u))
+        A[:, range(len(changed)), range(len(changed))] += weight
+        b = stretches[:, changed] / u[:, None]
+        scaled = self._solve(A, b)
+        return changed, (change * weight / u)[:, None] * scaled
+
+    def _solve(self, A: Complexes, b: Complexes) -> Complexes:
+        """A⁻¹ b, with a probe that no pole escapes."""
+        probe = np.random.default_rng(0).uniform(0.5, 1.0, A.shape[1])
+        columns = np.broadcast_to(probe[:, None], (*A.shape[:2], 1))
+        try:
+            x = np.linalg.solve(A, np.concatenate([b, columns], axis=2))
+        except np.linalg.LinAlgError:
+            raise drowned(self.frequency_hz[int(np.argmin(np.abs(np.linalg.det(A))))]) from None
+        growth = np.abs(x[:, :, -1]).max(axis=1, initial=0.0)
+        if not (growth < POLE).all():
+            raise drowned(self.frequency_hz[int(np.argmax(growth))])
+        return x[:, :, :-1]
+
+
+def prepare_receptances(
+    system: System,
+    frequency_hz: Floats,
+    outputs: Floats,
+    inputs: Floats,
+    progress: Callable[[float], None] | None = None,
+) -> Receptances:
+    """The receptances of a system at the mount rates it has.
+
+    Args:
+        system: whose mounts will change.
+        frequency_hz: (n_freqs,), rising, above zero.
+        outputs: rows (n_outputs, n_dofs) that read the answer.
+        inputs: rows (n_inputs, n_dofs) along which forces act.
+        progress: told the fraction that is done.
+
+    Raises:
+        SolveError: a frequency that is zero, repeated or not finite, or one with an undamped pole.
+    """
+    rows = np.vstack([system.mount_motions, outputs, inputs])
+    G = receptances(system, frequency_hz, rows, progress)
+    n_springs = len(system.mount_motions)
+    springs, others = slice(0, n_springs), slice(n_springs, n_springs + len(outputs))
+    return Receptances(
+        np.asarray(frequency_hz, float),
+        mount_stiffness(system.vehicle),
+        G[:, springs, springs].copy(),
+        G[:, springs, others].copy(),
+        G[:, springs, others.stop :].copy(),
+        G[:, others, others.stop :].copy(),
+    )
+
+
+def check_stiffness(stiffness: Complexes) -> None:
+    """Checks that springs can have these complex rates.
+
+    Raises:
+        SolveError: one is not finite, or its real part is negative.
+    """
+    wrong = ~np.isfinite(stiffness) | (np.real(stiffness) < 0)
+    if wrong.any():
+        place = np.unravel_index(int(wrong.argmax()), wrong.shape)
+        raise SolveError(
+            f"mount spring {int(place[-1]) + 1}: found a rate of {stiffness[place]:g} N/m, expected a "
+            "finite one, zero or more"
+        )
+
+
+def _transposed(a: Complexes) -> Complexes:
+    return a.transpose(0, 2, 1)

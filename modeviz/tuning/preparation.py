@@ -1,0 +1,143 @@
+"""What is computed once for a vehicle, so that any mount rates are answered at once."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from modeviz.dynamics.assembly import System, assemble
+from modeviz.dynamics.basis import TOP_HZ, EnrichedBasis, prepare_basis
+from modeviz.dynamics.naming import Namer, prepare_names
+from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
+from modeviz.errors import VehicleError, unknown
+from modeviz.ride.roads import tyre_directions
+from modeviz.ride.wheels import wheel_directions
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.connections import MountRates, Rates
+from modeviz.vehicle.vehicle import Vehicle
+
+FREQUENCY_HZ = np.arange(1, 401) / 10
+"""The band of the paper's RMS values, 0 to 40 Hz, without zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class PreparedModes:
+    """A vehicle made ready for the modes of any mount rates."""
+
+    system: System
+    """With the vehicle's own rates."""
+    basis: EnrichedBasis
+    namer: Namer
+
+    @property
+    def vehicle(self) -> Vehicle:
+        return self.system.vehicle
+
+    @property
+    def n_bytes(self) -> int:
+        """The memory that the prepared arrays take."""
+        return self.basis.n_bytes
+
+    def all_rates(self, rates: Rates) -> dict[str, MountRates]:
+        """The rates of every group: those given, and the vehicle's own for the others.
+
+        Raises:
+            VehicleError: a group that the vehicle does not have.
+        """
+        own = self.vehicle.rates
+        for group in rates:
+            if group not in own:
+                raise VehicleError(unknown("mount group", group, own))
+        return {**own, **rates}
+
+    def mount_stiffness(self, rates: Rates) -> Complexes:
+        """Complex rates k (1 + jg) of every mount spring, (n_springs,), N/m; raises as `all_rates`."""
+        every = self.all_rates(rates)
+        per_group = [
+            np.tile(np.multiply(every[g.name].local(), 1 + 1j * g.loss_factor), len(g.mounts))
+            for g in self.vehicle.mount_groups
+        ]
+        return np.concatenate([np.zeros(0, complex), *per_group])
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared(PreparedModes):
+    """A vehicle made ready for the modes and responses of any mount rates."""
+
+    receptances: Receptances
+    """Of x, y, z at every response point, to forces along `tyre_directions` and `wheel_directions`."""
+    input_directions: Floats
+    """Both of these, (n_inputs, n_dofs)."""
+    outputs: Floats
+    """Rows (3 n_points, n_dofs) that read x, y, z of every response point."""
+
+    @property
+    def frequency_hz(self) -> Floats:
+        """(n_freqs,): where responses are given."""
+        return self.receptances.frequency_hz
+
+    @property
+    def n_bytes(self) -> int:
+        """The memory that the prepared arrays take."""
+        return self.basis.n_bytes + self.receptances.n_bytes
+
+    @property
+    def tyre_inputs(self) -> slice:
+        """The inputs along `tyre_directions`."""
+        return slice(0, 3 * len(self.vehicle.tyres))
+
+    @property
+    def wheel_inputs(self) -> slice:
+        """The inputs along `wheel_directions`."""
+        return slice(3 * len(self.vehicle.tyres), None)
+
+    def near(self, rates: Rates) -> "Prepared":
+        """The same with receptances at other rates: answers close by then cost less.
+
+        Raises:
+            VehicleError: a group that the vehicle does not have.
+            SolveError: with these rates an undamped resonance lies on a frequency.
+        """
+        return replace(self, receptances=self.receptances.modified(self.mount_stiffness(rates)))
+
+
+def prepare_modes(vehicle: Vehicle, top_hz: float = TOP_HZ) -> PreparedModes:
+    """A vehicle made ready for the modes of any mount rates.
+
+    Args:
+        vehicle: with the rates that the basis and the classic method start from.
+        top_hz: modes below this are wanted.
+
+    Raises:
+        SolveError: the vehicle has no meaningful modes.
+    """
+    system = assemble(vehicle)
+    return PreparedModes(system, prepare_basis(system, top_hz), prepare_names(system))
+
+
+def prepare(
+    vehicle: Vehicle,
+    frequency_hz: Floats = FREQUENCY_HZ,
+    progress: Callable[[float], None] | None = None,
+) -> Prepared:
+    """A vehicle made ready for the modes and responses of any mount rates.
+
+    Receptances are taken at the softest rates of every group's bounds, so that a change within the
+    bounds only ever adds springs.
+
+    Args:
+        vehicle: with the rates that the basis and the classic method start from.
+        frequency_hz: (n_freqs,), rising, above zero: where responses are wanted.
+        progress: told the fraction that is done.
+
+    Raises:
+        SolveError: a frequency that is zero, repeated or not finite, an undamped resonance on one, or
+            no meaningful modes.
+    """
+    modal = prepare_modes(vehicle)
+    softest = modal.system.with_rates({g.name: g.bounds[0] for g in vehicle.mount_groups})
+    inputs = np.vstack([tyre_directions(softest), wheel_directions(softest)])
+    rows = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
+    outputs = np.vstack([np.zeros((0, softest.n_dofs)), *rows])
+    receptances = prepare_receptances(softest, frequency_hz, outputs, inputs, progress)
+    return Prepared(modal.system, modal.basis, modal.namer, receptances, inputs, outputs)

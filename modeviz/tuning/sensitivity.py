@@ -1,0 +1,112 @@
+"""What each mount rate does to frequencies and accelerations: analytic derivatives."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from modeviz.ride.psd import acceleration_psd, mean_square
+from modeviz.ride.roads import road_spectrum, track_amplitudes
+from modeviz.tuning.preparation import Prepared
+from modeviz.tuning.results import Conditions, ModalResults
+from modeviz.units import STANDARD_GRAVITY
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.connections import MountRates, Rates
+from modeviz.vehicle.vehicle import Vehicle
+
+
+@dataclass(frozen=True)
+class RateVariable:
+    """One rate that is tuned: a direction of a mount group, the same for all of its mounts."""
+
+    group: str
+    direction: str
+    """A field of `MountRates`."""
+
+
+def rate_variables(vehicle: Vehicle) -> tuple[RateVariable, ...]:
+    """Every rate of every mount group: vertical, lateral and fore-aft of the first, and so on."""
+    return tuple(RateVariable(g.name, f.name) for g in vehicle.mount_groups for f in fields(MountRates))
+
+
+def spring_shares(vehicle: Vehicle) -> Complexes:
+    """∂(spring rate)/∂(rate), (n_springs, n_variables): 1 + jg where a spring has that rate."""
+    local = MountRates(2, 1, 0).local()  # which of a group's variables the local x, y, z have
+    n_springs = 3 * len(vehicle.mounts)
+    shares = np.zeros((n_springs, 3 * len(vehicle.mount_groups)), complex)
+    spring = 0
+    for i, group in enumerate(vehicle.mount_groups):
+        for _ in group.mounts:
+            for variable in local:
+                shares[spring, 3 * i + int(variable)] = 1 + 1j * group.loss_factor
+                spring += 1
+    return shares
+
+
+def frequency_sensitivity(results: ModalResults) -> Floats:
+    """∂f/∂k of each mode for each of `rate_variables`, (n_modes, n_variables), Hz per N/m.
+
+    ∂(ω²)/∂k = φᵀRᵀRφ over the springs with that rate (R. L. Fox and M. P. Kapoor, "Rates of change of
+    eigenvalues and eigenvectors", AIAA Journal 6(12), 1968). Zero for a mode that moves freely; of
+    modes with the same frequency only the mean has a derivative.
+    """
+    prepared = results.prepared
+    stretch = prepared.system.mount_motions @ results.modes.shapes
+    squares = (stretch**2).T @ spring_shares(prepared.vehicle).real
+    omega = 2 * np.pi * results.modes.frequency_hz[:, None]
+    moves = omega > 0
+    return np.where(moves, squares / (4 * np.pi * np.where(moves, omega, 1.0)), 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class RideSensitivity:
+    """How accelerations on a road change with each of `rate_variables`."""
+
+    psd: Floats
+    """(n_freqs, n_points, 3, n_variables), g²/Hz per N/m."""
+    rms: Floats
+    """(n_points, 3, n_variables), g per N/m."""
+
+
+def ride_sensitivity(prepared: Prepared, rates: Rates, conditions: Conditions) -> RideSensitivity:
+    """The derivatives of a ride; arguments and errors as `tuning.results.solve`."""
+    f = prepared.frequency_hz
+    amplitudes = track_amplitudes(prepared.vehicle, f, conditions.speed)
+    spectrum = road_spectrum(prepared.vehicle.road(conditions.road), f, conditions.speed)
+    driven = prepared.receptances.driven(amplitudes, prepared.tyre_inputs)
+    H, a, b = driven.response_gradient(prepared.mount_stiffness(rates))
+    change = psd_gradient(f, H, a, b, spectrum, spring_shares(prepared.vehicle))
+    psd = acceleration_psd(f, H, spectrum)
+    root = np.sqrt(mean_square(f, psd))[:, None]
+    moves = root > 0
+    rms_change = np.where(moves, mean_square(f, change) / (2 * np.where(moves, root, 1.0)), 0.0)
+    n_variables = change.shape[-1]
+    return RideSensitivity(
+        change.reshape(len(f), -1, 3, n_variables), rms_change.reshape(-1, 3, n_variables)
+    )
+
+
+def psd_gradient(
+    frequency_hz: Floats,
+    response: Complexes,
+    to_outputs: Complexes,
+    to_inputs: Complexes,
+    input_psd: Complexes,
+    shares: Complexes,
+) -> Floats:
+    """Derivatives of acceleration PSDs, (n_freqs, n_outputs, n_variables), g²/Hz per N/m.
+
+    S = h S_ff hᴴ and ∂h/∂k_s = -a_s b_s, so ∂S/∂k = -2 Re Σ (1 + jg) a_s b_s S_ff hᴴ over its springs.
+
+    Args:
+        frequency_hz: (n_freqs,).
+        response: H, (n_freqs, n_outputs, n_inputs).
+        to_outputs: a, (n_freqs, n_springs, n_outputs), see `Receptances.response_gradient`.
+        to_inputs: b, (n_freqs, n_springs, n_inputs).
+        input_psd: S_ff, (n_freqs, n_inputs, n_inputs).
+        shares: (n_springs, n_variables), see `spring_shares`.
+    """
+    driven = to_inputs @ input_psd @ response.conj().transpose(0, 2, 1)
+    by_spring = to_outputs * driven
+    change = -2 * (by_spring.transpose(0, 2, 1) @ shares).real
+    omega = 2 * np.pi * np.asarray(frequency_hz)[:, None, None]
+    return omega**4 * change / STANDARD_GRAVITY**2
