@@ -49,6 +49,11 @@ class System:
             f"{body.name} {name}" for body in self.vehicle.bodies for name in _coordinate_names(body)
         )
 
+    def momentum(self, shapes: Floats) -> Floats:
+        """M φ, (n_dofs, n_modes): body by body, for mass couples no two of them."""
+        own = self.dofs.values()
+        return np.concatenate([self.mass[dofs, dofs] @ shapes[dofs] for dofs in own])
+
     def motion(self, body: str, position: Floats) -> Floats:
         """Rows (6, n_dofs) that give x, y, z, rx, ry, rz of a point of a body.
 

@@ -13,12 +13,10 @@ from modeviz.vehicle.bodies import FlexibleBody
 def kinetic_energy(system: System, shapes: Floats) -> Mapping[str, Floats]:
     """Each body's share of a mode's kinetic energy, (n_modes,) by body; they sum to one.
 
-    T_b = φ_bᵀ M_b φ_b / φᵀMφ, added masses counted with the body that carries them: mass couples no
-    two bodies.
+    T_b = φ_bᵀ (Mφ)_b / φᵀMφ, added masses counted with the body that carries them.
     """
-    own = system.dofs.values()
-    momentum = np.concatenate([system.mass[dofs, dofs] @ shapes[dofs] for dofs in own])
-    energy = np.add.reduceat(shapes * momentum, [dofs.start for dofs in own])
+    starts = [dofs.start for dofs in system.dofs.values()]
+    energy = np.add.reduceat(shapes * system.momentum(shapes), starts)
     return dict(zip(system.dofs, energy / energy.sum(axis=0), strict=True))
 
 
