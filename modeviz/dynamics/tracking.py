@@ -37,6 +37,9 @@ LEFT_MAC = 0.1
 CLOSE = 0.02
 """Relative difference in frequency, the half-power bandwidth of a mode with 1 % of critical damping."""
 
+REPEATED = 1e-6
+"""Relative difference in frequency that rounding may make."""
+
 
 @dataclass(frozen=True, eq=False)
 class Track:
@@ -125,7 +128,7 @@ def step(track: Track, modes: Modes) -> Track:
     if track.seen_momentum is track.start_momentum:  # it has not moved yet
         track = _mixed_start(track, modes)
     products = track.seen_momentum.T @ modes.shapes
-    mixing = _mixing(products, modes.frequency_hz)
+    mixing = _mixing(products, modes.frequency_hz, CLOSE)
     mac = (products @ mixing) ** 2
     rows, columns = linear_sum_assignment(-mac)
     stays = mac[rows, columns] >= LEFT_MAC
@@ -168,13 +171,13 @@ def _gaps(frequency_hz: Floats) -> Floats:
 
 
 def _mixed_start(track: Track, modes: Modes) -> Track:
-    """A track that has not moved yet, its close modes mixed as they are after the first step."""
+    """A track that has not moved yet, its repeated modes mixed as they are after the first step."""
     products = modes.shapes.T @ track.start_momentum
-    momentum = track.start_momentum @ _mixing(products, track.start.frequency_hz)
+    momentum = track.start_momentum @ _mixing(products, track.start.frequency_hz, REPEATED)
     return replace(track, start_momentum=momentum, seen_momentum=momentum)
 
 
-def _mixing(products: Floats, frequency_hz: Floats) -> Floats:
+def _mixing(products: Floats, frequency_hz: Floats, closeness: float) -> Floats:
     """How to mix close modes so that they are as near to other shapes as can be, (n_modes, n_modes).
 
     Each close set is rotated within its own space onto as many of the others as it has members, those
@@ -184,9 +187,10 @@ def _mixing(products: Floats, frequency_hz: Floats) -> Floats:
     Args:
         products: φ_otherᵀ M φ, (n_others, n_modes).
         frequency_hz: of the modes to be mixed, (n_modes,).
+        closeness: the relative difference in frequency below which modes are close.
     """
     mixing = np.eye(len(frequency_hz))
-    for members in _close(frequency_hz):
+    for members in _close(frequency_hz, closeness):
         shared = products[:, members]
         nearest = np.sort(np.argsort(-(shared**2).sum(axis=1))[: shared.shape[1]])
         u, _, vt = np.linalg.svd(shared[nearest].T)
@@ -196,9 +200,9 @@ def _mixing(products: Floats, frequency_hz: Floats) -> Floats:
     return mixing
 
 
-def _close(frequency_hz: Floats) -> list[slice]:
+def _close(frequency_hz: Floats, closeness: float) -> list[slice]:
     """The runs of modes that are close to their neighbours."""
     f = np.where(frequency_hz < RESOLVED_HZ, 0.0, frequency_hz)
-    begins = np.flatnonzero(np.diff(f, prepend=-1.0) > CLOSE * f)
+    begins = np.flatnonzero(np.diff(f, prepend=-1.0) > closeness * f)
     ends = np.append(begins[1:], len(f))
     return [slice(b, e) for b, e in zip(begins, ends, strict=True) if e - b > 1]
