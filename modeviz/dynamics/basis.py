@@ -14,8 +14,9 @@ import numpy as np
 import scipy.linalg
 
 from modeviz.dynamics.assembly import System, mount_stiffness
-from modeviz.dynamics.modes import Modes, damping_ratio, rounding, solve_modes
+from modeviz.dynamics.modes import RESOLVED_HZ, Modes, damping_ratio, rounding, solve_modes
 from modeviz.dynamics.trust import EDGE, Trust, count_below, frequency_error, gap_error, missed
+from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 
 Method = Literal["enriched", "classic", "exact"]
@@ -32,7 +33,8 @@ ZERO_HZ = 1.0
 """Where "zero frequency" is taken, on the imaginary side, so that a free vehicle has static shapes."""
 
 DEPENDENT = 1e-9
-"""A residual vector of which less than this is new to the modes and the others is left out."""
+"""What is less than this part of a vector is rounding: a residual vector that is new to the modes and
+the others by no more is left out."""
 
 CLEAR = 1e-4
 """How far, relative in ω², the top of the band stays from a base mode."""
@@ -59,11 +61,12 @@ class EnrichedBasis:
     spring_motions: Floats
     """RV, (n_springs, n_vectors)."""
     remainder: Floats
-    """What of KV lies outside of the basis, (n_springs, n_vectors): forces of unit norm in M⁻¹."""
+    """What of KV lies outside of the basis, (n_outside, n_vectors), as forces of unit norm in M⁻¹, at
+    most as many as springs."""
     spring_remainder: Floats
-    """What of Rᵀ lies outside, in the same forces, (n_springs, n_springs)."""
+    """What of Rᵀ lies outside, in the same forces, (n_outside, n_springs)."""
     remainder_compliance: Floats
-    """QᵀK⁻¹Q of these forces Q, (n_springs, n_springs), s²/rad². No rates change it, because the basis
+    """QᵀK⁻¹Q of these forces Q, (n_outside, n_outside), s²/rad². No rates change it, because the basis
     holds K⁻¹Rᵀ."""
     top_receptance: Floats
     """R(K - ω²M)⁻¹Rᵀ undamped, at the top of the band, (n_springs, n_springs)."""
@@ -122,7 +125,7 @@ def prepare_basis(system: System, top_hz: float = TOP_HZ) -> EnrichedBasis:
     K_L = _whitened(system.stiffness, L)
     R_L = scipy.linalg.solve_triangular(L, R.T, lower=True)
     left_out = R_L - V_L @ (V_L.T @ R_L)
-    Q = np.linalg.qr(left_out).Q
+    Q = _directions(left_out, DEPENDENT * float(np.linalg.norm(R_L)))
     return EnrichedBasis(
         system=system,
         top_hz=float(np.sqrt(top) / (2 * np.pi)),
@@ -153,6 +156,7 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
         SolveError: a spring so stiff that rounding drowns the slow modes.
     """
     change = stiffness - basis.mount_stiffness
+    _check_resolved(basis, change.real)
     solution = _exact(basis, change.real) if method == "exact" else _ritz(basis, change.real, method)
     omega = np.sqrt(np.maximum(solution.omega_squared, 0.0))
     stretch = solution.stretch
@@ -174,9 +178,23 @@ def natural_frequencies(basis: EnrichedBasis, stiffness: Complexes) -> Floats:
     At other mount rates; cheaper than `band_modes`, without shapes; arguments as there.
     """
     change = (stiffness - basis.mount_stiffness).real
+    _check_resolved(basis, change)
     R = basis.spring_motions
     omega_squared = np.linalg.eigvalsh(basis.stiffness + (R.T * change) @ R)[: basis.n_below]
     return np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)
+
+
+def _check_resolved(basis: EnrichedBasis, change: Floats) -> None:
+    """Raises SolveError unless slow modes stand out from the rounding of the stiffest spring."""
+    added = change * (basis.spring_motions**2).max(axis=1, initial=0.0)
+    if np.finfo(np.float64).eps * added.max(initial=0.0) > (2 * np.pi * RESOLVED_HZ) ** 2:
+        stiffest = int(added.argmax())
+        mount = basis.system.vehicle.mounts[stiffest // 3]
+        rate = mount.stiffness[stiffest % 3] + change[stiffest]
+        raise SolveError(
+            f"the slow modes drown in rounding: mount {mount.name!r} has a rate of {rate:.2g} N/m; "
+            "soften it"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,8 +298,13 @@ def _orthonormal(first: Floats, more: Floats) -> Floats:
         more = more - first @ (first.T @ more)
     size = np.linalg.norm(more, axis=0)
     more = more[:, size > DEPENDENT] / size[size > DEPENDENT]
-    U, singular, _ = np.linalg.svd(more, full_matrices=False)
-    return np.hstack([first, U[:, singular > DEPENDENT]])
+    return np.hstack([first, _directions(more, DEPENDENT)])
+
+
+def _directions(vectors: Floats, rounding: float) -> Floats:
+    """Orthonormal columns that span those of `vectors`, but for what is as small as rounding."""
+    U, singular, _ = np.linalg.svd(vectors, full_matrices=False)
+    return U[:, singular > rounding]
 
 
 def _whitened(A: Floats, L: Floats) -> Floats:

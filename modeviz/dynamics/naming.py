@@ -85,6 +85,8 @@ def prepare_names(system: System) -> Namer:
 
 def name_modes(namer: Namer, modes: Modes) -> tuple[ModeName, ...]:
     """A name for each mode, no name twice."""
+    if not modes.frequency_hz.size:
+        return ()
     shares = _shares(namer, modes)
     described = _describe(shares)
     catalogue = named_motions(shares)

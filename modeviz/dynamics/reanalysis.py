@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from modeviz.dynamics.assembly import System, mount_stiffness
 from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import drowned
-from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 
 POLE = 1e10
@@ -190,21 +189,6 @@ def prepare_receptances(
         G[:, springs, others.stop :].copy(),
         G[:, others, others.stop :].copy(),
     )
-
-
-def check_stiffness(stiffness: Complexes) -> None:
-    """Checks that springs can have these complex rates.
-
-    Raises:
-        SolveError: one is not finite, or its real part is negative.
-    """
-    wrong = ~np.isfinite(stiffness) | (np.real(stiffness) < 0)
-    if wrong.any():
-        place = np.unravel_index(int(wrong.argmax()), wrong.shape)
-        raise SolveError(
-            f"mount spring {int(place[-1]) + 1}: found a rate of {stiffness[place]:g} N/m, expected a "
-            "finite one, zero or more"
-        )
 
 
 def _transposed(a: Complexes) -> Complexes:

@@ -6,17 +6,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.modes import Modes
+from modeviz.dynamics.modes import RESOLVED_HZ, Modes
 from modeviz.dynamics.response import direct_response
-from modeviz.ride.psd import acceleration_psd
+from modeviz.ride.psd import FLOOR, acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.tuning.results import Results, solve_modal
 from modeviz.vehicle.arrays import Floats
 
 LINES_AT_ONCE = 10
-
-MOVES_HZ = 0.1
-"""Below, a mode moves freely, and what its frequency is relative to means nothing."""
+"""Of the frequencies at which responses are compared."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +24,8 @@ class Check:
     frequency_error: float
     """Largest relative difference of natural frequencies; infinite if their number differs."""
     psd_error: float
-    """Largest difference of PSDs, relative to the largest of that response."""
+    """Largest difference of PSDs, relative to the largest of that response; of one below the floor
+    that is drawn, relative to the floor."""
     n_lines: int
     """At how many frequencies PSDs were compared."""
     n_freqs: int
@@ -39,7 +38,7 @@ class Check:
     @property
     def error(self) -> float:
         """The larger of both."""
-        return max(self.frequency_error, self.psd_error)
+        return float(np.max([self.frequency_error, self.psd_error]))
 
 
 def check_exactly(results: Results) -> Iterator[Check]:
@@ -52,7 +51,7 @@ def check_exactly(results: Results) -> Iterator[Check]:
     check = Check(_frequency_error(results.modes, exact.modes), 0.0, 0, len(results.frequency_hz))
     yield check
     system = results.prepared.system.with_rates(results.rates)
-    largest = results.psd.max(axis=0, initial=0.0)
+    largest = results.psd.max(axis=0, initial=FLOOR)
     for lines in _coarse_first(len(results.frequency_hz)):
         f = results.frequency_hz[lines]
         forces = track_forces(system, f, results.conditions.speed)
@@ -60,13 +59,9 @@ def check_exactly(results: Results) -> Iterator[Check]:
         road = system.vehicle.road(results.conditions.road)
         spectrum = road_spectrum(road, f, results.conditions.speed)
         psd = acceleration_psd(f, H, spectrum).reshape(len(f), -1, 3)
-        difference = np.abs(psd - results.psd[lines])
-        relative = np.divide(difference, largest, out=np.zeros_like(psd), where=largest > 0)
-        check = replace(
-            check,
-            psd_error=max(check.psd_error, float(relative.max(initial=0.0))),
-            n_lines=check.n_lines + len(f),
-        )
+        relative = np.abs(psd - results.psd[lines]) / largest
+        psd_error = float(relative.max(initial=check.psd_error))
+        check = replace(check, psd_error=psd_error, n_lines=check.n_lines + len(f))
         yield check
 
 
@@ -105,8 +100,8 @@ def _frequency_error(modes: Modes, exact: Modes) -> float:
 
 def _relative(found: Floats, true: Floats) -> Floats:
     """Relative errors of frequencies, (n_modes,); zero for what moves freely."""
-    moves = true > MOVES_HZ
-    return np.where(moves, np.abs(found / np.where(moves, true, 1.0) - 1), 0.0)
+    difference = np.abs(found - true)
+    return np.divide(difference, true, out=np.zeros_like(true), where=true > RESOLVED_HZ)
 
 
 def _coarse_first(n_freqs: int) -> Iterator[NDArray[np.intp]]:

@@ -1,10 +1,15 @@
 """What the optimiser is to make small: the paper's weighted sum of squared accelerations."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
+from modeviz.dynamics.reanalysis import Receptances
+from modeviz.dynamics.response import check_frequencies
+from modeviz.errors import SolveError
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_amplitudes
 from modeviz.ride.wheels import wheel_amplitudes
@@ -24,6 +29,9 @@ WHEEL_HZ = (11.0, 13.25, 15.75)
 
 DIRECTIONS = ("lateral", "vertical")
 
+SAME_HZ = 1e-9
+"""Frequencies this close are the same."""
+
 
 @dataclass(frozen=True, eq=False)
 class LoadCase:
@@ -31,8 +39,24 @@ class LoadCase:
 
     load: Conditions | WheelLoad
     frequency_hz: Sequence[float]
+    """Rising, above zero."""
     weight: float = 1.0
     """Of every acceleration squared."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Term:
+    """A case among the frequencies and inputs of all cases."""
+
+    weight: float
+    lines: NDArray[np.intp]
+    inputs: slice
+    input_psd: Complexes
+    """Of the case's inputs at its lines."""
+
+    def own(self, of_all: Complexes) -> Complexes:
+        """The case's part of an array whose first axis is frequency and whose last is input."""
+        return of_all[self.lines, ..., self.inputs]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,69 +69,96 @@ class Objective:
 
     prepared: Prepared
     """At the frequencies of all cases together."""
-    cases: tuple[LoadCase, ...]
+    driven: Receptances
+    """With the inputs of all cases, one case after the other, and outputs in `DIRECTIONS` only."""
+    terms: tuple[_Term, ...]
+    """One for each case."""
 
     def value(self, rates: Rates) -> float:
         """F at rates of the groups that differ from the vehicle's own; raises as `solve`."""
-        return self.value_and_gradient(rates)[0]
+        H = self.driven.response(self.prepared.mount_stiffness(rates))
+        return self._value(H)
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         """F and ∂F/∂k, (n_variables,) in the order of `rate_variables`; raises as `solve`."""
-        prepared = self.prepared
-        amplitudes = _amplitudes(prepared, self.cases)
-        driven = prepared.receptances.driven(np.concatenate(amplitudes, axis=2))
-        H, a, b = driven.response_gradient(prepared.mount_stiffness(rates))
-        shares = spring_shares(prepared.vehicle)
-        outputs = np.concatenate([np.arange(AXIS[d], H.shape[1], 3) for d in DIRECTIONS])
-        value, gradient = 0.0, np.zeros(shares.shape[1])
-        start = 0
-        for case, inputs in zip(self.cases, amplitudes, strict=True):
-            lines = np.searchsorted(prepared.frequency_hz, np.subtract(case.frequency_hz, SAME_HZ))
-            loads = slice(start, start := start + inputs.shape[2])
-            f, h = prepared.frequency_hz[lines], H[lines][:, outputs, loads]
-            S = _spectrum(prepared.vehicle, case.load, f)
-            value += case.weight * acceleration_psd(f, h, S).sum()
-            change = psd_gradient(f, h, a[lines][:, :, outputs], b[lines][:, :, loads], S, shares)
-            gradient += case.weight * change.sum(axis=(0, 1))
-        return float(value), gradient
+        H, a, b = self.driven.response_gradient(self.prepared.mount_stiffness(rates))
+        shares = spring_shares(self.prepared.vehicle)
+        gradient = np.zeros(shares.shape[1])
+        for term in self.terms:
+            f, S = self.driven.frequency_hz[term.lines], term.input_psd
+            change = psd_gradient(f, term.own(H), a[term.lines], term.own(b), S, shares)
+            gradient += term.weight * change.sum(axis=(0, 1))
+        return self._value(H), gradient
 
-
-SAME_HZ = 1e-9
-"""Frequencies this close are the same."""
+    def _value(self, response: Complexes) -> float:
+        """F, from the response of all outputs to all inputs."""
+        value = 0.0
+        for term in self.terms:
+            f = self.driven.frequency_hz[term.lines]
+            value += term.weight * acceleration_psd(f, term.own(response), term.input_psd).sum()
+        return float(value)
 
 
 def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
-    """The objective of some load cases; raises as `prepare`."""
+    """The objective of some load cases.
+
+    Raises:
+        VehicleError: a road that the vehicle does not have.
+        SolveError: no cases, frequencies that are not above zero and rising, or as `prepare`.
+    """
+    if not cases:
+        raise SolveError("the objective has no load cases, expected one or more")
+    for case in cases:
+        check_frequencies(np.asarray(case.frequency_hz, float))
     every = np.sort(np.concatenate([np.asarray(c.frequency_hz, float) for c in cases]))
-    distinct = np.concatenate([every[:1], every[1:][np.diff(every) > SAME_HZ]])
-    return Objective(prepare(vehicle, distinct), tuple(cases))
+    prepared = prepare(vehicle, every[np.diff(every, prepend=0.0) > SAME_HZ])
+    amplitudes = [_amplitudes(prepared, case.load) for case in cases]
+    ends = np.cumsum([0] + [a.shape[2] for a in amplitudes])
+    terms = tuple(
+        _term(prepared, case, slice(*own)) for case, own in zip(cases, pairwise(ends), strict=True)
+    )
+    driven = _along_directions(prepared.receptances).driven(np.concatenate(amplitudes, axis=2))
+    return Objective(prepared, driven, terms)
 
 
 def paper_cases(vehicle: Vehicle) -> tuple[LoadCase, ...]:
     """The paper's load cases: the first road at the vehicle's speed, and every wheel load."""
-    road = Conditions(vehicle.roads[0].name, vehicle.speed)
     return (
-        LoadCase(road, ROAD_HZ),
+        *(LoadCase(Conditions(road.name, vehicle.speed), ROAD_HZ) for road in vehicle.roads[:1]),
         *(LoadCase(load, WHEEL_HZ) for load in vehicle.wheel_loads),
     )
 
 
-def _amplitudes(prepared: Prepared, cases: Sequence[LoadCase]) -> list[Complexes]:
-    """Of each case: its inputs, (n_freqs, all input directions, 2 tracks or 1 load)."""
+def _term(prepared: Prepared, case: LoadCase, inputs: slice) -> _Term:
+    """A case among the frequencies of all cases, given which of all inputs it has."""
+    lines = np.searchsorted(prepared.frequency_hz, np.subtract(case.frequency_hz, SAME_HZ))
+    f = prepared.frequency_hz[lines]
+    return _Term(case.weight, lines, inputs, _spectrum(prepared.vehicle, case.load, f))
+
+
+def _along_directions(receptances: Receptances) -> Receptances:
+    """The same for outputs in `DIRECTIONS` only."""
+    n_outputs = receptances.outputs.shape[2]
+    kept = np.concatenate([np.arange(AXIS[d], n_outputs, 3) for d in DIRECTIONS])
+    return replace(
+        receptances, outputs=receptances.outputs[:, :, kept], direct=receptances.direct[:, kept]
+    )
+
+
+def _amplitudes(prepared: Prepared, load: Conditions | WheelLoad) -> Complexes:
+    """Of a load's two tracks or one force along all input directions, (n_freqs, n_inputs, 2 or 1)."""
     vehicle, f = prepared.vehicle, prepared.frequency_hz
-    n_tyres = 3 * len(vehicle.tyres)
-    amplitudes = []
-    for case in cases:
-        if isinstance(case.load, WheelLoad):
-            own, before, after = wheel_amplitudes(vehicle, [case.load], f), n_tyres, 0
-        else:
-            own, before, after = track_amplitudes(vehicle, f, case.load.speed), 0, n_tyres
-        amplitudes.append(np.pad(own, ((0, 0), (before, after), (0, 0))))
+    if isinstance(load, WheelLoad):
+        own, inputs = wheel_amplitudes(vehicle, [load], f), prepared.wheel_inputs
+    else:
+        own, inputs = track_amplitudes(vehicle, f, load.speed), prepared.tyre_inputs
+    amplitudes = np.zeros((len(f), len(prepared.input_directions), own.shape[2]), complex)
+    amplitudes[:, inputs] = own
     return amplitudes
 
 
 def _spectrum(vehicle: Vehicle, load: Conditions | WheelLoad, frequency_hz: Floats) -> Complexes:
-    """The spectrum of a case's inputs: of a road, or one of a harmonic load."""
+    """The spectrum of a load's inputs: of a road, or one of a harmonic load."""
     if isinstance(load, WheelLoad):
         return np.ones((len(frequency_hz), 1, 1), complex)
     return road_spectrum(vehicle.road(load.road), frequency_hz, load.speed)

@@ -205,4 +205,5 @@ def solve_wheels(prepared: Prepared, rates: Rates) -> WheelResults:
     driven = prepared.receptances.driven(amplitudes, prepared.wheel_inputs)
     H = driven.response(prepared.mount_stiffness(rates))
     g = harmonic_acceleration(f, H).transpose(0, 2, 1)
-    return WheelResults(f, g.reshape(len(f), len(vehicle.wheel_loads), -1, 3))
+    n_loads, n_points = len(vehicle.wheel_loads), len(vehicle.response_points)
+    return WheelResults(f, g.reshape(len(f), n_loads, n_points, 3))

@@ -4,7 +4,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from modeviz.ride.psd import acceleration_psd, mean_square
+from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.ride.psd import acceleration_psd, mean_square, rms
 from modeviz.ride.roads import road_spectrum, track_amplitudes
 from modeviz.tuning.preparation import Prepared
 from modeviz.tuning.results import Conditions, ModalResults
@@ -52,9 +53,8 @@ def frequency_sensitivity(results: ModalResults) -> Floats:
     prepared = results.prepared
     stretch = prepared.system.mount_motions @ results.modes.shapes
     squares = (stretch**2).T @ spring_shares(prepared.vehicle).real
-    omega = 2 * np.pi * results.modes.frequency_hz[:, None]
-    moves = omega > 0
-    return np.where(moves, squares / (4 * np.pi * np.where(moves, omega, 1.0)), 0.0)
+    f = results.modes.frequency_hz[:, None]
+    return np.divide(squares, 8 * np.pi**2 * f, out=np.zeros_like(squares), where=f > RESOLVED_HZ)
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,13 +76,11 @@ def ride_sensitivity(prepared: Prepared, rates: Rates, conditions: Conditions) -
     H, a, b = driven.response_gradient(prepared.mount_stiffness(rates))
     change = psd_gradient(f, H, a, b, spectrum, spring_shares(prepared.vehicle))
     psd = acceleration_psd(f, H, spectrum)
-    root = np.sqrt(mean_square(f, psd))[:, None]
-    moves = root > 0
-    rms_change = np.where(moves, mean_square(f, change) / (2 * np.where(moves, root, 1.0)), 0.0)
-    n_variables = change.shape[-1]
-    return RideSensitivity(
-        change.reshape(len(f), -1, 3, n_variables), rms_change.reshape(-1, 3, n_variables)
-    )
+    root = rms(f, psd)[:, None]
+    square_change = mean_square(f, change)
+    rms_change = np.divide(square_change, 2 * root, out=np.zeros_like(square_change), where=root > 0)
+    shape = (len(prepared.vehicle.response_points), 3, change.shape[2])
+    return RideSensitivity(change.reshape(len(f), *shape), rms_change.reshape(shape))
 
 
 def psd_gradient(
