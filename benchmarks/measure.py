@@ -9,13 +9,14 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 from typing import ParamSpec, TypeVar
 
 import numpy as np
 import scipy
 import threadpoolctl
 
-ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"), "1")
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """The environment in which every BLAS and every process started uses one thread."""
 
 TURN_S = 0.3
@@ -62,8 +63,11 @@ def gemm_rate() -> float:
 
 def peak_bytes() -> int:
     """The most memory this process has held."""
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+    if sys.platform != "linux":
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    # There getrusage starts from what the parent held.
+    status = Path("/proc/self/status").read_text(encoding="ascii")
+    return 1024 * int(status.partition("VmHWM:")[2].split()[0])
 
 
 def machine() -> dict[str, object]:
@@ -85,10 +89,8 @@ def machine() -> dict[str, object]:
 
 
 def _processor() -> str:
-    """The processor's name where the system tells it."""
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            names = [line.partition(":")[2].strip() for line in file if line.startswith("model name")]
-    except OSError:
-        names = []
-    return names[0] if names else platform.processor()
+    """The processor's name, or its kind."""
+    if sys.platform != "linux":
+        return platform.processor()
+    info = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    return info.partition("model name")[2].partition("\n")[0].lstrip("\t: ") or platform.machine()

@@ -7,7 +7,8 @@ import statistics
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager, redirect_stdout, suppress
+from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any
 
@@ -25,28 +26,39 @@ from modeviz.tuning.results import Conditions
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.app import serve
 
-N_MOVES = 60
+N_FIRST = 6
+"""Moves that are not counted: the server rests before them, and gives up what it does then."""
+
+REST_S = 1.5
 PATIENCE_S = 60.0
 
 Message = dict[str, Any]
 
 
-def drag() -> dict[str, float]:
-    """Drags the first slider of the built-in truck's page over its range.
+@dataclass(frozen=True)
+class Drag:
+    """What a move of a slider takes."""
 
-    Returns:
-        "websocket_ms", the median from a move to its new spectrum, and "server_ms", the processor time
-        of the whole server for a move.
-    """
+    websocket_ms: float
+    """Median from the move to its new spectrum."""
+    server_ms: float
+    """Processor time of the whole server for a move."""
+
+
+def drag(n_moves: int) -> Drag:
+    """Drags the first slider of the built-in truck's page over its range, in so many moves."""
     with _server() as (port, clock), _page(port) as page:
         slider, spectrum = _widgets(page)
         low, high = (slider["props"][end] for end in ("min", "max"))
-        rates = np.linspace(low, high, N_MOVES).round()
-        _move(page, slider, rates[-1], spectrum)  # what is done once is not the drag's
+        rates = np.linspace(high, low, N_FIRST + n_moves).round()
+        _move(page, slider, rates[0], spectrum)  # answered once the vehicle is prepared
+        _rest(page)
+        for rate in rates[1:N_FIRST]:
+            _move(page, slider, rate, spectrum)
         begin = _processor_s(clock)
-        times = [_move(page, slider, rate, spectrum) for rate in rates]
+        times = [_move(page, slider, rate, spectrum) for rate in rates[N_FIRST:]]
         used = _processor_s(clock) - begin
-    return {"websocket_ms": 1e3 * statistics.median(times), "server_ms": 1e3 * used / N_MOVES}
+    return Drag(1e3 * statistics.median(times), 1e3 * used / n_moves)
 
 
 def _move(page: Page, slider: Message, rate: float, spectrum: Message) -> float:
@@ -72,6 +84,14 @@ def _widgets(page: Page) -> tuple[Message, Message]:
     assert slider
     assert spectrum
     return slider, spectrum
+
+
+def _rest(page: Page) -> None:
+    """Lets the server come to rest, as it is before somebody drags."""
+    end = time.monotonic() + REST_S
+    with suppress(TimeoutError):
+        while (left := end - time.monotonic()) > 0:
+            page.recv(timeout=left)
 
 
 def _received(page: Page) -> Iterator[Message]:

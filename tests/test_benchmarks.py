@@ -1,8 +1,20 @@
+"""That the benchmarks measure what they say; never how fast anything is."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from benchmarks import compare, measure
 from benchmarks.scaled_vehicle import MASS, Size, scaled_vehicle
+from benchmarks.work import largest_difference
 from modeviz.dynamics.assembly import assemble
+
+CHECKOUT = Path(__file__).parents[1]
 
 
 @pytest.fixture(scope="module")
@@ -42,3 +54,72 @@ def test_elastic_modes_of_a_wagon_carry_no_momentum(road_train):
 def test_wagons_hang_together_and_stand_on_the_ground(road_train):
     system = assemble(road_train)
     assert np.linalg.eigvalsh(system.stiffness)[0] > 0
+
+
+def test_methods_take_turns_in_alternating_order(monkeypatch):
+    monkeypatch.setattr(measure, "TURN_S", 1e-9)
+    turns = []
+    calls = {name: lambda name=name: turns.append(name) for name in "abc"}
+    assert list(measure.medians(calls, n_rounds=2)) == list(calls)
+    assert "".join(turns) == "abccba"
+
+
+def test_call_in_its_own_process_has_a_memory_of_its_own():
+    assert measure.in_own_process(os.getpid) != os.getpid()
+    held = np.ones(40_000_000)
+    assert measure.in_own_process(measure.peak_bytes) < measure.peak_bytes() - held.nbytes / 2
+
+
+def test_difference_is_relative_to_the_largest_response_of_the_output():
+    reference = np.array([[[1.0 + 0j], [100.0]], [[2.0], [-400.0]]])
+    H = reference + np.array([[[0.1], [0.0]], [[0.0], [4j]]])
+    assert largest_difference(H, reference) == pytest.approx(0.05)
+
+
+def test_missing_library_is_named_and_the_others_go_on(monkeypatch):
+    def missing(work):
+        raise ImportError("No module named 'peer'")
+
+    monkeypatch.setattr(compare, "METHODS", {"peer": missing, "ours": lambda work: work})
+    assert compare._installed("call") == ({"ours": "call"}, {"peer": "No module named 'peer'"})
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory):
+    """What a quick run prints and writes."""
+    file = tmp_path_factory.mktemp("benchmarks") / "figures.json"
+    command = [sys.executable, "-m", "benchmarks", "--quick", "--json", str(file)]
+    run = subprocess.run(command, cwd=CHECKOUT, capture_output=True, text=True, check=True)
+    return run.stdout, json.loads(file.read_text())
+
+
+@pytest.mark.slow
+def test_figures_are_written_in_the_documented_structure(quick):
+    _, report = quick
+    assert set(report) == {"machine", "comparison", "modeviz", "scaling"}
+    for row in report["comparison"]:
+        assert set(row) == {
+            "method",
+            "median_ms",
+            "times_slower_than_modeviz",
+            "max_relative_difference",
+        }
+    documented = {"event_ms", "batch_per_s", "prepare_s", "peak_mb", "gemm_floor_ratio"}
+    assert set(report["modeviz"]) == documented | {"websocket_ms", "server_ms"}
+    assert all(value > 0 for value in report["modeviz"].values())
+    assert [row["n_dofs"] for row in report["scaling"]] == [430, 60]
+    assert all(value > 0 for row in report["scaling"] for value in row.values())
+    assert all(library["num_threads"] == 1 for library in report["machine"]["blas"])
+
+
+@pytest.mark.slow
+def test_every_method_gives_the_same_answer(quick):
+    table, report = quick
+    differences = {r["method"]: r["max_relative_difference"] for r in report["comparison"]}
+    assert {"modeviz", "numpy direct", "FBS as in pyFBS"} <= set(differences)
+    for method, difference in differences.items():
+        assert method in table
+        # Superposed modes leave out what the others add statically.
+        assert difference < (1e-2 if "modes" in method else 1e-9)
+    for method, reason in report["machine"]["not_installed"].items():
+        assert f"{method}: {reason}" in table

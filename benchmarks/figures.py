@@ -1,0 +1,89 @@
+"""What modeviz itself takes: preparation, one event, many sets of rates, memory."""
+
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from benchmarks.measure import peak_bytes, turn
+from benchmarks.peers import solve_directly
+from benchmarks.report import SizeRow
+from benchmarks.scaled_vehicle import Size, scaled_vehicle
+from benchmarks.work import Work
+from modeviz.tuning.batch import solve_many
+from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
+from modeviz.tuning.results import Conditions, solve
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.vehicle import Vehicle
+
+N_SETS = 10
+"""Sets of rates in a batch."""
+
+N_DIRECT = 2
+"""Frequencies from which the direct solution's time is scaled."""
+
+
+def figures(size: Size | None, n_freqs: int) -> SizeRow:
+    """The figures of a vehicle of some size, or of the built-in truck.
+
+    Args:
+        size: None for the truck.
+        n_freqs: how many frequencies, spread over the band.
+    """
+    vehicle = scaled_vehicle(size) if size else read_vehicle(builtin_vehicle())
+    begin = time.perf_counter()
+    prepared = prepare(vehicle, FREQUENCY_HZ[:: len(FREQUENCY_HZ) // n_freqs])
+    prepare_s = time.perf_counter() - begin
+    work = Work(prepared, _stiffer(vehicle))
+    response_ms = _median_ms(lambda: work.receptances.response(work.mount_stiffness))
+    event_ms = _median_ms(lambda: _event(work))
+    batch_ms = _median_ms(lambda: _batch(prepared))
+    peak = peak_bytes()  # before the direct solution, which needs memory of its own
+    direct_ms = _median_ms(lambda: solve_directly(work, slice(N_DIRECT)))
+    return SizeRow(
+        n_dofs=prepared.system.n_dofs,
+        n_springs=len(work.mount_stiffness),
+        n_frequencies=n_freqs,
+        n_modes=prepared.basis.n_modes,
+        prepare_s=prepare_s,
+        response_ms=response_ms,
+        event_ms=event_ms,
+        batch_per_s=1e3 * N_SETS / batch_ms,
+        peak_mb=peak / 1e6,
+        numpy_direct_ms=direct_ms * n_freqs / N_DIRECT,
+    )
+
+
+def _median_ms(call: Callable[[], object]) -> float:
+    return 1e3 * statistics.median(turn(call))
+
+
+def _event(work: Work) -> None:
+    """What a move of a slider asks for: modes with their names, spectra, RMS values and rating."""
+    results = solve(work.prepared, work.rates, _conditions(work.prepared.vehicle))
+    assert results.names
+    assert results.rms.size
+    assert results.rating
+
+
+def _batch(prepared: Prepared) -> None:
+    """Sets of rates between a quarter of the vehicle's own and four times as much."""
+    own = prepared.mount_stiffness({})
+    factors = 4.0 ** np.random.default_rng(0).uniform(-1, 1, (N_SETS, len(own)))
+    for _ in solve_many(prepared, factors * own, _conditions(prepared.vehicle)):
+        pass
+
+
+def _stiffer(vehicle: Vehicle) -> Rates:
+    """Other rates in every group."""
+    return {
+        name: replace(rates, vertical=1.3 * rates.vertical, lateral=1.2 * rates.lateral)
+        for name, rates in vehicle.rates.items()
+    }
+
+
+def _conditions(vehicle: Vehicle) -> Conditions:
+    return Conditions(vehicle.roads[0].name, vehicle.speed)
