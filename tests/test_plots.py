@@ -41,4 +41,4 @@ def test_the_shown_mode_is_written_out():
     ("low", "high", "expected"), [(-62.0, -23.0, (-70, -20)), (-140.0, -23.0, (-80, -20))]
 )
 def test_the_scale_is_whole_tens_and_at_most_60_db(low, high, expected):
-    assert _range([np.array([low, high]), np.array([-50.0])]) == expected
+    assert _range(np.array([[low, -50.0], [-50.0, high]])) == expected

@@ -87,7 +87,8 @@ def default_amplitude(shapes: Iterable[NDArray], length: float) -> float:
         shapes: of every drawn body, (n_vertices, 3) each.
         length: of the vehicle, m.
     """
-    largest = max((float(peak_displacement(s).max(initial=0.0)) for s in shapes), default=0.0)
+    everything = np.concatenate([np.zeros((0, 3), np.float32), *shapes])
+    largest = float(peak_displacement(everything).max(initial=0.0))
     return DRAWN_FRACTION * length / largest if largest > 0 else 0.0
 
 

@@ -85,7 +85,7 @@ class App:
             with tabs.add_tab("Modes", viser.Icon.WAVE_SINE):
                 self._modes = ModesPanel(gui, session)
             with tabs.add_tab("Energy", viser.Icon.CHART_BAR):
-                self._energy = EnergyPanel(gui)
+                self._energy = EnergyPanel(gui, session.vehicle)
         with right.add_tab("Road", viser.Icon.ROAD):
             RoadPanel(gui, session)
         right.dock_right()
@@ -100,7 +100,7 @@ class App:
         """Draws an answer: the panels in one batch, the scene in another, which waits for a frame."""
         self._last = solved
         with self.server.atomic():
-            self._show_title(f"{solved.now.vehicle.name}  ·  {self._variant(solved)}")
+            self._show_title(f"{self.session.vehicle.name}  ·  {self._variant(solved)}")
             self._mounts.show(solved)
             self._response.show(solved)
             self._modes.show(solved)

@@ -1,10 +1,11 @@
 // Draws x + amplitude Re(φ e^{iθ}) on the meshes of the page, every frame, from what driver.py sends.
 //
-// A shape and its colours are the points and colours of a hidden point cloud named after its mesh, the
-// opacity is that cloud's point size; amplitude, frequency and phase are the position of a hidden node.
-// The points are the real parts of all vertices, followed by the imaginary ones if the shape is complex.
+// The shapes of all meshes are the points of one hidden point cloud, mesh after mesh; if they are complex,
+// all real parts come before all imaginary ones. Its colours are the vertices'. For each mesh there is a
+// hidden node whose position is the mesh's place in that order, its number of vertices and its opacity;
+// amplitude, frequency and phase are the position of another.
 // State and failure are in window.__modeviz, where the browser tests read them.
-(prefix, driverName) => {
+(prefix, cloudName, driverName) => {
   const PATIENCE = 30; // s: how long a mesh or viser itself may take to appear
   const LONGEST_FRAME = 0.25; // s: a page that was in the background goes on where it was
   const MATTE = { roughness: 0.6, metalness: 0.05 }; // under colours that mean something
@@ -105,44 +106,61 @@
     material.needsUpdate = true;
   }
 
-  // Gives a mesh its shape; true if that is done.
-  function apply(group, { points, colors, point_size: opacity }) {
+  // Gives a mesh what was sent for it; true if that is done.
+  function apply(group, sent) {
+    const { points, colors, complex, colored, total, start, count, opacity } = sent;
     const meshes = [];
     group.traverse((object) => object.geometry?.index && meshes.push(object));
-    if (!meshes.length) return false;
-    const { count: n, constructor: Attribute } = meshes[0].geometry.attributes.position;
-    const complex = points.length === 6 * n;
-    if (!complex && points.length !== 3 * n) return false;
-    const colored = colors.length === 3 * n;
+    if (!meshes.length || meshes.some((mesh) => mesh.geometry.attributes.position.count !== count)) return false;
+    const Attribute = meshes[0].geometry.attributes.position.constructor;
     const last = shown.get(group);
     const attributes = last?.attributes ?? {};
-    write(attributes, "modevizReal", points.subarray(0, 3 * n), Attribute);
-    if (complex) write(attributes, "modevizImaginary", points.subarray(3 * n), Attribute);
-    else if (!last || last.complex) write(attributes, "modevizImaginary", new Uint16Array(3 * n), Attribute);
-    if (colored) write(attributes, "color", colors, Attribute);
+    const part = (array, before) => array.subarray(before + 3 * start, before + 3 * (start + count));
+    write(attributes, "modevizReal", part(points, 0), Attribute);
+    if (complex) write(attributes, "modevizImaginary", part(points, 3 * total), Attribute);
+    else if (!last || last.complex) write(attributes, "modevizImaginary", new Uint16Array(3 * count), Attribute);
+    if (colored) write(attributes, "color", part(colors, 0), Attribute);
     for (const mesh of meshes) {
       for (const name in attributes) mesh.geometry.setAttribute(name, attributes[name]);
       if (!mesh.material.userData.own) patch(mesh.material);
       if (last?.colored !== colored || last.opacity !== opacity) dress(mesh.material, colored, opacity);
       mesh.frustumCulled = false; // it moves out of the bounds it was loaded with
     }
-    shown.set(group, { points, colors, complex, colored, opacity, attributes });
+    shown.set(group, { ...sent, attributes });
     page.applied += 1;
     return true;
   }
 
+  // The meshes in the order of their shapes.
+  function drivenMeshes(viewer, nodes) {
+    return Object.keys(nodes)
+      .filter((node) => nodes[node] && node.startsWith(prefix + "/"))
+      .map((node) => {
+        const [order, count, opacity] = viewer.nodePoseData[node]?.position ?? [0, 0, 0];
+        return { name: node.slice(prefix.length), order, count, opacity };
+      })
+      .filter(({ count }) => count)
+      .sort((a, b) => a.order - b.order);
+  }
+
   // Gives every mesh the newest shape that was sent for it; true if one of them changed.
-  function applyShapes(viewer, tree, seconds) {
+  function applyShapes(viewer, nodes, seconds) {
+    const { points, colors } = nodes[cloudName]?.message.props ?? {};
+    if (!points) return false;
+    const meshes = drivenMeshes(viewer, nodes);
+    const total = meshes.reduce((sum, { count }) => sum + count, 0);
+    const complex = points.length === 6 * total;
+    if (!complex && points.length !== 3 * total) return wait("the shape of a mesh", seconds);
+    delete waiting["the shape of a mesh"];
+    const colored = colors.length === 3 * total;
     let changed = false;
-    for (const [cloud, node] of Object.entries(tree.getState())) {
-      if (!node || !cloud.startsWith(prefix + "/")) continue;
-      const name = cloud.slice(prefix.length);
-      const sent = node.message.props;
-      if (!sent.points) continue;
+    let start = 0;
+    for (const { name, count, opacity } of meshes) {
+      const sent = { points, colors, complex, colored, total, start, count, opacity };
+      start += count;
       const group = viewer.nodeRefFromName[name]?.children[0];
       const last = group && shown.get(group);
-      const same = last?.points === sent.points && last.colors === sent.colors;
-      if (same && last.opacity === sent.point_size) continue;
+      if (last && Object.keys(sent).every((key) => last[key] === sent[key])) continue;
       if (group && apply(group, sent)) {
         delete waiting[name];
         changed = true;
@@ -163,7 +181,7 @@
       if (!viewer?.scene || !tree) return wait("viser's scene", seconds);
       const driver = viewer.nodePoseData[driverName];
       const moved = driver ? turnPhase(driver.position, seconds) : false;
-      if (applyShapes(viewer, tree, seconds) || moved) viewer.requestRender();
+      if (applyShapes(viewer, tree.getState(), seconds) || moved) viewer.requestRender();
     } catch (error) {
       fail(error.stack ?? error);
     }

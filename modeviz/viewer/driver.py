@@ -1,12 +1,14 @@
 """Moving shapes in the page: each mesh is sent once, after that only shapes travel.
 
-Leans on private parts of viser 1.1.1: `RunJavascriptMessage` and `_queue_update` here, in driver.js
-`__viserMutable`, `__viserSceneTree` and three.js' names of shader chunks. tests/browser/test_driver.py
-fails when they change.
+The shapes of all meshes are one array, because a message costs the server more than what is in it.
+
+Leans on private parts of viser 1.1.1: `RunJavascriptMessage` here, in driver.js `__viserMutable`,
+`__viserSceneTree` and three.js' names of shader chunks. tests/browser/test_driver.py fails when they
+change.
 """
 
 import json
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
 from importlib.resources import files
 
 import numpy as np
@@ -14,10 +16,14 @@ import viser
 from numpy.typing import NDArray
 from viser import _messages
 
-from modeviz.viewer.assign import assign
+from modeviz.viewer.assign import send
 
 PREFIX = "/_shape"
-"""Where the hidden point clouds are; the rest of their name is their mesh's."""
+"""Where the hidden nodes of the meshes are; the rest of their name is their mesh's. Their position is
+the mesh's place among the shapes, its number of vertices and the opacity of its skin."""
+
+CLOUD = "/_shapes"
+"""The hidden point cloud that carries the shapes, one after the other."""
 
 DRIVER = "/_driver"
 """The hidden node whose position is amplitude, frequency and phase."""
@@ -26,30 +32,6 @@ NO_COLORS = np.zeros(3, np.uint8)
 """One colour, and not one for each vertex: the page then draws the materials' own."""
 
 LARGEST = float(np.finfo(np.float16).max)
-
-
-@dataclass(frozen=True)
-class DrivenMesh:
-    """A mesh of the page and the hidden point cloud that tells it how to move."""
-
-    mesh: viser.GlbHandle
-    cloud: viser.PointCloudHandle
-    n_vertices: int
-    sent: dict[str, bytes] = field(default_factory=dict)
-    """The newest content of the cloud's arrays, by property."""
-
-    def send(self, name: str, array: NDArray) -> None:
-        """Sends an array of the cloud if it is new; assigning it costs viser five passes over it."""
-        content = array.tobytes()
-        if content != self.sent.get(name):
-            self.sent[name] = content
-            own = np.frombuffer(content, array.dtype).reshape(array.shape)
-            self.cloud._queue_update(name, own)
-
-    def remove(self) -> None:
-        """Takes both out of the page."""
-        self.cloud.remove()
-        self.mesh.remove()
 
 
 class ShapeDriver:
@@ -62,18 +44,31 @@ class ShapeDriver:
     def __init__(self, scene: viser.SceneApi) -> None:
         """Starts the page's script in a scene; its meshes stand still until told otherwise."""
         self._scene = scene
-        self._meshes: dict[str, DrivenMesh] = {}
+        self._meshes: dict[str, viser.GlbHandle] = {}
+        self._nodes: dict[str, viser.FrameHandle] = {}
+        self._shapes: dict[str, NDArray] = {}
+        self._sent: dict[str, bytes] = {}
+        self._n_added = 0
         self._amplitude, self._frequency_hz, self._running = 1.0, 1.0, False
         self._phase, self._n_seeks = 0.0, 0
         scene.add_frame(PREFIX, show_axes=False, visible=False)
+        self._cloud = scene.add_point_cloud(
+            CLOUD,
+            np.zeros((0, 3), np.float16),
+            NO_COLORS,
+            point_size=1.0,
+            precision="float16",
+            visible=False,
+        )
         self._node = scene.add_frame(DRIVER, show_axes=False, visible=False)
         self._send_motion()
         script = files("modeviz.viewer").joinpath("driver.js").read_text("utf-8")
-        source = f"({script.rstrip()})({json.dumps(PREFIX)}, {json.dumps(DRIVER)});"
+        names = ", ".join(map(json.dumps, (PREFIX, CLOUD, DRIVER)))
+        source = f"({script.rstrip()})({names});"
         scene._websock_interface.queue_message(_messages.RunJavascriptMessage(source=source))
 
     def add(self, name: str, glb: bytes, n_vertices: int, *, cast_shadow: bool = False) -> None:
-        """Adds a mesh, or replaces the one of that name, undeformed and in its own colours.
+        """Adds a mesh, or replaces the one of that name, undeformed; colours have to be shown anew.
 
         Args:
             name: its place in the scene tree, "/vehicle/cab".
@@ -81,52 +76,62 @@ class ShapeDriver:
             n_vertices: of that array.
             cast_shadow: whether it shades the ground, which sees it undeformed.
         """
+        self._n_added += 1
         with self._scene._websock_interface.atomic():
-            mesh = self._scene.add_glb(name, glb, cast_shadow=cast_shadow, receive_shadow=False)
-            cloud = self._scene.add_point_cloud(
+            self._meshes[name] = self._scene.add_glb(
+                name, glb, cast_shadow=cast_shadow, receive_shadow=False
+            )
+            self._nodes[name] = self._scene.add_frame(
                 PREFIX + name,
-                np.zeros((n_vertices, 3), np.float16),
-                NO_COLORS,
-                point_size=1.0,
-                precision="float16",
+                show_axes=False,
+                position=(self._n_added, n_vertices, 1.0),
                 visible=False,
             )
-        self._meshes[name] = DrivenMesh(mesh, cloud, n_vertices)
+            self._shapes.pop(name, None)  # the newest mesh is the last
+            self._shapes[name] = np.zeros((n_vertices, 3), np.float32)
+            self.show({})
 
     def remove(self, name: str) -> None:
-        """Removes a mesh and its shape."""
+        """Removes a mesh and its shape; colours have to be shown anew."""
         with self._scene._websock_interface.atomic():
             self._meshes.pop(name).remove()
+            self._nodes.pop(name).remove()
+            del self._shapes[name]
+            self.show({})
 
-    def show(self, name: str, shape: NDArray, colors: NDArray[np.uint8] | None = None) -> None:
-        """Sends a mesh its shape φ and its colours; the last one sent is what every page shows.
+    def show(
+        self, shapes: Mapping[str, NDArray], colors: Mapping[str, NDArray[np.uint8]] | None = None
+    ) -> None:
+        """Sends meshes their shapes φ and their colours; the last ones sent are what every page shows.
 
-        A real shape is half as long on the way as a complex one, and what has not changed stays here.
+        Real shapes are half as long on the way as complex ones, and nothing new is nothing sent.
 
         Args:
-            name: as it was added.
-            shape: (n_vertices, 3), real or complex; single numbers beyond 65 504 cannot be sent.
-            colors: (n_vertices, 3) sRGB of the skin; without them it has its own colour.
+            shapes: (n_vertices, 3) by mesh, real or complex; a mesh that is left out keeps its own.
+                Single numbers beyond 65 504 cannot be sent.
+            colors: (n_vertices, 3) sRGB of the skin, of every mesh; without them it has its own colour.
 
         Raises:
             ValueError: another number of vertices, or a value that is not finite or too large.
         """
-        driven = self._meshes[name]
-        expected = (driven.n_vertices, 3)
-        if shape.shape != expected:
-            raise ValueError(f"{name}: found a shape of {shape.shape}, expected {expected}")
-        if colors is not None and colors.shape != expected:
-            raise ValueError(f"{name}: found colours of {colors.shape}, expected {expected}")
-        parts = np.concatenate([np.real(shape), np.imag(shape)]) if np.iscomplexobj(shape) else shape
-        if not np.abs(parts).max(initial=0.0) <= LARGEST:
-            raise ValueError(f"{name}: a displacement is not finite or beyond {LARGEST:.0f}")
+        _check_lengths("a shape", shapes, self._shapes)
+        newest = {**self._shapes, **shapes}
+        points = _halves(newest.values())
+        skins = NO_COLORS
+        if colors is not None:
+            _check_lengths("colours", colors, newest)
+            skins = np.concatenate([colors[name] for name in newest])
+        self._shapes = newest
         with self._scene._websock_interface.atomic():
-            driven.send("points", parts.astype(np.float16))
-            driven.send("colors", NO_COLORS if colors is None else colors)
+            self._send_if_new("points", points)
+            self._send_if_new("colors", skins)
 
     def set_opacity(self, name: str, factor: float) -> None:
         """Multiplies the opacity of a mesh's skin and glass."""
-        assign(self._meshes[name].cloud, point_size=factor)
+        node = self._nodes[name]
+        order, n_vertices, opacity = node.position
+        if factor != opacity:
+            node.position = (order, n_vertices, factor)
 
     def drive(
         self,
@@ -157,3 +162,29 @@ class ShapeDriver:
         sought = self._phase % (2 * np.pi) + 2 * np.pi * (self._n_seeks % 1000)
         frequency_hz = self._frequency_hz if self._running else 0.0
         self._node.position = (self._amplitude, frequency_hz, sought)
+
+    def _send_if_new(self, name: str, array: NDArray) -> None:
+        content = array.tobytes()  # compared as numbers, halves would take ten times as long
+        if content != self._sent.get(name):
+            self._sent[name] = content
+            send(self._cloud, name, array)
+
+
+def _check_lengths(what: str, found: Mapping[str, NDArray], expected: Mapping[str, NDArray]) -> None:
+    """Raises ValueError if an array does not go with its mesh."""
+    for name, array in found.items():
+        if array.shape != expected[name].shape:
+            raise ValueError(f"{name}: found {what} of {array.shape}, expected {expected[name].shape}")
+
+
+def _halves(shapes: Iterable[NDArray]) -> NDArray[np.float16]:
+    """All shapes in one; if any is complex, the real parts of all come before the imaginary ones.
+
+    Raises:
+        ValueError: a value is not finite or too large.
+    """
+    whole = np.concatenate([np.zeros((0, 3), np.float32), *shapes])
+    parts = np.concatenate([whole.real, whole.imag]) if np.iscomplexobj(whole) else whole
+    if not np.abs(parts).max(initial=0.0) <= LARGEST:
+        raise ValueError(f"a displacement is not finite or beyond {LARGEST:.0f}")
+    return parts.astype(np.float16)

@@ -1,5 +1,6 @@
 """Marks on the vehicle: its mounts, the selected group's card, response points and tyre patches."""
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -38,6 +39,7 @@ class MountMarker:
     def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup) -> None:
         """Draws a mount at rest and not selected."""
         self._label_text = _short_name(mount, group)
+        self._looks: tuple[float, bool, bool] | None = None
         axes = SO3.from_matrix(mount.axes.T).wxyz
         path = f"/mounts/{mount.name.replace('/', '-')}"
         scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.points[0])
@@ -46,14 +48,9 @@ class MountMarker:
         )
         self._washers = [
             scene.add_cylinder(
-                f"{path}/{side}",
-                1.38 * RADIUS,
-                0.165 * HEIGHT,
-                color=WASHER,
-                cast_shadow=False,
-                position=(0.0, 0.0, z),
+                f"{path}/{side}", 1.38 * RADIUS, 0.165 * HEIGHT, color=WASHER, cast_shadow=False
             )
-            for side, z in (("above", WASHER_Z), ("below", -WASHER_Z))
+            for side in ("above", "below")
         ]
         self._ring = scene.add_line_segments(
             f"{path}/ring",
@@ -64,11 +61,7 @@ class MountMarker:
             visible=False,
         )
         self._label = scene.add_label(
-            f"{path}/name",
-            self._label_text,
-            position=(0.0, 0.0, LABEL_Z),
-            anchor="bottom-center",
-            font_screen_scale=0.85,
+            f"{path}/name", self._label_text, anchor="bottom-center", font_screen_scale=0.85
         )
 
     def on_click(self, callback: Callable[[], None]) -> None:
@@ -85,18 +78,17 @@ class MountMarker:
             selected: whether its group is.
             carded: whether the group's card hangs on this mount and names it.
         """
-        self._resize(SIZE_STEP * round((0.6 + 0.9 * float(np.sqrt(share))) / SIZE_STEP))
-        assign(self._rubber, color=SELECTED if selected else RUBBER)
+        size = SIZE_STEP * round((0.6 + 0.9 * math.sqrt(share)) / SIZE_STEP)
+        looks = (size, selected, carded)
+        if looks == self._looks:
+            return
+        self._looks = looks
+        assign(self._rubber, scale=size, color=SELECTED if selected else RUBBER)
+        for washer, z in zip(self._washers, (WASHER_Z, -WASHER_Z), strict=True):
+            assign(washer, scale=size)
+            washer.position = (0.0, 0.0, z * size)
         assign(self._ring, visible=selected)
         assign(self._label, visible=not carded)
-
-    def _resize(self, size: float) -> None:
-        if size == self._rubber.scale:
-            return
-        self._rubber.scale = size
-        for washer, z in zip(self._washers, (WASHER_Z, -WASHER_Z), strict=True):
-            washer.scale = size
-            washer.position = (0.0, 0.0, z * size)
         self._label.position = (0.0, 0.0, LABEL_Z * size)
 
 
@@ -140,6 +132,7 @@ class Markers:
         for name, markers in self._mounts.items():
             for marker in markers:
                 marker.on_click(lambda name=name: on_select(name))
+        self._nearest = {name: _nearest_to_us(group) for name, group in self._groups.items()}
         self._card = Card(scene)
         _add_points(scene, vehicle)
         _add_patches(scene, vehicle)
@@ -157,16 +150,16 @@ class Markers:
         """
         largest = max(shares.values(), default=0.0) or 1.0
         for name, markers in self._mounts.items():
-            nearest = _nearest_to_us(self._groups[name])
+            is_selected = name == selected
             for i, marker in enumerate(markers):
-                is_selected = name == selected
-                marker.show(shares[name] / largest, is_selected, is_selected and i == nearest)
+                is_carded = is_selected and i == self._nearest[name]
+                marker.show(shares[name] / largest, is_selected, is_carded)
         group = self._groups.get(selected)
         if group is None:
             self._card.show("", np.zeros(3))
         else:
             text = card_text(group, rates[selected], shares[selected], mode)
-            self._card.show(text, group.mounts[_nearest_to_us(group)].points[0])
+            self._card.show(text, group.mounts[self._nearest[selected]].points[0])
 
 
 def card_text(group: MountGroup, rates: MountRates, share: float, mode: str) -> str:
@@ -185,6 +178,7 @@ def _short_name(mount: Mount, group: MountGroup) -> str:
 
 
 def _nearest_to_us(group: MountGroup) -> int:
+    """Which mount of a group the card hangs on."""
     return int(np.argmin([mount.points[0][1] for mount in group.mounts]))
 
 

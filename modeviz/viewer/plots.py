@@ -1,5 +1,6 @@
 """The charts of the page: spectra as uPlot, the frequency ladder as a drawing."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -7,6 +8,7 @@ import viser
 
 from modeviz.ride.psd import power_decibels
 from modeviz.vehicle.arrays import Floats
+from modeviz.viewer.assign import assign, send
 from modeviz.viewer.html import MINUS, title
 
 SHOWN_HZ = (1.0, 25.0)
@@ -56,13 +58,12 @@ class PsdPlot:
             now: (n_freqs,), g²/Hz, drawn blue.
             peaks_hz: where to mark a peak.
         """
-        curves = [power_decibels(psd)[self._inside] for psd in (base, now)]
-        self._chart.data = (self._f, *curves)
+        curves = power_decibels(np.stack([base[self._inside], now[self._inside]]))
+        send(self._chart, "data", (self._f, *curves))
         frame = (*_range(curves), tuple(round(f, 1) for f in peaks_hz))
         if frame != self._frame:  # a chart with other axes is built anew and forgets its zoom
             low, high, peaks = self._frame = frame
-            self._chart.scales = self._scales(low, high)
-            self._chart.axes = self._axes(low, high, peaks)
+            assign(self._chart, scales=self._scales(low, high), axes=self._axes(low, high, peaks))
 
     def _scales(self, low: int, high: int) -> dict:
         return {"x": {"time": False, "range": SHOWN_HZ}, "y": {"range": (low, high)}}
@@ -92,10 +93,10 @@ class PsdPlot:
         )
 
 
-def _range(curves: Sequence[Floats]) -> tuple[int, int]:
+def _range(curves: Floats) -> tuple[int, int]:
     """Whole tens of dB that hold the curves, at most 60 dB below their top."""
-    top = int(np.ceil(max(c.max() for c in curves) / 10) * 10)
-    bottom = int(np.floor(min(c.min() for c in curves) / 10) * 10)
+    top = 10 * math.ceil(curves.max() / 10)
+    bottom = 10 * math.floor(curves.min() / 10)
     return max(bottom, top - 60), top
 
 

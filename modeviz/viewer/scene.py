@@ -69,16 +69,14 @@ class Scene:
 
     def show(self, solved: Solved) -> None:
         """Draws the answer of a session: its mode's shape and energy, and how it wants to be seen."""
-        state, system = solved.state, solved.now.system
-        coordinates = {name: solved.shape[dofs] for name, dofs in system.dofs.items()}
-        shares = {
-            group: float(solved.now.strain_energy[group][solved.mode]) for group in system.vehicle.rates
-        }
+        state, energy = solved.state, solved.now.strain_energy
+        coordinates = {name: solved.shape[dofs] for name, dofs in solved.now.system.dofs.items()}
+        shares = {group: float(energy[group][solved.mode]) for group in state.rates}
         with self._server.atomic():
             self.show_shape(coordinates, state.coloring == "displacement")
             self.show_style(state.coloring == "displacement", state.see_through, state.ghost)
             mode = solved.now.names[solved.mode].name
-            self._markers.show(state.group, system.vehicle.rates, shares, mode)
+            self._markers.show(state.group, state.rates, shares, mode)
 
     def show_shape(self, coordinates: Mapping[str, NDArray], colored: bool) -> None:
         """Sends the page a shape, scaled so that it is clear to see at the driver's amplitude of one.
@@ -89,11 +87,12 @@ class Scene:
         """
         shapes = {name: displacement(s, coordinates[name]) for name, s in self._shapes.items()}
         scale = default_amplitude(shapes.values(), self._box.length)
+        drawn = {_path(name): scale * shape for name, shape in shapes.items()}
         largest = DRAWN_FRACTION * self._box.length
-        for name, shape in shapes.items():
-            drawn = scale * shape
-            colors = displacement_colors(drawn, largest) if colored else None
-            self.driver.show(_path(name), drawn, colors)
+        colors = None
+        if colored:
+            colors = {path: displacement_colors(shape, largest) for path, shape in drawn.items()}
+        self.driver.show(drawn, colors)
 
     def show_style(self, colored: bool, see_through: bool, ghost: bool) -> None:
         """Chooses light and transparency, and whether the outlines at rest are there."""

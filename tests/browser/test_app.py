@@ -10,7 +10,6 @@ from pages import wait_for, wait_until
 from PIL import Image
 
 from modeviz.cli import main
-from modeviz.dynamics.assembly import assemble
 from modeviz.tuning.results import FREQUENCY_HZ, Conditions, solve_modal
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.app import App
@@ -71,7 +70,7 @@ def original(app, page):
 
 def title(app, name, rates=None):
     """How the card should be headed when the mode of that name is shown."""
-    results = solve_modal(assemble(app.session.vehicle), rates or {})
+    results = solve_modal(app.session._prepared, rates or {})
     f = results.modes.frequency_hz[results.mode_index(name)]
     return f"{name.capitalize()}  {f:.2f} Hz"
 

@@ -75,11 +75,11 @@ def halves(bits):
     return np.array(bits, np.uint16).view(np.float16).astype(float).reshape(-1, 3)
 
 
-def shown_real(page, expected):
-    """Waits until the page shows a shape whose first number is `expected`, and returns it."""
+def shown_real(page, expected, name=NAME):
+    """Waits until the page shows a shape whose third number is `expected`, and returns it."""
     condition = f"({READ.strip()})?.real[2] === a.bits"
-    wait_for(page, condition, name=NAME, bits=int(np.float16(expected).view(np.uint16)))
-    return halves(wait_for(page, READ, name=NAME)["real"])
+    wait_for(page, condition, name=name, bits=int(np.float16(expected).view(np.uint16)))
+    return halves(wait_for(page, READ, name=name)["real"])
 
 
 def whole(shape):
@@ -88,7 +88,7 @@ def whole(shape):
 
 
 def test_page_draws_the_animated_positions_of_a_complex_shape(driver, page):
-    driver.show(NAME, whole(SHAPE))
+    driver.show({NAME: whole(SHAPE)})
     driver.drive(amplitude=0.3)
     shown_real(page, 1.0)
     for phase in (0.0, 1.0, 4.0):
@@ -104,7 +104,7 @@ def test_shader_moves_what_is_seen(server, driver, page):
     client.camera.position, client.camera.look_at, client.camera.fov = (-10.0, 0, 0), (0.0, 0, 0), 0.5
     rise = np.zeros((12, 3))
     rise[:, 2] = 1
-    driver.show(NAME, rise)
+    driver.show({NAME: rise})
     driver.drive(amplitude=1.0)
     heights = []
     for phase in (0.0, np.pi):
@@ -125,20 +125,58 @@ def test_all_primitives_and_edges_share_the_shape(driver, page):
 
 def test_last_shape_wins_and_late_joiners_see_it(server, driver, page, open_page):
     for scale in (1.0, 2.0, 3.0):
-        driver.show(NAME, whole(SHAPE) * scale)
+        driver.show({NAME: whole(SHAPE) * scale})
     exact = whole(SHAPE).real * 3
     assert shown_real(page, 3.0) == pytest.approx(exact, rel=HALF)
     assert shown_real(open_page(server), 3.0) == pytest.approx(exact, rel=HALF)
 
 
+def test_each_mesh_keeps_its_own_shape(driver, page):
+    other = surface((MeshPart("panel", PANEL, FACES, Material((1, 2, 3))),))
+    driver.add("/vehicle/bed", glb(other), 4)
+    driver.show({NAME: whole(SHAPE) * 2})
+    driver.show({"/vehicle/bed": SHAPE.real * 5})
+    assert shown_real(page, 2.0) == pytest.approx(whole(SHAPE).real * 2, rel=HALF)
+    bed = shown_real(page, 5.0, "/vehicle/bed")
+    assert bed == pytest.approx(SHAPE.real * 5, rel=HALF)
+    driver.remove("/vehicle/bed")
+    wait_for(page, "!window.__viserMutable.nodeRefFromName['/vehicle/bed']")
+    driver.show({NAME: whole(SHAPE) * 3})
+    assert shown_real(page, 3.0) == pytest.approx(whole(SHAPE).real * 3, rel=HALF)
+
+
+def test_real_shape_leaves_nothing_of_a_complex_one_before_it(server, driver, page, open_page):
+    driver.show({NAME: whole(SHAPE)})
+    shown_real(page, 1.0)
+    assert any(wait_for(page, READ, name=NAME)["imaginary"])
+    driver.show({NAME: whole(SHAPE).real * 2})
+    for viewer in (page, open_page(server)):
+        shown_real(viewer, 2.0)
+        assert not any(wait_for(viewer, READ, name=NAME)["imaginary"])
+
+
+def test_real_shape_travels_in_six_bytes_a_vertex_and_an_old_one_not_at_all(server, driver):
+    buffer = server._websock_server._broadcast_buffer
+
+    def bytes_of(shape):
+        first = buffer.message_counter
+        driver.show({NAME: shape})
+        new = [m for i, m in buffer.message_from_id.items() if i >= first]
+        return sum(array.nbytes for m in new for array in m.updates.values())
+
+    assert bytes_of(whole(SHAPE) * 2) == 12 * 12
+    assert bytes_of(whole(SHAPE).real * 2) == 12 * 6
+    assert bytes_of(whole(SHAPE).real * 2) == 0
+
+
 def test_colors_are_drawn_on_the_skin_only_while_asked(driver, page):
     own = wait_for(page, READ, name=NAME)["materials"]
-    driver.show(NAME, whole(SHAPE), np.tile(COLORS, (3, 1)))
+    driver.show({NAME: whole(SHAPE)}, {NAME: np.tile(COLORS, (3, 1))})
     colored = wait_for(page, f"(s => s?.materials[0].colored && s)({READ.strip()})", name=NAME)
     assert colored["colors"] == np.tile(COLORS, (3, 1)).reshape(-1).tolist()
     assert [m["colored"] for m in colored["materials"]] == [True, False, False, False]
     assert colored["materials"][0]["color"] == [1, 1, 1]
-    driver.show(NAME, whole(SHAPE))
+    driver.show({NAME: whole(SHAPE)})
     plain = wait_for(page, f"(s => s && !s.materials[0].colored && s)({READ.strip()})", name=NAME)
     assert plain["materials"] == own
 
@@ -193,33 +231,33 @@ def test_removed_and_added_mesh_with_other_vertices_shows_its_new_shape(driver, 
     wait_for(page, "!window.__viserSceneTree.getState()['/_shape' + a.name]", name=NAME)
     small = surface((MeshPart("panel", PANEL, FACES, Material((1, 2, 3))),))
     driver.add(NAME, glb(small), 4)
-    driver.show(NAME, SHAPE * 7)
+    driver.show({NAME: SHAPE * 7})
     assert shown_real(page, 7.0) == pytest.approx(SHAPE.real * 7, rel=HALF)
 
 
 def test_mesh_replaced_in_place_shows_its_new_shape(driver, page):
     small = surface((MeshPart("panel", PANEL, FACES, Material((1, 2, 3))),))
     driver.add(NAME, glb(small), 4)
-    driver.show(NAME, SHAPE * 7)
+    driver.show({NAME: SHAPE * 7})
     assert shown_real(page, 7.0) == pytest.approx(SHAPE.real * 7, rel=HALF)
 
 
 def test_page_shows_its_shapes_again_after_a_reconnect(server, driver, page):
-    driver.show(NAME, whole(SHAPE))
+    driver.show({NAME: whole(SHAPE)})
     shown_real(page, 1.0)
     page.evaluate("window.__modeviz.turn.first = true")
     server._websock_server.disconnect_all_clients()
     wait_for(page, "!window.__modeviz.turn.first")
-    driver.show(NAME, whole(SHAPE) * 2)
+    driver.show({NAME: whole(SHAPE) * 2})
     assert shown_real(page, 2.0) == pytest.approx(whole(SHAPE).real * 2, rel=HALF)
 
 
 def test_many_shapes_leave_no_more_to_replay_than_one(server, driver):
     buffer = server._websock_server._broadcast_buffer
-    driver.show(NAME, whole(SHAPE) * 100)
+    driver.show({NAME: whole(SHAPE) * 100})
     n_messages = len(buffer.message_from_id)
     for scale in range(50):
-        driver.show(NAME, whole(SHAPE) * scale)
+        driver.show({NAME: whole(SHAPE) * scale})
         driver.drive(amplitude=scale)
     assert len(buffer.message_from_id) == n_messages
 
@@ -248,9 +286,9 @@ def test_page_that_cannot_be_patched_says_so(server, driver, open_page, no_error
         (np.full((12, 3), np.nan), None, "not finite"),
         (np.full((12, 3), 1e5), None, "not finite or beyond 65504"),
         (np.full((12, 3), 1j * np.inf), None, "not finite"),
-        (np.zeros((12, 3)), np.zeros((4, 3), np.uint8), "colours"),
+        (np.zeros((12, 3)), {NAME: np.zeros((4, 3), np.uint8)}, "colours"),
     ],
 )
 def test_shape_that_cannot_be_sent_is_refused(driver, shape, colors, said):
     with pytest.raises(ValueError, match=said):
-        driver.show(NAME, shape, colors)
+        driver.show({NAME: shape}, colors)

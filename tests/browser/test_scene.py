@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from pages import wait_for, wait_until
 
-from modeviz.dynamics.assembly import assemble
+from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.results import Conditions, solve_modal
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Material, MeshPart, RigidBody
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
@@ -81,7 +81,7 @@ def vehicle():
 
 @pytest.fixture(scope="module")
 def modal(vehicle):
-    return solve_modal(assemble(vehicle), {})
+    return solve_modal(prepare_modes(vehicle), {})
 
 
 @pytest.fixture(scope="module")
@@ -103,7 +103,7 @@ def page(server, scene, open_page):
 
 def solved(modal, mode=6, **fields):
     state = State({"C": RATES}, Conditions("none", 20.0), "", **({"group": "C"} | fields))
-    return Solved(state, modal, modal, mode, modal.modes.shapes[:, mode], 0.0)
+    return Solved(state, modal, modal, mode, modal.modes.shapes[:, mode], 0.0, None)
 
 
 def node(page, name):

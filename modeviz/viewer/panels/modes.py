@@ -1,5 +1,6 @@
 """Right column, lower part: the modes and where the shown one has its energy."""
 
+from collections.abc import Mapping, Sequence
 from html import escape
 
 import numpy as np
@@ -7,6 +8,7 @@ import viser
 
 from modeviz.dynamics.naming import ModeName
 from modeviz.tuning.results import Results
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.assign import assign
 from modeviz.viewer.html import (
     HiddenButtons,
@@ -34,6 +36,7 @@ class ModesPanel:
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Builds the table; `show` fills it."""
         self._names: list[str] = []
+        self._labels = {body.name: body.label for body in session.vehicle.bodies}
         self._buttons = HiddenButtons(gui, N_ROWS, lambda i: self._select(session, i))
         self._content = gui.add_html("")
 
@@ -44,39 +47,40 @@ class ModesPanel:
 
     def show(self, solved: Solved) -> None:
         """Lists the modes of an answer."""
-        now = solved.now
+        now, modes = solved.now, listed(solved.now)
         before = {name.name: f for name, f in listed(solved.base).values()}
-        after = {name.name: f for name, f in listed(now).values()}
+        after = {name.name: f for name, f in modes.values()}
         self._names = list(after)[:N_ROWS]
-        moved = _moves_most(now)
+        moved = _moves_most(now, self._labels)
         rows = [
             row(self._cells(i, mode, now, before, moved[mode]), chosen=mode == solved.mode)
-            for i, mode in enumerate(list(listed(now))[:N_ROWS])
+            for i, mode in enumerate(list(modes)[:N_ROWS])
         ]
         drawing = ladder(before, after, now.names[solved.mode].name)
-        modes = table(("Mode", "Hz", "Δ Hz", "ζ %", "moves most"), rows)
-        assign(self._content, content=block(drawing, modes))
+        listing = table(("Mode", "Hz", "Δ Hz", "ζ %", "moves most"), rows)
+        assign(self._content, content=block(drawing, listing))
 
     def _cells(
-        self, i: int, mode: int, now: Results, before: dict[str, float], moved: tuple[str, float]
+        self, i: int, mode: int, now: Results, before: dict[str, float], moved: str
     ) -> list[str]:
         name, f = now.names[mode].name, float(now.modes.frequency_hz[mode])
         change = f - before[name] if name in before else None
-        body, share = moved
         return [
             self._buttons.label(i, title(name)),
             f"{f:.2f}",
             span("new" if change is None else signed(change, 2), "dim" if not change else ""),
             f"{100 * now.modes.damping_ratio[mode]:.1f}",
-            span(f"{escape(now.vehicle.body(body).label)} {100 * share:.0f} %", "dim"),
+            span(moved, "dim"),
         ]
 
 
 class EnergyPanel:
     """Kinetic energy of the shown mode by body, strain energy by mount group."""
 
-    def __init__(self, gui: viser.GuiApi) -> None:
+    def __init__(self, gui: viser.GuiApi, vehicle: Vehicle) -> None:
         """Makes room; `show` fills it."""
+        self._labels = {body.name: body.label for body in vehicle.bodies}
+        self._groups = [group.name for group in vehicle.mount_groups]
         self._content = gui.add_html("")
 
     def show(self, solved: Solved) -> None:
@@ -84,9 +88,9 @@ class EnergyPanel:
         name = title(solved.now.names[solved.mode].name)
         content = block(
             heading(f"{name}: kinetic energy by body"),
-            _kinetic(solved.now, solved.mode),
+            _kinetic(solved.now, solved.mode, self._labels),
             heading("Strain energy by mount group"),
-            _strain(solved),
+            _strain(solved, self._groups),
         )
         assign(self._content, content=content)
 
@@ -100,21 +104,20 @@ def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
     }
 
 
-def _moves_most(results: Results) -> list[tuple[str, float]]:
+def _moves_most(results: Results, labels: Mapping[str, str]) -> list[str]:
     """For every mode the body with the largest share of its kinetic energy, and that share."""
-    bodies = list(results.kinetic_energy)
+    bodies = [escape(labels[name]) for name in results.kinetic_energy]
     shares = np.stack(list(results.kinetic_energy.values()))
-    return [
-        (bodies[i], share)
-        for i, share in zip(shares.argmax(axis=0), shares.max(axis=0).tolist(), strict=True)
-    ]
+    most = shares.argmax(axis=0).tolist()
+    percent = (100 * shares.max(axis=0)).tolist()
+    return [f"{bodies[i]} {share:.0f} %" for i, share in zip(most, percent, strict=True)]
 
 
-def _kinetic(results: Results, mode: int) -> str:
+def _kinetic(results: Results, mode: int, labels: Mapping[str, str]) -> str:
     """One bar in the colours of the bodies, and its legend."""
     shares = sorted(((e[mode], body) for body, e in results.kinetic_energy.items()), reverse=True)
     shown = [
-        (share, results.vehicle.body(body).label, BODY_COLORS[i])
+        (share, labels[body], BODY_COLORS[i])
         for i, (share, body) in enumerate(shares[: len(BODY_COLORS)])
         if share > 0.01
     ]
@@ -134,11 +137,10 @@ def _kinetic(results: Results, mode: int) -> str:
     )
 
 
-def _strain(solved: Solved) -> str:
+def _strain(solved: Solved, groups: Sequence[str]) -> str:
     """A table of the mount groups: their share now and with the original rates."""
     name = solved.now.names[solved.mode].name
     before = solved.base.mode_index(name)
-    groups = [g.name for g in solved.now.vehicle.mount_groups]
     now = {g: solved.now.strain_energy[g][solved.mode] for g in groups}
     base = {g: solved.base.strain_energy[g][before] if before is not None else 0.0 for g in groups}
     largest = max([*now.values(), *base.values(), 1e-9])

@@ -35,6 +35,7 @@ class MountsPanel:
         self._write_back = WriteBack()
         self._folders: dict[str, viser.GuiFolderHandle] = {}
         self._sliders: dict[tuple[str, str], viser.GuiInputHandle[float]] = {}
+        self._labelled: dict[str, MountRates] = {}
         if self._vehicle.mount_groups:
             self._add_presets(gui, set_rates)
         for group in self._vehicle.mount_groups:
@@ -53,10 +54,14 @@ class MountsPanel:
             share = solved.now.strain_energy[group.name][solved.mode]
             energy = f"{100 * share:.0f} % of {shown} energy"
             assign(self._folders[group.name], label=f"{group.name}  {group.label}  ·  {energy}")
-            now = solved.state.rates[group.name]
-            for name, direction in zip(FIELDS, DIRECTIONS, strict=True):
-                label = _label(direction, getattr(now, name), getattr(group.rates, name))
-                assign(self._sliders[group.name, name], label=label)
+            if self._labelled.get(group.name) != solved.state.rates[group.name]:
+                self._label_sliders(group, solved.state.rates[group.name])
+
+    def _label_sliders(self, group: MountGroup, now: MountRates) -> None:
+        self._labelled[group.name] = now
+        for name, direction in zip(FIELDS, DIRECTIONS, strict=True):
+            label = _label(direction, getattr(now, name), getattr(group.rates, name))
+            assign(self._sliders[group.name, name], label=label)
 
     def _add_presets(self, gui: viser.GuiApi, set_rates: Callable[[Rates], None]) -> None:
         sets = rate_sets(self._vehicle)

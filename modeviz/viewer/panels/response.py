@@ -44,7 +44,9 @@ class ResponsePanel:
 
     def __init__(self, gui: viser.GuiApi, session: Session, dark: bool) -> None:
         """Builds the charts; `show` fills them."""
-        self._session = session
+        self._point = session.vehicle.response_points[DRIVER].name
+        self._base: Results | None = None
+        self._base_band_rms = 0.0
         self._figures = gui.add_html("")
         self._headings: dict[str, viser.GuiHtmlHandle] = {}
         self._plots: dict[str, PsdPlot] = {}
@@ -59,11 +61,12 @@ class ResponsePanel:
     def show(self, solved: Solved) -> None:
         """Draws an answer."""
         base, now = solved.base, solved.now
-        assign(self._figures, content=block(_figures(base, now)))
-        point = now.vehicle.response_points[DRIVER].name
+        if base is not self._base:
+            self._base, self._base_band_rms = base, _band_rms(base)
+        assign(self._figures, content=block(_figures(base, self._base_band_rms, now)))
         for direction in DIRECTIONS:
             shown = strongest(now.peaks(DRIVER, direction, N_CONTRIBUTORS))
-            assign(self._headings[direction], content=block(_heading(point, direction, now)))
+            assign(self._headings[direction], content=block(_heading(self._point, direction, now)))
             self._plots[direction].show(
                 base.response(DRIVER, direction),
                 now.response(DRIVER, direction),
@@ -108,7 +111,6 @@ class RoadPanel:
 
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Builds the controls."""
-        self._session = session
         labels = _road_labels(session.vehicle.roads)
         start = session.state.conditions
         current = next(label for label, name in labels.items() if name == start.road)
@@ -176,7 +178,12 @@ def strongest(peaks: tuple[Peak, ...]) -> list[Peak]:
     return sorted(chosen[:N_PEAKS], key=lambda p: p.frequency_hz)
 
 
-def _figures(base: Results, now: Results) -> str:
+def _band_rms(results: Results) -> float:
+    """Of the driver's lateral response within `BAND`, g."""
+    return float(rms(results.frequency_hz, results.response(DRIVER, "lateral"), BAND))
+
+
+def _figures(base: Results, base_band_rms: float, now: Results) -> str:
     """The rating and three RMS values with their change against the base."""
     rating, before = now.rating.mean_personal_rating, base.rating.mean_personal_rating
     better = span(f"{signed(rating - before, 2)} points", _kind(rating - before))
@@ -185,10 +192,8 @@ def _figures(base: Results, now: Results) -> str:
         axis = AXIS[direction]
         value, original = now.rms[DRIVER, axis], base.rms[DRIVER, axis]
         figures.append((f"Seat {direction}", f"{value:.3f}", "g", change(value, original)))
-    value, original = (
-        float(rms(r.frequency_hz, r.response(DRIVER, "lateral"), BAND)) for r in (now, base)
-    )
-    figures.append((f"Lat. {BAND[0]:g}–{BAND[1]:g} Hz", f"{value:.3f}", "g", change(value, original)))
+    value, label = _band_rms(now), f"Lat. {BAND[0]:g}–{BAND[1]:g} Hz"
+    figures.append((label, f"{value:.3f}", "g", change(value, base_band_rms)))
     cells = "".join(
         f"<div><span>{label}</span><b>{value} <small>{unit}</small></b>{delta}</div>"
         for label, value, unit, delta in figures
