@@ -1,4 +1,4 @@
-"""The charts of the page: spectra as uPlot, the frequency ladder as a drawing."""
+"""The charts of the page: spectra as uPlot."""
 
 import math
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ import viser
 from modeviz.ride.psd import power_decibels
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.assign import assign, send
-from modeviz.viewer.html import MINUS, title
+from modeviz.viewer.html import MINUS
 
 SHOWN_HZ = (1.0, 25.0)
 FONT = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
@@ -23,7 +23,8 @@ class PsdPlot:
 
     def __init__(self, gui: viser.GuiApi, frequency_hz: Floats, dark: bool, height: int = 130) -> None:
         """Draws an empty chart; `show` fills it."""
-        self._inside = (frequency_hz >= SHOWN_HZ[0]) & (frequency_hz <= SHOWN_HZ[1])
+        low, high = SHOWN_HZ
+        self._inside = slice(frequency_hz.searchsorted(low), frequency_hz.searchsorted(high, "right"))
         self._f = frequency_hz[self._inside]
         self._now_color = "#5aa9ea" if dark else "#2b7cc4"
         base_color = "#8a95a1" if dark else "#98a2ad"
@@ -102,55 +103,3 @@ def _range(curves: Floats) -> tuple[int, int]:
 
 def _plain(value: int) -> str:
     return (MINUS if value < 0 else "") + str(abs(value))
-
-
-def ladder(base: dict[str, float], now: dict[str, float], shown: str) -> str:
-    """Natural frequencies above, before, joined to those below, now: an SVG drawing.
-
-    Args:
-        base: frequency of each named mode, Hz.
-        now: the same with the present rates.
-        shown: the name of the shown mode, drawn strong.
-    """
-    width, top, bottom = 440, 34, 70
-    low, high = 7.0, 16.0
-    names = [n for n in now if n in base and low < base[n] < high and low < now[n] < high]
-
-    def x(f: float) -> float:
-        return 30 + (f - low) / (high - low) * (width - 50)
-
-    def line(x1: float, y1: float, x2: float, y2: float, color: str, thickness: float) -> str:
-        return (
-            f'<line x1="{x1:.1f}" y1="{y1}" x2="{x2:.1f}" y2="{y2}" stroke="{color}" '
-            f'stroke-width="{thickness}"/>'
-        )
-
-    def text(at: float, y: float, label: str, color: str, style: str = "") -> str:
-        return (
-            f'<text x="{at:.1f}" y="{y}" text-anchor="middle" fill="{color}" font-size="11" {style}>'
-            f"{label}</text>"
-        )
-
-    dim, strong = "var(--mantine-color-dimmed)", "var(--mv-now)"
-    parts = []
-    for f in range(int(low) + 1, int(high)):
-        label = f"{f} Hz" if f == int(high) - 1 else str(f)
-        parts += [
-            line(x(f), top, x(f), bottom, "var(--mv-soft)", 1),
-            text(x(f), bottom + 25, label, dim),
-        ]
-    for name in names:
-        before, after = x(base[name]), x(now[name])
-        on = name == shown
-        parts += [
-            line(before, top - 6, before, top, "var(--mv-base)", 2),
-            line(before, top, after, bottom, strong if on else "var(--mv-base)", 2 if on else 1),
-            line(after, bottom, after, bottom + 7, strong, 3 if on else 2),
-        ]
-    parts.append(f'<text x="0" y="14" font-size="11" fill="{dim}">original</text>')
-    parts.append(f'<text x="0" y="{bottom + 25}" font-size="11" fill="{strong}">now</text>')
-    if shown in names:
-        label = f"{title(shown)} {base[shown]:.2f} → {now[shown]:.2f}"
-        middle = min(max(x(base[shown]), 110), width - 90)
-        parts.append(text(middle, 22, label, "var(--mantine-color-text)", 'font-weight="600"'))
-    return f'<svg viewBox="0 0 {width} 100" width="100%" style="display:block">{"".join(parts)}</svg>'

@@ -20,7 +20,7 @@ from modeviz.viewer.html import (
     table,
     title,
 )
-from modeviz.viewer.plots import ladder
+from modeviz.viewer.ladder import ladder
 from modeviz.viewer.session import FREE_HZ, Session, Solved
 
 LISTED_HZ = (FREE_HZ, 21.0)
