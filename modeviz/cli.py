@@ -4,7 +4,7 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Sequence, Sized
+from collections.abc import Callable, Sequence, Sized
 from importlib.metadata import version
 from pathlib import Path
 from typing import get_args
@@ -13,7 +13,8 @@ from modeviz.dynamics.basis import TOP_HZ, Method
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record, modes_record, psd_record, wheels_record
 from modeviz.export.tables import modes_table, psd_table, wheels_table
-from modeviz.tuning.preparation import Prepared, prepare, prepare_modes
+from modeviz.ride.roads import road_spectrum
+from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare, prepare_modes
 from modeviz.tuning.rates import resolve_rates
 from modeviz.tuning.results import Conditions, solve, solve_modal, solve_wheels
 from modeviz.units import parse
@@ -121,23 +122,26 @@ def _vehicle_and_rates(options: argparse.Namespace) -> tuple[Vehicle, Rates]:
 
 def _prepare(vehicle: Vehicle) -> Prepared:
     """Prepares a vehicle and shows on a terminal how far that is."""
-    if not sys.stderr.isatty():
-        return prepare(vehicle)
-    try:
-        return prepare(vehicle, progress=_tell_progress)
-    finally:
-        print(end="\r\x1b[K", file=sys.stderr, flush=True)
+    return prepare(vehicle, progress=_progress())
+
+
+def _progress() -> Callable[[float], None] | None:
+    """Shows on a terminal how far the preparation is; nothing where errors go to a file."""
+    return _tell_progress if sys.stderr.isatty() else None
 
 
 def _tell_progress(done: float) -> None:
-    print(end=f"\rpreparing {done:4.0%}", file=sys.stderr, flush=True)
+    text = f"\rpreparing {done:4.0%}" if done < 1 else "\r\x1b[K"
+    print(end=text, file=sys.stderr, flush=True)
 
 
 def _conditions(options: argparse.Namespace, vehicle: Vehicle) -> Conditions:
     _need(vehicle, "road", vehicle.roads)
     _need(vehicle, "response point", vehicle.response_points)
     speed = vehicle.speed if options.speed is None else _speed(options.speed)
-    return Conditions(vehicle.road(options.road or vehicle.roads[0].name).name, speed)
+    road = vehicle.road(options.road or vehicle.roads[0].name)
+    road_spectrum(road, FREQUENCY_HZ, speed)  # what is wrong there is better said before a preparation
+    return Conditions(road.name, speed)
 
 
 def _speed(text: str) -> float:
@@ -201,6 +205,7 @@ def _view(options: argparse.Namespace) -> None:
         options.port,
         options.token,
         options.dark,
+        _progress(),
     )
 
 

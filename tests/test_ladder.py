@@ -1,34 +1,44 @@
 import xml.etree.ElementTree as ET
 
-from modeviz.viewer.ladder import ladder
+from modeviz.viewer.ladder import Rail, ladder
 
-BASE = {"cab yaw": 11.57, "rear hop": 9.99, "roll": 1.5, "gone": 12.0}
-NOW = {"cab yaw": 9.69, "rear hop": 9.98, "roll": 1.5, "new": 13.0}
-
-
-def lines(drawing, stroke_width):
-    root = ET.fromstring(drawing)
-    return [e for e in root.iter("line") if e.get("stroke-width") == stroke_width]
-
-
-def test_the_ladder_is_well_formed_and_joins_before_to_now():
-    drawing = ladder(BASE, NOW, "cab yaw")
-    # The shown mode's rung is the only thick slanted line; it leans to lower frequency.
-    slanted = [e for e in lines(drawing, "2") if e.get("x1") != e.get("x2")]
-    (rung,) = slanted
-    assert float(rung.get("x2")) < float(rung.get("x1"))
+RAILS = [
+    Rail(11.57, 9.69, weak=False, strong=True),
+    Rail(9.99, 9.98, weak=False, strong=False),
+    Rail(10.4, 11.9, weak=True, strong=False),
+    Rail(1.5, 1.5, weak=False, strong=False),
+    Rail(12.0, 17.0, weak=False, strong=False),
+]
+BEFORE, AFTER = [1.5, 9.99, 10.4, 11.57, 12.0], [1.5, 9.69, 9.98, 11.9, 17.0]
 
 
-def test_the_ladder_leaves_out_what_is_not_in_both():
-    drawing = ladder(BASE, NOW, "cab yaw")
-    assert len(lines(drawing, "3")) == 1
-    # Marks below: rear hop's is normal, the shown mode's strong; roll is off the scale.
-    rungs = [
-        e for e in ET.fromstring(drawing).iter("line") if e.get("y1") == "34" and e.get("y2") == "70"
-    ]
-    assert len([e for e in rungs if e.get("stroke") != "var(--mv-soft)"]) == 2
+def drawing(label="Cab yaw 11.57 → 9.69"):
+    return ET.fromstring(ladder(BEFORE, AFTER, RAILS, 1, label))
 
 
-def test_the_shown_mode_is_written_out():
-    texts = [e.text for e in ET.fromstring(ladder(BASE, NOW, "cab yaw")).iter("text")]
-    assert "Cab yaw 11.57 → 9.69" in texts
+def rails(root):
+    joined = [e for e in root.iter("line") if (e.get("y1"), e.get("y2")) == ("34", "70")]
+    return [e for e in joined if e.get("stroke") != "var(--mv-soft)"]
+
+
+def test_the_shown_modes_rail_is_strong_and_leans_to_where_it_went():
+    (strong,) = [e for e in rails(drawing()) if e.get("stroke-width") == "2"]
+    assert float(strong.get("x2")) < float(strong.get("x1"))
+
+
+def test_what_leaves_the_scale_is_not_joined():
+    assert len(rails(drawing())) == 3
+
+
+def test_a_shape_that_is_the_same_only_in_part_is_dashed():
+    (dashed,) = [e for e in rails(drawing()) if e.get("stroke-dasharray")]
+    assert float(dashed.get("x2")) > float(dashed.get("x1"))
+
+
+def test_the_shown_mode_has_one_thick_mark():
+    assert len([e for e in drawing().iter("line") if e.get("stroke-width") == "3"]) == 1
+
+
+def test_the_label_is_text_and_no_markup():
+    texts = [e.text for e in drawing("<b>yaw</b>").iter("text")]
+    assert "<b>yaw</b>" in texts

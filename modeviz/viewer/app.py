@@ -3,6 +3,7 @@
 import logging
 import threading
 import traceback
+from collections.abc import Callable
 
 import viser
 from threadpoolctl import threadpool_limits
@@ -11,13 +12,12 @@ from modeviz.errors import ModevizError
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.assign import assign
 from modeviz.viewer.doors import open_server
-from modeviz.viewer.html import block, heading
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.modes import EnergyPanel, ModesPanel, listed
 from modeviz.viewer.panels.mounts import MountsPanel, rate_sets
 from modeviz.viewer.panels.response import ResponsePanel, RoadPanel
+from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.view import PicturePanel, ViewPanel
 from modeviz.viewer.scene import Scene
 from modeviz.viewer.session import Session, Solved, first_state
@@ -38,7 +38,7 @@ class App:
         server: viser.ViserServer,
         dark: bool = False,
     ) -> None:
-        """Builds the page and asks for the first answer.
+        """Builds the page; nothing is solved before `start`.
 
         Args:
             vehicle: with the rates that all is compared with.
@@ -59,7 +59,23 @@ class App:
         )
         self._scene = Scene(server, vehicle, dark, self._select)
         self._lay_out(dark)
-        self.session.start()
+
+    def start(self, progress: Callable[[float], None] | None = None) -> None:
+        """Prepares the vehicle, which the page shows, and asks for the first answer.
+
+        Args:
+            progress: told the fraction of the preparation that is done as well.
+
+        Raises:
+            ModevizError: there is no answer on that road at that speed.
+        """
+
+        def tell(fraction: float) -> None:
+            self._status.show_progress(fraction)
+            if progress:
+                progress(fraction)
+
+        self.session.start(tell)
 
     def close(self) -> None:
         """Ends the session and the server."""
@@ -76,7 +92,7 @@ class App:
             ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             PicturePanel(gui, self._file_name)
-        self._status = gui.add_html("")
+        self._status = StatusPanel(gui)
 
         right = gui.add_panel()
         with right.add_tab("Response", viser.Icon.CHART_LINE):
@@ -106,7 +122,7 @@ class App:
             self._modes.show(solved)
             self._energy.show(solved)
             self._animation.show(solved)
-            assign(self._status, content=block(_status(solved)))
+            self._status.show(solved)
         self.server.flush()
         self._scene.show(solved)
 
@@ -150,14 +166,6 @@ class App:
         return f"{name}{mode}".lower().replace(" ", "-")
 
 
-def _status(solved: Solved) -> str:
-    """How long the answer took, where it was not there already."""
-    dot = '<i class="swatch" style="background:var(--mv-good);border-radius:50%"></i>'
-    milliseconds = 1000 * solved.seconds
-    decimals = 0 if milliseconds >= 10 else 1
-    return heading(f"{dot}Solved", f"{milliseconds:.{decimals}f} ms" if milliseconds >= 0.05 else "")
-
-
 def serve(
     vehicle: Vehicle,
     rates: Rates,
@@ -166,8 +174,19 @@ def serve(
     port: int,
     token: str | None,
     dark: bool,
+    progress: Callable[[float], None] | None = None,
 ) -> None:
     """Shows a vehicle until interrupted.
+
+    Args:
+        vehicle: with the rates that all is compared with.
+        rates: to start with.
+        conditions: to start with.
+        host: address to listen on.
+        port: to listen on.
+        token: asked of every visitor, if any.
+        dark: whether the page is dark.
+        progress: told the fraction of the preparation that is done.
 
     Raises:
         ModevizError: the port is in use, the address needs a token, or the road does not go with the
@@ -186,6 +205,7 @@ def serve(
         query = f"/?token={token}" if token else ""
         print(f"{vehicle.name} is at http://{host}:{port}{query}  (Ctrl+C ends)", flush=True)
         try:
+            app.start(progress)
             threading.Event().wait()
         finally:
             app.close()

@@ -43,8 +43,9 @@ def span(text: str, kind: str) -> str:
 
 
 def sentence_case(name: str) -> str:
-    """A name with a capital, for a widget, which shows it as it is."""
-    return name[:1].upper() + name[1:]
+    """A name with a capital, for a widget, which shows it as it is; "~cab yaw" is "~Cab yaw"."""
+    mark, rest = ("~", name[1:]) if name.startswith("~") else ("", name)
+    return mark + rest[:1].upper() + rest[1:]
 
 
 def title(name: str) -> str:

@@ -1,71 +1,99 @@
-"""The frequency ladder: where the modes were and where they are, as a drawing."""
+"""The frequency ladder: natural frequencies before and now, joined where a shape went."""
 
-from modeviz.viewer.html import title
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
 
-WIDTH, TOP, BOTTOM = 440, 34, 70
-LADDER_HZ = (7.0, 16.0)
-MIDDLE = 'text-anchor="middle"'
-DIM, STRONG = "var(--mantine-color-dimmed)", "var(--mv-now)"
+WIDTH, TOP, BOTTOM, HEIGHT = 440, 34, 70, 100
+LOW, HIGH = 7.0, 16.0
+"""Hz: the part of the band that is drawn."""
+
+DIM, TEXT, BASE, NOW = (
+    "var(--mantine-color-dimmed)",
+    "var(--mantine-color-text)",
+    "var(--mv-base)",
+    "var(--mv-now)",
+)
 
 
-def ladder(base: dict[str, float], now: dict[str, float], shown: str) -> str:
-    """Natural frequencies above, before, joined to those below, now: an SVG drawing.
+@dataclass(frozen=True)
+class Rail:
+    """Where the shape of a mode went."""
+
+    before: float
+    """Its frequency with the original rates, Hz."""
+    after: float
+    """Now."""
+    weak: bool
+    """Whether it is the same shape only in part: drawn dashed."""
+    strong: bool
+    """Whether it belongs to the shown mode."""
+
+
+def ladder(
+    before: Sequence[float], after: Sequence[float], rails: Sequence[Rail], shown: int, label: str
+) -> str:
+    """An SVG drawing: frequencies with the original rates above, those of now below.
 
     Args:
-        base: frequency of each named mode, Hz.
-        now: the same with the present rates.
-        shown: the name of the shown mode, drawn strong.
+        before: Hz.
+        after: Hz.
+        rails: what to join.
+        shown: which of `after` is the shown mode.
+        label: what is written above it.
     """
-    low, high = LADDER_HZ
-    names = [n for n in now if n in base and low < base[n] < high and low < now[n] < high]
-    rungs = [_rung(_x(base[name]), _x(now[name]), name == shown) for name in names]
-    caption = _caption(shown, base[shown], now[shown]) if shown in names else ""
-    return (
-        f'<svg viewBox="0 0 {WIDTH} 100" width="100%" style="display:block">'
-        f"{LADDER_SCALE}{''.join(rungs)}{caption}</svg>"
-    )
+    parts = [_grid()]
+    parts += [_rail(r) for r in sorted(rails, key=lambda r: r.strong) if _inside(r.before, r.after)]
+    parts += [_line(_x(f), TOP - 6, _x(f), TOP, BASE, 2) for f in before if _inside(f)]
+    parts += [
+        _line(_x(f), BOTTOM, _x(f), BOTTOM + 7, NOW, 3 if i == shown else 2)
+        for i, f in enumerate(after)
+        if _inside(f)
+    ]
+    parts += [
+        f'<text x="0" y="14" font-size="11" fill="{DIM}">original</text>',
+        f'<text x="0" y="{BOTTOM + 25}" font-size="11" fill="{NOW}">now</text>',
+    ]
+    if shown < len(after) and _inside(after[shown]):
+        middle = min(max(_x(after[shown]), 110), WIDTH - 90)
+        parts.append(_text(middle, 22, label, TEXT, 'font-weight="600"'))
+    view = f'viewBox="0 0 {WIDTH} {HEIGHT}" width="100%" style="display:block"'
+    return f"<svg {view}>{''.join(parts)}</svg>"
 
 
-def _rung(before: float, after: float, is_shown: bool) -> str:
-    """A mark above, one below and the line that joins them."""
-    joint = (STRONG, 2) if is_shown else ("var(--mv-base)", 1)
-    return (
-        _line(before, TOP - 6, before, TOP, "var(--mv-base)", 2)
-        + _line(before, TOP, after, BOTTOM, *joint)
-        + _line(after, BOTTOM, after, BOTTOM + 7, STRONG, 3 if is_shown else 2)
-    )
+def _inside(*frequencies: float) -> bool:
+    return all(LOW < f < HIGH for f in frequencies)
 
 
-def _caption(name: str, before: float, after: float) -> str:
-    middle = min(max(_x(before), 110), WIDTH - 90)
-    label = f"{title(name)} {before:.2f} → {after:.2f}"
-    return _text(middle, 22, label, "var(--mantine-color-text)", f'{MIDDLE} font-weight="600"')
+def _x(f: float) -> float:
+    return 30 + (f - LOW) / (HIGH - LOW) * (WIDTH - 50)
 
 
-def _x(frequency_hz: float) -> float:
-    low, high = LADDER_HZ
-    return 30 + (frequency_hz - low) / (high - low) * (WIDTH - 50)
+def _grid() -> str:
+    whole = range(int(LOW) + 1, int(HIGH))
+    lines = "".join(_line(_x(f), TOP, _x(f), BOTTOM, "var(--mv-soft)", 1) for f in whole)
+    labels = [f"{f} Hz" if f == whole[-1] else str(f) for f in whole]
+    texts = (_text(_x(f), BOTTOM + 25, t, DIM) for f, t in zip(whole, labels, strict=True))
+    return lines + "".join(texts)
 
 
-def _line(x1: float, y1: float, x2: float, y2: float, color: str, thickness: float) -> str:
+def _rail(rail: Rail) -> str:
+    color, thickness = (NOW, 2) if rail.strong else (BASE, 1)
+    dashes = ' stroke-dasharray="4 3"' if rail.weak else ""
+    return _line(_x(rail.before), TOP, _x(rail.after), BOTTOM, color, thickness, dashes)
+
+
+def _line(
+    x1: float, y1: float, x2: float, y2: float, color: str, thickness: float, more: str = ""
+) -> str:
     return (
         f'<line x1="{x1:.1f}" y1="{y1}" x2="{x2:.1f}" y2="{y2}" stroke="{color}" '
-        f'stroke-width="{thickness}"/>'
+        f'stroke-width="{thickness}"{more}/>'
     )
 
 
-def _text(x: float, y: float, label: str, color: str, style: str = MIDDLE) -> str:
-    return f'<text x="{x:.1f}" y="{y}" fill="{color}" font-size="11" {style}>{label}</text>'
-
-
-def _ladder_scale() -> str:
-    """A line and its number at every whole hertz, and what is above and below."""
-    first, last = int(LADDER_HZ[0]) + 1, int(LADDER_HZ[1]) - 1
-    lines = [_line(_x(f), TOP, _x(f), BOTTOM, "var(--mv-soft)", 1) for f in range(first, last + 1)]
-    numbers = [_text(_x(f), BOTTOM + 25, str(f), DIM) for f in range(first, last)]
-    unit = _text(_x(last), BOTTOM + 25, f"{last} Hz", DIM)
-    sides = _text(0, 14, "original", DIM, "") + _text(0, BOTTOM + 25, "now", STRONG, "")
-    return "".join(lines + numbers) + unit + sides
-
-
-LADDER_SCALE = _ladder_scale()
+def _text(at: float, y: float, label: str, color: str, style: str = "") -> str:
+    return (
+        f'<text x="{at:.1f}" y="{y}" text-anchor="middle" fill="{color}" font-size="11" {style}>'
+        f"{escape(label)}</text>"
+    )

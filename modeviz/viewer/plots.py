@@ -23,8 +23,7 @@ class PsdPlot:
 
     def __init__(self, gui: viser.GuiApi, frequency_hz: Floats, dark: bool, height: int = 130) -> None:
         """Draws an empty chart; `show` fills it."""
-        low, high = SHOWN_HZ
-        self._inside = slice(frequency_hz.searchsorted(low), frequency_hz.searchsorted(high, "right"))
+        self._inside = (frequency_hz >= SHOWN_HZ[0]) & (frequency_hz <= SHOWN_HZ[1])
         self._f = frequency_hz[self._inside]
         self._now_color = "#5aa9ea" if dark else "#2b7cc4"
         base_color = "#8a95a1" if dark else "#98a2ad"

@@ -10,7 +10,9 @@ import numpy as np
 
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.roles import unit_of_role
-from modeviz.tuning.check import Check, check_exactly
+from modeviz.dynamics.tracking import Track
+from modeviz.tuning.check import Check, ClassicError, check_exactly, classic_error
+from modeviz.tuning.following import accept, follow_rates
 from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import Conditions, Results, solve
 from modeviz.vehicle.arrays import Floats
@@ -43,6 +45,8 @@ class State:
     coloring: Coloring = "bodies"
     see_through: bool = True
     ghost: bool = True
+    classic: bool = False
+    """Whether the error of the classic method is shown beside."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +57,8 @@ class Solved:
     base: Results
     """With the vehicle's own rates, on the same road."""
     now: Results
+    track: Track
+    """Where the modes of `base` went."""
     mode: int
     """The shown mode, an index of `now.modes`."""
     shape: Floats
@@ -61,6 +67,8 @@ class Solved:
     """What the solve took."""
     check: Check | None
     """How far `now` is from the exact answer, as far as that is known."""
+    classic_error: ClassicError | None
+    """How far the classic method is off, if that is asked for."""
 
 
 class Session:
@@ -92,6 +100,7 @@ class Session:
         self._base: Results
         self._is_prepared = self._is_closed = False
         self._last: Solved | None = None
+        self._track: Track
         self._checked: Results | None = None
         self._check: Check | None = None
         self._worker: Worker[State] = Worker(self._answer, fail)
@@ -110,8 +119,9 @@ class Session:
         Raises:
             ModevizError: there is no answer on that road at that speed.
         """
+        conditions = self._state.conditions
         self._prepared = prepare(self.vehicle, progress=progress)
-        self._base = solve(self._prepared, {}, self._state.conditions)
+        self._base = solve(self._prepared, {}, conditions)
         with self._lock:
             self._is_prepared = True
             self._worker.submit(self._state)
@@ -161,11 +171,13 @@ class Session:
             now, seconds = last.now, last.seconds
         else:
             now = solve(self._prepared, state.rates, state.conditions)
+            self._lead_track_to(now)
             seconds = time.perf_counter() - begin
         mode = self._follow(now, state.mode)
         shape = self._in_phase(now.modes.shapes[:, mode])
         check = self._check if self._checked is now else None
-        self._last = Solved(state, base, now, mode, shape, seconds, check)
+        classic = classic_error(now) if state.classic else None
+        self._last = Solved(state, base, now, self._track, mode, shape, seconds, check, classic)
         self._show(self._last)
         if self._checked is not now:
             self._checked, self._check = now, None
@@ -175,6 +187,13 @@ class Session:
         if self._base.conditions != conditions:
             self._base = solve(self._prepared, {}, conditions)
         return self._base
+
+    def _lead_track_to(self, now: Results) -> None:
+        """Follows the base's modes on from the last answer, or anew where nothing has changed."""
+        if now.rates == self._base.rates or self._last is None:
+            self._track = follow_rates(accept(self._base), self._base, now)
+        else:
+            self._track = follow_rates(self._track, self._last.now, now)
 
     def _settle(self, solved: Solved) -> None:
         """Once nothing changes: makes the next drag cheap, and checks the answer bit by bit."""

@@ -15,16 +15,23 @@ from modeviz.viewer.html import (
     block,
     heading,
     row,
+    sentence_case,
     signed,
     span,
     table,
     title,
 )
-from modeviz.viewer.ladder import ladder
+from modeviz.viewer.ladder import Rail, ladder
 from modeviz.viewer.session import FREE_HZ, Session, Solved
 
 LISTED_HZ = (FREE_HZ, 21.0)
 """Above, the ride ends."""
+
+SAME_SHAPE = 0.8
+"""A shape of which a mode holds this much needs no further word."""
+
+N_PARTS, LEAST_PART = 3, 0.05
+"""How many modes that hold a part of a shape are named, and how large a part must be."""
 
 N_ROWS = 40
 BODY_COLORS = ("#c4704e", "#4a749e", "#5c8668", "#9499a0", "#5d656f", "#b59a5a", "#7d6b8f", "#8a8378")
@@ -56,9 +63,8 @@ class ModesPanel:
             row(self._cells(i, mode, now, before, moved[mode]), chosen=mode == solved.mode)
             for i, mode in enumerate(list(modes)[:N_ROWS])
         ]
-        drawing = ladder(before, after, now.names[solved.mode].name)
         listing = table(("Mode", "Hz", "Δ Hz", "ζ %", "moves most"), rows)
-        assign(self._content, content=block(drawing, listing))
+        assign(self._content, content=block(_ladder(solved), _old_shape(solved), listing))
 
     def _cells(
         self, i: int, mode: int, now: Results, before: dict[str, float], moved: str
@@ -66,7 +72,7 @@ class ModesPanel:
         name, f = now.names[mode].name, float(now.modes.frequency_hz[mode])
         change = f - before[name] if name in before else None
         return [
-            self._buttons.label(i, title(name)),
+            self._buttons.label(i, title(now.names[mode].spoken)),
             f"{f:.2f}",
             span("new" if change is None else signed(change, 2), "dim" if not change else ""),
             f"{100 * now.modes.damping_ratio[mode]:.1f}",
@@ -85,7 +91,7 @@ class EnergyPanel:
 
     def show(self, solved: Solved) -> None:
         """Draws the shares of an answer's shown mode."""
-        name = title(solved.now.names[solved.mode].name)
+        name = title(solved.now.names[solved.mode].spoken)
         content = block(
             heading(f"{name}: kinetic energy by body"),
             _kinetic(solved.now, solved.mode, self._labels),
@@ -93,6 +99,41 @@ class EnergyPanel:
             _strain(solved, self._groups),
         )
         assign(self._content, content=content)
+
+
+def _ladder(solved: Solved) -> str:
+    """The ladder of all modes, joined where the shapes of the original's modes went."""
+    base, now, track = solved.base, solved.now, solved.track
+    old = base.mode_index(now.names[solved.mode].name)
+    rails = [
+        Rail(float(f), float(track.frequency_hz[i]), bool(track.weak[i]), strong=i == old)
+        for i, f in enumerate(base.modes.frequency_hz)
+        if track.index[i] >= 0
+    ]
+    f = now.modes.frequency_hz[solved.mode]
+    was = "" if old is None else f" {base.modes.frequency_hz[old]:.2f} →"
+    return ladder(
+        base.modes.frequency_hz.tolist(),
+        now.modes.frequency_hz.tolist(),
+        rails,
+        solved.mode,
+        f"{sentence_case(now.names[solved.mode].spoken)}{was} {f:.2f}",
+    )
+
+
+def _old_shape(solved: Solved) -> str:
+    """What became of the shape that had the shown mode's name, where it is no longer that mode."""
+    name = solved.now.names[solved.mode].name
+    old = solved.base.mode_index(name)
+    if old is None or solved.track.shares[old, solved.mode] > SAME_SHAPE:
+        return ""
+    modes, names = solved.now.modes, solved.now.names
+    parts = [
+        f"{100 * share:.0f} % in {escape(names[i].spoken)} {modes.frequency_hz[i]:.2f} Hz"
+        for i, share in solved.track.split(old, N_PARTS)
+        if share > LEAST_PART
+    ]
+    return f'<div class="dim">The original {escape(name)} has gone: {", ".join(parts)}</div>'
 
 
 def listed(results: Results) -> dict[int, tuple[ModeName, float]]:

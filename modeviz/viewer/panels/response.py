@@ -9,7 +9,8 @@ import viser
 
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import rms
-from modeviz.tuning.results import AXIS, FREQUENCY_HZ, Conditions, Results
+from modeviz.tuning.preparation import FREQUENCY_HZ
+from modeviz.tuning.results import AXIS, Conditions, Results
 from modeviz.units import factor
 from modeviz.vehicle.loads import Road
 from modeviz.viewer.assign import assign

@@ -16,7 +16,7 @@ TIMEOUT = 60.0
 
 
 class ViewPanel:
-    """Camera presets, colours, see-through and ghost."""
+    """Camera presets, colours, see-through, ghost, and the error of the classic method."""
 
     def __init__(
         self, gui: viser.GuiApi, session: Session, look: Callable[[viser.ClientHandle, str], None]
@@ -47,6 +47,12 @@ class ViewPanel:
             "Undeformed", session.state.ghost, hint="Outlines of the truck at rest"
         )
         ghost.on_update(lambda _: session.change(ghost=ghost.value))
+        classic = gui.add_checkbox(
+            "Classic error",
+            session.state.classic,
+            hint="How far the paper's equation, on the original modes alone, is off; see below",
+        )
+        classic.on_update(lambda _: session.change(classic=classic.value))
 
 
 class PicturePanel:

@@ -1,0 +1,81 @@
+"""Left column, foot: how long an answer took, and how far it can be trusted."""
+
+import viser
+
+from modeviz.tuning.check import Check
+from modeviz.tuning.results import Results
+from modeviz.viewer.assign import assign
+from modeviz.viewer.html import block, heading, span, title
+from modeviz.viewer.session import Solved
+
+LEAST_SHOWN = 1e-9
+"""Smaller errors are shown as this."""
+
+
+class StatusPanel:
+    """Progress while the vehicle is prepared, then time, health and check of every answer."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        """Makes room."""
+        self._content = gui.add_html("")
+
+    def show_progress(self, fraction: float) -> None:
+        """Says how far the preparation is."""
+        bar = f'<div class="bar"><i style="width:{fraction:.0%};background:var(--mv-now)"></i></div>'
+        assign(self._content, content=block(heading("Preparing", f"{fraction:.0%}"), bar))
+
+    def show(self, solved: Solved) -> None:
+        """Says how an answer came about and how good it is."""
+        lines = [_found(solved.now), _checked(solved.check)]
+        if solved.state.classic:
+            lines.append(_classic(solved))
+        text = "<br>".join(lines)
+        assign(self._content, content=block(_solved(solved), f'<div class="dim">{text}</div>'))
+
+
+def _solved(solved: Solved) -> str:
+    color = "--mv-bad" if solved.now.trust.n_missed else "--mv-good"
+    dot = f'<i class="swatch" style="background:var({color});border-radius:50%"></i>'
+    milliseconds = 1000 * solved.seconds
+    return heading(f"{dot}Solved", f"{milliseconds:.{0 if milliseconds >= 10 else 1}f} ms")
+
+
+def _found(now: Results) -> str:
+    """What is known without another solve."""
+    modes, trust = now.modes, now.trust
+    band = f"{len(modes.frequency_hz)} modes below {now.prepared.basis.top_hz:.0f} Hz"
+    if trust.n_missed:
+        return span(f"{band}, {trust.n_missed} not found", "bad")
+    worst = float(trust.frequency_error_hz.max(initial=0.0))
+    return f"{band}, none missed, each within {_rounded(worst)} Hz"
+
+
+def _checked(check: Check | None) -> str:
+    """What the exact solve says."""
+    if check is None:
+        return "exact solve follows"
+    progress = "" if check.is_complete else f", {check.n_lines} of {check.n_freqs} lines so far"
+    return f"within {_percent(check.error)} of exact{progress}"
+
+
+def _classic(solved: Solved) -> str:
+    """What the classic method would say."""
+    classic = solved.classic_error
+    if classic is None:
+        return ""
+    name = title(solved.now.names[classic.mode].spoken)
+    true = solved.now.modes.frequency_hz[classic.mode]
+    return (
+        f"classic: up to {_percent(classic.error)} off ({name} "
+        f"{classic.frequency_hz:.2f} instead of {true:.2f} Hz)"
+    )
+
+
+def _percent(error: float) -> str:
+    return f"{_rounded(100 * error)} %"
+
+
+def _rounded(value: float) -> str:
+    """One significant digit without an exponent, two from one up, at least `LEAST_SHOWN`."""
+    digits = f"{value:.1e}" if value >= 1 else f"{max(value, LEAST_SHOWN):.0e}"
+    return f"{float(digits):.10f}".rstrip("0").rstrip(".")
