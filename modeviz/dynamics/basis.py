@@ -71,7 +71,7 @@ class EnrichedBasis:
     top_receptance: Floats
     """R(K - ω²M)⁻¹Rᵀ undamped, at the top of the band, (n_springs, n_springs)."""
     n_below: int
-    """How many base modes are in the band."""
+    """How many modes the base has in the band, counted without solving for them."""
 
     @property
     def mount_stiffness(self) -> Complexes:
@@ -140,7 +140,7 @@ def prepare_basis(system: System, top_hz: float = TOP_HZ) -> EnrichedBasis:
         remainder_compliance=Q.T
         @ scipy.linalg.solve(K_L + shift * np.eye(len(K_L)), Q, assume_a="pos"),
         top_receptance=R @ at_top,
-        n_below=int((base.omega_n_squared < top).sum()),
+        n_below=_n_negative(system.stiffness - top * system.mass),
     )
 
 
@@ -311,6 +311,12 @@ def _whitened(A: Floats, L: Floats) -> Floats:
     """L⁻¹AL⁻ᵀ of a symmetric A."""
     half = scipy.linalg.solve_triangular(L, A, lower=True)
     return scipy.linalg.solve_triangular(L, half.T, lower=True)
+
+
+def _n_negative(A: Floats) -> int:
+    """How many eigenvalues of a symmetric matrix are negative: as many as of D in A = LDLᵀ."""
+    D = scipy.linalg.ldl(A)[1]
+    return int((scipy.linalg.eigvalsh_tridiagonal(np.diag(D), np.diag(D, 1)) < 0).sum())
 
 
 def _clear_of(omega_squared: Floats, top: float) -> float:

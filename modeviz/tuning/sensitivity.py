@@ -3,6 +3,7 @@
 from dataclasses import dataclass, fields
 
 import numpy as np
+import scipy.linalg
 
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.ride.psd import acceleration_psd, mean_square, rms
@@ -31,16 +32,12 @@ def rate_variables(vehicle: Vehicle) -> tuple[RateVariable, ...]:
 
 def spring_shares(vehicle: Vehicle) -> Complexes:
     """∂(spring rate)/∂(rate), (n_springs, n_variables): 1 + jg where a spring has that rate."""
-    local = MountRates(2, 1, 0).local()  # which of a group's variables the local x, y, z have
-    n_springs = 3 * len(vehicle.mounts)
-    shares = np.zeros((n_springs, 3 * len(vehicle.mount_groups)), complex)
-    spring = 0
-    for i, group in enumerate(vehicle.mount_groups):
-        for _ in group.mounts:
-            for variable in local:
-                shares[spring, 3 * i + int(variable)] = 1 + 1j * group.loss_factor
-                spring += 1
-    return shares
+    of_mount = np.transpose([MountRates(*unit).local() for unit in np.eye(3)])
+    per_group = [
+        np.tile((1 + 1j * group.loss_factor) * of_mount, (len(group.mounts), 1))
+        for group in vehicle.mount_groups
+    ]
+    return scipy.linalg.block_diag(np.zeros((0, 0), complex), *per_group)
 
 
 def frequency_sensitivity(results: ModalResults) -> Floats:
