@@ -3,11 +3,15 @@
 import io
 import json
 import re
+from contextlib import suppress
 
 import numpy as np
 import pytest
+import viser
 from pages import wait_for, wait_until
 from PIL import Image
+from websockets.sync.client import connect
+from websockets.typing import Origin, Subprotocol
 
 from modeviz.cli import main
 from modeviz.tuning.preparation import FREQUENCY_HZ, prepare_modes
@@ -223,6 +227,33 @@ def test_another_road_is_solved(page, capsys):
     record = printed(capsys, "psd", "--road", "road 2")
     wait_for(page, f"{CHARTS}.length === 2")
     np.testing.assert_allclose(page.evaluate(CURRENT)[0], chart_db(record, "lateral"), atol=1e-6)
+
+
+def drained(socket):
+    """What has come through a websocket until it is quiet for a second."""
+    messages = []
+    with suppress(TimeoutError):
+        while True:
+            messages.append(socket.recv(timeout=1.0))
+    return messages
+
+
+def test_a_move_of_a_slider_sends_its_shape_once_and_less_than_200_kb(app, server):
+    address = f"127.0.0.1:{server.get_port()}"
+    with connect(
+        f"ws://{address}",
+        origin=Origin(f"http://{address}"),
+        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        max_size=None,
+        max_queue=None,
+        ping_interval=None,
+    ) as socket:
+        drained(socket)
+        app.session.set_rate("C2", "lateral", 250e3)
+        assert app.session.wait(SOLVE_S)
+        sent = sum(map(len, drained(socket)))
+    shape = 6 * sum(len(s.vertices) for s in app._scene._surfaces.values())
+    assert shape < sent < min(2 * shape, 200_000)
 
 
 def test_the_motion_plays_and_stops_with_a_click(app, page):
