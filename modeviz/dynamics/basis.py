@@ -316,7 +316,8 @@ def _whitened(A: Floats, L: Floats) -> Floats:
 def _n_negative(A: Floats) -> int:
     """How many eigenvalues of a symmetric matrix are negative: as many as of D in A = LDLᵀ."""
     D = scipy.linalg.ldl(A)[1]
-    return int((scipy.linalg.eigvalsh_tridiagonal(np.diag(D), np.diag(D, 1)) < 0).sum())
+    eigenvalues = np.asarray(scipy.linalg.eigvalsh_tridiagonal(np.diag(D), np.diag(D, 1)))
+    return int((eigenvalues < 0).sum())
 
 
 def _clear_of(omega_squared: Floats, top: float) -> float:

@@ -37,7 +37,7 @@ def spring_shares(vehicle: Vehicle) -> Complexes:
         np.tile((1 + 1j * group.loss_factor) * of_mount, (len(group.mounts), 1))
         for group in vehicle.mount_groups
     ]
-    return scipy.linalg.block_diag(np.zeros((0, 0), complex), *per_group)
+    return np.asarray(scipy.linalg.block_diag(np.zeros((0, 0)), *per_group), complex)
 
 
 def frequency_sensitivity(results: ModalResults) -> Floats:
