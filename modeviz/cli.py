@@ -14,9 +14,10 @@ from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record, modes_record, psd_record, wheels_record
 from modeviz.export.tables import modes_table, psd_table, wheels_table
 from modeviz.ride.roads import road_spectrum
+from modeviz.tuning.following import solve_followed
 from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare, prepare_modes
 from modeviz.tuning.rates import resolve_rates
-from modeviz.tuning.results import Conditions, solve, solve_modal, solve_wheels
+from modeviz.tuning.results import Conditions, solve, solve_wheels
 from modeviz.units import parse
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
@@ -164,11 +165,11 @@ def _modes(options: argparse.Namespace) -> None:
         raise ModevizError(f"--below: found {options.below:g} Hz, expected more than zero")
     vehicle, rates = _vehicle_and_rates(options)
     prepared = prepare_modes(vehicle, max(options.below, TOP_HZ))
-    results = solve_modal(prepared, rates, options.method)
+    followed = solve_followed(prepared, rates, options.method)
     if options.json:
-        _print_json(modes_record(results, options.below))
+        _print_json(modes_record(followed, options.below))
     else:
-        print(modes_table(results, options.below))
+        print(modes_table(followed, options.below))
 
 
 def _psd(options: argparse.Namespace) -> None:

@@ -35,13 +35,15 @@ def test_modes_prints_a_table(capsys, folder):
 
 def test_modes_json_has_its_documented_structure(capsys, folder):
     record = printed_json(capsys, "modes", folder, "--json", "--below", "60")
-    assert set(record) == {"vehicle", "rates", "modes"}
+    assert set(record) == {"vehicle", "rates", "n_missed", "modes", "original"}
+    assert record["n_missed"] == 0
     assert record["vehicle"] == "cabin"
     assert record["rates"]["A"] == {"vertical": 800.0, "lateral": 300.0, "fore_aft": 400.0}
     for number, mode in enumerate(record["modes"], start=1):
         assert mode["number"] == number
         assert set(mode) == {
-            "number", "frequency_hz", "damping_ratio", "name", "kinetic_energy", "strain_energy",
+            "number", "frequency_hz", "frequency_error_hz", "damping_ratio", "name", "name_score",
+            "kinetic_energy", "strain_energy",
         }  # fmt: skip
         assert sum(mode["kinetic_energy"].values()) == pytest.approx(1.0)
         assert sum(mode["strain_energy"].values()) == pytest.approx(1.0)

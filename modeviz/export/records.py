@@ -4,7 +4,10 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
+import numpy as np
+
 from modeviz.ride.psd import amplitude_decibels
+from modeviz.tuning.following import Followed
 from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
@@ -22,25 +25,52 @@ def rates_record(vehicle: Vehicle) -> Record:
     }
 
 
-def modes_record(results: ModalResults, below_hz: float) -> Record:
-    """The modes below a frequency.
+def modes_record(followed: Followed, below_hz: float) -> Record:
+    """The modes below a frequency, and where those with the vehicle's own rates went.
 
-    `{"vehicle", "rates": see rates_record, "modes": [{"number", "frequency_hz", "damping_ratio",
-    "name", "kinetic_energy": {body: share}, "strain_energy": {body or connection group: share}}]}`.
+    `{"vehicle", "rates": see rates_record, "n_missed", "modes": [{"number", "frequency_hz",
+    "frequency_error_hz", "damping_ratio", "name", "name_score", "kinetic_energy": {body: share},
+    "strain_energy": {body or connection group: share}}], "original": [{"number", "frequency_hz",
+    "name", "now": number or null, "mac", "weak", "parts": [{"number", "share"}]}]}`.
     """
-    modes = [
-        {
-            "number": i + 1,
-            "frequency_hz": float(f),
-            "damping_ratio": float(results.modes.damping_ratio[i]),
-            "name": results.names[i].name,
-            "kinetic_energy": _shares(results.kinetic_energy, i),
-            "strain_energy": _shares(results.strain_energy, i),
-        }
-        for i, f in enumerate(results.modes.frequency_hz)
-        if f < below_hz
-    ]
-    return {"vehicle": results.vehicle.name, "rates": rates_record(results.vehicle), "modes": modes}
+    results = followed.now
+    return {
+        "vehicle": results.vehicle.name,
+        "rates": rates_record(results.vehicle),
+        "n_missed": results.trust.n_missed,
+        "modes": [_mode_record(results, i) for i in _below(results, below_hz)],
+        "original": [_origin_record(followed, i) for i in _below(followed.base, below_hz)],
+    }
+
+
+def _below(results: ModalResults, below_hz: float) -> list[int]:
+    return np.flatnonzero(results.modes.frequency_hz < below_hz).tolist()
+
+
+def _mode_record(results: ModalResults, i: int) -> Record:
+    return {
+        "number": i + 1,
+        "frequency_hz": float(results.modes.frequency_hz[i]),
+        "frequency_error_hz": float(results.trust.frequency_error_hz[i]),
+        "damping_ratio": float(results.modes.damping_ratio[i]),
+        "name": results.names[i].name,
+        "name_score": results.names[i].score,
+        "kinetic_energy": _shares(results.kinetic_energy, i),
+        "strain_energy": _shares(results.strain_energy, i),
+    }
+
+
+def _origin_record(followed: Followed, i: int) -> Record:
+    base, track = followed.base, followed.track
+    return {
+        "number": i + 1,
+        "frequency_hz": float(base.modes.frequency_hz[i]),
+        "name": base.names[i].name,
+        "now": int(track.index[i]) + 1 if track.index[i] >= 0 else None,
+        "mac": float(track.mac[i]),
+        "weak": bool(track.weak[i]),
+        "parts": [{"number": n + 1, "share": share} for n, share in track.split(i)],
+    }
 
 
 def psd_record(results: Results) -> Record:

@@ -4,8 +4,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import amplitude_decibels, power_decibels
+from modeviz.tuning.following import Followed
 from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.vehicle import Vehicle
@@ -27,20 +29,47 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join([lines[0], "-" * len(lines[0]), *lines[1:]])
 
 
-def modes_table(results: ModalResults, below_hz: float) -> str:
-    """Number, name, frequency, damping, what moves and what is strained most, of each mode."""
+def modes_table(followed: Followed, below_hz: float) -> str:
+    """Name, frequency, damping, what moves and is strained most, and where each mode came from.
+
+    A "~" marks a name that fits weakly, or a shape that is only in part the one it came from.
+    """
+    results = followed.now
     rows = [
         [
-            f"{i + 1:3d}  {results.names[i].name}",
+            f"{i + 1:3d}  {results.names[i].spoken}",
             f"{f:.2f}",
             f"{100 * results.modes.damping_ratio[i]:.1f}",
             _largest(results.kinetic_energy, i),
             _largest(results.strain_energy, i),
+            _came_from(followed, i),
         ]
         for i, f in enumerate(results.modes.frequency_hz)
         if f < below_hz
     ]
-    return table(["  #  mode", "Hz", "damping %", "moves most", "strained most"], rows)
+    header = ["  #  mode", "Hz", "damping %", "moves most", "strained most", "was originally"]
+    return f"{table(header, rows)}\n\n{_health(results)}"
+
+
+def _came_from(followed: Followed, mode: int) -> str:
+    """Name and frequency of the mode with the vehicle's own rates that has become this one."""
+    origin = followed.origin(mode)
+    if origin is None:
+        return "-"
+    mark = "~" if followed.track.weak[origin] else ""
+    base = followed.base
+    return f"{mark}{base.names[origin].name} {base.modes.frequency_hz[origin]:.2f}"
+
+
+def _health(results: ModalResults) -> str:
+    """Whether a mode may be missing, and how exact those found are."""
+    f, trust = results.modes.frequency_hz, results.trust
+    missed = f"{trust.n_missed} missed" if trust.n_missed else "none missed"
+    worst = float(trust.frequency_error_hz[f > RESOLVED_HZ].max(initial=0.0))
+    return (
+        f"{len(f)} modes below {results.prepared.basis.top_hz:.0f} Hz, {missed}; "
+        f"natural frequencies within {worst:.0e} Hz of exact"
+    )
 
 
 def psd_table(results: Results) -> str:
@@ -112,4 +141,4 @@ def _largest(energy: Mapping[str, Floats], mode: int) -> str:
 
 
 def _modes_in(results: Results, peak: Peak) -> str:
-    return ", ".join(f"{results.names[c.mode].name} {c.ratio:.2f}" for c in peak.contributors)
+    return ", ".join(f"{results.names[c.mode].spoken} {c.ratio:.2f}" for c in peak.contributors)

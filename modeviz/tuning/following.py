@@ -1,15 +1,43 @@
 """Where the modes of an accepted set of rates go when rates move."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from modeviz.dynamics.basis import band_modes
+from modeviz.dynamics.basis import Method, band_modes
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.tracking import Track, follow, start_track
-from modeviz.tuning.results import ModalResults
+from modeviz.tuning.preparation import PreparedModes
+from modeviz.tuning.results import ModalResults, solve_modal
 from modeviz.vehicle.arrays import Complexes
+from modeviz.vehicle.connections import Rates
 
 FOLLOWED_HZ = 25.0
 """Modes below are followed in steps as small as their shapes need; above, mounts do little."""
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """The modes with the vehicle's own rates, those with other rates, and where the former went."""
+
+    base: ModalResults
+    now: ModalResults
+    track: Track
+    """From the modes of `base` to those of `now`."""
+
+    def origin(self, mode: int) -> int | None:
+        """Which mode of `base` has become this one of `now`; None if none has."""
+        before = np.flatnonzero(self.track.index == mode)
+        return int(before[0]) if before.size else None
+
+
+def solve_followed(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> Followed:
+    """The modes with other mount rates, and how they came from those with the vehicle's own.
+
+    Arguments and errors as `tuning.results.solve_modal`.
+    """
+    base, now = (solve_modal(prepared, r, method) for r in ({}, rates))
+    return Followed(base, now, follow_rates(accept(base), base, now))
 
 
 def accept(results: ModalResults) -> Track:

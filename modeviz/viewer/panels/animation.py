@@ -70,7 +70,7 @@ class AnimationCard:
     def show(self, solved: Solved) -> None:
         """Names an answer's shown mode."""
         modes, i = solved.now.modes, solved.mode
-        name = title(solved.now.names[i].name)
+        name = title(solved.now.names[i].spoken)
         mode = f'<span class="title">{name}  {modes.frequency_hz[i]:.2f} Hz</span>'
         about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
         scale = _color_scale() if solved.state.coloring == "displacement" else ""

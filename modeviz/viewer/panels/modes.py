@@ -129,11 +129,11 @@ def _old_shape(solved: Solved) -> str:
         return ""
     modes, names = solved.now.modes, solved.now.names
     parts = [
-        f"{100 * share:.0f} % in {escape(names[i].spoken)} {modes.frequency_hz[i]:.2f} Hz"
+        f"{100 * share:.0f} % {escape(names[i].spoken)} {modes.frequency_hz[i]:.2f} Hz"
         for i, share in solved.track.split(old, N_PARTS)
         if share > LEAST_PART
     ]
-    return f'<div class="dim">The original {escape(name)} has gone: {", ".join(parts)}</div>'
+    return f'<div class="dim">The original\'s {escape(name)} is now {", ".join(parts)}</div>'
 
 
 def listed(results: Results) -> dict[int, tuple[ModeName, float]]:

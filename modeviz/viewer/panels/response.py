@@ -97,12 +97,12 @@ class PeakRow:
         assign(self._buttons, visible=peak is not None)
         if peak is None:
             return
-        names = [now.names[c.mode].name for c in peak.contributors]
+        names = [now.names[c.mode] for c in peak.contributors]
         texts = [
-            f"{sentence_case(name)} {c.ratio:.2f}"
+            f"{sentence_case(name.spoken)} {c.ratio:.2f}"
             for name, c in zip(names, peak.contributors, strict=True)
         ]
-        self._modes = dict(zip(texts, names, strict=True))
+        self._modes = {text: name.name for text, name in zip(texts, names, strict=True)}
         label = f"{SHORT[direction]} {peak.frequency_hz:.1f} Hz"
         assign(self._buttons, label=label, options=tuple(texts))
 

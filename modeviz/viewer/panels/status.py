@@ -2,6 +2,7 @@
 
 import viser
 
+from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.tuning.check import Check
 from modeviz.tuning.results import Results
 from modeviz.viewer.assign import assign
@@ -46,7 +47,8 @@ def _found(now: Results) -> str:
     band = f"{len(modes.frequency_hz)} modes below {now.prepared.basis.top_hz:.0f} Hz"
     if trust.n_missed:
         return span(f"{band}, {trust.n_missed} not found", "bad")
-    worst = float(trust.frequency_error_hz.max(initial=0.0))
+    moves = modes.frequency_hz > RESOLVED_HZ
+    worst = float(trust.frequency_error_hz[moves].max(initial=0.0))
     return f"{band}, none missed, each within {_rounded(worst)} Hz"
 
 
