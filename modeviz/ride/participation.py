@@ -43,7 +43,7 @@ def participation(output_shapes: Floats, modal_coordinates: Complexes, input_psd
         input_psd: S_ff, (n_freqs, n_inputs, n_inputs).
     """
     q = modal_coordinates
-    own = np.einsum("fri,fij,frj->fr", q, input_psd, q.conj(), optimize=True).real
+    own = ((q @ input_psd) * q.conj()).sum(axis=2).real
     return np.abs(output_shapes) * np.sqrt(np.maximum(own, 0.0))
 
 
@@ -83,7 +83,8 @@ def peak_lines(psd: Floats) -> list[int]:
 def _prominence(level: Floats, peak: int) -> float:
     """How far a peak stands above the higher of the dips to its sides, each up to higher ground."""
     higher = np.flatnonzero(level > level[peak])
-    start = max(higher[higher < peak], default=0)
-    end = min(higher[higher > peak], default=len(level))
+    after = int(np.searchsorted(higher, peak))
+    start = higher[after - 1] if after else 0
+    end = higher[after] if after < len(higher) else len(level)
     dips = level[start:peak].min(), level[peak:end].min()
     return float(level[peak] - max(dips))

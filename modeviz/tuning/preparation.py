@@ -2,8 +2,10 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.basis import TOP_HZ, EnrichedBasis, prepare_basis
@@ -53,11 +55,20 @@ class PreparedModes:
     def mount_stiffness(self, rates: Rates) -> Complexes:
         """Complex rates k (1 + jg) of every mount spring, (n_springs,), N/m; raises as `all_rates`."""
         every = self.all_rates(rates)
-        per_group = [
-            np.tile(np.multiply(every[g.name].local(), 1 + 1j * g.loss_factor), len(g.mounts))
-            for g in self.vehicle.mount_groups
-        ]
-        return np.concatenate([np.zeros(0, complex), *per_group])
+        of_groups = np.array([every[g.name].local() for g in self.vehicle.mount_groups]).reshape(-1, 3)
+        return (of_groups[self._groups] * self._loss[:, None]).ravel()
+
+    @cached_property
+    def _groups(self) -> NDArray[np.intp]:
+        """The number of each mount's group, (n_mounts,)."""
+        groups = self.vehicle.mount_groups
+        return np.repeat(np.arange(len(groups)), [len(g.mounts) for g in groups])
+
+    @cached_property
+    def _loss(self) -> Complexes:
+        """1 + jg of each mount, (n_mounts,)."""
+        factors = np.array([g.loss_factor for g in self.vehicle.mount_groups])
+        return 1 + 1j * factors[self._groups]
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,16 +1,18 @@
 """One solve for screen, report and command line."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.basis import BandModes, Method, band_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.naming import ModeName, name_modes
+from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.response import modal_coordinates
 from modeviz.dynamics.trust import Trust
 from modeviz.ride.participation import Peak, participation, peak_lines, peaks
@@ -35,6 +37,20 @@ class Conditions:
     road: str
     speed: float
     """m/s."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """A prepared vehicle on a road: all of a ride that does not depend on mount rates."""
+
+    prepared: Prepared
+    conditions: Conditions
+    receptances: Receptances
+    """Of every output, per unit displacement of the left and the right track."""
+    amplitudes: Complexes
+    """(n_freqs, 3 n_tyres, 2), see `track_amplitudes`."""
+    spectrum: Complexes
+    """(n_freqs, 2, 2), m²/Hz: of the tracks."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,9 +106,13 @@ class Results(ModalResults):
     """A vehicle's modes, and its ride on one road."""
 
     prepared: Prepared
-    conditions: Conditions
+    drive: Drive
     psd: Floats
     """(n_freqs, n_points, 3): acceleration x, y, z of each response point, g²/Hz."""
+
+    @property
+    def conditions(self) -> Conditions:
+        return self.drive.conditions
 
     @property
     def frequency_hz(self) -> Floats:
@@ -113,31 +133,37 @@ class Results(ModalResults):
         """Acceleration PSD of a response point along one of `DIRECTIONS`, (n_freqs,), g²/Hz."""
         return self.psd[:, point, AXIS[direction]]
 
-    def peaks(self, point: int, direction: str, count: int = 3) -> tuple[Peak, ...]:
-        """The peaks of that response with the modes of the band that make them, the largest first."""
-        psd = self.response(point, direction)
-        lines = peak_lines(psd)
-        f = self.frequency_hz[lines]
-        output = self.prepared.outputs[3 * point + AXIS[direction]] @ self.modes.shapes
-        parts = participation(output, self._modal_coordinates(f), self._spectrum(f))
-        return peaks(f, psd[lines], parts, count)
+    def peak_lines(self, point: int, direction: str) -> list[int]:
+        """Where that response has its peaks, numbers of frequencies."""
+        return peak_lines(self.response(point, direction))
 
-    def _modal_coordinates(self, frequency_hz: Floats) -> Complexes:
-        """How much of each mode the two tracks make, (n_freqs, n_modes, 2)."""
+    def peaks(
+        self, point: int, direction: str, count: int = 3, lines: Sequence[int] | None = None
+    ) -> tuple[Peak, ...]:
+        """Peaks of that response with the `count` modes of the band that make most of each.
+
+        Args:
+            point: number of the response point.
+            direction: one of `DIRECTIONS`.
+            count: how many modes to name.
+            lines: which peaks, all of `peak_lines` if None.
+        """
+        at = np.asarray(self.peak_lines(point, direction) if lines is None else lines, int)
+        output = self.prepared.outputs[3 * point + AXIS[direction]] @ self.modes.shapes
+        parts = participation(output, self._modal_coordinates(at), self.drive.spectrum[at])
+        return peaks(self.frequency_hz[at], self.response(point, direction)[at], parts, count)
+
+    def _modal_coordinates(self, lines: NDArray[np.intp]) -> Complexes:
+        """How much of each mode the two tracks make, (n_lines, n_modes, 2)."""
         prepared, band = self.prepared, self.band
         along = prepared.input_directions[prepared.tyre_inputs] @ band.modes.shapes
-        amplitudes = track_amplitudes(prepared.vehicle, frequency_hz, self.conditions.speed)
         return modal_coordinates(
             band.modes.omega_n_squared,
             band.damping,
             band.structural_damping,
-            frequency_hz,
-            along.T @ amplitudes,
+            self.frequency_hz[lines],
+            along.T @ self.drive.amplitudes[lines],
         )
-
-    def _spectrum(self, frequency_hz: Floats) -> Complexes:
-        road = self.prepared.vehicle.road(self.conditions.road)
-        return road_spectrum(road, frequency_hz, self.conditions.speed)
 
 
 def solve_modal(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> ModalResults:
@@ -172,14 +198,26 @@ def solve(
         VehicleError: a group or a road that the vehicle does not have.
         SolveError: with these rates an undamped resonance lies on a frequency.
     """
-    modal = solve_modal(prepared, rates, method)
+    return solve_on(drive(prepared, conditions), rates, method)
+
+
+def drive(prepared: Prepared, conditions: Conditions) -> Drive:
+    """A prepared vehicle on a road; for several sets of rates with `solve_on`. Raises as `solve`."""
     f = prepared.frequency_hz
     spectrum = road_spectrum(prepared.vehicle.road(conditions.road), f, conditions.speed)
     amplitudes = track_amplitudes(prepared.vehicle, f, conditions.speed)
     driven = prepared.receptances.driven(amplitudes, prepared.tyre_inputs)
-    H = driven.response(prepared.mount_stiffness(rates))
-    psd = acceleration_psd(f, H, spectrum).reshape(len(f), -1, 3)
-    return Results(prepared, modal.rates, modal.band, modal.names, conditions, psd)
+    return Drive(prepared, conditions, driven, amplitudes, spectrum)
+
+
+def solve_on(drive: Drive, rates: Rates, method: Method = "enriched") -> Results:
+    """Modes and ride on a road with other mount rates; arguments and errors as `solve`."""
+    prepared = drive.prepared
+    modal = solve_modal(prepared, rates, method)
+    H = drive.receptances.response(prepared.mount_stiffness(rates))
+    f = prepared.frequency_hz
+    psd = acceleration_psd(f, H, drive.spectrum).reshape(len(f), H.shape[1] // 3, 3)
+    return Results(prepared, modal.rates, modal.band, modal.names, drive, psd)
 
 
 @dataclass(frozen=True, eq=False)

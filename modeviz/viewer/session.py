@@ -14,7 +14,7 @@ from modeviz.dynamics.tracking import Track
 from modeviz.tuning.check import Check, ClassicError, check_exactly, classic_error
 from modeviz.tuning.following import accept, follow_rates
 from modeviz.tuning.preparation import Prepared, prepare
-from modeviz.tuning.results import Conditions, Results, solve
+from modeviz.tuning.results import Conditions, Drive, Results, drive, solve_on
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -97,6 +97,7 @@ class Session:
         self._lock = threading.Lock()
         self._state = state
         self._prepared: Prepared
+        self._drive: Drive
         self._base: Results
         self._is_prepared = self._is_closed = False
         self._last: Solved | None = None
@@ -121,7 +122,8 @@ class Session:
         """
         conditions = self._state.conditions
         self._prepared = prepare(self.vehicle, progress=progress)
-        self._base = solve(self._prepared, {}, conditions)
+        self._drive = drive(self._prepared, conditions)
+        self._base = solve_on(self._drive, {})
         with self._lock:
             self._is_prepared = True
             self._worker.submit(self._state)
@@ -170,7 +172,7 @@ class Session:
         if last and _asks_for_the_same(last.state, state):
             now, seconds = last.now, last.seconds
         else:
-            now = solve(self._prepared, state.rates, state.conditions)
+            now = solve_on(self._drive_on(state.conditions), state.rates)
             self._lead_track_to(now)
             seconds = time.perf_counter() - begin
         mode = self._follow(now, state.mode)
@@ -185,8 +187,13 @@ class Session:
 
     def _solve_base(self, conditions: Conditions) -> Results:
         if self._base.conditions != conditions:
-            self._base = solve(self._prepared, {}, conditions)
+            self._base = solve_on(self._drive_on(conditions), {})
         return self._base
+
+    def _drive_on(self, conditions: Conditions) -> Drive:
+        if self._drive.conditions != conditions:
+            self._drive = drive(self._prepared, conditions)
+        return self._drive
 
     def _lead_track_to(self, now: Results) -> None:
         """Follows the base's modes on from the last answer, or anew where nothing has changed."""
@@ -200,6 +207,7 @@ class Session:
         if not self._comes_to_rest(solved):
             return
         self._prepared = self._prepared.near(solved.state.rates)
+        self._drive = drive(self._prepared, solved.state.conditions)
         told = 0.0
         for check in check_exactly(solved.now):
             if not self._is_current(solved):

@@ -66,7 +66,7 @@ class ResponsePanel:
             self._base, self._base_band_rms = base, _band_rms(base)
         assign(self._figures, content=block(_figures(base, self._base_band_rms, now)))
         for direction in DIRECTIONS:
-            shown = strongest(now.peaks(DRIVER, direction, N_CONTRIBUTORS))
+            shown = now.peaks(DRIVER, direction, N_CONTRIBUTORS, strongest(now, direction))
             assign(self._headings[direction], content=block(_heading(self._point, direction, now)))
             self._plots[direction].show(
                 base.response(DRIVER, direction),
@@ -169,14 +169,15 @@ def _speed_limits(roads: Sequence[Road]) -> tuple[int, int]:
     return max(math.ceil(slowest / per_kmh), SPEEDS[0]), min(math.floor(fastest / per_kmh), SPEEDS[1])
 
 
-def strongest(peaks: tuple[Peak, ...]) -> list[Peak]:
-    """The `N_PEAKS` highest peaks of the ride band that stand apart, in rising frequency."""
-    chosen: list[Peak] = []
-    for peak in sorted(peaks, key=lambda p: -p.psd):
-        apart = all(abs(peak.frequency_hz - c.frequency_hz) > PEAK_GAP_HZ for c in chosen)
-        if PEAK_BAND[0] <= peak.frequency_hz <= PEAK_BAND[1] and apart:
-            chosen.append(peak)
-    return sorted(chosen[:N_PEAKS], key=lambda p: p.frequency_hz)
+def strongest(results: Results, direction: str) -> list[int]:
+    """The lines of the `N_PEAKS` highest peaks of the ride band that stand apart, rising."""
+    f, psd = results.frequency_hz, results.response(DRIVER, direction)
+    lines = [i for i in results.peak_lines(DRIVER, direction) if PEAK_BAND[0] <= f[i] <= PEAK_BAND[1]]
+    chosen: list[int] = []
+    for line in sorted(lines, key=lambda i: -psd[i]):
+        if all(abs(f[line] - f[other]) > PEAK_GAP_HZ for other in chosen):
+            chosen.append(line)
+    return sorted(chosen[:N_PEAKS])
 
 
 def _band_rms(results: Results) -> float:
