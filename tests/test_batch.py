@@ -65,11 +65,11 @@ def peak_bytes(batches):
 
 
 def test_the_memory_stated_is_kept(prepared):
-    stiffness = np.tile(prepared.mount_stiffness({}), (1000, 1))
-    memory = 2**20
+    stiffness = np.tile(prepared.mount_stiffness({}), (1500, 1))
+    memory = 2 * 2**20
     one = peak_bytes(solve_many(prepared, stiffness[:1], FLAT))
-    assert memory < 1000 * BYTES
-    assert peak_bytes(solve_many(prepared, stiffness, FLAT, memory)) < memory + 1.1 * one
+    assert memory < 1500 * BYTES
+    assert peak_bytes(solve_many(prepared, stiffness, FLAT, memory)) < memory + 1.5 * one
 
 
 def test_one_set_is_solved_in_whatever_memory(prepared):
