@@ -19,7 +19,7 @@ class Figures(TypedDict):
     """What modeviz does with the built-in truck."""
 
     event_ms: float
-    """From a move of a slider to modes, names, spectra and rating."""
+    """From a move of a slider, after a rest, to modes, names, spectra and rating."""
     batch_per_s: float
     """Sets of rates a second, their modes and spectra."""
     prepare_s: float
@@ -126,7 +126,7 @@ def _scaling(rows: list[SizeRow]) -> str:
                 f"{row['prepare_s']:.2f}",
                 f"{row['response_ms']:.2f}",
                 f"{row['event_ms']:.1f}",
-                f"{row['batch_per_s']:.0f}",
+                f"{row['batch_per_s']:.3g}",
                 f"{row['peak_mb']:.0f}",
                 f"{row['numpy_direct_ms']:.0f}",
             ]

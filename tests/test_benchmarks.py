@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -110,6 +111,15 @@ def test_figures_are_written_in_the_documented_structure(quick):
     assert [row["n_dofs"] for row in report["scaling"]] == [430, 60]
     assert all(value > 0 for row in report["scaling"] for value in row.values())
     assert all(library["num_threads"] == 1 for library in report["machine"]["blas"])
+
+
+@pytest.mark.slow
+def test_readme_documents_every_figure(quick):
+    _, report = quick
+    readme = (CHECKOUT / "README.md").read_text()
+    (documented,) = re.findall(r'^\{"machine".*?^```', readme, re.DOTALL | re.MULTILINE)
+    parts = [report, report["machine"], *report["comparison"], report["modeviz"], *report["scaling"]]
+    assert set(re.findall(r'"(\w+)"', documented)) == set().union(*parts)
 
 
 @pytest.mark.slow

@@ -89,7 +89,9 @@ def test_importing_modeviz_leaves_the_viewer_and_the_extra_unloaded(library: str
     assert subprocess.run([sys.executable, "-c", program], cwd=CHECKOUT).returncode == 0
 
 
-@pytest.mark.parametrize("folder", ["modeviz", "tests", "examples", "assets", "scripts", ".ci"])
+@pytest.mark.parametrize(
+    "folder", ["modeviz", "tests", "examples", "assets", "benchmarks", "scripts", ".ci"]
+)
 def test_sources_name_no_machine_path(folder: str):
     texts = [p for p in (CHECKOUT / folder).rglob("*") if p.suffix in {"", ".py", ".sh", ".toml"}]
     for path in filter(Path.is_file, texts):
