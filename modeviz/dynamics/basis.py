@@ -220,7 +220,8 @@ def _ritz(basis: EnrichedBasis, change: Floats, method: Method) -> _Solution:
     n = basis.n_modes if method == "classic" else basis.vectors.shape[1]
     R = basis.spring_motions
     A = basis.stiffness + (R.T * change) @ R
-    y = np.linalg.eigh(A[:n, :n]).eigenvectors
+    roughly, y = np.linalg.eigh(A[:n, :n])
+    y = y[:, roughly < 2 * basis.top]
     omega_squared, y = _lowest(basis, basis.stiffness[:n, :n], R[:, :n], change, y)
     stretch = R[:, :n] @ y
     inside = A[:, :n] @ y

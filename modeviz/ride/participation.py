@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from modeviz.ride.psd import power_decibels
 from modeviz.vehicle.arrays import Complexes, Floats
@@ -77,14 +78,16 @@ def peak_lines(psd: Floats) -> list[int]:
     level = power_decibels(psd)
     before, here, after = level[:-2], level[1:-1], level[2:]
     maxima = np.flatnonzero((before < here) & (here >= after)) + 1
-    return [i for i in maxima.tolist() if _prominence(level, i) >= PROMINENCE_DB]
+    return maxima[_prominence(level, maxima) >= PROMINENCE_DB].tolist()
 
 
-def _prominence(level: Floats, peak: int) -> float:
-    """How far a peak stands above the higher of the dips to its sides, each up to higher ground."""
-    higher = np.flatnonzero(level > level[peak])
-    after = int(np.searchsorted(higher, peak))
-    start = higher[after - 1] if after else 0
-    end = higher[after] if after < len(higher) else len(level)
-    dips = level[start:peak].min(), level[peak:end].min()
-    return float(level[peak] - max(dips))
+def _prominence(level: Floats, maxima: NDArray[np.intp]) -> Floats:
+    """How far each maximum stands above the higher of the dips to its sides, up to higher ground."""
+    lines = np.arange(len(level))
+    top, height = maxima[:, None], level[maxima][:, None]
+    higher = level > height
+    start = np.where(higher & (lines < top), lines, 0).max(axis=1, initial=0)[:, None]
+    end = np.where(higher & (lines > top), lines, len(level)).min(axis=1, initial=len(level))[:, None]
+    before = np.where((lines >= start) & (lines < top), level, np.inf).min(axis=1, initial=np.inf)
+    after = np.where((lines >= top) & (lines < end), level, np.inf).min(axis=1, initial=np.inf)
+    return level[maxima] - np.maximum(before, after)

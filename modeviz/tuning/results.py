@@ -7,7 +7,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.assembly import System
 from modeviz.dynamics.basis import BandModes, Method, band_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
@@ -20,7 +19,6 @@ from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
 from modeviz.ride.roads import road_spectrum, track_amplitudes
 from modeviz.ride.wheels import wheel_amplitudes
-from modeviz.tuning.preparation import FREQUENCY_HZ as FREQUENCY_HZ
 from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
@@ -72,11 +70,6 @@ class ModalResults:
     def trust(self) -> Trust:
         return self.band.trust
 
-    @property
-    def system(self) -> System:
-        """The matrices with the vehicle's own rates."""
-        return self.prepared.system
-
     @cached_property
     def vehicle(self) -> Vehicle:
         """With these rates."""
@@ -95,6 +88,12 @@ class ModalResults:
     def strain_energy(self) -> Mapping[str, Floats]:
         """Share of each flexible body and connection group, (n_modes,) by name."""
         return strain_energy(self.prepared.system, self.modes.shapes, self._mount_rates)
+
+    def strain_shares(self, mode: int) -> dict[str, float]:
+        """The strain energy of one mode: share of each flexible body and connection group."""
+        shape = self.modes.shapes[:, mode : mode + 1]
+        shares = strain_energy(self.prepared.system, shape, self._mount_rates)
+        return {name: float(share[0]) for name, share in shares.items()}
 
     def mode_index(self, name: str) -> int | None:
         """Which mode is called that; None if no mode is."""

@@ -1,6 +1,7 @@
 """Fragments of page text: numbers as people write them, tables, and rows that can be clicked."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from html import escape
 from importlib.resources import files
 
@@ -48,6 +49,7 @@ def sentence_case(name: str) -> str:
     return mark + rest[:1].upper() + rest[1:]
 
 
+@lru_cache
 def title(name: str) -> str:
     """A name with a capital, safe to put into a page."""
     return escape(sentence_case(name))

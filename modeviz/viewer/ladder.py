@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from html import escape
 
 WIDTH, TOP, BOTTOM, HEIGHT = 440, 34, 70, 100
@@ -38,37 +39,39 @@ def ladder(
     Args:
         before: Hz.
         after: Hz.
-        rails: what to join.
+        rails: what to join, only such as are drawn at both ends.
         shown: which of `after` is the shown mode.
         label: what is written above it.
     """
     parts = [_grid()]
-    parts += [_rail(r) for r in sorted(rails, key=lambda r: r.strong) if _inside(r.before, r.after)]
-    parts += [_line(_x(f), TOP - 6, _x(f), TOP, BASE, 2) for f in before if _inside(f)]
+    parts += [_rail(r) for r in sorted(rails, key=lambda r: r.strong)]
+    parts += [_line(_x(f), TOP - 6, _x(f), TOP, BASE, 2) for f in before if drawn(f)]
     parts += [
         _line(_x(f), BOTTOM, _x(f), BOTTOM + 7, NOW, 3 if i == shown else 2)
         for i, f in enumerate(after)
-        if _inside(f)
+        if drawn(f)
     ]
     parts += [
         f'<text x="0" y="14" font-size="11" fill="{DIM}">original</text>',
         f'<text x="0" y="{BOTTOM + 25}" font-size="11" fill="{NOW}">now</text>',
     ]
-    if shown < len(after) and _inside(after[shown]):
+    if shown < len(after) and drawn(after[shown]):
         middle = min(max(_x(after[shown]), 110), WIDTH - 90)
         parts.append(_text(middle, 22, label, TEXT, 'font-weight="600"'))
     view = f'viewBox="0 0 {WIDTH} {HEIGHT}" width="100%" style="display:block"'
     return f"<svg {view}>{''.join(parts)}</svg>"
 
 
-def _inside(*frequencies: float) -> bool:
-    return all(LOW < f < HIGH for f in frequencies)
+def drawn(frequency_hz: float) -> bool:
+    """Whether a frequency is on the scale."""
+    return LOW < frequency_hz < HIGH
 
 
 def _x(f: float) -> float:
     return 30 + (f - LOW) / (HIGH - LOW) * (WIDTH - 50)
 
 
+@cache
 def _grid() -> str:
     whole = range(int(LOW) + 1, int(HIGH))
     lines = "".join(_line(_x(f), TOP, _x(f), BOTTOM, "var(--mv-soft)", 1) for f in whole)

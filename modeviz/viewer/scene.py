@@ -69,13 +69,15 @@ class Scene:
 
     def show(self, solved: Solved) -> None:
         """Draws the answer of a session: its mode's shape and energy, and how it wants to be seen."""
-        state, energy = solved.state, solved.now.strain_energy
-        coordinates = {name: solved.shape[dofs] for name, dofs in solved.now.system.dofs.items()}
-        shares = {group: float(energy[group][solved.mode]) for group in state.rates}
+        state = solved.state
+        coordinates = {
+            name: solved.shape[dofs] for name, dofs in solved.now.prepared.system.dofs.items()
+        }
+        shares = {group: solved.strain[group] for group in state.rates}
         with self._server.atomic():
             self.show_shape(coordinates, state.coloring == "displacement")
             self.show_style(state.coloring == "displacement", state.see_through, state.ghost)
-            mode = solved.now.names[solved.mode].name
+            mode = solved.now.names[solved.mode].spoken
             self._markers.show(state.group, state.rates, shares, mode)
 
     def show_shape(self, coordinates: Mapping[str, NDArray], colored: bool) -> None:

@@ -2,8 +2,9 @@
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -69,6 +70,11 @@ class Solved:
     """How far `now` is from the exact answer, as far as that is known."""
     classic_error: ClassicError | None
     """How far the classic method is off, if that is asked for."""
+
+    @cached_property
+    def strain(self) -> Mapping[str, float]:
+        """Of the shown mode: each flexible body's and connection group's share of the strain energy."""
+        return self.now.strain_shares(self.mode)
 
 
 class Session:

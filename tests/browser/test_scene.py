@@ -139,9 +139,9 @@ def test_shape_is_drawn_in_proportion_with_its_largest_at_a_fortieth_of_the_leng
     n_applied = show(scene, page, solved(modal, mode, see_through=False))
     bodies = [drawn(page, body, n_applied)[0] for body in ("cab", "axle")]
     assert max(np.linalg.norm(b, axis=1).max() for b in bodies) == pytest.approx(4.0 / 40, rel=HALF)
-    q = modal.modes.shapes[modal.system.dofs["axle"], mode]
+    q = modal.modes.shapes[modal.prepared.system.dofs["axle"], mode]
     exact = q[:3] + np.cross(q[3:], corners((0, 0, 0.3), (0.2, 1.8, 0.2)) - [0, 0, 0.3])
-    cab_q = modal.modes.shapes[modal.system.dofs["cab"], mode]
+    cab_q = modal.modes.shapes[modal.prepared.system.dofs["cab"], mode]
     cab_exact = modal.vehicle.body("cab").shapes[:, :3] @ cab_q
     factor = 0.1 / max(np.linalg.norm(exact, axis=1).max(), np.linalg.norm(cab_exact, axis=1).max())
     assert bodies[1] == pytest.approx(factor * exact, abs=0.1 * HALF)

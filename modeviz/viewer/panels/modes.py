@@ -21,7 +21,7 @@ from modeviz.viewer.html import (
     table,
     title,
 )
-from modeviz.viewer.ladder import Rail, ladder
+from modeviz.viewer.ladder import Rail, drawn, ladder
 from modeviz.viewer.session import FREE_HZ, Session, Solved
 
 LISTED_HZ = (FREE_HZ, 21.0)
@@ -105,15 +105,17 @@ def _ladder(solved: Solved) -> str:
     """The ladder of all modes, joined where the shapes of the original's modes went."""
     base, now, track = solved.base, solved.now, solved.track
     old = base.mode_index(now.names[solved.mode].name)
+    before, after = base.modes.frequency_hz.tolist(), track.frequency_hz.tolist()
+    weak = track.weak.tolist()
     rails = [
-        Rail(float(f), float(track.frequency_hz[i]), bool(track.weak[i]), strong=i == old)
-        for i, f in enumerate(base.modes.frequency_hz)
-        if track.index[i] >= 0
+        Rail(before[i], after[i], weak[i], strong=i == old)
+        for i in range(len(before))
+        if drawn(before[i]) and drawn(after[i])
     ]
     f = now.modes.frequency_hz[solved.mode]
     was = "" if old is None else f" {base.modes.frequency_hz[old]:.2f} →"
     return ladder(
-        base.modes.frequency_hz.tolist(),
+        before,
         now.modes.frequency_hz.tolist(),
         rails,
         solved.mode,
@@ -182,7 +184,7 @@ def _strain(solved: Solved, groups: Sequence[str]) -> str:
     """A table of the mount groups: their share now and with the original rates."""
     name = solved.now.names[solved.mode].name
     before = solved.base.mode_index(name)
-    now = {g: solved.now.strain_energy[g][solved.mode] for g in groups}
+    now = {g: solved.strain[g] for g in groups}
     base = {g: solved.base.strain_energy[g][before] if before is not None else 0.0 for g in groups}
     largest = max([*now.values(), *base.values(), 1e-9])
     rows = [

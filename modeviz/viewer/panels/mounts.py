@@ -49,9 +49,9 @@ class MountsPanel:
 
     def show(self, solved: Solved) -> None:
         """Marks what was changed, and each group's share of the shown mode's energy."""
-        shown = solved.now.names[solved.mode].name
+        shown = solved.now.names[solved.mode].spoken
         for group in self._vehicle.mount_groups:
-            share = solved.now.strain_energy[group.name][solved.mode]
+            share = solved.strain[group.name]
             energy = f"{100 * share:.0f} % of {shown} energy"
             assign(self._folders[group.name], label=f"{group.name}  {group.label}  ·  {energy}")
             if self._labelled.get(group.name) != solved.state.rates[group.name]:
