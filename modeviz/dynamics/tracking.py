@@ -37,6 +37,9 @@ LEFT_MAC = 0.1
 CLOSE = 0.02
 """Relative difference in frequency, the half-power bandwidth of a mode with 1 % of critical damping."""
 
+SAME = 0.99
+"""MAC of shapes that are the same: close modes that are recognised like that need no mixing."""
+
 REPEATED = 1e-6
 """Relative difference in frequency that rounding may make."""
 
@@ -182,7 +185,8 @@ def _mixing(products: Floats, frequency_hz: Floats, closeness: float) -> Floats:
 
     Each close set is rotated within its own space onto as many of the others as it has members, those
     that lie in that space most (orthogonal Procrustes: P. H. Schönemann, 1966); each mixture then
-    stands in place of the member that it has most of. What moves freely is one set.
+    stands in place of the member that it has most of. What moves freely is one set; a set in which
+    every mode is recognised as it is stays as it is.
 
     Args:
         products: φ_otherᵀ M φ, (n_others, n_modes).
@@ -192,6 +196,8 @@ def _mixing(products: Floats, frequency_hz: Floats, closeness: float) -> Floats:
     mixing = np.eye(len(frequency_hz))
     for members in _close(frequency_hz, closeness):
         shared = products[:, members]
+        if ((shared**2).max(axis=0) > SAME).all():
+            continue
         nearest = np.sort(np.argsort(-(shared**2).sum(axis=1))[: shared.shape[1]])
         u, _, vt = np.linalg.svd(shared[nearest].T)
         rotation = u @ vt

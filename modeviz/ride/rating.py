@@ -1,6 +1,7 @@
 """Ride ratings: the paper's mean personal rating and ISO 2631-1 weighted accelerations."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -75,11 +76,18 @@ def weighted_rms(frequency_hz: Floats, acceleration_psd: Floats) -> tuple[float,
 
     a_w = √∫ W² S df over the frequencies given; ISO 2631-1 looks at 0.5 to 80 Hz.
     """
-    horizontal, vertical = weight_d(frequency_hz), weight_k(frequency_hz)
-    weights = np.column_stack([horizontal, horizontal, vertical])
+    squares = _squared_weights(np.asarray(frequency_hz, np.float64).tobytes())
     band = (frequency_hz[0], frequency_hz[-1])
-    x, y, z = rms(frequency_hz, weights**2 * acceleration_psd, band) * STANDARD_GRAVITY
+    x, y, z = rms(frequency_hz, squares * acceleration_psd, band) * STANDARD_GRAVITY
     return float(x), float(y), float(z)
+
+
+@lru_cache(maxsize=8)
+def _squared_weights(frequency_hz: bytes) -> Floats:
+    """W² of x, y and z, (n_freqs, 3), kept for the next rating at the same frequencies."""
+    f = np.frombuffer(frequency_hz)
+    horizontal, vertical = weight_d(f) ** 2, weight_k(f) ** 2
+    return np.column_stack([horizontal, horizontal, vertical])
 
 
 def weight_k(frequency_hz: Floats) -> Floats:

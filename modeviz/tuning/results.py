@@ -152,16 +152,20 @@ class Results(ModalResults):
         parts = participation(output, self._modal_coordinates(at), self.drive.spectrum[at])
         return peaks(self.frequency_hz[at], self.response(point, direction)[at], parts, count)
 
+    @cached_property
+    def _tyre_stretches(self) -> Floats:
+        """How far each mode moves along `tyre_directions`, (3 n_tyres, n_modes)."""
+        return self.prepared.input_directions[self.prepared.tyre_inputs] @ self.modes.shapes
+
     def _modal_coordinates(self, lines: NDArray[np.intp]) -> Complexes:
         """How much of each mode the two tracks make, (n_lines, n_modes, 2)."""
-        prepared, band = self.prepared, self.band
-        along = prepared.input_directions[prepared.tyre_inputs] @ band.modes.shapes
+        band = self.band
         return modal_coordinates(
             band.modes.omega_n_squared,
             band.damping,
             band.structural_damping,
             self.frequency_hz[lines],
-            along.T @ self.drive.amplitudes[lines],
+            self._tyre_stretches.T @ self.drive.amplitudes[lines],
         )
 
 
