@@ -1,10 +1,12 @@
+import tracemalloc
+
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 from test_modes import damper, mass_on_a_string, spring
 
 from modeviz.dynamics.assembly import assemble, mount_stiffness
-from modeviz.dynamics.reanalysis import prepare_receptances
+from modeviz.dynamics.reanalysis import BLOCK, Receptances, prepare_receptances
 from modeviz.errors import SolveError
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates
 from modeviz.vehicle.vehicle import Vehicle
@@ -120,6 +122,23 @@ def test_inputs_can_be_summed_into_loads(system, receptances):
 def test_memory_is_that_of_the_arrays(receptances):
     n_values = len(F) * (12 * 12 + 12 * 4 + 12 * 9 + 4 * 9)
     assert receptances.n_bytes == 16 * n_values
+
+
+def test_a_response_takes_little_memory_beside_the_receptances():
+    rng = np.random.default_rng(0)
+    n_freqs, n_springs = 400, 60
+    large = Receptances(
+        np.arange(1.0, n_freqs + 1),
+        np.ones(n_springs, complex),
+        rng.normal(size=(n_freqs, n_springs, n_springs)) + 100j * np.eye(n_springs),
+        *(rng.normal(size=(n_freqs, n_springs, 2)) + 0j for _ in range(2)),
+        rng.normal(size=(n_freqs, 2, 2)) + 0j,
+    )
+    tracemalloc.start()
+    large.response(np.full(n_springs, 2 + 0j))
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 4 * BLOCK < large.springs.nbytes
 
 
 def two_masses(rate, damping=0.0):
