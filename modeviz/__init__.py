@@ -24,6 +24,13 @@ from modeviz.ride.rating import rate as rate
 from modeviz.ride.roads import road_spectrum as road_spectrum
 from modeviz.ride.roads import track_forces as track_forces
 from modeviz.ride.wheels import wheel_forces as wheel_forces
+from modeviz.tuning.batch import solve_many as solve_many
+from modeviz.tuning.check import check_exactly as check_exactly
+from modeviz.tuning.check import classic_error as classic_error
+from modeviz.tuning.following import solve_followed as solve_followed
+from modeviz.tuning.objective import LoadCase as LoadCase
+from modeviz.tuning.objective import paper_cases as paper_cases
+from modeviz.tuning.objective import prepare_objective as prepare_objective
 from modeviz.tuning.preparation import Prepared as Prepared
 from modeviz.tuning.preparation import PreparedModes as PreparedModes
 from modeviz.tuning.preparation import prepare as prepare
@@ -36,6 +43,10 @@ from modeviz.tuning.results import Results as Results
 from modeviz.tuning.results import solve as solve
 from modeviz.tuning.results import solve_modal as solve_modal
 from modeviz.tuning.results import solve_wheels as solve_wheels
+from modeviz.tuning.sensitivity import RateVariable as RateVariable
+from modeviz.tuning.sensitivity import frequency_sensitivity as frequency_sensitivity
+from modeviz.tuning.sensitivity import rate_variables as rate_variables
+from modeviz.tuning.sensitivity import ride_sensitivity as ride_sensitivity
 from modeviz.vehicle.bodies import AddedMass as AddedMass
 from modeviz.vehicle.bodies import Attachment as Attachment
 from modeviz.vehicle.bodies import FlexibleBody as FlexibleBody

@@ -1,11 +1,14 @@
 """Every example runs and gives the physics it is about."""
 
 import importlib.util
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
+
+import modeviz as mv
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -48,3 +51,20 @@ def test_optimised_mounts_take_the_cab_yaw_away_from_the_rear_tramp():
     assert truck.cab_yaw_hz(truck.original) == pytest.approx(11.7, rel=0.012)
     assert truck.cab_yaw_hz(truck.optimised) == pytest.approx(9.8, abs=0.15)
     assert truck.fall > 0.35
+
+
+def test_derivatives_say_what_ten_per_cent_of_a_rate_do():
+    """Against solving again with each rate 1 % up and down."""
+    which = example("03_which_rate")
+    assert which.variables[int(np.abs(which.yaw_hz).argmax())] == mv.RateVariable("C2", "lateral")
+    rates = which.vehicle.rates["C2"]
+    ends = []
+    for scale in (0.99, 1.01):
+        changed = {"C2": replace(rates, lateral=scale * rates.lateral)}
+        results = mv.solve(which.prepared, changed, which.conditions)
+        ends.append((results.modes.frequency_hz[results.mode_index("cab yaw")], results.rms[0, 1]))
+    yaw, seat = np.subtract(ends[1], ends[0]) * 5
+    largest = int(np.abs(which.yaw_hz).argmax())
+    # A change of 1 % either way leaves about its square in a central difference.
+    assert which.yaw_hz[largest] == pytest.approx(yaw, rel=1e-3)
+    assert which.seat_g[largest] == pytest.approx(seat, rel=1e-3)
