@@ -10,9 +10,8 @@ from modeviz.dynamics.basis import natural_frequencies
 from modeviz.errors import SolveError
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
-from modeviz.ride.roads import road_spectrum, track_amplitudes
 from modeviz.tuning.preparation import Prepared
-from modeviz.tuning.results import AXIS, Conditions
+from modeviz.tuning.results import AXIS, Conditions, drive
 from modeviz.vehicle.arrays import Complexes, Floats
 
 MEMORY = 256 * 2**20
@@ -60,9 +59,7 @@ def solve_many(
     """
     _check_stiffness(mount_stiffness, len(prepared.receptances.mount_stiffness))
     f = prepared.frequency_hz
-    spectrum = road_spectrum(prepared.vehicle.road(conditions.road), f, conditions.speed)
-    amplitudes = track_amplitudes(prepared.vehicle, f, conditions.speed)
-    driven = prepared.receptances.driven(amplitudes, prepared.tyre_inputs)
+    on_road = drive(prepared, conditions)
     shape = (len(prepared.vehicle.response_points), 3)
     n_bytes = 8 * (prepared.basis.n_below + (len(f) + 1) * np.prod(shape, dtype=int))
     n_at_once = max(1, memory // (2 * n_bytes))
@@ -74,10 +71,10 @@ def solve_many(
         for i, stiffness in enumerate(sets):
             try:
                 frequency_hz[i] = natural_frequencies(prepared.basis, stiffness)
-                response = driven.response(stiffness)
+                response = on_road.receptances.response(stiffness)
             except SolveError as error:
                 raise SolveError(f"set {start + i + 1}: {error}") from None
-            psd[i] = acceleration_psd(f, response, spectrum).reshape(psd.shape[1:])
+            psd[i] = acceleration_psd(f, response, on_road.spectrum).reshape(psd.shape[1:])
             roots[i] = rms(f, psd[i])
         yield Batch(start, frequency_hz, psd, roots)
 

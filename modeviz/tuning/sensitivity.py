@@ -7,9 +7,8 @@ import scipy.linalg
 
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.ride.psd import acceleration_psd, mean_square, rms
-from modeviz.ride.roads import road_spectrum, track_amplitudes
 from modeviz.tuning.preparation import Prepared
-from modeviz.tuning.results import Conditions, ModalResults
+from modeviz.tuning.results import Conditions, ModalResults, drive
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MountRates, Rates
@@ -67,12 +66,10 @@ class RideSensitivity:
 def ride_sensitivity(prepared: Prepared, rates: Rates, conditions: Conditions) -> RideSensitivity:
     """The derivatives of a ride; arguments and errors as `tuning.results.solve`."""
     f = prepared.frequency_hz
-    amplitudes = track_amplitudes(prepared.vehicle, f, conditions.speed)
-    spectrum = road_spectrum(prepared.vehicle.road(conditions.road), f, conditions.speed)
-    driven = prepared.receptances.driven(amplitudes, prepared.tyre_inputs)
-    H, a, b = driven.response_gradient(prepared.mount_stiffness(rates))
-    change = psd_gradient(f, H, a, b, spectrum, spring_shares(prepared.vehicle))
-    psd = acceleration_psd(f, H, spectrum)
+    on_road = drive(prepared, conditions)
+    H, a, b = on_road.receptances.response_gradient(prepared.mount_stiffness(rates))
+    change = psd_gradient(f, H, a, b, on_road.spectrum, spring_shares(prepared.vehicle))
+    psd = acceleration_psd(f, H, on_road.spectrum)
     root = rms(f, psd)[:, None]
     square_change = mean_square(f, change)
     rms_change = np.divide(square_change, 2 * root, out=np.zeros_like(square_change), where=root > 0)
