@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.tuning.following import solve_followed
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve
 from modeviz.vehicle.connections import MountRates
@@ -140,3 +141,52 @@ def test_a_failure_is_told_and_the_session_goes_on(session):
     session.change(conditions=FLAT)
     assert session.wait(20)
     assert session.answers[-1].now.conditions == FLAT
+
+
+def test_while_rates_move_details_come_now_and_then_and_always_at_the_end(session):
+    session.start()
+    assert session.wait(20)
+    for rate in np.linspace(9e5, 4e5, 30):
+        session.set_rate("A", "vertical", rate)
+        assert session._worker.wait(20)
+    assert session.wait(20)
+    moved = session.answers[1:]
+    assert not all(a.is_detailed for a in moved)
+    last = moved[-1]
+    assert last.is_detailed
+    assert last.state.rates["A"].vertical == 4e5
+    assert last.track.frequency_hz[last.track.index >= 0] == pytest.approx(
+        last.now.modes.frequency_hz[last.track.index[last.track.index >= 0]]
+    )
+
+
+def test_an_answer_at_rest_is_checked_against_the_full_model(session):
+    session.start()
+    session.set_rates({"A": MountRates(5e5, 2e5, 3e5)})
+    assert session.wait_checked(60)
+    check = session.answers[-1].check
+    assert check.is_complete
+    assert check.error < 1e-9
+
+
+def test_the_track_is_that_of_the_straight_way_from_the_bases_modes(session):
+    session.start()
+    target = {"A": MountRates(4e5, 2e5, 2e5)}
+    for rates in ({"A": MountRates(8e5, 6e5, 1e5)}, {"A": MountRates(2e5, 3e5, 9e5)}, target):
+        session.set_rates(rates)
+        assert session.wait(20)
+    expected = solve_followed(prepare(mounted_cabin()), target).track
+    found = session.answers[-1].track
+    np.testing.assert_array_equal(found.index, expected.index)
+    np.testing.assert_allclose(found.mac, expected.mac, atol=1e-6)
+
+
+def test_the_classic_error_is_found_only_if_it_is_asked_for(session):
+    session.start()
+    session.set_rates({"A": MountRates(2e5, 1e5, 1e5)})
+    assert session.wait(20)
+    assert session.answers[-1].classic_error is None
+    session.change(classic=True)
+    assert session.wait(20)
+    # The cabin's twelve base modes span every shape it has.
+    assert session.answers[-1].classic_error.error < 1e-9

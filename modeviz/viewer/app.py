@@ -113,16 +113,20 @@ class App:
         card.float(x=24, y=-24, width=CARD_WIDTH)
 
     def _show(self, solved: Solved) -> None:
-        """Draws an answer: the panels in one batch, the scene in another, which waits for a frame."""
+        """Draws an answer: the panels in one batch, the scene in another, which waits for a frame.
+
+        While rates move, what has to be read is drawn only now and then.
+        """
         self._last = solved
         with self.server.atomic():
             self._show_title(f"{self.session.vehicle.name}  ·  {self._variant(solved)}")
-            self._mounts.show(solved)
             self._response.show(solved)
-            self._modes.show(solved)
-            self._energy.show(solved)
             self._animation.show(solved)
             self._status.show(solved)
+            if solved.is_detailed:
+                self._mounts.show(solved)
+                self._modes.show(solved)
+                self._energy.show(solved)
         self.server.flush()
         self._scene.show(solved)
 

@@ -73,12 +73,13 @@ class Scene:
         coordinates = {
             name: solved.shape[dofs] for name, dofs in solved.now.prepared.system.dofs.items()
         }
-        shares = {group: solved.strain[group] for group in state.rates}
         with self._server.atomic():
             self.show_shape(coordinates, state.coloring == "displacement")
             self.show_style(state.coloring == "displacement", state.see_through, state.ghost)
-            mode = solved.now.names[solved.mode].spoken
-            self._markers.show(state.group, state.rates, shares, mode)
+            if solved.is_detailed:
+                shares = {group: solved.strain[group] for group in state.rates}
+                mode = solved.now.names[solved.mode].spoken
+                self._markers.show(state.group, state.rates, shares, mode)
 
     def show_shape(self, coordinates: Mapping[str, NDArray], colored: bool) -> None:
         """Sends the page a shape, scaled so that it is clear to see at the driver's amplitude of one.

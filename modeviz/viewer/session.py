@@ -27,6 +27,9 @@ FREE_HZ = 0.5
 REST = 0.3
 """s without a change after which an answer is checked: longer than the pauses within a drag."""
 
+DETAILS_EVERY = 0.1
+"""s between two looks at tables while rates move; curves, figures and shape follow every move."""
+
 TELL_EVERY = 0.5
 """s between two words on how far a check is."""
 
@@ -70,6 +73,8 @@ class Solved:
     """How far `now` is from the exact answer, as far as that is known."""
     classic_error: ClassicError | None
     """How far the classic method is off, if that is asked for."""
+    is_detailed: bool
+    """Whether what is for reading is to be drawn too; else `track` is that of the last such answer."""
 
     @cached_property
     def strain(self) -> Mapping[str, float]:
@@ -103,11 +108,14 @@ class Session:
         self._lock = threading.Lock()
         self._state = state
         self._prepared: Prepared
+        self._near: Prepared
         self._drive: Drive
         self._base: Results
         self._is_prepared = self._is_closed = False
         self._last: Solved | None = None
         self._track: Track
+        self._tracked: Results
+        self._detailed_at = -np.inf
         self._checked: Results | None = None
         self._check: Check | None = None
         self._worker: Worker[State] = Worker(self._answer, fail)
@@ -127,9 +135,10 @@ class Session:
             ModevizError: there is no answer on that road at that speed.
         """
         conditions = self._state.conditions
-        self._prepared = prepare(self.vehicle, progress=progress)
-        self._drive = drive(self._prepared, conditions)
-        self._base = solve_on(self._drive, {})
+        self._prepared = self._near = prepare(self.vehicle, progress=progress)
+        self._drive = drive(self._near, conditions)
+        self._base = self._tracked = solve_on(self._drive, {})
+        self._track = accept(self._base)
         with self._lock:
             self._is_prepared = True
             self._worker.submit(self._state)
@@ -152,12 +161,18 @@ class Session:
             self._submit(replace(self._state, rates=rates, group=group))
 
     def wait(self, timeout: float) -> bool:
-        """Waits until the newest state is answered; whether that came within `timeout` seconds."""
-        return self._worker.wait(timeout)
+        """Waits until the newest state is answered in detail; whether that came within `timeout` s."""
+        end = time.perf_counter() + timeout
+        while self._worker.wait(end - time.perf_counter()):
+            last = self._last
+            if last is None or last.is_detailed or not _asks_for_the_same(last.state, self._state):
+                return True
+            time.sleep(DETAILS_EVERY / 10)
+        return False
 
     def wait_checked(self, timeout: float) -> bool:
         """Waits until the newest answer is checked; whether that came within `timeout` seconds."""
-        return self._worker.wait(timeout) and self._checker.wait(timeout)
+        return self.wait(timeout) and self._checker.wait(timeout) and self._worker.wait(timeout)
 
     def close(self) -> None:
         """Ends the session's threads."""
@@ -175,17 +190,23 @@ class Session:
         begin = time.perf_counter()
         base = self._solve_base(state.conditions)
         last = self._last
+        is_detailed = True
         if last and _asks_for_the_same(last.state, state):
             now, seconds = last.now, last.seconds
         else:
             now = solve_on(self._drive_on(state.conditions), state.rates)
-            self._lead_track_to(now)
             seconds = time.perf_counter() - begin
+            is_detailed = begin - self._detailed_at >= DETAILS_EVERY
+        if is_detailed:
+            self._lead_track_to(now)
+            self._detailed_at = begin
         mode = self._follow(now, state.mode)
         shape = self._in_phase(now.modes.shapes[:, mode])
         check = self._check if self._checked is now else None
         classic = classic_error(now) if state.classic else None
-        self._last = Solved(state, base, now, self._track, mode, shape, seconds, check, classic)
+        self._last = Solved(
+            state, base, now, self._track, mode, shape, seconds, check, classic, is_detailed
+        )
         self._show(self._last)
         if self._checked is not now:
             self._checked, self._check = now, None
@@ -198,48 +219,53 @@ class Session:
 
     def _drive_on(self, conditions: Conditions) -> Drive:
         if self._drive.conditions != conditions:
-            self._drive = drive(self._prepared, conditions)
+            self._drive = drive(self._near, conditions)
         return self._drive
 
     def _lead_track_to(self, now: Results) -> None:
-        """Follows the base's modes on from the last answer, or anew where nothing has changed."""
-        if now.rates == self._base.rates or self._last is None:
+        """Follows the base's modes on from where they were last seen, or anew at the base's rates."""
+        if now.rates == self._base.rates:
             self._track = follow_rates(accept(self._base), self._base, now)
-        else:
-            self._track = follow_rates(self._track, self._last.now, now)
+        elif now is not self._tracked:
+            self._track = follow_rates(self._track, self._tracked, now)
+        self._tracked = now
 
     def _settle(self, solved: Solved) -> None:
-        """Once nothing changes: makes the next drag cheap, and checks the answer bit by bit."""
-        if not self._comes_to_rest(solved):
+        """Once nothing changes: shows details, makes the next drag cheap, checks bit by bit."""
+        if not self._rests(solved, DETAILS_EVERY):
             return
-        self._prepared = self._prepared.near(solved.state.rates)
-        self._drive = drive(self._prepared, solved.state.conditions)
+        if not solved.is_detailed:
+            self._show_again(solved.now, None)
+        if not self._rests(solved, REST):
+            return
+        self._near = self._prepared.near(solved.state.rates)
+        self._drive = drive(self._near, solved.state.conditions)
         told = 0.0
         for check in check_exactly(solved.now):
             if not self._is_current(solved):
                 return
             if check.is_complete or time.perf_counter() - told > TELL_EVERY:
                 told = time.perf_counter()
-                self._tell(solved.now, check)
+                self._show_again(solved.now, check)
 
     def _is_current(self, solved: Solved) -> bool:
         """Whether an answer is still to what is asked for."""
         return not self._is_closed and _asks_for_the_same(self._state, solved.state)
 
-    def _tell(self, now: Results, check: Check) -> None:
-        """Has the answer shown again with what is now known of it."""
+    def _show_again(self, now: Results, check: Check | None) -> None:
+        """Has an answer shown again in detail, with what is now known of it."""
         with self._lock:
             if self._checked is now:
                 self._check = check
                 self._worker.submit(self._state)
 
-    def _comes_to_rest(self, solved: Solved) -> bool:
-        """Waits for `REST`; whether nothing else was asked for meanwhile."""
-        end = time.perf_counter() + REST
+    def _rests(self, solved: Solved, seconds: float) -> bool:
+        """Waits; whether nothing else was asked for meanwhile."""
+        end = time.perf_counter() + seconds
         while time.perf_counter() < end:
             if not self._is_current(solved):
                 return False
-            time.sleep(REST / 20)
+            time.sleep(seconds / 10)
         return True
 
     def _follow(self, now: Results, name: str) -> int:

@@ -55,6 +55,7 @@ class ResponsePanel:
             self._headings[direction] = gui.add_html("")
             self._plots[direction] = PsdPlot(gui, FREQUENCY_HZ, dark)
         gui.add_html(block(heading("Peaks and the modes in them", "click a mode to see it move")))
+        self._peaks_hz: dict[str, list[float]] = {direction: [] for direction in DIRECTIONS}
         self._peaks = {
             (direction, i): PeakRow(gui, session) for direction in DIRECTIONS for i in range(N_PEAKS)
         }
@@ -66,16 +67,21 @@ class ResponsePanel:
             self._base, self._base_band_rms = base, _band_rms(base)
         assign(self._figures, content=block(_figures(base, self._base_band_rms, now)))
         for direction in DIRECTIONS:
-            shown = now.peaks(DRIVER, direction, N_CONTRIBUTORS, strongest(now, direction))
+            if solved.is_detailed:
+                self._show_peaks(direction, now)
             assign(self._headings[direction], content=block(_heading(self._point, direction, now)))
             self._plots[direction].show(
                 base.response(DRIVER, direction),
                 now.response(DRIVER, direction),
-                [p.frequency_hz for p in shown],
+                self._peaks_hz[direction],
             )
-            for i in range(N_PEAKS):
-                peak = shown[i] if i < len(shown) else None
-                self._peaks[direction, i].show(direction, peak, now)
+
+    def _show_peaks(self, direction: str, now: Results) -> None:
+        """Names the modes in the strongest peaks."""
+        peaks = now.peaks(DRIVER, direction, N_CONTRIBUTORS, strongest(now, direction))
+        self._peaks_hz[direction] = [peak.frequency_hz for peak in peaks]
+        for i in range(N_PEAKS):
+            self._peaks[direction, i].show(direction, peaks[i] if i < len(peaks) else None, now)
 
 
 class PeakRow:
