@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
@@ -9,7 +11,7 @@ from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.ride.wheels import wheel_forces
 from modeviz.tuning.preparation import FREQUENCY_HZ, prepare, prepare_modes
-from modeviz.tuning.results import Conditions, solve, solve_modal, solve_wheels
+from modeviz.tuning.results import Conditions, drive, solve, solve_modal, solve_wheels
 from modeviz.vehicle.connections import MountRates
 
 FLAT = Conditions("flat", 20.0)
@@ -74,3 +76,24 @@ def test_modes_need_no_road():
     modal = solve_modal(prepare_modes(mounted_cabin()), SOFT)
     assert len(modal.names) == len(modal.modes.frequency_hz) == 12
     assert sum(modal.kinetic_energy.values()) == pytest.approx(np.ones(12))
+
+
+def test_more_springs_than_coordinates_are_solved_directly_and_alike(monkeypatch):
+    cabin = mounted_cabin()
+    group = cabin.mount_groups[0]
+    third = replace(group, name="C", mounts=tuple(replace(m, name=f"C {m.name}") for m in group.mounts))
+    prepared = prepare(replace(cabin, mount_groups=(*cabin.mount_groups, third)), FREQUENCY_HZ[::20])
+    assert prepared.system.n_dofs < len(prepared.system.mount_motions) == 18
+    asked = []
+
+    def watched(*arguments):
+        asked.append(arguments)
+        return direct_response(*arguments)
+
+    monkeypatch.setattr("modeviz.tuning.results.direct_response", watched)
+    psd = solve(prepared, SOFT, FLAT).psd
+    assert len(asked) == 1
+    H = drive(prepared, FLAT).receptances.response(prepared.mount_stiffness(SOFT))
+    S = drive(prepared, FLAT).spectrum
+    modified = acceleration_psd(prepared.frequency_hz, H, S)
+    np.testing.assert_allclose(psd.reshape(modified.shape), modified, rtol=1e-9)

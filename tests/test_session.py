@@ -175,6 +175,7 @@ def test_the_track_is_that_of_the_straight_way_from_the_bases_modes(session):
     for rates in ({"A": MountRates(8e5, 6e5, 1e5)}, {"A": MountRates(2e5, 3e5, 9e5)}, target):
         session.set_rates(rates)
         assert session.wait(20)
+    assert session.wait_checked(60)
     expected = solve_followed(prepare(mounted_cabin()), target).track
     found = session.answers[-1].track
     np.testing.assert_array_equal(found.index, expected.index)

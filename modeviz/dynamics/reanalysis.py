@@ -9,10 +9,9 @@ and Δ the change of the springs' complex rates, the vehicle with the new rates 
 Signal Processing 4(1), 1990). It is exact for the full model and needs no solve larger than the number
 of springs that change.
 
-There is no second route: against a direct solve of all N coordinates at every frequency it is 260 times
-faster on the truck (27 springs, N = 430) and at N = 220 45 times with 36 springs, 5 times with 84,
-twice with 156 and as fast with 204. A direct solve wins only where more springs change than there are
-coordinates, a few rigid bodies on many mounts, and then by fractions of a millisecond a frequency.
+Against a direct solve of all N coordinates at every frequency it is 260 times faster on the truck (27
+springs, N = 430) and at N = 220 45 times with 36 springs, 5 times with 84, twice with 156 and as fast
+with 204. Where more springs change than there are coordinates, `tuning.results` solves directly.
 """
 
 from collections.abc import Callable, Iterator

@@ -12,7 +12,7 @@ from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.naming import ModeName, name_modes
 from modeviz.dynamics.reanalysis import Receptances
-from modeviz.dynamics.response import modal_coordinates
+from modeviz.dynamics.response import direct_response, modal_coordinates
 from modeviz.dynamics.trust import Trust
 from modeviz.ride.participation import Peak, participation, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
@@ -217,10 +217,26 @@ def solve_on(drive: Drive, rates: Rates, method: Method = "enriched") -> Results
     """Modes and ride on a road with other mount rates; arguments and errors as `solve`."""
     prepared = drive.prepared
     modal = solve_modal(prepared, rates, method)
-    H = drive.receptances.response(prepared.mount_stiffness(rates))
+    H = _response(drive, modal.rates)
     f = prepared.frequency_hz
     psd = acceleration_psd(f, H, drive.spectrum).reshape(len(f), H.shape[1] // 3, 3)
     return Results(prepared, modal.rates, modal.band, modal.names, drive, psd)
+
+
+def _response(drive: Drive, rates: Rates) -> Complexes:
+    """Displacement of every output per unit of the tracks, (n_freqs, n_outputs, 2), the cheaper way.
+
+    Structural modification solves for the springs that change, the equations of motion for all
+    coordinates: that is cheaper only where these are fewer, a few rigid bodies on many mounts.
+    """
+    prepared, receptances = drive.prepared, drive.receptances
+    stiffness = prepared.mount_stiffness(rates)
+    n_changed = np.count_nonzero(stiffness != receptances.mount_stiffness)
+    if n_changed <= prepared.system.n_dofs:
+        return receptances.response(stiffness)
+    forces = prepared.input_directions[prepared.tyre_inputs].T @ drive.amplitudes
+    system = prepared.system.with_rates(rates)
+    return direct_response(system, prepared.frequency_hz, forces, prepared.outputs)
 
 
 @dataclass(frozen=True, eq=False)

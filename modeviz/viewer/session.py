@@ -115,6 +115,7 @@ class Session:
         self._last: Solved | None = None
         self._track: Track
         self._tracked: Results
+        self._straight: Results | None = None
         self._detailed_at = -np.inf
         self._checked: Results | None = None
         self._check: Check | None = None
@@ -193,12 +194,14 @@ class Session:
         is_detailed = True
         if last and _asks_for_the_same(last.state, state):
             now, seconds = last.now, last.seconds
+            self._straighten_track(base, now)
         else:
             now = solve_on(self._drive_on(state.conditions), state.rates)
             seconds = time.perf_counter() - begin
             is_detailed = begin - self._detailed_at >= DETAILS_EVERY
+            if is_detailed:
+                self._lead_track_to(now)
         if is_detailed:
-            self._lead_track_to(now)
             self._detailed_at = begin
         mode = self._follow(now, state.mode)
         shape = self._in_phase(now.modes.shapes[:, mode])
@@ -225,10 +228,16 @@ class Session:
     def _lead_track_to(self, now: Results) -> None:
         """Follows the base's modes on from where they were last seen, or anew at the base's rates."""
         if now.rates == self._base.rates:
-            self._track = follow_rates(accept(self._base), self._base, now)
-        elif now is not self._tracked:
+            self._straighten_track(self._base, now)
+        else:
             self._track = follow_rates(self._track, self._tracked, now)
-        self._tracked = now
+            self._tracked = now
+
+    def _straighten_track(self, base: Results, now: Results) -> None:
+        """Follows the base's modes anew on the straight way, so that no detour of a slider counts."""
+        if self._straight is not now:
+            self._track = follow_rates(accept(base), base, now)
+            self._tracked = self._straight = now
 
     def _settle(self, solved: Solved) -> None:
         """Once nothing changes: shows details, makes the next drag cheap, checks bit by bit."""
