@@ -8,6 +8,7 @@ enter, so the basis serves every rate from zero to rigid.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -73,7 +74,7 @@ class EnrichedBasis:
     n_below: int
     """How many modes the base has in the band, counted without solving for them."""
 
-    @property
+    @cached_property
     def mount_stiffness(self) -> Complexes:
         """The base rates, (n_springs,), complex, N/m."""
         return mount_stiffness(self.system.vehicle)
@@ -82,6 +83,11 @@ class EnrichedBasis:
     def n_bytes(self) -> int:
         """The memory that the arrays take."""
         return sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
+
+    @cached_property
+    def rounding(self) -> float:
+        """The error that arithmetic makes in ω², rad²/s²."""
+        return rounding(self.system)
 
     @property
     def top(self) -> float:
@@ -165,7 +171,7 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
     n_counted = count_below(basis.n_below, basis.top_receptance, change.real)
     trust = Trust(
         solution.residual,
-        frequency_error(solution.omega_squared, solution.error + rounding(basis.system)),
+        frequency_error(solution.omega_squared, solution.error + basis.rounding),
         missed(n_counted, solution.omega_squared, basis.top),
     )
     modes = Modes(omega / (2 * np.pi), solution.shapes, ratio)

@@ -59,8 +59,11 @@ class ModalResults:
     rates: Rates
     """Of every mount group."""
     band: BandModes
-    names: tuple[ModeName, ...]
-    """One for each mode."""
+
+    @cached_property
+    def names(self) -> tuple[ModeName, ...]:
+        """One for each mode."""
+        return name_modes(self.prepared.namer, self.modes)
 
     @property
     def modes(self) -> Modes:
@@ -181,9 +184,7 @@ def solve_modal(prepared: PreparedModes, rates: Rates, method: Method = "enriche
         VehicleError: a group that the vehicle does not have.
     """
     band = band_modes(prepared.basis, prepared.mount_stiffness(rates), method)
-    return ModalResults(
-        prepared, prepared.all_rates(rates), band, name_modes(prepared.namer, band.modes)
-    )
+    return ModalResults(prepared, prepared.all_rates(rates), band)
 
 
 def solve(
@@ -220,7 +221,7 @@ def solve_on(drive: Drive, rates: Rates, method: Method = "enriched") -> Results
     H = _response(drive, modal.rates)
     f = prepared.frequency_hz
     psd = acceleration_psd(f, H, drive.spectrum).reshape(len(f), H.shape[1] // 3, 3)
-    return Results(prepared, modal.rates, modal.band, modal.names, drive, psd)
+    return Results(prepared, modal.rates, modal.band, drive, psd)
 
 
 def _response(drive: Drive, rates: Rates) -> Complexes:

@@ -153,7 +153,7 @@ class App:
         if self._last is None:
             return
         names = [name.name for name, _ in listed(self._last.now).values()]
-        shown = self._last.now.names[self._last.mode].name
+        shown = self._last.name.name
         at = names.index(shown) + step if shown in names else 0
         self.session.change(mode=names[at % len(names)])
 
@@ -166,7 +166,7 @@ class App:
 
     def _file_name(self) -> str:
         solved, name = self._last, self.session.vehicle.name
-        mode = f" {solved.now.names[solved.mode].name}" if solved else ""
+        mode = f" {solved.name.name}" if solved else ""
         return f"{name}{mode}".lower().replace(" ", "-")
 
 

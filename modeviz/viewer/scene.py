@@ -78,7 +78,7 @@ class Scene:
             self.show_style(state.coloring == "displacement", state.see_through, state.ghost)
             if solved.is_detailed:
                 shares = {group: solved.strain[group] for group in state.rates}
-                mode = solved.now.names[solved.mode].spoken
+                mode = solved.name.spoken
                 self._markers.show(state.group, state.rates, shares, mode)
 
     def show_shape(self, coordinates: Mapping[str, NDArray], colored: bool) -> None:

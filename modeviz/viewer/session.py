@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from modeviz.dynamics.assembly import System
+from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.roles import unit_of_role
 from modeviz.dynamics.tracking import Track
 from modeviz.tuning.check import Check, ClassicError, check_exactly, classic_error
@@ -65,6 +66,8 @@ class Solved:
     """Where the modes of `base` went."""
     mode: int
     """The shown mode, an index of `now.modes`."""
+    name: ModeName
+    """What it is called, or was when what is for reading was drawn last."""
     shape: Floats
     """Of the shown mode, (n_dofs,), in phase with the one shown before."""
     seconds: float
@@ -198,17 +201,22 @@ class Session:
         else:
             now = solve_on(self._drive_on(state.conditions), state.rates)
             seconds = time.perf_counter() - begin
-            is_detailed = begin - self._detailed_at >= DETAILS_EVERY
+            is_due = begin - self._detailed_at >= DETAILS_EVERY
+            is_detailed = last is None or last.state.mode != state.mode or is_due
             if is_detailed:
                 self._lead_track_to(now)
         if is_detailed:
             self._detailed_at = begin
-        mode = self._follow(now, state.mode)
+        if is_detailed or last is None:
+            mode = self._follow(now, state.mode)
+            name = now.names[mode]
+        else:
+            mode, name = _most_alike(now, last.shape), last.name
         shape = self._in_phase(now.modes.shapes[:, mode])
         check = self._check if self._checked is now else None
         classic = classic_error(now) if state.classic else None
         self._last = Solved(
-            state, base, now, self._track, mode, shape, seconds, check, classic, is_detailed
+            state, base, now, self._track, mode, name, shape, seconds, check, classic, is_detailed
         )
         self._show(self._last)
         if self._checked is not now:
@@ -283,9 +291,9 @@ class Session:
         if named is not None:
             return named
         if self._last is None:
-            return min(int(np.searchsorted(now.modes.frequency_hz, FREE_HZ)), len(now.names) - 1)
-        likeness = now.modes.shapes.T @ self._system.mass @ self._last.shape
-        return int(np.abs(likeness).argmax())
+            f = now.modes.frequency_hz
+            return min(int(np.searchsorted(f, FREE_HZ)), len(f) - 1)
+        return _most_alike(now, self._last.shape)
 
     def _in_phase(self, shape: Floats) -> Floats:
         """The shape, turned so that it does not jump by half a cycle from the one before."""
@@ -300,6 +308,12 @@ class Session:
 def _asks_for_the_same(one: State, other: State) -> bool:
     """Whether two states have the same answer and differ at most in what is shown of it."""
     return one.rates == other.rates and one.conditions == other.conditions
+
+
+def _most_alike(now: Results, shape: Floats) -> int:
+    """The mode whose shape is most like another."""
+    likeness = now.modes.shapes.T @ now.prepared.system.mass @ shape
+    return int(np.abs(likeness).argmax())
 
 
 def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State:

@@ -103,7 +103,8 @@ def page(server, scene, open_page):
 
 def solved(modal, mode=6, **fields):
     state = State({"C": RATES}, Conditions("none", 20.0), "", **({"group": "C"} | fields))
-    return Solved(state, modal, modal, None, mode, modal.modes.shapes[:, mode], 0.0, None, None, True)
+    name, shape = modal.names[mode], modal.modes.shapes[:, mode]
+    return Solved(state, modal, modal, None, mode, name, shape, 0.0, None, None, True)
 
 
 def node(page, name):

@@ -31,9 +31,8 @@ class AnimationCard:
             step_mode: shows the next mode (+1) or the one before (-1).
         """
         self._driver, self._step_mode = driver, step_mode
-        self._style = style_sheet()
-        # The page's style sheet is in this element because it is always there.
-        self._head = gui.add_html(self._style)
+        gui.add_html(style_sheet())  # for the whole page; this card is always there
+        self._head = gui.add_html("")
         self._amplitude = gui.add_slider(
             "Amplitude", 0.0, 3.0, 0.05, 1.0, marks=(1.0,), hint="How far the shape is drawn"
         )
@@ -70,11 +69,11 @@ class AnimationCard:
     def show(self, solved: Solved) -> None:
         """Names an answer's shown mode."""
         modes, i = solved.now.modes, solved.mode
-        name = title(solved.now.names[i].spoken)
+        name = title(solved.name.spoken)
         mode = f'<span class="title">{name}  {modes.frequency_hz[i]:.2f} Hz</span>'
         about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
         scale = _color_scale() if solved.state.coloring == "displacement" else ""
-        assign(self._head, content=self._style + block(heading(mode, about), scale))
+        assign(self._head, content=block(heading(mode, about), scale))
 
     def _hold(self) -> None:
         self._run(False)

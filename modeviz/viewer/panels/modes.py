@@ -91,7 +91,7 @@ class EnergyPanel:
 
     def show(self, solved: Solved) -> None:
         """Draws the shares of an answer's shown mode."""
-        name = title(solved.now.names[solved.mode].spoken)
+        name = title(solved.name.spoken)
         content = block(
             heading(f"{name}: kinetic energy by body"),
             _kinetic(solved.now, solved.mode, self._labels),
@@ -104,7 +104,7 @@ class EnergyPanel:
 def _ladder(solved: Solved) -> str:
     """The ladder of all modes, joined where the shapes of the original's modes went."""
     base, now, track = solved.base, solved.now, solved.track
-    old = base.mode_index(now.names[solved.mode].name)
+    old = base.mode_index(solved.name.name)
     before, after = base.modes.frequency_hz.tolist(), track.frequency_hz.tolist()
     weak = track.weak.tolist()
     rails = [
@@ -119,13 +119,13 @@ def _ladder(solved: Solved) -> str:
         now.modes.frequency_hz.tolist(),
         rails,
         solved.mode,
-        f"{sentence_case(now.names[solved.mode].spoken)}{was} {f:.2f}",
+        f"{sentence_case(solved.name.spoken)}{was} {f:.2f}",
     )
 
 
 def _old_shape(solved: Solved) -> str:
     """What became of the shape that had the shown mode's name, where it is no longer that mode."""
-    name = solved.now.names[solved.mode].name
+    name = solved.name.name
     old = solved.base.mode_index(name)
     if old is None or solved.track.shares[old, solved.mode] > SAME_SHAPE:
         return ""
@@ -182,7 +182,7 @@ def _kinetic(results: Results, mode: int, labels: Mapping[str, str]) -> str:
 
 def _strain(solved: Solved, groups: Sequence[str]) -> str:
     """A table of the mount groups: their share now and with the original rates."""
-    name = solved.now.names[solved.mode].name
+    name = solved.name.name
     before = solved.base.mode_index(name)
     now = {g: solved.strain[g] for g in groups}
     base = {g: solved.base.strain_energy[g][before] if before is not None else 0.0 for g in groups}

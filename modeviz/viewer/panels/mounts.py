@@ -49,7 +49,7 @@ class MountsPanel:
 
     def show(self, solved: Solved) -> None:
         """Marks what was changed, and each group's share of the shown mode's energy."""
-        shown = solved.now.names[solved.mode].spoken
+        shown = solved.name.spoken
         for group in self._vehicle.mount_groups:
             share = solved.strain[group.name]
             energy = f"{100 * share:.0f} % of {shown} energy"

@@ -65,7 +65,8 @@ class ResponsePanel:
         base, now = solved.base, solved.now
         if base is not self._base:
             self._base, self._base_band_rms = base, _band_rms(base)
-        assign(self._figures, content=block(_figures(base, self._base_band_rms, now)))
+        if solved.is_detailed:
+            assign(self._figures, content=block(_figures(base, self._base_band_rms, now)))
         for direction in DIRECTIONS:
             if solved.is_detailed:
                 self._show_peaks(direction, now)
