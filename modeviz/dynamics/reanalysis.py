@@ -148,11 +148,17 @@ class Receptances:
         scale = change * weight / np.multiply.outer(u, u)
         forces = np.empty((len(stretches), len(changed), stretches.shape[2]), complex)
         for lines in _blocks(len(stretches), 16 * len(changed) ** 2):
-            A = self.springs[lines, changed[:, None], changed] * scale
+            A = self._between(changed, lines) * scale
             A[:, range(len(changed)), range(len(changed))] += weight
             b = stretches[lines, changed] / u[:, None]
             forces[lines] = _solve(A, b, self.frequency_hz[lines])
         return changed, (change * weight / u)[:, None] * forces
+
+    def _between(self, changed: NDArray[np.intp], lines: slice) -> Complexes:
+        """Receptances between some springs, (n_lines, n_changed, n_changed), no copy if that is all."""
+        if len(changed) == self.springs.shape[1]:
+            return self.springs[lines]
+        return self.springs[lines, changed[:, None], changed]
 
 
 def prepare_receptances(
