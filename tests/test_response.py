@@ -116,6 +116,7 @@ def test_an_output_that_no_force_reaches_is_still():
         ([1.0, 10.0, 10.0], "10 Hz twice"),
         ([1.0, 3.0, 2.0], "3 Hz before 2 Hz"),
         ([[1.0, 2.0]], r"shape \(1, 2\)"),
+        ([], r"shape \(0,\)"),
     ],
 )
 def test_frequencies_that_cannot_be_solved_are_named(frequency_hz, found):

@@ -49,7 +49,7 @@ def check_frequencies(frequency_hz: Floats) -> None:
         SolveError: they are not a row of finite values above zero, each larger than the last.
     """
     f = np.asarray(frequency_hz, float)
-    if f.ndim != 1:
+    if f.ndim != 1 or not f.size:
         raise SolveError(f"frequency_hz: found shape {f.shape}, expected one row of values")
     wrong = ~(np.isfinite(f) & (f > 0))
     if wrong.any():

@@ -229,9 +229,10 @@ class Session:
         return self._base
 
     def _drive_on(self, conditions: Conditions) -> Drive:
-        if self._drive.conditions != conditions:
-            self._drive = drive(self._near, conditions)
-        return self._drive
+        found = self._drive  # the checker may put another in its place
+        if found.conditions != conditions:
+            self._drive = found = drive(self._near, conditions)
+        return found
 
     def _lead_track_to(self, now: Results) -> None:
         """Follows the base's modes on from where they were last seen, or anew at the base's rates."""

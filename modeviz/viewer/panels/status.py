@@ -23,7 +23,7 @@ class StatusPanel:
     def show_progress(self, fraction: float) -> None:
         """Says how far the preparation is."""
         bar = f'<div class="bar"><i style="width:{fraction:.0%};background:var(--mv-now)"></i></div>'
-        assign(self._content, content=block(heading("Preparing", f"{fraction:.0%}"), bar))
+        assign(self._content, content=block(heading("Preparing", f"{100 * fraction:.0f} %"), bar))
 
     def show(self, solved: Solved) -> None:
         """Says how an answer came about and how good it is."""

@@ -1,0 +1,83 @@
+"""What the foot of the left column says."""
+
+import re
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.tuning.check import Check, ClassicError
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions, solve
+from modeviz.viewer.panels.status import StatusPanel, _rounded
+
+
+class Page:
+    """Stands for viser's: keeps the last content of the one element."""
+
+    content = ""
+
+    def add_html(self, content):
+        self._impl = SimpleNamespace(props=self)
+        self._queue_update = lambda *_: None
+        return self
+
+
+@pytest.fixture(scope="module")
+def now():
+    return solve(prepare(mounted_cabin(), np.array([1.0, 2.0])), {}, Conditions("flat", 20.0))
+
+
+def shown(now, **changes):
+    """The text of the panel, without its markup."""
+    page = Page()
+    values = {"check": None, "classic_error": None, "seconds": 0.0042} | changes
+    state = SimpleNamespace(classic=values["classic_error"] is not None)
+    StatusPanel(page).show(SimpleNamespace(now=now, state=state, **values))
+    return re.sub("<[^>]*>", " ", page.content)
+
+
+def test_the_preparation_shows_how_far_it_is():
+    page = Page()
+    StatusPanel(page).show_progress(0.43)
+    assert "Preparing" in page.content
+    assert "43 %" in page.content
+
+
+def test_an_answer_has_its_time_and_its_health(now):
+    text = shown(now)
+    assert "4.2 ms" in text
+    assert re.search(r"12 modes below 40 Hz, none missed, each within 0\.0+\d Hz", text)
+    assert "exact solve follows" in text
+
+
+def test_a_missed_mode_is_said(now):
+    band = replace(now.band, trust=replace(now.trust, n_missed=2))
+    assert "2 not found" in shown(replace(now, band=band))
+
+
+@pytest.mark.parametrize(
+    ("check", "words"),
+    [
+        (Check(2e-8, 5e-6, 400, 400), "within 0.0005 % of exact"),
+        (Check(2e-8, 0.0, 20, 400), "within 0.000002 % of exact, 20 of 400 lines so far"),
+    ],
+)
+def test_the_largest_difference_from_the_exact_solve_is_shown(now, check, words):
+    assert words in shown(now, check=check)
+
+
+def test_the_classic_methods_error_is_shown_on_request(now):
+    f = now.modes.frequency_hz[11]
+    text = shown(now, classic_error=ClassicError(11, 1.05 * f, 0.05))
+    assert "up to 5 % off" in text
+    assert f"{1.05 * f:.2f} instead of {f:.2f} Hz" in text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(0.0, "0.000000001"), (3.4e-7, "0.0000003"), (0.0123, "0.01"), (12.34, "12")]
+)
+def test_small_numbers_are_written_out(value, text):
+    assert _rounded(value) == text
