@@ -17,18 +17,21 @@ from benchmarks.websocket import drag
 
 N_FREQS, N_ROUNDS, N_MOVES = 400, 3, 60
 SIZES = [
-    (Size(n_wagons=4, n_modes=50, n_mounts=3), 400),
-    (Size(n_wagons=4, n_modes=250, n_mounts=3), 100),
-    (Size(n_wagons=4, n_modes=250, n_mounts=3), 200),
-    (Size(n_wagons=4, n_modes=250, n_mounts=3), 400),
-    (Size(n_wagons=4, n_modes=250, n_mounts=11), 400),
-    (Size(n_wagons=4, n_modes=500, n_mounts=3), 400),
-    (Size(n_wagons=5, n_modes=400, n_mounts=25), 400),
+    (Size(n_wagons=4, n_modes=50, n_mounts=3), 400, 40.0),
+    (Size(n_wagons=4, n_modes=250, n_mounts=3), 100, 40.0),
+    (Size(n_wagons=4, n_modes=250, n_mounts=3), 200, 40.0),
+    (Size(n_wagons=4, n_modes=250, n_mounts=3), 400, 40.0),
+    (Size(n_wagons=4, n_modes=250, n_mounts=3), 400, 20.0),
+    (Size(n_wagons=4, n_modes=250, n_mounts=3), 400, 80.0),
+    (Size(n_wagons=4, n_modes=250, n_mounts=11), 400, 40.0),
+    (Size(n_wagons=4, n_modes=500, n_mounts=3), 400, 40.0),
+    (Size(n_wagons=5, n_modes=400, n_mounts=25), 400, 40.0),
 ]
-"""Vehicles of 200 to 2000 coordinates with 27 to 300 springs, and at how many frequencies."""
+"""Vehicles of 200 to 2000 coordinates with 27 to 300 springs, at how many frequencies
+and with modes up to how many hertz."""
 
 QUICK = 20, 1, 5
-QUICK_SIZES = [(Size(n_wagons=3, n_modes=20, n_mounts=1), 20)]
+QUICK_SIZES = [(Size(n_wagons=3, n_modes=20, n_mounts=1), 20, 40.0)]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -51,7 +54,7 @@ def measure(
     n_freqs: int = N_FREQS,
     n_rounds: int = N_ROUNDS,
     n_moves: int = N_MOVES,
-    sizes: Sequence[tuple[Size, int]] = SIZES,
+    sizes: Sequence[tuple[Size, int, float]] = SIZES,
 ) -> Report:
     """Everything, each part in a process of its own.
 
@@ -59,12 +62,12 @@ def measure(
         n_freqs: frequencies on the truck.
         n_rounds: turns of each method.
         n_moves: of a slider in the page.
-        sizes: other vehicles, with their number of frequencies.
+        sizes: other vehicles, with their number of frequencies and the top of their band, Hz.
     """
     comparison = _run("the methods", compare, n_freqs, n_rounds)
     truck = _run("the truck", figures, None, n_freqs)
     page = _run("the page", drag, n_moves)
-    others = [_run(f"{size}, {n} frequencies", figures, size, n) for size, n in sizes]
+    others = [_run(f"{size}, {n} frequencies", figures, size, n, top) for size, n, top in sizes]
     return Report(
         machine={**in_own_process(machine), "not_installed": comparison.not_installed},
         comparison=comparison.rows,

@@ -12,6 +12,7 @@ from benchmarks.peers import solve_directly
 from benchmarks.report import SizeRow
 from benchmarks.scaled_vehicle import Size, scaled_vehicle
 from benchmarks.work import Work
+from modeviz.dynamics.basis import TOP_HZ
 from modeviz.tuning.batch import solve_many
 from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
 from modeviz.tuning.results import Conditions, solve
@@ -26,16 +27,17 @@ N_DIRECT = 2
 """Frequencies from which the direct solution's time is scaled."""
 
 
-def figures(size: Size | None, n_freqs: int) -> SizeRow:
+def figures(size: Size | None, n_freqs: int, top_hz: float = TOP_HZ) -> SizeRow:
     """The figures of a vehicle of some size, or of the built-in truck.
 
     Args:
         size: None for the truck.
         n_freqs: how many frequencies, spread over the band.
+        top_hz: up to where modes are found.
     """
     vehicle = scaled_vehicle(size) if size else read_vehicle(builtin_vehicle())
     begin = time.perf_counter()
-    prepared = prepare(vehicle, FREQUENCY_HZ[:: len(FREQUENCY_HZ) // n_freqs])
+    prepared = prepare(vehicle, FREQUENCY_HZ[:: len(FREQUENCY_HZ) // n_freqs], top_hz)
     prepare_s = time.perf_counter() - begin
     work = Work(prepared, _stiffer(vehicle))
     response_ms = _median_ms(lambda: work.receptances.response(work.mount_stiffness))

@@ -129,6 +129,7 @@ def prepare_modes(vehicle: Vehicle, top_hz: float = TOP_HZ) -> PreparedModes:
 def prepare(
     vehicle: Vehicle,
     frequency_hz: Floats = FREQUENCY_HZ,
+    top_hz: float = TOP_HZ,
     progress: Callable[[float], None] | None = None,
 ) -> Prepared:
     """A vehicle made ready for the modes and responses of any mount rates.
@@ -139,13 +140,14 @@ def prepare(
     Args:
         vehicle: with the rates that the basis and the classic method start from.
         frequency_hz: (n_freqs,), rising, above zero: where responses are wanted.
+        top_hz: modes below this are wanted.
         progress: told the fraction that is done.
 
     Raises:
         SolveError: a frequency that is zero, repeated or not finite, an undamped resonance on one, or
             no meaningful modes.
     """
-    modal = prepare_modes(vehicle)
+    modal = prepare_modes(vehicle, top_hz)
     softest = modal.system.with_rates({g.name: g.bounds[0] for g in vehicle.mount_groups})
     inputs = np.vstack([tyre_directions(softest), wheel_directions(softest)])
     rows = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]

@@ -4,6 +4,7 @@ import io
 import json
 import re
 from contextlib import suppress
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -150,18 +151,23 @@ def test_dragged_rates_give_what_the_command_line_prints(app, page, capsys):
     assert np.abs(np.subtract(now, shape)).max() > 0
 
 
-def test_the_mode_follows_while_the_slider_moves(page):
+def test_mode_and_spectra_follow_while_the_slider_moves(page):
     slider = thumb(page, "C2", "lateral")
     box, titles = slider.bounding_box(), [page.evaluate(TITLE)]
+    charts = [page.evaluate(CURRENT)]
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()
     for step in range(1, 4):
         page.mouse.move(x - 5 * step, y)
         titles.append(wait_for(page, f"{TITLE} !== a.last && {TITLE}", last=titles[-1]))
+        changed = f"JSON.stringify({CURRENT}) !== JSON.stringify(a.last) && {CURRENT}"
+        charts.append(wait_for(page, changed, last=charts[-1]))
     page.mouse.up()
     frequencies = [float(t.split()[2]) for t in titles]
     assert frequencies == sorted(frequencies, reverse=True)
+    for before, after in pairwise(charts):
+        assert np.abs(np.subtract(after, before)).max() > 0.01
 
 
 def test_optimised_rates_come_and_go_with_a_click(app, page):
