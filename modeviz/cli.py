@@ -9,7 +9,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import get_args
 
-from modeviz.dynamics.basis import TOP_HZ, Method
+from modeviz.dynamics.band import Method
+from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record, modes_record, psd_record, wheels_record
 from modeviz.export.tables import modes_table, psd_table, wheels_table

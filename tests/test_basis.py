@@ -9,7 +9,8 @@ from oracles import Beam
 from test_modes import mass_on_a_string
 
 from modeviz.dynamics.assembly import assemble, mount_stiffness
-from modeviz.dynamics.basis import band_modes, natural_frequencies, prepare_basis
+from modeviz.dynamics.band import band_modes, natural_frequencies
+from modeviz.dynamics.basis import prepare_basis
 from modeviz.errors import SolveError
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
 from modeviz.vehicle.vehicle import Vehicle

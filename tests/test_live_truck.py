@@ -11,7 +11,7 @@ from differences import central_difference, relative_to_largest
 import modeviz as mv
 from modeviz.dynamics import basis as enriched
 from modeviz.dynamics.assembly import mount_stiffness
-from modeviz.dynamics.basis import band_modes
+from modeviz.dynamics.band import band_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.dynamics.trust import count_below
 from modeviz.ride.psd import acceleration_psd

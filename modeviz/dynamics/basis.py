@@ -1,4 +1,4 @@
-"""Modes after a change of mount rates: Rayleigh and Ritz in an enriched basis.
+"""A basis that holds the modes of a vehicle at any rates of its mounts, for Rayleigh and Ritz.
 
 A shape of the vehicle with changed mounts is (K - ω²M)⁻¹ times forces in the changed springs. Of that,
 the base modes hold what is in resonance; the rest hardly depends on frequency, and two static shapes of
@@ -9,20 +9,13 @@ enter, so the basis serves every rate from zero to rigid.
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 import scipy.linalg
 
 from modeviz.dynamics.assembly import System, mount_stiffness
-from modeviz.dynamics.modes import RESOLVED_HZ, Modes, damping_ratio, rounding, solve_modes
-from modeviz.dynamics.trust import EDGE, Trust, count_below, frequency_error, gap_error, missed
-from modeviz.errors import SolveError
+from modeviz.dynamics.modes import rounding, solve_modes
 from modeviz.vehicle.arrays import Complexes, Floats
-
-Method = Literal["enriched", "classic", "exact"]
-"""How modes are found: in the base modes with residual vectors, in the base modes alone (the paper's
-equation), or from the full matrices."""
 
 TOP_HZ = 40.0
 """The band in which modes are wanted, as the paper's RMS values."""
@@ -95,18 +88,6 @@ class EnrichedBasis:
         return (2 * np.pi * self.top_hz) ** 2
 
 
-@dataclass(frozen=True, eq=False)
-class BandModes:
-    """The modes of the band, and how good they are."""
-
-    modes: Modes
-    damping: Floats
-    """φᵀCφ, (n_modes, n_modes): damping couples modes."""
-    structural_damping: Floats
-    """φᵀK_gφ, (n_modes, n_modes)."""
-    trust: Trust
-
-
 def prepare_basis(system: System, top_hz: float = TOP_HZ) -> EnrichedBasis:
     """The enriched basis of a system for any rates of its mounts.
 
@@ -148,154 +129,6 @@ def prepare_basis(system: System, top_hz: float = TOP_HZ) -> EnrichedBasis:
         top_receptance=R @ at_top,
         n_below=_n_negative(system.stiffness - top * system.mass),
     )
-
-
-def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enriched") -> BandModes:
-    """The modes below the top of the band at other mount rates.
-
-    Args:
-        basis: of the vehicle.
-        stiffness: (n_springs,), complex rates, N/m.
-        method: how.
-
-    Raises:
-        SolveError: a spring so stiff that rounding drowns the slow modes.
-    """
-    change = stiffness - basis.mount_stiffness
-    _check_resolved(basis, change.real)
-    solution = _exact(basis, change.real) if method == "exact" else _ritz(basis, change.real, method)
-    omega = np.sqrt(np.maximum(solution.omega_squared, 0.0))
-    stretch = solution.stretch
-    viscous, structural = solution.damping, solution.structural + (stretch.T * change.imag) @ stretch
-    ratio = damping_ratio(omega, np.diag(viscous), np.diag(structural))
-    n_counted = count_below(basis.n_below, basis.top_receptance, change.real)
-    trust = Trust(
-        solution.residual,
-        frequency_error(solution.omega_squared, solution.error + basis.rounding),
-        missed(n_counted, solution.omega_squared, basis.top),
-    )
-    modes = Modes(omega / (2 * np.pi), solution.shapes, ratio)
-    return BandModes(modes, viscous, structural, trust)
-
-
-def natural_frequencies(basis: EnrichedBasis, stiffness: Complexes) -> Floats:
-    """The lowest natural frequencies, Hz, as many as the band has at the base rates.
-
-    At other mount rates; cheaper than `band_modes`, without shapes; arguments as there.
-    """
-    change = (stiffness - basis.mount_stiffness).real
-    _check_resolved(basis, change)
-    R = basis.spring_motions
-    omega_squared = np.linalg.eigvalsh(basis.stiffness + (R.T * change) @ R)[: basis.n_below]
-    return np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)
-
-
-def _check_resolved(basis: EnrichedBasis, change: Floats) -> None:
-    """Raises SolveError unless slow modes stand out from the rounding of the stiffest spring."""
-    added = change * (basis.spring_motions**2).max(axis=1, initial=0.0)
-    if np.finfo(np.float64).eps * added.max(initial=0.0) > (2 * np.pi * RESOLVED_HZ) ** 2:
-        stiffest = int(added.argmax())
-        mount = basis.system.vehicle.mounts[stiffest // 3]
-        rate = mount.stiffness[stiffest % 3] + change[stiffest]
-        raise SolveError(
-            f"the slow modes drown in rounding: mount {mount.name!r} has a rate of {rate:.2g} N/m; "
-            "soften it"
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class _Solution:
-    """Undamped modes with what their damping and their trust are made of."""
-
-    omega_squared: Floats
-    shapes: Floats
-    stretch: Floats
-    """(n_springs, n_modes), of the mount springs."""
-    damping: Floats
-    """φᵀCφ, (n_modes, n_modes)."""
-    structural: Floats
-    """φᵀK_gφ at the base rates, (n_modes, n_modes)."""
-    residual: Floats
-    """See `Trust.residual`."""
-    error: Floats
-    """See `Trust`, of ω², but for rounding."""
-
-
-def _ritz(basis: EnrichedBasis, change: Floats, method: Method) -> _Solution:
-    """The modes within the basis, or within its base modes."""
-    n = basis.n_modes if method == "classic" else basis.vectors.shape[1]
-    R = basis.spring_motions
-    A = basis.stiffness + (R.T * change) @ R
-    roughly, y = np.linalg.eigh(A[:n, :n])
-    y = y[:, roughly < 2 * basis.top]
-    omega_squared, y = _lowest(basis, basis.stiffness[:n, :n], R[:, :n], change, y)
-    stretch = R[:, :n] @ y
-    inside = A[:, :n] @ y
-    inside[:n] -= omega_squared * y
-    outside = basis.remainder[:, :n] @ y + basis.spring_remainder @ (change[:, None] * stretch)
-    inside_norm = np.linalg.norm(inside, axis=0)
-    return _Solution(
-        omega_squared,
-        basis.vectors[:, :n] @ y,
-        stretch,
-        y.T @ basis.damping[:n, :n] @ y,
-        y.T @ basis.structural_damping[:n, :n] @ y,
-        np.hypot(inside_norm, np.linalg.norm(outside, axis=0)),
-        gap_error(omega_squared, inside_norm) + _left_out_error(basis, omega_squared, outside),
-    )
-
-
-def _left_out_error(basis: EnrichedBasis, omega_squared: Floats, forces: Floats) -> Floats:
-    """How much too high ω² is, (n_modes,), for the forces on what the basis leaves out.
-
-    To second order rᵀ(K - ω²M)⁻¹r. The residual r is orthogonal to the basis, so it moves only what is
-    faster than the base modes: there 1/(ω_j² - ω²) is at most 1/ω_j² times the factor taken here.
-    """
-    amplification = 1 / (1 - omega_squared / (REACH**2 * basis.top))
-    return amplification * _quadratic(basis.remainder_compliance, forces)
-
-
-def _exact(basis: EnrichedBasis, change: Floats) -> _Solution:
-    """The modes of the full matrices."""
-    system = basis.system
-    R, M = system.mount_motions, system.mass
-    K = system.stiffness + (R.T * change) @ R
-    _, phi = scipy.linalg.eigh(K, M, subset_by_value=(-np.inf, (1 + EDGE) * basis.top))
-    omega_squared, phi = _lowest(basis, system.stiffness, R, change, phi)
-    residual = np.linalg.norm(
-        scipy.linalg.solve_triangular(
-            scipy.linalg.cholesky(M, lower=True), K @ phi - omega_squared * (M @ phi), lower=True
-        ),
-        axis=0,
-    )
-    return _Solution(
-        omega_squared,
-        phi,
-        R @ phi,
-        phi.T @ system.damping @ phi,
-        phi.T @ system.structural_damping @ phi,
-        residual,
-        gap_error(omega_squared, residual),
-    )
-
-
-def _lowest(
-    basis: EnrichedBasis, K: Floats, R: Floats, change: Floats, vectors: Floats
-) -> tuple[Floats, Floats]:
-    """The vectors of the band in rising order, with Rayleigh's quotient of each.
-
-    Base and change are summed apart: a spring that is practically rigid makes the eigenvalues of the
-    sum inexact, but hardly stretches.
-    """
-    omega_squared = _quadratic(K, vectors) + change @ (R @ vectors) ** 2
-    order = np.argsort(omega_squared, kind="stable")
-    order = order[omega_squared[order] < basis.top]
-    return omega_squared[order], vectors[:, order]
-
-
-def _quadratic(A: Floats, vectors: Floats) -> Floats:
-    """xᵀAx of each column x."""
-    return np.einsum("ij,ij->j", vectors, A @ vectors)
 
 
 def _orthonormal(first: Floats, more: Floats) -> Floats:

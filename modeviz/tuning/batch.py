@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from modeviz.dynamics.basis import natural_frequencies
+from modeviz.dynamics.band import natural_frequencies
 from modeviz.errors import SolveError
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.dynamics.basis import Method, band_modes
+from modeviz.dynamics.band import Method, band_modes
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.tracking import Track, follow, start_track
 from modeviz.tuning.preparation import PreparedModes

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.basis import BandModes, Method, band_modes
+from modeviz.dynamics.band import BandModes, Method, band_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.naming import ModeName, name_modes
