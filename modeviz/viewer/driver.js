@@ -14,7 +14,6 @@
     weights: { value: [0, 0] },
     phase: 0,
     sought: null,
-    applied: 0,
     error: null,
   });
   const turn = (page.turn = {}); // after a reconnect the script runs again, and takes over
@@ -127,7 +126,6 @@
       mesh.frustumCulled = false; // it moves out of the bounds it was loaded with
     }
     shown.set(group, { ...sent, attributes });
-    page.applied += 1;
     return true;
   }
 
