@@ -12,7 +12,7 @@ import numpy as np
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.roles import unit_of_role
-from modeviz.dynamics.tracking import Track
+from modeviz.dynamics.tracking import STEP_MAC, Track
 from modeviz.tuning.check import Check, ClassicError, check_exactly, classic_error
 from modeviz.tuning.following import accept, follow_rates
 from modeviz.tuning.preparation import Prepared, prepare
@@ -194,24 +194,20 @@ class Session:
         begin = time.perf_counter()
         base = self._solve_base(state.conditions)
         last = self._last
-        is_detailed = True
         if last and _asks_for_the_same(last.state, state):
             now, seconds = last.now, last.seconds
             self._straighten_track(base, now)
+            mode = None
         else:
             now = solve_on(self._drive_on(state.conditions), state.rates)
             seconds = time.perf_counter() - begin
-            is_due = begin - self._detailed_at >= DETAILS_EVERY
-            is_detailed = last is None or last.state.mode != state.mode or is_due
-            if is_detailed:
-                self._lead_track_to(now)
+            mode = self._recognised(now, state.mode, begin)
+            self._detailed_at = begin if mode is None else self._detailed_at
+        is_detailed = mode is None
         if is_detailed:
-            self._detailed_at = begin
-        if is_detailed or last is None:
             mode = self._follow(now, state.mode)
-            name = now.names[mode]
-        else:
-            mode, name = _most_alike(now, last.shape), last.name
+            self._lead_track_to(now)
+        name = now.names[mode] if is_detailed or last is None else last.name
         shape = self._in_phase(now.modes.shapes[:, mode])
         check = self._check if self._checked is now else None
         classic = classic_error(now) if state.classic else None
@@ -238,7 +234,7 @@ class Session:
         """Follows the base's modes on from where they were last seen, or anew at the base's rates."""
         if now.rates == self._base.rates:
             self._straighten_track(self._base, now)
-        else:
+        elif now is not self._tracked:
             self._track = follow_rates(self._track, self._tracked, now)
             self._tracked = now
 
@@ -286,6 +282,15 @@ class Session:
             time.sleep(seconds / 10)
         return True
 
+    def _recognised(self, now: Results, name: str, begin: float) -> int | None:
+        """The mode that clearly is the one shown last, while details need not be drawn; else None."""
+        last = self._last
+        is_due = begin - self._detailed_at >= DETAILS_EVERY
+        if last is None or last.state.mode != name or is_due:
+            return None
+        mode, mac = _most_alike(now, last.shape)
+        return mode if mac > STEP_MAC else None
+
     def _follow(self, now: Results, name: str) -> int:
         """The mode of that name, else the one most like the last shown, at first the slowest."""
         named = now.mode_index(name)
@@ -294,7 +299,7 @@ class Session:
         if self._last is None:
             f = now.modes.frequency_hz
             return min(int(np.searchsorted(f, FREE_HZ)), len(f) - 1)
-        return _most_alike(now, self._last.shape)
+        return _most_alike(now, self._last.shape)[0]
 
     def _in_phase(self, shape: Floats) -> Floats:
         """The shape, turned so that it does not jump by half a cycle from the one before."""
@@ -311,10 +316,11 @@ def _asks_for_the_same(one: State, other: State) -> bool:
     return one.rates == other.rates and one.conditions == other.conditions
 
 
-def _most_alike(now: Results, shape: Floats) -> int:
-    """The mode whose shape is most like another."""
-    likeness = now.modes.shapes.T @ now.prepared.system.mass @ shape
-    return int(np.abs(likeness).argmax())
+def _most_alike(now: Results, shape: Floats) -> tuple[int, float]:
+    """The mode whose shape is most like another, and their MAC."""
+    likeness = (now.modes.shapes.T @ now.prepared.system.mass @ shape) ** 2
+    mode = int(likeness.argmax())
+    return mode, float(likeness[mode])
 
 
 def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State:
