@@ -29,9 +29,9 @@ class PsdPlot:
         base_color = "#8a95a1" if dark else "#98a2ad"
         self._text_color = "#b4bcc6" if dark else "#5b6670"
         self._frame: tuple[int, int, tuple[float, ...]] = (-80, -20, ())
-        empty = np.full(len(self._f), -60.0)
+        self._curves = np.full((2, len(self._f)), -60.0)
         self._chart = gui.add_uplot(
-            (self._f, empty, empty),
+            (self._f, *self._curves),
             (
                 {"label": "Hz"},
                 {"label": "original", "stroke": base_color, "width": 1.5, "points": {"show": False}},
@@ -59,7 +59,9 @@ class PsdPlot:
             peaks_hz: where to mark a peak.
         """
         curves = power_decibels(np.stack([base[self._inside], now[self._inside]]))
-        send(self._chart, "data", (self._f, *curves))
+        if not np.array_equal(curves, self._curves):
+            self._curves = curves
+            send(self._chart, "data", (self._f, *curves))
         frame = (*_range(curves), tuple(round(f, 1) for f in peaks_hz))
         if frame != self._frame:  # a chart with other axes is built anew and forgets its zoom
             low, high, peaks = self._frame = frame

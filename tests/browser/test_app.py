@@ -245,6 +245,7 @@ def drained(socket):
 
 
 def test_a_move_of_a_slider_sends_its_shape_once_and_less_than_200_kb(app, server):
+    assert app.session.wait_checked(SOLVE_S)  # else it goes on sending how far the check is
     address = f"127.0.0.1:{server.get_port()}"
     with connect(
         f"ws://{address}",
@@ -256,7 +257,7 @@ def test_a_move_of_a_slider_sends_its_shape_once_and_less_than_200_kb(app, serve
     ) as socket:
         drained(socket)
         app.session.set_rate("C2", "lateral", 250e3)
-        assert app.session.wait(SOLVE_S)
+        assert app.session.wait_checked(SOLVE_S)
         sent = sum(map(len, drained(socket)))
     shape = 6 * sum(len(s.vertices) for s in app._scene._surfaces.values())
     assert shape < sent < min(2 * shape, 200_000)
