@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import math
 import os
 import sys
 from collections.abc import Callable, Sequence, Sized
@@ -162,7 +163,7 @@ def _need(vehicle: Vehicle, what: str, found: Sized) -> None:
 
 
 def _modes(options: argparse.Namespace) -> None:
-    if not options.below > 0:
+    if not (options.below > 0 and math.isfinite(options.below)):
         raise ModevizError(f"--below: found {options.below:g} Hz, expected more than zero")
     vehicle, rates = _vehicle_and_rates(options)
     prepared = prepare_modes(vehicle, max(options.below, TOP_HZ))

@@ -120,3 +120,12 @@ def test_the_classic_error_is_that_of_the_worst_mode(results, monkeypatch):
     assert worst.mode == 4
     assert worst.frequency_hz == off[4]
     assert worst.error == pytest.approx(0.02)
+
+
+def test_a_full_model_that_cannot_be_solved_that_exactly_is_said():
+    """Beside a spring of 10¹⁵ N/m the equations of motion lose more digits than they promise."""
+    prepared = prepare(mounted_cabin(), np.array([1.0, 5.0]))
+    rates = {"A": MountRates(1e14, 1e14, 1e14)}
+    check = last(check_exactly(solve(prepared, rates, FLAT)))
+    assert check.is_complete
+    assert "no accurate response at 1.0 Hz" in check.impossible

@@ -103,6 +103,7 @@ def test_tables_name_points_and_directions(capsys, folder, command):
         (["psd", "{}", "--speed", "fast"], "--speed: found 'fast'"),
         (["psd", "{}", "--speed", "9000 km/h"], "its table holds"),
         (["modes", "{}", "--below", "nan"], "--below: found nan Hz"),
+        (["modes", "{}", "--below", "inf"], "--below: found inf Hz"),
         (["view", "{}", "--port", "99999999"], "expected 0 to 65535"),
         (["view", "{}", "--port", "-1"], "expected 0 to 65535"),
         (["view", "{}", "--port", "0", "--speed", "9000 km/h"], "its table holds"),

@@ -244,7 +244,11 @@ def test_the_classic_method_is_exact_at_the_base_and_says_how_far_it_is_off_else
     true = frequencies(true_squares["optimised"], prepared.basis.top)
     error = tuned.modes.frequency_hz - true
     assert (error[moves] / true[moves]).max() > 1e-3
-    assert (error <= tuned.trust.frequency_error_hz + rounding_hz("optimised")).all()
+    # Of two modes 0.01 Hz apart the classic method may have the order wrong.
+    nearest = np.abs(tuned.modes.frequency_hz[:, None] - true).min(axis=1)
+    stated = tuned.trust.frequency_error_hz
+    assert (nearest <= stated + rounding_hz("optimised")).all()
+    assert np.median(stated[moves] / nearest[moves]) < 5
 
 
 def test_the_classic_method_misses_the_mode_of_a_mount_removed(prepared, rate_sets):

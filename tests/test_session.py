@@ -191,3 +191,16 @@ def test_the_classic_error_is_found_only_if_it_is_asked_for(session):
     assert session.wait(20)
     # The cabin's twelve base modes span every shape it has.
     assert session.answers[-1].classic_error.error < 1e-9
+
+
+def test_from_nearly_rigid_mounts_the_original_comes_back_exactly(session):
+    session.start()
+    own = session.vehicle.rates
+    session.set_rates({"A": MountRates(1e12, 1e12, 1e12)})
+    assert session.wait_checked(60)
+    session.set_rates({"A": own["A"], "B": replace(own["B"], lateral=3.1e5)})
+    assert session.wait_checked(60)
+    solved = session.answers[-1]
+    expected = solve(prepare(session.vehicle), solved.state.rates, FLAT)
+    np.testing.assert_allclose(solved.now.psd, expected.psd, rtol=1e-9)
+    assert solved.check.error < 1e-9

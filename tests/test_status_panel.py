@@ -49,7 +49,7 @@ def test_the_preparation_shows_how_far_it_is():
 def test_an_answer_has_its_time_and_its_health(now):
     text = shown(now)
     assert "4.2 ms" in text
-    assert re.search(r"12 modes below 40 Hz, none missed, each within 0\.0+\d Hz", text)
+    assert re.search(r"12 modes below 40 Hz, none missed, each within 0\.001 Hz", text)
     assert "exact solve follows" in text
 
 
@@ -61,12 +61,24 @@ def test_a_missed_mode_is_said(now):
 @pytest.mark.parametrize(
     ("check", "words"),
     [
-        (Check(2e-8, 5e-6, 400, 400), "within 0.0005 % of exact"),
-        (Check(2e-8, 0.0, 20, 400), "within 0.000002 % of exact, 20 of 400 lines so far"),
+        (Check(2e-8, 5e-3, 400, 400), "within 0.5 % of exact"),
+        (Check(2e-8, 0.0, 20, 400), "within 0.001 % of exact, 20 of 400 lines so far"),
+        (Check(2e-8, 0.0, 0, 400, "too stiff"), "not checked: too stiff"),
     ],
 )
 def test_the_largest_difference_from_the_exact_solve_is_shown(now, check, words):
     assert words in shown(now, check=check)
+
+
+def test_a_large_difference_is_no_good_sign(now):
+    for error, dot in ((1e-7, "--mv-good"), (1e-2, "--mv-bad")):
+        page = Page()
+        check = Check(error, 0.0, 400, 400)
+        state = SimpleNamespace(classic=False)
+        StatusPanel(page).show(
+            SimpleNamespace(now=now, state=state, check=check, classic_error=None, seconds=0.004)
+        )
+        assert dot in page.content
 
 
 def test_the_classic_methods_error_is_shown_on_request(now):
@@ -77,7 +89,7 @@ def test_the_classic_methods_error_is_shown_on_request(now):
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(0.0, "0.000000001"), (3.4e-7, "0.0000003"), (0.0123, "0.01"), (12.34, "12")]
+    ("value", "text"), [(0.0, "0.001"), (3.4e-7, "0.001"), (0.0123, "0.01"), (12.34, "12")]
 )
 def test_small_numbers_are_written_out(value, text):
     assert _rounded(value) == text

@@ -42,6 +42,11 @@ class System:
     def n_dofs(self) -> int:
         return len(self.mass)
 
+    @property
+    def n_bytes(self) -> int:
+        """The memory that the matrices take."""
+        return sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
+
     @cached_property
     def dof_names(self) -> tuple[str, ...]:
         """One name for each coordinate: "cab mode 7", "front end residual 3", "engine rx"."""

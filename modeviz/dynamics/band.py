@@ -123,18 +123,24 @@ def _ritz(basis: EnrichedBasis, change: Floats, method: Method) -> _Solution:
         y.T @ basis.damping[:n, :n] @ y,
         y.T @ basis.structural_damping[:n, :n] @ y,
         np.hypot(inside_norm, np.linalg.norm(outside, axis=0)),
-        gap_error(omega_squared, inside_norm) + _left_out_error(basis, omega_squared, outside),
+        _amplification(basis, omega_squared)
+        * (_quadratic(basis.remainder_compliance, outside) + _compliance_of(A[n:, n:], inside[n:])),
     )
 
 
-def _left_out_error(basis: EnrichedBasis, omega_squared: Floats, forces: Floats) -> Floats:
-    """How much too high ω² is, (n_modes,), for the forces on what the basis leaves out.
+def _amplification(basis: EnrichedBasis, omega_squared: Floats) -> Floats:
+    """What a mode's own motion adds to the static effect of a residual, (n_modes,).
 
-    To second order rᵀ(K - ω²M)⁻¹r. The residual r is orthogonal to the basis, so it moves only what is
-    faster than the base modes: there 1/(ω_j² - ω²) is at most 1/ω_j² times the factor taken here.
+    To second order ω² is too high by rᵀ(K - ω²M)⁻¹r. The residual r is orthogonal to the vectors in
+    use, so it moves only what is faster than the base modes: there 1/(ω_j² - ω²) is at most 1/ω_j²
+    times this.
     """
-    amplification = 1 / (1 - omega_squared / (REACH**2 * basis.top))
-    return amplification * _quadratic(basis.remainder_compliance, forces)
+    return 1 / (1 - omega_squared / (REACH**2 * basis.top))
+
+
+def _compliance_of(A: Floats, forces: Floats) -> Floats:
+    """rᵀA⁻¹r of each column, for what the classic method leaves out of the basis, (n_modes,)."""
+    return np.sum(forces * np.linalg.solve(A, forces), axis=0)
 
 
 def _exact(basis: EnrichedBasis, change: Floats) -> _Solution:

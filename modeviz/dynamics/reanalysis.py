@@ -83,7 +83,7 @@ class Receptances:
         """
         columns = np.dstack([self.springs, self.outputs, self.inputs])
         changed, forces = self._forces(stiffness, columns)
-        columns = columns - self.springs[:, :, changed] @ forces
+        self._add_forces(columns, changed, forces)
         n_springs, n_outputs = self.outputs.shape[1:]
         springs, outputs, inputs = np.split(columns, [n_springs, n_springs + n_outputs], axis=2)
         direct = (
@@ -124,7 +124,7 @@ class Receptances:
         """
         columns = np.dstack([self.outputs, self.inputs])
         changed, forces = self._forces(stiffness, columns)
-        columns = columns - self.springs[:, :, changed] @ forces
+        self._add_forces(columns, changed, forces)
         n_outputs = self.outputs.shape[2]
         H = self.direct - _transposed(self.outputs[:, changed]) @ forces[:, :, n_outputs:]
         return H, columns[:, :, :n_outputs], columns[:, :, n_outputs:]
@@ -153,6 +153,11 @@ class Receptances:
             b = stretches[lines, changed] / u[:, None]
             forces[lines] = _solve(A, b, self.frequency_hz[lines])
         return changed, (change * weight / u)[:, None] * forces
+
+    def _add_forces(self, stretches: Complexes, changed: NDArray[np.intp], forces: Complexes) -> None:
+        """Takes from stretches, in place, what the forces in changed springs do."""
+        for lines in _blocks(len(stretches), 16 * forces[0].size if len(forces) else 1):
+            stretches[lines] -= self.springs[lines, :, changed] @ forces[lines]
 
     def _between(self, changed: NDArray[np.intp], lines: slice) -> Complexes:
         """Receptances between some springs, (n_lines, n_changed, n_changed), no copy if that is all."""

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes
 from modeviz.dynamics.response import direct_response
+from modeviz.errors import SolveError
 from modeviz.ride.psd import FLOOR, acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.tuning.results import Results, solve_modal
@@ -30,10 +31,12 @@ class Check:
     """At how many frequencies PSDs were compared."""
     n_freqs: int
     """How many frequencies there are."""
+    impossible: str = ""
+    """Why the full model cannot be solved exactly enough to compare more, if it cannot."""
 
     @property
     def is_complete(self) -> bool:
-        return self.n_lines == self.n_freqs
+        return self.n_lines == self.n_freqs or bool(self.impossible)
 
     @property
     def error(self) -> float:
@@ -55,7 +58,11 @@ def check_exactly(results: Results) -> Iterator[Check]:
     for lines in _coarse_first(len(results.frequency_hz)):
         f = results.frequency_hz[lines]
         forces = track_forces(system, f, results.conditions.speed)
-        H = direct_response(system, f, forces, results.prepared.outputs)
+        try:
+            H = direct_response(system, f, forces, results.prepared.outputs)
+        except SolveError as error:
+            yield replace(check, impossible=str(error))
+            return
         road = system.vehicle.road(results.conditions.road)
         spectrum = road_spectrum(road, f, results.conditions.speed)
         psd = acceleration_psd(f, H, spectrum).reshape(len(f), -1, 3)

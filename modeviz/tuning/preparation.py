@@ -22,6 +22,11 @@ FREQUENCY_HZ = np.arange(1, 401) / 10
 """The band of the paper's RMS values, 0 to 40 Hz, without zero."""
 
 
+STIFFEST_BASE = 5e6
+"""N/m: receptances are taken at no stiffer rates. From a rigid spring there is no way back to a soft
+one: what it lets through is the small difference of large numbers."""
+
+
 @dataclass(frozen=True, eq=False)
 class PreparedModes:
     """A vehicle made ready for the modes of any mount rates."""
@@ -38,7 +43,7 @@ class PreparedModes:
     @property
     def n_bytes(self) -> int:
         """The memory that the prepared arrays take."""
-        return self.basis.n_bytes
+        return self.system.n_bytes + self.basis.n_bytes + self.namer.rows.nbytes
 
     def all_rates(self, rates: Rates) -> dict[str, MountRates]:
         """The rates of every group: those given, and the vehicle's own for the others.
@@ -90,7 +95,8 @@ class Prepared(PreparedModes):
     @property
     def n_bytes(self) -> int:
         """The memory that the prepared arrays take."""
-        return self.basis.n_bytes + self.receptances.n_bytes
+        own = self.input_directions.nbytes + self.outputs.nbytes
+        return super().n_bytes + self.receptances.n_bytes + own
 
     @property
     def tyre_inputs(self) -> slice:
@@ -103,13 +109,18 @@ class Prepared(PreparedModes):
         return slice(3 * len(self.vehicle.tyres), None)
 
     def near(self, rates: Rates) -> "Prepared":
-        """The same with receptances at other rates: answers close by then cost less.
+        """The same with receptances at other rates, where these are soft: answers close by cost less.
+
+        To be asked of what `prepare` gave, for rounding adds up.
 
         Raises:
             VehicleError: a group that the vehicle does not have.
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
-        return replace(self, receptances=self.receptances.modified(self.mount_stiffness(rates)))
+        return replace(
+            self,
+            receptances=self.receptances.modified(self.mount_stiffness(_soft(self.all_rates(rates)))),
+        )
 
 
 def prepare_modes(vehicle: Vehicle, top_hz: float = TOP_HZ) -> PreparedModes:
@@ -129,13 +140,14 @@ def prepare_modes(vehicle: Vehicle, top_hz: float = TOP_HZ) -> PreparedModes:
 def prepare(
     vehicle: Vehicle,
     frequency_hz: Floats = FREQUENCY_HZ,
+    *,
     top_hz: float = TOP_HZ,
     progress: Callable[[float], None] | None = None,
 ) -> Prepared:
     """A vehicle made ready for the modes and responses of any mount rates.
 
     Receptances are taken at the softest rates of every group's bounds, so that a change within the
-    bounds only ever adds springs.
+    bounds only ever adds springs, and nowhere above `STIFFEST_BASE`.
 
     Args:
         vehicle: with the rates that the basis and the classic method start from.
@@ -148,9 +160,17 @@ def prepare(
             no meaningful modes.
     """
     modal = prepare_modes(vehicle, top_hz)
-    softest = modal.system.with_rates({g.name: g.bounds[0] for g in vehicle.mount_groups})
+    softest = modal.system.with_rates(_soft({g.name: g.bounds[0] for g in vehicle.mount_groups}))
     inputs = np.vstack([tyre_directions(softest), wheel_directions(softest)])
     rows = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
     outputs = np.vstack([np.zeros((0, softest.n_dofs)), *rows])
     receptances = prepare_receptances(softest, frequency_hz, outputs, inputs, progress)
     return Prepared(modal.system, modal.basis, modal.namer, receptances, inputs, outputs)
+
+
+def _soft(rates: Rates) -> dict[str, MountRates]:
+    """The same rates, but none above `STIFFEST_BASE`."""
+    return {
+        group: MountRates(*(min(rate, STIFFEST_BASE) for rate in r.as_tuple()))
+        for group, r in rates.items()
+    }

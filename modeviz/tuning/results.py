@@ -14,6 +14,7 @@ from modeviz.dynamics.naming import ModeName, name_modes
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.response import direct_response, modal_coordinates
 from modeviz.dynamics.trust import Trust
+from modeviz.errors import ModevizError
 from modeviz.ride.participation import Peak, participation, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
@@ -35,6 +36,10 @@ class Conditions:
     road: str
     speed: float
     """m/s."""
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.speed) and self.speed > 0):
+            raise ModevizError(f"speed: found {self.speed} m/s, expected more than 0")
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,24 +223,25 @@ def solve_on(drive: Drive, rates: Rates, method: Method = "enriched") -> Results
     """Modes and ride on a road with other mount rates; arguments and errors as `solve`."""
     prepared = drive.prepared
     modal = solve_modal(prepared, rates, method)
-    H = _response(drive, modal.rates)
+    H = _response(prepared, drive.receptances, prepared.tyre_inputs, drive.amplitudes, modal.rates)
     f = prepared.frequency_hz
     psd = acceleration_psd(f, H, drive.spectrum).reshape(len(f), H.shape[1] // 3, 3)
     return Results(prepared, modal.rates, modal.band, drive, psd)
 
 
-def _response(drive: Drive, rates: Rates) -> Complexes:
-    """Displacement of every output per unit of the tracks, (n_freqs, n_outputs, 2), the cheaper way.
+def _response(
+    prepared: Prepared, driven: Receptances, inputs: slice, amplitudes: Complexes, rates: Rates
+) -> Complexes:
+    """Displacement of every output in each load, (n_freqs, n_outputs, n_loads), the cheaper way.
 
     Structural modification solves for the springs that change, the equations of motion for all
     coordinates: that is cheaper only where these are fewer, a few rigid bodies on many mounts.
     """
-    prepared, receptances = drive.prepared, drive.receptances
     stiffness = prepared.mount_stiffness(rates)
-    n_changed = np.count_nonzero(stiffness != receptances.mount_stiffness)
+    n_changed = np.count_nonzero(stiffness != driven.mount_stiffness)
     if n_changed <= prepared.system.n_dofs:
-        return receptances.response(stiffness)
-    forces = prepared.input_directions[prepared.tyre_inputs].T @ drive.amplitudes
+        return driven.response(stiffness)
+    forces = prepared.input_directions[inputs].T @ amplitudes
     system = prepared.system.with_rates(rates)
     return direct_response(system, prepared.frequency_hz, forces, prepared.outputs)
 
@@ -260,8 +266,9 @@ def solve_wheels(prepared: Prepared, rates: Rates) -> WheelResults:
     """The response to every wheel load of the vehicle; arguments and errors as `solve`."""
     vehicle, f = prepared.vehicle, prepared.frequency_hz
     amplitudes = wheel_amplitudes(vehicle, vehicle.wheel_loads, f)
-    driven = prepared.receptances.driven(amplitudes, prepared.wheel_inputs)
-    H = driven.response(prepared.mount_stiffness(rates))
+    inputs = prepared.wheel_inputs
+    driven = prepared.receptances.driven(amplitudes, inputs)
+    H = _response(prepared, driven, inputs, amplitudes, prepared.all_rates(rates))
     g = harmonic_acceleration(f, H).transpose(0, 2, 1)
     n_loads, n_points = len(vehicle.wheel_loads), len(vehicle.response_points)
     return WheelResults(f, g.reshape(len(f), n_loads, n_points, 3))

@@ -86,13 +86,13 @@ class App:
         gui, session = self._gui, self.session
         gui.main_panel.dock_left()
         gui.main_panel.set_width(LEFT_WIDTH)
+        self._status = StatusPanel(gui)
         self._mounts = MountsPanel(gui, session, self._set_rates)
         tabs = gui.add_tab_group()
         with tabs.add_tab("View", viser.Icon.EYE):
             ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             PicturePanel(gui, self._file_name)
-        self._status = StatusPanel(gui)
 
         right = gui.add_panel()
         with right.add_tab("Response", viser.Icon.CHART_LINE):

@@ -39,7 +39,7 @@ def ladder(
     Args:
         before: Hz.
         after: Hz.
-        rails: what to join, only such as are drawn at both ends.
+        rails: what to join, such as are drawn at one end at least; the other is then at the edge.
         shown: which of `after` is the shown mode.
         label: what is written above it.
     """
@@ -55,7 +55,7 @@ def ladder(
         f'<text x="0" y="14" font-size="11" fill="{DIM}">original</text>',
         f'<text x="0" y="{BOTTOM + 25}" font-size="11" fill="{NOW}">now</text>',
     ]
-    if shown < len(after) and drawn(after[shown]):
+    if shown < len(after):
         middle = min(max(_x(after[shown]), 110), WIDTH - 90)
         parts.append(_text(middle, 22, label, TEXT, 'font-weight="600"'))
     view = f'viewBox="0 0 {WIDTH} {HEIGHT}" width="100%" style="display:block"'
@@ -68,7 +68,8 @@ def drawn(frequency_hz: float) -> bool:
 
 
 def _x(f: float) -> float:
-    return 30 + (f - LOW) / (HIGH - LOW) * (WIDTH - 50)
+    """Where a frequency is drawn, one off the scale at its edge."""
+    return 30 + (min(max(f, LOW), HIGH) - LOW) / (HIGH - LOW) * (WIDTH - 50)
 
 
 @cache

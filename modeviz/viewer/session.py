@@ -195,12 +195,11 @@ class Session:
         base = self._solve_base(state.conditions)
         last = self._last
         if last and _asks_for_the_same(last.state, state):
-            now, seconds = last.now, last.seconds
+            now = last.now
             self._straighten_track(base, now)
             mode = None
         else:
             now = solve_on(self._drive_on(state.conditions), state.rates)
-            seconds = time.perf_counter() - begin
             mode = self._recognised(now, state.mode, begin)
             self._detailed_at = begin if mode is None else self._detailed_at
         is_detailed = mode is None
@@ -209,14 +208,18 @@ class Session:
             self._lead_track_to(now)
         name = now.names[mode] if is_detailed or last is None else last.name
         shape = self._in_phase(now.modes.shapes[:, mode])
+        seconds = last.seconds if last and last.now is now else time.perf_counter() - begin
         check = self._check if self._checked is now else None
         classic = classic_error(now) if state.classic else None
         self._last = Solved(
             state, base, now, self._track, mode, name, shape, seconds, check, classic, is_detailed
         )
         self._show(self._last)
-        if self._checked is not now:
-            self._checked, self._check = now, None
+        with self._lock:
+            is_unchecked = self._checked is not now
+            if is_unchecked:
+                self._checked, self._check = now, None
+        if is_unchecked:
             self._checker.submit(self._last)
 
     def _solve_base(self, conditions: Conditions) -> Results:

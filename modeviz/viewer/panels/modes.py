@@ -110,7 +110,7 @@ def _ladder(solved: Solved) -> str:
     rails = [
         Rail(before[i], after[i], weak[i], strong=i == old)
         for i in range(len(before))
-        if drawn(before[i]) and drawn(after[i])
+        if track.index[i] >= 0 and (drawn(before[i]) or drawn(after[i]))
     ]
     f = now.modes.frequency_hz[solved.mode]
     was = "" if old is None else f" {base.modes.frequency_hz[old]:.2f} →"

@@ -1,5 +1,7 @@
 """Left column, foot: how long an answer took, and how far it can be trusted."""
 
+from html import escape
+
 import viser
 
 from modeviz.dynamics.modes import RESOLVED_HZ
@@ -9,8 +11,11 @@ from modeviz.viewer.assign import assign
 from modeviz.viewer.html import block, heading, span, title
 from modeviz.viewer.session import Solved
 
-LEAST_SHOWN = 1e-9
-"""Smaller errors are shown as this."""
+LEAST_SHOWN = 1e-3
+"""Hz and percent: smaller errors are shown as this."""
+
+ALARMING = 1e-3
+"""Percent: a larger difference from the exact answer is shown as bad."""
 
 
 class StatusPanel:
@@ -35,7 +40,8 @@ class StatusPanel:
 
 
 def _solved(solved: Solved) -> str:
-    color = "--mv-bad" if solved.now.trust.n_missed else "--mv-good"
+    doubtful = solved.check is not None and 100 * solved.check.error > ALARMING
+    color = "--mv-bad" if doubtful or solved.now.trust.n_missed else "--mv-good"
     dot = f'<i class="swatch" style="background:var({color});border-radius:50%"></i>'
     milliseconds = 1000 * solved.seconds
     return heading(f"{dot}Solved", f"{milliseconds:.{0 if milliseconds >= 10 else 1}f} ms")
@@ -56,8 +62,11 @@ def _checked(check: Check | None) -> str:
     """What the exact solve says."""
     if check is None:
         return "exact solve follows"
+    if check.impossible:
+        return f"not checked: {escape(check.impossible)}"
     progress = "" if check.is_complete else f", {check.n_lines} of {check.n_freqs} lines so far"
-    return f"within {_percent(check.error)} of exact{progress}"
+    text = f"within {_percent(check.error)} of exact{progress}"
+    return span(text, "bad") if 100 * check.error > ALARMING else text
 
 
 def _classic(solved: Solved) -> str:
