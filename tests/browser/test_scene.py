@@ -206,18 +206,23 @@ def test_view_stays_framed_when_the_page_narrows_until_somebody_moves_the_camera
         page.set_viewport_size({"width": width, "height": 400})
         wait_until(page, lambda: client.camera.image_width == width)
 
-    scene.look(client, "Iso")
-    wide = distance()
-    resize(200)
-    wait_until(page, lambda: distance() == pytest.approx(wide * 0.98 / 0.5, rel=1e-3))
-    resize(900)
-    wait_until(page, lambda: distance() == pytest.approx(wide, rel=1e-3))
-    client.camera.position = np.add(client.camera.position, [0.5, 0, 0])
-    moved = distance()
-    resize(200)
-    page.wait_for_timeout(1000)  # nothing is to happen
-    assert distance() == pytest.approx(moved, rel=1e-3)
-    resize(900)
+    try:
+        scene.look(client, "Iso")
+        wide = distance()
+        resize(200)
+        wait_until(page, lambda: distance() == pytest.approx(wide * 0.98 / 0.5, rel=1e-3))
+        resize(900)
+        wait_until(page, lambda: distance() == pytest.approx(wide, rel=1e-3))
+        page.mouse.move(450, 200)
+        page.mouse.wheel(0, 300)
+        wait_until(page, lambda: distance() > 1.02 * wide)
+        page.wait_for_timeout(1000)  # the wheel's motion runs out
+        moved = distance()
+        resize(200)
+        page.wait_for_timeout(1000)  # nothing is to happen
+        assert distance() == pytest.approx(moved, rel=1e-3)
+    finally:
+        resize(900)
 
 
 def test_clicking_a_mount_selects_its_group(server, scene, page, chosen):
