@@ -23,6 +23,7 @@ LAYERS = [
     {"export"},
     {"__init__"},
     {"viewer"},
+    {"commands"},
     {"cli"},
     {"__main__"},
 ]

@@ -1,0 +1,65 @@
+"""What commands share: the vehicle, rates, road and speed that were asked for, and word of progress."""
+
+import sys
+from argparse import Namespace
+from collections.abc import Callable, Sized
+
+from modeviz.errors import ModevizError, located
+from modeviz.ride.roads import road_spectrum
+from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
+from modeviz.tuning.rates import resolve_rates
+from modeviz.tuning.results import Conditions
+from modeviz.units import parse
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.vehicle import Vehicle
+
+
+def vehicle_and_rates(options: Namespace) -> tuple[Vehicle, Rates]:
+    """The vehicle with its own rates, and the rates chosen."""
+    vehicle = read_vehicle(options.vehicle or builtin_vehicle())
+    return vehicle, resolve_rates(vehicle, options.rates, options.settings).rates
+
+
+def conditions(options: Namespace, vehicle: Vehicle) -> Conditions:
+    """The road and the speed chosen, or the vehicle's.
+
+    Raises:
+        ModevizError: there is no such road, or nothing to drive or to feel it with.
+    """
+    need(vehicle, "road", vehicle.roads)
+    need(vehicle, "response point", vehicle.response_points)
+    speed = vehicle.speed if options.speed is None else _speed(options.speed)
+    road = vehicle.road(options.road or vehicle.roads[0].name)
+    road_spectrum(road, FREQUENCY_HZ, speed)  # what is wrong there is better said before a preparation
+    return Conditions(road.name, speed)
+
+
+def need(vehicle: Vehicle, what: str, found: Sized) -> None:
+    """Raises ModevizError unless the vehicle has some of what a command shows."""
+    if not found:
+        key = what.replace(" ", "_")
+        raise ModevizError(f"vehicle {vehicle.name!r} has no {what}: give its vehicle.toml a [[{key}]]")
+
+
+def prepare_telling(vehicle: Vehicle) -> Prepared:
+    """Prepares a vehicle and shows on a terminal how far that is."""
+    return prepare(vehicle, progress=progress())
+
+
+def progress() -> Callable[[float], None] | None:
+    """Shows on a terminal how far the preparation is; nothing where errors go to a file."""
+    return _tell_progress if sys.stderr.isatty() else None
+
+
+def _tell_progress(done: float) -> None:
+    text = f"\rpreparing {done:4.0%}" if done < 1 else "\r\x1b[K"
+    print(end=text, file=sys.stderr, flush=True)
+
+
+def _speed(text: str) -> float:
+    with located("--speed"):
+        speed = parse(text, "speed")
+        if speed <= 0:
+            raise ModevizError(f"found {text!r}, expected more than zero")
+    return speed

@@ -1,0 +1,55 @@
+"""The commands that print: `modes`, `psd` and `wheels`, as tables or JSON."""
+
+import json
+import math
+from argparse import Namespace
+
+from modeviz.commands.options import conditions, need, prepare_telling, vehicle_and_rates
+from modeviz.dynamics.basis import TOP_HZ
+from modeviz.errors import ModevizError
+from modeviz.export.records import Record, modes_record, psd_record, wheels_record
+from modeviz.export.tables import modes_table, psd_table, wheels_table
+from modeviz.tuning.following import solve_followed
+from modeviz.tuning.preparation import prepare_modes
+from modeviz.tuning.results import solve, solve_wheels
+
+
+def modes(options: Namespace) -> None:
+    """Prints natural frequencies, damping, names and energies."""
+    if not (options.below > 0 and math.isfinite(options.below)):
+        raise ModevizError(f"--below: found {options.below:g} Hz, expected more than zero")
+    vehicle, rates = vehicle_and_rates(options)
+    prepared = prepare_modes(vehicle, max(options.below, TOP_HZ))
+    followed = solve_followed(prepared, rates, options.method)
+    if options.json:
+        _print_json(modes_record(followed, options.below))
+    else:
+        print(modes_table(followed, options.below))
+
+
+def psd(options: Namespace) -> None:
+    """Prints accelerations on a road and their rating."""
+    vehicle, rates = vehicle_and_rates(options)
+    chosen = conditions(options, vehicle)
+    results = solve(prepare_telling(vehicle), rates, chosen)
+    if options.json:
+        _print_json(psd_record(results))
+    else:
+        print(psd_table(results))
+
+
+def wheels(options: Namespace) -> None:
+    """Prints the response to every wheel load."""
+    vehicle, rates = vehicle_and_rates(options)
+    need(vehicle, "response point", vehicle.response_points)
+    need(vehicle, "wheel load", vehicle.wheel_loads)
+    results = solve_wheels(prepare_telling(vehicle), rates)
+    tuned = vehicle.with_rates(rates)
+    if options.json:
+        _print_json(wheels_record(tuned, results))
+    else:
+        print(wheels_table(tuned, results))
+
+
+def _print_json(record: Record) -> None:
+    print(json.dumps(record, indent=1, ensure_ascii=False))
