@@ -1,4 +1,4 @@
-"""Fragments of page text: numbers as people write them, tables, and rows that can be clicked."""
+"""Fragments of page text: tables, changes, and rows that can be clicked."""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -7,7 +7,7 @@ from importlib.resources import files
 
 import viser
 
-MINUS = "\N{MINUS SIGN}"
+from modeviz.export.wording import sentence_case, signed
 
 
 def style_sheet() -> str:
@@ -43,29 +43,10 @@ def span(text: str, kind: str) -> str:
     return f'<span class="{kind}">{text}</span>'
 
 
-def sentence_case(name: str) -> str:
-    """A name with a capital, for a widget, which shows it as it is; "~cab yaw" is "~Cab yaw"."""
-    mark, rest = ("~", name[1:]) if name.startswith("~") else ("", name)
-    return mark + rest[:1].upper() + rest[1:]
-
-
 @lru_cache
 def title(name: str) -> str:
     """A name with a capital, safe to put into a page."""
     return escape(sentence_case(name))
-
-
-def signed(value: float, decimals: int, unit: str = "") -> str:
-    """A change with its sign and a true minus; nothing but the number where it rounds to zero."""
-    text = f"{abs(value):.{decimals}f}"
-    sign = "" if float(text) == 0 else "+" if value > 0 else MINUS
-    return f"{sign}{text}{unit}"
-
-
-def number(value: float, decimals: int) -> str:
-    """A number with a true minus."""
-    text = f"{abs(value):.{decimals}f}"
-    return MINUS + text if value < 0 and float(text) else text
 
 
 def change(now: float, base: float) -> str:

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 import numpy as np
 import viser
 
+from modeviz.export.wording import MINUS
 from modeviz.ride.psd import power_decibels
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.assign import assign, send
-from modeviz.viewer.html import MINUS
 
 SHOWN_HZ = (1.0, 25.0)
 FONT = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'

@@ -1,7 +1,8 @@
 """Files and folders, with errors a user can act on."""
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -31,13 +32,43 @@ def read_text(path: Path) -> str:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Writes a UTF-8 text file with plain line ends.
+    """Writes a UTF-8 text file with plain line ends; all of it or nothing, errors as `write_bytes`."""
+    write_bytes(path, text.encode())
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Writes a file, all of it or nothing.
 
     Raises:
         VehicleError: it cannot be written.
     """
+    with _scratch_for(path) as scratch:
+        new = scratch / "new"
+        new.write_bytes(content)
+        new.replace(path.resolve())
+
+
+def check_writable(path: Path) -> None:
+    """Checks that a file can be written, before the work for it begins.
+
+    Raises:
+        VehicleError: it cannot.
+    """
+    with _scratch_for(path):
+        pass
+
+
+@contextmanager
+def _scratch_for(path: Path) -> Iterator[Path]:
+    """A folder on the disk of a file that is to be written; raises VehicleError as `write_bytes`."""
     try:
-        path.write_text(text, encoding="utf-8", newline="\n")
+        if path.exists() and not path.is_file():
+            raise VehicleError(f"{path}: found a folder or device, expected a file or a new name")
+        folder = path.resolve().parent
+        if not folder.is_dir():
+            raise VehicleError(f"{path}: cannot be written (there is no folder {folder})")
+        with TemporaryDirectory(prefix=".modeviz-", dir=folder) as scratch:
+            yield Path(scratch)
     except OSError as error:
         raise VehicleError(f"{path}: cannot be written ({error})") from None
 

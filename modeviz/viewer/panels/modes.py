@@ -7,6 +7,7 @@ import numpy as np
 import viser
 
 from modeviz.dynamics.naming import ModeName
+from modeviz.export.wording import sentence_case, signed
 from modeviz.tuning.results import Results
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.assign import assign
@@ -15,8 +16,6 @@ from modeviz.viewer.html import (
     block,
     heading,
     row,
-    sentence_case,
-    signed,
     span,
     table,
     title,

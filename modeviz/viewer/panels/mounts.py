@@ -6,11 +6,11 @@ from dataclasses import fields
 
 import viser
 
+from modeviz.export.wording import sentence_case, signed
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import sentence_case, signed
 from modeviz.viewer.session import Session, Solved
 from modeviz.viewer.settle import WriteBack
 

@@ -7,6 +7,7 @@ from html import escape
 
 import viser
 
+from modeviz.export.wording import number, sentence_case, signed
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import rms
 from modeviz.tuning.preparation import FREQUENCY_HZ
@@ -14,7 +15,7 @@ from modeviz.tuning.results import AXIS, Conditions, Results
 from modeviz.units import factor
 from modeviz.vehicle.loads import Road
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, change, heading, number, sentence_case, signed, span, title
+from modeviz.viewer.html import block, change, heading, span, title
 from modeviz.viewer.plots import PsdPlot
 from modeviz.viewer.session import Session, Solved
 from modeviz.viewer.settle import WriteBack

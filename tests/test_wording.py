@@ -1,0 +1,28 @@
+import pytest
+
+from modeviz.export.wording import number, sentence_case, signed
+
+
+@pytest.mark.parametrize(
+    ("value", "decimals", "text"),
+    [
+        (0.123, 2, "+0.12"),
+        (-0.123, 2, "−0.12"),
+        (0.004, 2, "0.00"),
+        (-0.004, 2, "0.00"),
+        (12.0, 0, "+12"),
+    ],
+)
+def test_changes_have_a_sign_and_none_is_a_plain_zero(value, decimals, text):
+    assert signed(value, decimals) == text
+
+
+def test_negative_numbers_have_a_true_minus():
+    assert number(-2.846, 2) == "−2.85"
+    assert number(-0.001, 2) == "0.00"
+    assert number(2.846, 1) == "2.8"
+
+
+def test_names_on_widgets_are_shown_as_they_are():
+    assert sentence_case("front & rear") == "Front & rear"
+    assert sentence_case("~cab yaw") == "~Cab yaw"
