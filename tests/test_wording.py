@@ -1,6 +1,6 @@
 import pytest
 
-from modeviz.export.wording import number, sentence_case, signed
+from modeviz.export.wording import number, power_of_ten, scientific, sentence_case, signed
 
 
 @pytest.mark.parametrize(
@@ -26,3 +26,16 @@ def test_negative_numbers_have_a_true_minus():
 def test_names_on_widgets_are_shown_as_they_are():
     assert sentence_case("front & rear") == "Front & rear"
     assert sentence_case("~cab yaw") == "~Cab yaw"
+
+
+def test_powers_and_small_numbers_are_written_with_superscripts():
+    assert [power_of_ten(e) for e in (-12, -3, -2, 0, 3, 4)] == [
+        "10⁻¹²",
+        "10⁻³",
+        "0.01",
+        "1",
+        "1000",
+        "10⁴",
+    ]
+    assert [scientific(v) for v in (7.4e-8, 0.0, 2e10)] == ["7 × 10⁻⁸", "zero", "2 × 10¹⁰"]
+    assert scientific(float("inf")) == "unknown"

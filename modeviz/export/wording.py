@@ -1,6 +1,9 @@
 """Numbers and names as people write them."""
 
+import math
+
 MINUS = "\N{MINUS SIGN}"
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def number(value: float, decimals: int) -> str:
@@ -20,3 +23,20 @@ def sentence_case(name: str) -> str:
     """A name with a capital, for a widget, which shows it as it is; "~cab yaw" is "~Cab yaw"."""
     mark, rest = ("~", name[1:]) if name.startswith("~") else ("", name)
     return mark + rest[:1].upper() + rest[1:]
+
+
+def power_of_ten(exponent: int) -> str:
+    """10⁻³; the powers that are read at a glance are written out: 0.01 to 1000."""
+    if -2 <= exponent <= 3:
+        return f"{10.0**exponent:g}"
+    return "10" + str(exponent).translate(SUPERSCRIPTS)
+
+
+def scientific(value: float) -> str:
+    """A small positive number by its first digit, 7 × 10⁻⁸; zero and what is infinite are words."""
+    if not math.isfinite(value):
+        return "unknown"
+    if value == 0:
+        return "zero"
+    digit, exponent = f"{value:.0e}".split("e")
+    return f"{digit} × 10{str(int(exponent)).translate(SUPERSCRIPTS)}"
