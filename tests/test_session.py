@@ -7,9 +7,10 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.tuning.following import solve_followed
 from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
+from modeviz.tuning.results import Conditions, solve, solve_wheels
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.session import Session, first_state
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import first_state
 
 FLAT = Conditions("flat", 20.0)
 
@@ -164,7 +165,7 @@ def test_an_answer_at_rest_is_checked_against_the_full_model(session):
     session.start()
     session.set_rates({"A": MountRates(5e5, 2e5, 3e5)})
     assert session.wait_checked(60)
-    check = session.answers[-1].check
+    check = session.answers[-1].rest.check
     assert check.is_complete
     assert check.error < 1e-9
 
@@ -203,4 +204,122 @@ def test_from_nearly_rigid_mounts_the_original_comes_back_exactly(session):
     solved = session.answers[-1]
     expected = solve(prepare(session.vehicle), solved.state.rates, FLAT)
     np.testing.assert_allclose(solved.now.psd, expected.psd, rtol=1e-9)
-    assert solved.check.error < 1e-9
+    assert solved.rest.check.error < 1e-9
+
+
+def test_undo_and_redo_are_answered(session):
+    session.start()
+    original = session.state
+    session.set_rate("A", "lateral", 1e5)
+    session.change(mode="cab roll")
+    session.undo()
+    session.undo()
+    assert session.wait(20)
+    assert session.state == original
+    assert session.answers[-1].state == original
+    assert not session.can_undo
+    session.redo()
+    assert session.wait(20)
+    assert session.answers[-1].now.rates["A"].lateral == 1e5
+
+
+def test_all_is_compared_with_the_set_chosen(session):
+    session.start()
+    session.change(against="Soft")
+    assert session.wait(20)
+    solved = session.answers[-1]
+    prepared = prepare(mounted_cabin())
+    expected = solve(prepared, session.vehicle.rate_sets["soft"], FLAT)
+    np.testing.assert_allclose(solved.base.psd, expected.psd, rtol=1e-9)
+    np.testing.assert_allclose(
+        solved.track.frequency_hz, solved.now.modes.frequency_hz[solved.track.index]
+    )
+
+
+def test_a_pinned_set_is_solved_and_forgotten(session):
+    session.start()
+    session.set_rate("A", "lateral", 1e5)
+    session.pin("Mine")
+    session.set_rates(session.vehicle.rates)
+    session.change(against="Mine", overlaid=frozenset({"Mine"}))
+    assert session.wait(20)
+    solved = session.answers[-1]
+    assert solved.base.rates["A"].lateral == 1e5
+    assert list(solved.named) == ["Original", "Soft", "Mine"]
+    session.unpin("Mine")
+    assert session.wait(20)
+    assert list(session.answers[-1].named) == ["Original", "Soft"]
+    assert session.state.against == "Original"
+    assert not session.state.overlaid
+
+
+def test_pinned_sets_follow_the_road(session):
+    session.start()
+    session.pin("Mine")
+    assert session.wait(20)
+    flat = session.answers[-1].named["Mine"]
+    session.change(conditions=Conditions("rough", 20.0))
+    assert session.wait(20)
+    np.testing.assert_allclose(session.answers[-1].named["Mine"].rms, 2 * flat.rms, rtol=1e-12)
+
+
+def test_the_vehicles_own_sets_cannot_be_replaced_or_forgotten(session):
+    session.set_rate("A", "lateral", 1e5)
+    session.pin("Original")
+    session.unpin("Soft")
+    assert not session.state.variants
+
+
+def test_swapping_changes_places_and_keeps_what_had_no_name(session):
+    session.start()
+    session.set_rate("A", "lateral", 1e5)
+    tried = session.state.rates
+    session.swap()
+    assert session.state.rates == session.vehicle.rates
+    assert session.state.against == "Trial 1"
+    session.swap()
+    assert session.state.rates == tried
+    assert session.state.against == "Original"
+    assert list(session.state.variants) == ["Trial 1"]
+
+
+def test_wheel_loads_are_solved_while_one_is_chosen(session):
+    session.start()
+    load = session.vehicle.wheel_loads[0].name
+    session.set_rate("A", "lateral", 1e5)
+    session.change(load=load, overlaid=frozenset({"Soft"}))
+    assert session.wait(20)
+    wheels = session.answers[-1].wheels
+    assert set(wheels) == {"Original", "Soft", ""}
+    expected = solve_wheels(prepare(mounted_cabin()), session.state.rates)
+    np.testing.assert_allclose(wheels[""].acceleration_g, expected.acceleration_g, rtol=1e-9)
+    session.change(load="")
+    assert session.wait(20)
+    assert not session.answers[-1].wheels
+
+
+def test_at_rest_the_effect_of_every_rate_is_known(session):
+    session.start()
+    session.set_rate("A", "lateral", 2e5)
+    assert session.wait_checked(60)
+    solved = session.answers[-1]
+    found, step = solved.rest.sensitivity, 1e-4
+    prepared = prepare(mounted_cabin())
+    f, rms = [], []
+    for factor in (1 - step, 1 + step):
+        rates = {**session.state.rates, "A": replace(session.state.rates["A"], lateral=2e5 * factor)}
+        results = solve(prepared, rates, FLAT)
+        f.append(results.modes.frequency_hz[solved.mode])
+        rms.append(results.rms[0])
+    assert found.frequency_hz[solved.mode, 1] == pytest.approx((f[1] - f[0]) / (2 * step), rel=1e-5)
+    expected = (rms[1] - rms[0]) / (2 * step) / solved.now.rms[0]
+    np.testing.assert_allclose(found.rms[0, :, 1], expected, rtol=1e-5)
+
+
+def test_a_mode_that_is_asked_for_moves_whatever_moved_before(session):
+    session.change(motion="component")
+    session.show_mode("cab roll")
+    assert (session.state.mode, session.state.motion) == ("cab roll", "mode")
+    session.change(motion="damped mode")
+    session.show_mode("cab yaw")
+    assert session.state.motion == "damped mode"

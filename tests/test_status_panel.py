@@ -35,7 +35,8 @@ def shown(now, **changes):
     page = Page()
     values = {"check": None, "classic_error": None, "seconds": 0.0042} | changes
     state = SimpleNamespace(classic=values["classic_error"] is not None)
-    StatusPanel(page).show(SimpleNamespace(now=now, state=state, **values))
+    rest = SimpleNamespace(check=values.pop("check"))
+    StatusPanel(page).show(SimpleNamespace(now=now, state=state, rest=rest, **values))
     return re.sub("<[^>]*>", " ", page.content)
 
 
@@ -76,7 +77,13 @@ def test_a_large_difference_is_no_good_sign(now):
         check = Check(error, 0.0, 400, 400)
         state = SimpleNamespace(classic=False)
         StatusPanel(page).show(
-            SimpleNamespace(now=now, state=state, check=check, classic_error=None, seconds=0.004)
+            SimpleNamespace(
+                now=now,
+                state=state,
+                rest=SimpleNamespace(check=check),
+                classic_error=None,
+                seconds=0.004,
+            )
         )
         assert dot in page.content
 

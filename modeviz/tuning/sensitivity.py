@@ -8,7 +8,7 @@ import scipy.linalg
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.ride.psd import acceleration_psd, mean_square, rms
 from modeviz.tuning.preparation import Prepared
-from modeviz.tuning.results import Conditions, ModalResults, drive
+from modeviz.tuning.results import Conditions, ModalResults, Results, drive
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MountRates, Rates
@@ -102,3 +102,32 @@ def psd_gradient(
     change = -2 * (by_spring.transpose(0, 2, 1) @ shares).real
     omega = 2 * np.pi * np.asarray(frequency_hz)[:, None, None]
     return omega**4 * change / STANDARD_GRAVITY**2
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """k ∂/∂k for each of `rate_variables`: to first order, what +100 % of a rate do."""
+
+    frequency_hz: Floats
+    """Of the natural frequencies, (n_modes, n_variables), Hz."""
+    rms: Floats
+    """Of the accelerations relative to themselves, (n_points, 3, n_variables)."""
+
+
+def sensitivity(prepared: Prepared, results: Results) -> Sensitivity:
+    """What a small part of each rate does to frequencies and ride.
+
+    Args:
+        prepared: `results.prepared`, or the same `near` the rates of the results, which is faster.
+        results: at whose rates, on whose road.
+
+    Raises:
+        SolveError: with these rates an undamped resonance lies on a frequency.
+    """
+    variables = rate_variables(prepared.vehicle)
+    k = np.array([getattr(results.rates[v.group], v.direction) for v in variables])
+    rms_change = ride_sensitivity(prepared, results.rates, results.conditions).rms
+    relative = np.divide(
+        rms_change, results.rms[..., None], out=np.zeros_like(rms_change), where=rms_change != 0
+    )
+    return Sensitivity(k * frequency_sensitivity(results), k * relative)

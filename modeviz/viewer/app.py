@@ -12,15 +12,17 @@ from modeviz.errors import ModevizError
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.answers import Solved
 from modeviz.viewer.doors import open_server
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.modes import EnergyPanel, ModesPanel, listed
-from modeviz.viewer.panels.mounts import MountsPanel, rate_sets
+from modeviz.viewer.panels.mounts import MountsPanel
 from modeviz.viewer.panels.response import ResponsePanel, RoadPanel
 from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.view import PicturePanel, ViewPanel
 from modeviz.viewer.scene import Scene
-from modeviz.viewer.session import Session, Solved, first_state
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import first_state, variant_name
 
 LEFT_WIDTH, RIGHT_WIDTH, CARD_WIDTH = 376, 484, 380
 BRAND = {False: (32, 104, 168), True: (64, 146, 214)}
@@ -53,7 +55,6 @@ class App:
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
-        self._sets = rate_sets(vehicle)
         self._gui.configure_theme(
             dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
         )
@@ -119,7 +120,8 @@ class App:
         """
         self._last = solved
         with self.server.atomic():
-            self._show_title(f"{self.session.vehicle.name}  ·  {self._variant(solved)}")
+            vehicle = self.session.vehicle
+            self._show_title(f"{vehicle.name}  ·  {variant_name(vehicle, solved.state)}")
             self._response.show(solved)
             self._animation.show(solved)
             self._status.show(solved)
@@ -155,14 +157,7 @@ class App:
         names = [name.name for name, _ in listed(self._last.now).values()]
         shown = self._last.name.name
         at = names.index(shown) + step if shown in names else 0
-        self.session.change(mode=names[at % len(names)])
-
-    def _variant(self, solved: Solved) -> str:
-        """What the present rates are called."""
-        for name, rates in self._sets.items():
-            if dict(rates) == dict(solved.state.rates):
-                return name
-        return "Trial"
+        self.session.show_mode(names[at % len(names)])
 
     def _file_name(self) -> str:
         solved, name = self._last, self.session.vehicle.name

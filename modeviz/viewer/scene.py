@@ -13,10 +13,10 @@ from modeviz.shapes.surface import Surface, surface
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.markers import Markers
-from modeviz.viewer.session import Solved
 from modeviz.viewer.stage import DARK, FIELD_OF_VIEW, ISO, LIGHT, Stage, Theme, box, camera
 
 SHEET_ROLES = ("cabin", "bed")
@@ -71,11 +71,11 @@ class Scene:
         """Draws the answer of a session: its mode's shape and energy, and how it wants to be seen."""
         state = solved.state
         coordinates = {
-            name: solved.shape[dofs] for name, dofs in solved.now.prepared.system.dofs.items()
+            name: solved.movement.shape[dofs] for name, dofs in solved.now.prepared.system.dofs.items()
         }
         with self._server.atomic():
             self.show_shape(coordinates, state.coloring == "displacement")
-            self.show_style(state.coloring == "displacement", state.see_through, state.ghost)
+            self.show_style(state.coloring == "displacement", state.see_through, state.ghost == "rest")
             if solved.is_detailed:
                 shares = {group: solved.strain[group] for group in state.rates}
                 mode = solved.name.spoken

@@ -6,10 +6,10 @@ import numpy as np
 import viser
 
 from modeviz.shapes.colors import DISPLACEMENT_STOPS
+from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.html import block, heading, style_sheet, title
-from modeviz.viewer.session import Solved
 from modeviz.viewer.settle import WriteBack
 
 START_SPEED_HZ = 0.5

@@ -10,6 +10,7 @@ from modeviz.dynamics.naming import ModeName
 from modeviz.export.wording import sentence_case, signed
 from modeviz.tuning.results import Results
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.answers import FREE_HZ, Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.html import (
     HiddenButtons,
@@ -21,7 +22,7 @@ from modeviz.viewer.html import (
     title,
 )
 from modeviz.viewer.ladder import Rail, drawn, ladder
-from modeviz.viewer.session import FREE_HZ, Session, Solved
+from modeviz.viewer.session import Session
 
 LISTED_HZ = (FREE_HZ, 21.0)
 """Above, the ride ends."""
@@ -49,7 +50,7 @@ class ModesPanel:
     def _select(self, session: Session, i: int) -> None:
         names = self._names
         if i < len(names):  # else a shorter list came between the click and here
-            session.change(mode=names[i])
+            session.show_mode(names[i])
 
     def show(self, solved: Solved) -> None:
         """Lists the modes of an answer."""

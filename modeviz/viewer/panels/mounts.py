@@ -9,10 +9,11 @@ import viser
 from modeviz.export.wording import sentence_case, signed
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup, MountRates, Rates
-from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.session import Session, Solved
+from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.state import known_sets
 
 FIELDS = tuple(f.name for f in fields(MountRates))
 """In the order of `DIRECTIONS`."""
@@ -64,7 +65,7 @@ class MountsPanel:
             assign(self._sliders[group.name, name], label=label)
 
     def _add_presets(self, gui: viser.GuiApi, set_rates: Callable[[Rates], None]) -> None:
-        sets = rate_sets(self._vehicle)
+        sets = known_sets(self._vehicle)
         load = gui.add_button_group("Load", tuple(sets), hint="Sets every rate to a known set")
         load.on_click(lambda _: set_rates(sets[load.value]))
         reset = gui.add_button_group(
@@ -106,14 +107,6 @@ class MountsPanel:
             self._session.set_rate(group.name, name, slider.value * PER_MM)
 
         return slider
-
-
-def rate_sets(vehicle: Vehicle) -> dict[str, Rates]:
-    """Every set of rates that can be loaded, under the name on its button."""
-    sets: dict[str, Rates] = {"Original": vehicle.rates}
-    for name, rates in vehicle.rate_sets.items():
-        sets.setdefault(sentence_case(name), {**vehicle.rates, **rates})
-    return sets
 
 
 def _label(direction: str, now: float, own: float) -> str:

@@ -14,10 +14,11 @@ from modeviz.tuning.preparation import FREQUENCY_HZ
 from modeviz.tuning.results import AXIS, Conditions, Results
 from modeviz.units import factor
 from modeviz.vehicle.loads import Road
+from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.html import block, change, heading, span, title
 from modeviz.viewer.plots import PsdPlot
-from modeviz.viewer.session import Session, Solved
+from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
 
 DIRECTIONS = ("lateral", "vertical")
@@ -98,7 +99,7 @@ class PeakRow:
     def _select(self, session: Session) -> None:
         mode = self._modes.get(self._buttons.value)
         if mode is not None:  # else another answer came between the click and here
-            session.change(mode=mode)
+            session.show_mode(mode)
 
     def show(self, direction: str, peak: Peak | None, now: Results) -> None:
         """Shows a peak, or nothing."""

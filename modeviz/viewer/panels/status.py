@@ -7,9 +7,9 @@ import viser
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.tuning.check import Check
 from modeviz.tuning.results import Results
+from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.html import block, heading, span, title
-from modeviz.viewer.session import Solved
 
 LEAST_SHOWN = 1e-3
 """Hz and percent: smaller errors are shown as this."""
@@ -32,7 +32,7 @@ class StatusPanel:
 
     def show(self, solved: Solved) -> None:
         """Says how an answer came about and how good it is."""
-        lines = [_found(solved.now), _checked(solved.check)]
+        lines = [_found(solved.now), _checked(solved.rest.check)]
         if solved.state.classic:
             lines.append(_classic(solved))
         text = "<br>".join(lines)
@@ -40,7 +40,7 @@ class StatusPanel:
 
 
 def _solved(solved: Solved) -> str:
-    doubtful = solved.check is not None and 100 * solved.check.error > ALARMING
+    doubtful = solved.rest.check is not None and 100 * solved.rest.check.error > ALARMING
     color = "--mv-bad" if doubtful or solved.now.trust.n_missed else "--mv-good"
     dot = f'<i class="swatch" style="background:var({color});border-radius:50%"></i>'
     milliseconds = 1000 * solved.seconds

@@ -44,9 +44,9 @@ class ViewPanel:
         )
         through.on_update(lambda _: session.change(see_through=through.value))
         ghost = gui.add_checkbox(
-            "Undeformed", session.state.ghost, hint="Outlines of the truck at rest"
+            "Undeformed", session.state.ghost == "rest", hint="Outlines of the truck at rest"
         )
-        ghost.on_update(lambda _: session.change(ghost=ghost.value))
+        ghost.on_update(lambda _: session.change(ghost="rest" if ghost.value else "none"))
         classic = gui.add_checkbox(
             "Classic error",
             session.state.classic,

@@ -1,0 +1,266 @@
+"""The answer to a state: everything that is drawn, solved and followed from one state to the next."""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modeviz.dynamics.naming import ModeName
+from modeviz.dynamics.tracking import STEP_MAC, Track
+from modeviz.tuning.check import Check, ClassicError, classic_error
+from modeviz.tuning.following import accept, follow_rates
+from modeviz.tuning.preparation import Prepared, prepare
+from modeviz.tuning.results import (
+    Conditions,
+    Drive,
+    Results,
+    WheelResults,
+    drive,
+    solve_on,
+    solve_wheels,
+)
+from modeviz.tuning.sensitivity import Sensitivity
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.movement import Movement, movement
+from modeviz.viewer.state import State, rate_sets
+
+FREE_HZ = 0.5
+"""Below, something moves freely."""
+
+DETAILS_EVERY = 0.1
+"""s between two looks at tables while rates move; curves, figures and shape follow every move."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rest:
+    """What is found out about an answer while nothing changes."""
+
+    now: Results
+    sensitivity: Sensitivity | None = None
+    """What ten percent of each rate do, once that is known."""
+    check: Check | None = None
+    """How far `now` is from the exact answer, as far as that is known."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """The answer to a state."""
+
+    state: State
+    named: Mapping[str, Results]
+    """With every set of rates that has a name, on the same road."""
+    now: Results
+    track: Track
+    """Where the modes of `base` went."""
+    mode: int
+    """The shown mode, an index of `now.modes`."""
+    name: ModeName
+    """What it is called, or was when what is for reading was drawn last."""
+    shape: Floats
+    """Of the shown mode, (n_dofs,), in phase with the one shown before."""
+    movement: Movement
+    """What moves: that mode, or whatever else was asked for."""
+    wheels: Mapping[str, WheelResults]
+    """While a wheel load is chosen: the response to all of them with the sets that are drawn, by name,
+    and with the present rates under ""."""
+    seconds: float
+    """What the solve took."""
+    rest: Rest
+    """What is known by now beyond the answer."""
+    classic_error: ClassicError | None
+    """How far the classic method is off, if that is asked for."""
+    is_detailed: bool
+    """Whether what is for reading is to be drawn too; else `track` is that of the last such answer."""
+
+    @property
+    def base(self) -> Results:
+        """With the set of rates that all is compared with."""
+        return self.named[self.state.against]
+
+    @cached_property
+    def strain(self) -> Mapping[str, float]:
+        """Of the shown mode: each flexible body's and connection group's share of the strain energy."""
+        return self.now.strain_shares(self.mode)
+
+
+class Answers:
+    """Answers one state after the other, in one thread; `rebase` may be called in another."""
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        """Nothing is solved before `prepare`."""
+        self._vehicle = vehicle
+        self._prepared: Prepared
+        self._drive: Drive
+        self._named: dict[str, Results] = {}
+        self._wheels: dict[str, tuple[Results, WheelResults]] = {}
+        self._last: Solved | None = None
+        self._track: Track
+        self._tracked: Results
+        self._straight: tuple[Results, Results] | None = None
+        self._detailed_at = -np.inf
+
+    def prepare(self, state: State, progress: Callable[[float], None] | None = None) -> None:
+        """Prepares the vehicle, and solves with all sets of rates that have a name.
+
+        Args:
+            state: the first one.
+            progress: told the fraction of the preparation that is done.
+
+        Raises:
+            ModevizError: there is no answer on that road at that speed.
+        """
+        self._prepared = prepare(self._vehicle, progress=progress)
+        self._drive = drive(self._prepared, state.conditions)
+        base = self._solve_named(state)[state.against]
+        self._track, self._tracked = accept(base), base
+
+    def rebase(self, state: State) -> Prepared:
+        """Makes answers close to a state cheap; gives the vehicle prepared there."""
+        near = self._prepared.near(state.rates)
+        self._drive = drive(near, state.conditions)
+        return near
+
+    def answer(self, state: State, rest: Rest | None) -> Solved:
+        """Solves a state, or only shows it differently.
+
+        Args:
+            state: what is asked for.
+            rest: what is known beyond the last answer.
+
+        Raises:
+            ModevizError: there is no answer.
+        """
+        begin = time.perf_counter()
+        named, last = self._solve_named(state), self._last
+        base = named[state.against]
+        if last and asks_for_the_same(last.state, state):
+            now = last.now
+            self._straighten_track(base, now)
+            mode = None
+        else:
+            now = solve_on(self._drive_on(state.conditions), state.rates)
+            mode = self._recognised(now, state, begin)
+            self._detailed_at = begin if mode is None else self._detailed_at
+        is_detailed = mode is None
+        if is_detailed:
+            mode = self._follow(now, state.mode)
+            self._lead_track_to(base, now)
+        name = now.names[mode] if is_detailed or last is None else last.name
+        shape = self._in_phase(now.modes.shapes[:, mode])
+        wheels = self._solve_wheels(state, named, now)
+        moving = movement(state, now, mode, shape, name, base)
+        is_known = rest is not None and rest.now is now
+        self._last = Solved(
+            state=state,
+            named=named,
+            now=now,
+            track=self._track,
+            mode=mode,
+            name=name,
+            shape=shape,
+            movement=moving,
+            wheels=wheels,
+            seconds=last.seconds if last and last.now is now else time.perf_counter() - begin,
+            rest=rest if rest is not None and is_known else Rest(now),
+            classic_error=classic_error(now) if state.classic else None,
+            is_detailed=is_detailed,
+        )
+        return self._last
+
+    def _solve_named(self, state: State) -> dict[str, Results]:
+        """The results with every set that has a name, those kept that still hold."""
+        last = self._last.state if self._last else None
+        if last and last.variants is state.variants and last.conditions == state.conditions:
+            return self._named
+        kept = {
+            name: results
+            for name, results in self._named.items()
+            if results.conditions == state.conditions
+        }
+        on_road = self._drive_on(state.conditions)
+        sets = rate_sets(self._vehicle, state)
+        self._named = {
+            name: kept[name] if name in kept and kept[name].rates == rates else solve_on(on_road, rates)
+            for name, rates in sets.items()
+        }
+        return self._named
+
+    def _solve_wheels(
+        self, state: State, named: Mapping[str, Results], now: Results
+    ) -> dict[str, WheelResults]:
+        """The responses to wheel loads that are drawn, if any are; what did not change is kept."""
+        if not state.load:
+            return {}
+        wanted = {name: named[name] for name in (state.against, *sorted(state.overlaid))} | {"": now}
+        for name, results in wanted.items():
+            if name not in self._wheels or self._wheels[name][0] is not results:
+                found = solve_wheels(self._drive_on(state.conditions).prepared, results.rates)
+                self._wheels[name] = results, found
+        return {name: self._wheels[name][1] for name in wanted}
+
+    def _drive_on(self, conditions: Conditions) -> Drive:
+        found = self._drive  # `rebase` may put another in its place
+        if found.conditions != conditions:
+            self._drive = found = drive(found.prepared, conditions)
+        return found
+
+    def _lead_track_to(self, base: Results, now: Results) -> None:
+        """Follows the base's modes on from where they were last seen, or anew at the base's rates."""
+        is_other_base = self._straight is None or self._straight[0] is not base
+        if now.rates == base.rates or is_other_base:
+            self._straighten_track(base, now)
+        elif now is not self._tracked:
+            self._track = follow_rates(self._track, self._tracked, now)
+            self._tracked = now
+
+    def _straighten_track(self, base: Results, now: Results) -> None:
+        """Follows the base's modes anew on the straight way, so that no detour of a slider counts."""
+        if self._straight != (base, now):
+            self._track = follow_rates(accept(base), base, now)
+            self._tracked, self._straight = now, (base, now)
+
+    def _recognised(self, now: Results, state: State, begin: float) -> int | None:
+        """The mode that clearly is the one shown last, while details need not be drawn; else None."""
+        last = self._last
+        is_due = begin - self._detailed_at >= DETAILS_EVERY
+        if last is None or is_due or _shows_something_else(last.state, state):
+            return None
+        mode, mac = _most_alike(now, last.shape)
+        return mode if mac > STEP_MAC else None
+
+    def _follow(self, now: Results, name: str) -> int:
+        """The mode of that name, else the one most like the last shown, at first the slowest."""
+        named = now.mode_index(name)
+        if named is not None:
+            return named
+        if self._last is None:
+            f = now.modes.frequency_hz
+            return min(int(np.searchsorted(f, FREE_HZ)), len(f) - 1)
+        return _most_alike(now, self._last.shape)[0]
+
+    def _in_phase(self, shape: Floats) -> Floats:
+        """The shape, turned so that it does not jump by half a cycle from the one before."""
+        mass = self._prepared.system.mass
+        turned = self._last is not None and self._last.shape @ mass @ shape < 0
+        return -shape if turned else shape
+
+
+def asks_for_the_same(one: State, other: State) -> bool:
+    """Whether two states have the same answer and differ at most in what is shown of it."""
+    return one.rates == other.rates and one.conditions == other.conditions
+
+
+def _shows_something_else(before: State, now: State) -> bool:
+    """Whether more than rates changed, so that all has to be drawn."""
+    return before.mode != now.mode or before.against != now.against or before.motion != now.motion
+
+
+def _most_alike(now: Results, shape: NDArray) -> tuple[int, float]:
+    """The mode whose shape is most like another, and their MAC."""
+    likeness = (now.modes.shapes.T @ now.prepared.system.mass @ shape) ** 2
+    mode = int(likeness.argmax())
+    return mode, float(likeness[mode])

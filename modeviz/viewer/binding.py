@@ -1,0 +1,64 @@
+"""A widget and the part of the state that it shows, and how each brings the other after it.
+
+Whatever changes the state (another page, undo, a loaded set), `show` brings the widget after it. A
+value that the page itself sent is not sent back while it moves.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import viser
+
+from modeviz.viewer.session import Session
+from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.state import State
+
+Read = Callable[[State], Any]
+Write = Callable[[Any], None]
+
+
+class Binding:
+    """One widget bound to one value of a session's state."""
+
+    def __init__(
+        self,
+        widget: viser.GuiInputHandle,
+        session: Session,
+        read: Read,
+        write: Write,
+        write_back: WriteBack | None = None,
+    ) -> None:
+        """Binds a widget that has been built with the present value.
+
+        Args:
+            widget: a slider, number, checkbox, dropdown or text.
+            session: whose state it shows.
+            read: the widget's value of a state; the same value again for what the widget wrote.
+            write: changes the state as a value of the widget asks.
+            write_back: of a slider, whose last value a page may lose.
+        """
+        self._widget, self._session, self._read, self._write = widget, session, read, write
+        self._known = widget.value
+        self._write_back = write_back
+        widget.on_update(self._changed)
+
+    def _changed(self, event: viser.GuiEvent) -> None:
+        if event.client is None:  # set from here
+            return
+        if self._write_back:
+            self._write_back.touch(event.target)
+        self._write(self._widget.value)
+        self._known = self._read(self._session.state)
+
+    def show(self) -> None:
+        """Puts the newest state's value on the page, if the widget has another."""
+        value = self._read(self._session.state)
+        if value != self._known:
+            self._known = value
+            self._widget.value = value
+
+
+def show_all(bindings: Sequence[Binding]) -> None:
+    """Brings widgets after the newest state."""
+    for binding in bindings:
+        binding.show()

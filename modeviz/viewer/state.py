@@ -1,0 +1,148 @@
+"""All that can be asked of a tuning session, as one value: what is undone is a whole state."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from itertools import count
+from typing import Literal
+
+from modeviz.dynamics.roles import unit_of_role
+from modeviz.export.wording import sentence_case
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import DIRECTIONS, MountRates, Rates
+from modeviz.vehicle.vehicle import Vehicle
+
+ORIGINAL = "Original"
+"""The name of the vehicle's own rates among the sets."""
+
+Coloring = Literal["bodies", "displacement", "kinetic energy", "strain energy"]
+"""What the colours of the bodies mean."""
+
+Ghost = Literal["none", "rest", "compared"]
+"""Whose outlines are drawn beside: those at rest, or moving in the shape that is compared with."""
+
+Motion = Literal["mode", "damped mode", "operating shape", "component"]
+"""What moves: an undamped mode, the same with its damping, the shape at a frequency of excitation, or
+one component alone."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A response that is drawn."""
+
+    point: int
+    """Number of the response point."""
+    direction: str
+    """One of `DIRECTIONS`."""
+
+
+@dataclass(frozen=True)
+class State:
+    """All that can be asked of a session."""
+
+    rates: Rates
+    """Of every mount group."""
+    conditions: Conditions
+    mode: str
+    """The name of the shown mode: it is followed by what moves, wherever that goes."""
+    group: str
+    """The selected mount group, or none: ""."""
+
+    variants: Mapping[str, Rates] = field(default_factory=dict)
+    """The sets that were pinned, by name; see `rate_sets` for all there are."""
+    against: str = ORIGINAL
+    """The name of the set that all is compared with."""
+    overlaid: frozenset[str] = frozenset()
+    """Names of the sets that are drawn in the charts beside the one compared with."""
+
+    locked: frozenset[tuple[str, str]] = frozenset()
+    """Rates, (group, field of `MountRates`), that nothing moves but loading a whole set."""
+    linked: frozenset[str] = frozenset()
+    """Groups whose rates keep their ratios when one of them moves."""
+    unit: str = "N/mm"
+    """In which rates are shown."""
+
+    load: str = ""
+    """The wheel load whose response is drawn, or the road: ""."""
+    curves: tuple[Curve, ...] = (Curve(0, "lateral"), Curve(0, "vertical"))
+    """What is drawn, top down."""
+    decibels: bool = True
+    log_frequency: bool = False
+
+    motion: Motion = "mode"
+    operating_hz: float = 11.0
+    """The frequency of the operating shape."""
+    component: str = ""
+    """The body that is shown alone."""
+    component_mode: int = 6
+    """Which of its free modes."""
+
+    coloring: Coloring = "bodies"
+    see_through: bool = True
+    ghost: Ghost = "rest"
+    hidden: frozenset[str] = frozenset()
+    """Bodies that are not drawn."""
+    follow: bool = False
+    """Whether cameras look at the selected group."""
+    classic: bool = False
+    """Whether the error of the classic method is shown beside."""
+
+    def with_rates(self, rates: Rates) -> "State":
+        """With other rates in the groups that are named, locked ones excepted."""
+        free = {group: self._unlocked(group, new) for group, new in rates.items()}
+        return replace(self, rates={**self.rates, **free})
+
+    def with_rate(self, group: str, direction: str, rate: float) -> "State":
+        """With another rate, N/m, in a field of `MountRates`; of a linked group all go in its ratio."""
+        before = self.rates[group]
+        if (group, direction) in self.locked:
+            return self
+        old = getattr(before, direction)
+        if group in self.linked and old > 0:
+            scaled = {
+                name.replace("-", "_"): value * rate / old
+                for name, value in zip(DIRECTIONS, before.as_tuple(), strict=True)
+            }
+        else:
+            scaled = {}
+        after = replace(before, **{**scaled, direction: rate})
+        return replace(self.with_rates({group: after}), group=group)
+
+    def _unlocked(self, group: str, new: MountRates) -> MountRates:
+        """New rates of a group, with its locked ones as they are."""
+        kept = {d: getattr(self.rates[group], d) for g, d in self.locked if g == group}
+        return replace(new, **kept)
+
+
+def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State:
+    """What a session opens with: the rates given and the yaw of the cabin on its mounts."""
+    group = vehicle.mount_groups[0].name if vehicle.mount_groups else ""
+    cabin = unit_of_role(vehicle, "cabin")
+    mode = f"{cabin.word} yaw" if cabin else ""
+    return State(dict(rates), conditions, mode, group, component=vehicle.bodies[0].name)
+
+
+def known_sets(vehicle: Vehicle) -> dict[str, Rates]:
+    """The sets of rates that come with a vehicle, its own first."""
+    sets: dict[str, Rates] = {ORIGINAL: vehicle.rates}
+    for name, rates in vehicle.rate_sets.items():
+        sets.setdefault(sentence_case(name), {**vehicle.rates, **rates})
+    return sets
+
+
+def rate_sets(vehicle: Vehicle, state: State) -> dict[str, Rates]:
+    """Every set of rates that has a name: the vehicle's, then the pinned ones."""
+    return {**known_sets(vehicle), **state.variants}
+
+
+def variant_name(vehicle: Vehicle, state: State) -> str:
+    """What the present rates are called: a set's name, or that of the next one to be pinned."""
+    for name, rates in rate_sets(vehicle, state).items():
+        if dict(rates) == dict(state.rates):
+            return name
+    return next_name(state)
+
+
+def next_name(state: State) -> str:
+    """The first of "Trial 1", "Trial 2" ... that is free."""
+    names = (f"Trial {i}" for i in count(1))
+    return next(name for name in names if name not in state.variants)

@@ -1,0 +1,57 @@
+from dataclasses import replace
+
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import MountRates
+from modeviz.viewer.state import first_state, known_sets, next_name, rate_sets, variant_name
+
+RATES = MountRates(8e5, 3e5, 4e5)
+
+
+@pytest.fixture
+def state():
+    vehicle = mounted_cabin()
+    return first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
+
+
+def test_a_rate_moves_alone_and_selects_its_group(state):
+    moved = state.with_rate("B", "lateral", 1e5)
+    assert moved.rates == {"A": RATES, "B": replace(RATES, lateral=1e5)}
+    assert moved.group == "B"
+
+
+def test_linked_rates_keep_their_ratios(state):
+    moved = replace(state, linked=frozenset({"A"})).with_rate("A", "vertical", 4e5)
+    assert moved.rates["A"] == MountRates(4e5, 1.5e5, 2e5)
+    assert moved.rates["B"] == RATES
+
+
+def test_a_linked_rate_at_zero_has_no_ratio_and_moves_alone(state):
+    gone = replace(RATES, lateral=0.0)
+    linked = replace(state, linked=frozenset({"A"}), rates={"A": gone, "B": RATES})
+    assert linked.with_rate("A", "lateral", 1e5).rates["A"] == replace(RATES, lateral=1e5)
+
+
+def test_a_locked_rate_stays_whatever_moves(state):
+    locked = replace(state, locked=frozenset({("A", "lateral")}), linked=frozenset({"A"}))
+    assert locked.with_rate("A", "lateral", 1e5) == locked
+    assert locked.with_rate("A", "vertical", 4e5).rates["A"] == MountRates(4e5, 3e5, 2e5)
+    assert locked.with_rates({"A": MountRates(1e5, 1e5, 1e5)}).rates["A"].lateral == 3e5
+
+
+def test_sets_are_the_vehicles_and_then_the_pinned_ones(state):
+    vehicle = mounted_cabin()
+    soft = {"A": MountRates(2e5, 1e5, 1e5), "B": RATES}
+    assert known_sets(vehicle) == {"Original": vehicle.rates, "Soft": soft}
+    pinned = replace(state, variants={"Mine": soft})
+    assert list(rate_sets(vehicle, pinned)) == ["Original", "Soft", "Mine"]
+
+
+def test_rates_are_called_after_the_set_they_are_of_or_the_next_trial(state):
+    vehicle = mounted_cabin()
+    assert variant_name(vehicle, state) == "Original"
+    moved = state.with_rate("A", "lateral", 1e5)
+    assert variant_name(vehicle, moved) == "Trial 1"
+    assert next_name(replace(state, variants={"Trial 1": {}, "Trial 3": {}})) == "Trial 2"
