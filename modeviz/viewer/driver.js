@@ -4,8 +4,9 @@
 // all real parts come before all imaginary ones. Its colours are the vertices'. For each mesh there is a
 // hidden node whose position is the mesh's place in that order, its number of vertices and its opacity;
 // amplitude, frequency and phase are the position of another.
+// A page that has a hidden node of its own for it stands at the phase in that node's position.
 // State and failure are in window.__modeviz, where the browser tests read them.
-(prefix, cloudName, driverName) => {
+(prefix, cloudName, driverName, heldName) => {
   const PATIENCE = 30; // s: how long a mesh or viser itself may take to appear
   const LONGEST_FRAME = 0.25; // s: a page that was in the background goes on where it was
   const MATTE = { roughness: 0.6, metalness: 0.05 }; // under colours that mean something
@@ -13,6 +14,7 @@
   const page = (window.__modeviz ??= {
     weights: { value: [0, 0] },
     phase: 0,
+    complete: false, // whether every mesh shows what was sent for it
     sought: null,
     error: null,
   });
@@ -20,6 +22,7 @@
   const shown = new WeakMap(); // of each mesh's group, what it shows
   const waiting = {}; // s, of each shape that has no mesh to go to yet
   let before = performance.now();
+  let ratio = null; // of the page's pixels, while a picture has its own
 
   function fail(problem) {
     if (page.error) return;
@@ -39,11 +42,12 @@
   }
 
   // The weights of the real and the imaginary part now; true if they changed.
-  function turnPhase([amplitude, frequency, sought], seconds) {
+  function turnPhase([amplitude, frequency, sought], held, seconds) {
     if (sought !== page.sought) page.phase = page.sought = sought;
-    else page.phase += 2 * Math.PI * frequency * seconds;
+    else if (held === undefined) page.phase += 2 * Math.PI * frequency * seconds;
     page.phase %= 2 * Math.PI;
-    const weights = [amplitude * Math.cos(page.phase), -amplitude * Math.sin(page.phase)];
+    const phase = held ?? page.phase;
+    const weights = [amplitude * Math.cos(phase), -amplitude * Math.sin(phase)];
     const changed = weights.some((weight, i) => weight !== page.weights.value[i]);
     page.weights.value = weights;
     return changed;
@@ -148,10 +152,14 @@
     const meshes = drivenMeshes(viewer, nodes);
     const total = meshes.reduce((sum, { count }) => sum + count, 0);
     const complex = points.length === 6 * total;
-    if (!complex && points.length !== 3 * total) return wait("the shape of a mesh", seconds);
+    if (!complex && points.length !== 3 * total) {
+      page.complete = false;
+      return wait("the shape of a mesh", seconds);
+    }
     delete waiting["the shape of a mesh"];
     const colored = colors.length === 3 * total;
     let changed = false;
+    let complete = meshes.length > 0;
     let start = 0;
     for (const { name, count, opacity } of meshes) {
       const sent = { points, colors, complex, colored, total, start, count, opacity };
@@ -162,9 +170,43 @@
       if (group && apply(group, sent)) {
         delete waiting[name];
         changed = true;
-      } else wait(name, seconds);
+      } else {
+        complete = false;
+        wait(name, seconds);
+      }
     }
+    page.complete = complete;
     return changed;
+  }
+
+  // Brings shapes and phase up to what was sent; true if something changed.
+  function update(viewer, nodes, seconds) {
+    const driver = viewer.nodePoseData[driverName];
+    const held = nodes[heldName] && viewer.nodePoseData[heldName]?.position[0];
+    const moved = driver ? turnPhase(driver.position, held, seconds) : false;
+    return applyShapes(viewer, nodes, seconds) || moved;
+  }
+
+  // three.js calls this at the start of every rendering, also of the pictures viser takes between frames:
+  // they show what was sent before they were asked for, in the size asked for, without the background,
+  // which is cut to the page's own shape.
+  function beforeRender(renderer) {
+    if (page.turn !== turn) return;
+    try {
+      const viewer = window.__viserMutable;
+      update(viewer, window.__viserSceneTree.getState(), 0);
+      const isPicture = viewer.getRenderRequestState === "capture";
+      viewer.backgroundMaterial.visible = !isPicture;
+      if (isPicture) {
+        ratio ??= renderer.getPixelRatio();
+        renderer.setPixelRatio(1);
+      } else if (ratio !== null) {
+        renderer.setPixelRatio(ratio);
+        ratio = null;
+      }
+    } catch (error) {
+      fail(error.stack ?? error);
+    }
   }
 
   function frame() {
@@ -177,9 +219,8 @@
       const viewer = window.__viserMutable;
       const tree = window.__viserSceneTree;
       if (!viewer?.scene || !tree) return wait("viser's scene", seconds);
-      const driver = viewer.nodePoseData[driverName];
-      const moved = driver ? turnPhase(driver.position, seconds) : false;
-      if (applyShapes(viewer, tree.getState(), seconds) || moved) viewer.requestRender();
+      viewer.scene.onBeforeRender = beforeRender;
+      if (update(viewer, tree.getState(), seconds)) viewer.requestRender();
     } catch (error) {
       fail(error.stack ?? error);
     }

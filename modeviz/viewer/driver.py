@@ -8,7 +8,8 @@ change.
 """
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from importlib.resources import files
 
 import numpy as np
@@ -27,6 +28,9 @@ CLOUD = "/_shapes"
 
 DRIVER = "/_driver"
 """The hidden node whose position is amplitude, frequency and phase."""
+
+HELD = "/_held"
+"""The hidden node of one page alone: while it is there, its position is the phase of that page."""
 
 NO_COLORS = np.zeros(3, np.uint8)
 """One colour, and not one for each vertex: the page then draws the materials' own."""
@@ -63,7 +67,7 @@ class ShapeDriver:
         self._node = scene.add_frame(DRIVER, show_axes=False, visible=False)
         self._send_motion()
         script = files("modeviz.viewer").joinpath("driver.js").read_text("utf-8")
-        names = ", ".join(map(json.dumps, (PREFIX, CLOUD, DRIVER)))
+        names = ", ".join(map(json.dumps, (PREFIX, CLOUD, DRIVER, HELD)))
         source = f"({script.rstrip()})({names});"
         scene._websock_interface.queue_message(_messages.RunJavascriptMessage(source=source))
 
@@ -168,6 +172,23 @@ class ShapeDriver:
         if content != self._sent.get(name):
             self._sent[name] = content
             send(self._cloud, name, array)
+
+
+@contextmanager
+def held(client: viser.ClientHandle) -> Iterator[Callable[[float], None]]:
+    """Lets one page stand at phases θ, rad, given to what this yields; then it goes on where it was.
+
+    A picture that is asked for after a phase was given shows that phase. Other pages move on.
+    """
+    node = client.scene.add_frame(HELD, show_axes=False, visible=False)
+
+    def hold(phase: float) -> None:
+        node.position = (phase, 0.0, 0.0)
+
+    try:
+        yield hold
+    finally:
+        node.remove()
 
 
 def _check_lengths(what: str, found: Mapping[str, NDArray], expected: Mapping[str, NDArray]) -> None:

@@ -1,0 +1,94 @@
+"""Pictures of the 3-D view, drawn by a page: one, or a cycle of the shown motion."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import viser
+from PIL import Image
+
+from modeviz.errors import ModevizError
+from modeviz.export.images import on_color
+from modeviz.viewer.driver import held
+from modeviz.viewer.stage import Theme
+
+Backdrop = Literal["scene", "white", "transparent"]
+
+SIZES = (16, 4096)
+"""Least and most pixels of a side; more, graphics cards may not draw."""
+
+TIMEOUT = 60.0
+"""s: a picture takes long where a page renders in software."""
+
+N_FRAMES = 36
+"""Of a cycle: 18 a second at the default speed."""
+
+CYCLE_S = 2.0
+"""s: of a cycle in a moving picture, as at the default speed on the page."""
+
+N_CYCLES = 4
+"""Of a film, which not every player repeats."""
+
+LONGEST_SIDE = {"gif": 1280, "mp4": 1920}
+"""Of a moving picture, pixels: more is megabytes that nobody sees."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """How a picture is taken."""
+
+    width: int
+    """Pixels."""
+    height: int
+    """Pixels."""
+    backdrop: Backdrop
+    theme: Theme
+    """Of the scene; its colours are the backdrop "scene"."""
+
+    def __post_init__(self) -> None:
+        for name, side in (("width", self.width), ("height", self.height)):
+            if not SIZES[0] <= side <= SIZES[1]:
+                raise ModevizError(f"{name}: found {side}, expected {SIZES[0]} to {SIZES[1]} pixels")
+
+    def moving(self, ending: Literal["gif", "mp4"]) -> "Shot":
+        """The same for a moving picture: opaque, no larger than wise, of even width and height."""
+        scale = min(1.0, LONGEST_SIDE[ending] / max(self.width, self.height))
+        width, height = (max(2 * round(scale * s / 2), SIZES[0]) for s in (self.width, self.height))
+        backdrop = "white" if self.backdrop == "transparent" else self.backdrop
+        return replace(self, width=width, height=height, backdrop=backdrop)
+
+
+def picture(client: viser.ClientHandle, shot: Shot) -> Image.Image:
+    """The 3-D view of a page as it is, RGBA if the backdrop is transparent, else RGB.
+
+    Raises:
+        ModevizError: the page did not draw it, or not in time.
+    """
+    try:
+        drawn = client.get_render(shot.height, shot.width, transport_format="png", timeout=TIMEOUT)
+    except TimeoutError:
+        raise ModevizError(
+            f"the page did not draw it within {TIMEOUT:.0f} s: keep the page in front, "
+            "or choose a smaller size"
+        ) from None
+    except RuntimeError as error:
+        raise ModevizError(f"the page did not draw it: choose a smaller size ({error})") from None
+    image = Image.fromarray(drawn)
+    if shot.backdrop == "transparent":
+        return image
+    if shot.backdrop == "white":
+        return on_color(image, (255, 255, 255))
+    return on_color(image, shot.theme.top, shot.theme.bottom)
+
+
+def cycle(client: viser.ClientHandle, shot: Shot, n_frames: int) -> Iterator[Image.Image]:
+    """Pictures of one cycle of the shown motion, at phases 2πk/n; the page then moves on as before.
+
+    Raises:
+        ModevizError: as `picture` does.
+    """
+    with held(client) as hold:
+        for k in range(n_frames):
+            hold(2 * math.pi * k / n_frames)
+            yield picture(client, shot)

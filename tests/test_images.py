@@ -1,0 +1,81 @@
+"""Files of pictures, opened again by other libraries."""
+
+import io
+
+import av
+import imageio.v3 as iio
+import numpy as np
+import pytest
+from PIL import Image
+
+from modeviz.export import images
+from modeviz.export.images import gif_bytes, mp4_bytes, on_color, png_bytes
+
+N, SECONDS = 12, 0.96
+
+
+@pytest.fixture(scope="module")
+def frames():
+    """A red bar that runs back and forth once on a light gradient."""
+    return [bar(int(60 + 40 * np.cos(2 * np.pi * k / N))) for k in range(N)]
+
+
+def bar(x):
+    content = np.zeros((96, 160, 3), np.uint8)
+    content[:] = np.linspace(220, 250, 96)[:, None, None]
+    content[30:60, x : x + 20] = 180, 60, 30
+    return Image.fromarray(content)
+
+
+def test_png_is_the_picture_with_its_transparency():
+    content = np.arange(4 * 6 * 4, dtype=np.uint8).reshape(4, 6, 4)
+    read = iio.imread(png_bytes(Image.fromarray(content)), extension=".png")
+    np.testing.assert_array_equal(read, content)
+
+
+def test_transparency_lets_the_colour_behind_shine_through():
+    half = Image.new("RGBA", (2, 3), (255, 0, 0, 128))
+    assert on_color(half, (255, 255, 255)).getpixel((0, 0)) == (255, 127, 127)
+    clear = Image.new("RGBA", (2, 3), (0, 0, 0, 0))
+    laid = on_color(clear, (0, 10, 20), (100, 110, 120))
+    assert [laid.getpixel((1, y)) for y in range(3)] == [(0, 10, 20), (50, 60, 70), (100, 110, 120)]
+
+
+def test_gif_loops_for_ever_over_all_frames_in_the_time_of_a_cycle(frames):
+    with Image.open(io.BytesIO(gif_bytes(frames, SECONDS))) as gif:
+        assert (gif.format, gif.size, gif.n_frames, gif.info["loop"]) == ("GIF", (160, 96), N, 0)
+        milliseconds = 0
+        for k in range(N):
+            gif.seek(k)
+            milliseconds += gif.info["duration"]
+            read = np.asarray(gif.convert("RGB")).astype(int)
+            assert (
+                np.abs(read - np.asarray(frames[k])).max() <= 4
+            )  # Pillow finds colours in steps of four
+    assert milliseconds == 1000 * SECONDS
+
+
+def test_gif_does_not_flicker_where_nothing_moves(frames):
+    read = iio.imread(gif_bytes(frames, SECONDS), extension=".gif")
+    assert (read[:, :30] == read[0, :30]).all()
+
+
+def test_mp4_has_every_cycle_and_its_index_first(frames):
+    content = mp4_bytes(frames, SECONDS, n_cycles=3)
+    assert content.find(b"moov") < content.find(b"mdat")
+    with av.open(io.BytesIO(content)) as film:
+        stream = film.streams.video[0]
+        assert stream.codec_context.name == "h264"
+        assert stream.codec_context.pix_fmt == "yuv420p"
+        read = [frame.to_image() for frame in film.decode(stream)]
+        assert float(stream.duration * stream.time_base) == pytest.approx(3 * SECONDS)
+    assert len(read) == 3 * N
+    for k, frame in enumerate(read):
+        off = np.abs(np.asarray(frame).astype(int) - np.asarray(frames[k % N]))
+        assert off.mean() < 2  # 4:2:0 blurs the colours of the bar's borders
+
+
+def test_missing_pyav_is_told_with_what_to_install(frames, monkeypatch):
+    monkeypatch.setattr(images, "find_spec", lambda name: None)
+    with pytest.raises(images.ModevizError, match=r"pip install \"modeviz\[pictures\]\""):
+        mp4_bytes(frames, SECONDS, 1)
