@@ -35,9 +35,11 @@ from modeviz.tuning.preparation import Prepared as Prepared
 from modeviz.tuning.preparation import PreparedModes as PreparedModes
 from modeviz.tuning.preparation import prepare as prepare
 from modeviz.tuning.preparation import prepare_modes as prepare_modes
-from modeviz.tuning.rates import read_rates as read_rates
+from modeviz.tuning.rate_files import parse_rates as parse_rates
+from modeviz.tuning.rate_files import rates_text as rates_text
+from modeviz.tuning.rate_files import read_rates as read_rates
+from modeviz.tuning.rate_files import write_rates as write_rates
 from modeviz.tuning.rates import resolve_rates as resolve_rates
-from modeviz.tuning.rates import write_rates as write_rates
 from modeviz.tuning.results import Conditions as Conditions
 from modeviz.tuning.results import Results as Results
 from modeviz.tuning.results import solve as solve

@@ -93,7 +93,8 @@ def _command(commands, name: str, run, help_text: str) -> argparse.ArgumentParse
         default=[],
         metavar="RATE",
         dest="settings",
-        help='one rate, such as "C2.lateral=131 N/mm"; may be repeated',
+        help='one rate or loss factor, such as "C2.lateral=131 N/mm" or C2.loss_factor=0.2; may be '
+        "repeated",
     )
     return command
 

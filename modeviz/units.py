@@ -61,7 +61,22 @@ def parse(text: str, quantity: str) -> float:
     if not unit:
         units = ", ".join(UNITS[quantity])
         raise ModevizError(f"found {text!r} without a unit, expected one of {units}")
-    value = float(number) * factor(unit, quantity)
+    return _finite(float(number) * factor(unit, quantity), text)
+
+
+def parse_number(text: str) -> float:
+    """The value of a text such as "0.2".
+
+    Raises:
+        ModevizError: no number, something behind it, or not finite.
+    """
+    parts = NUMBER_AND_UNIT.fullmatch(text.strip())
+    if parts is None or parts[2]:
+        raise ModevizError(f"found {text!r}, expected a number without a unit")
+    return _finite(float(parts[1]), text)
+
+
+def _finite(value: float, text: str) -> float:
     if not math.isfinite(value):
         raise ModevizError(f"found {text!r}, expected a finite number")
     return value

@@ -117,6 +117,6 @@ def one_of_everything() -> Vehicle:
             WheelLoad("unbalance left", "unbalance", "tyre left", 0.0123),
             WheelLoad("radial left", "radial force", "tyre left", 35.6),
         ),
-        {"optimised": {"C1": MountRates(1e6 / 3, 131000.0, 0.0)}},
+        {"optimised": {"C1": MountRates(1e6 / 3, 131000.0, 0.0, loss_factor=0.1)}},
         88 / 3.6,
     )

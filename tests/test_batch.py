@@ -26,7 +26,10 @@ def prepared():
 
 def random_sets(n_sets):
     rng = np.random.default_rng(1)
-    rates = [[MountRates(*rates) for rates in 10 ** rng.uniform(4, 7, (2, 3))] for _ in range(n_sets)]
+    rates = [
+        [MountRates(*rates, rng.uniform(0, 0.5)) for rates in 10 ** rng.uniform(4, 7, (2, 3))]
+        for _ in range(n_sets)
+    ]
     return [dict(zip("AB", both, strict=True)) for both in rates]
 
 

@@ -38,7 +38,8 @@ def test_modes_json_has_its_documented_structure(capsys, folder):
     assert set(record) == {"vehicle", "rates", "n_missed", "modes", "original"}
     assert record["n_missed"] == 0
     assert record["vehicle"] == "cabin"
-    assert record["rates"]["A"] == {"vertical": 800.0, "lateral": 300.0, "fore_aft": 400.0}
+    own = {"vertical": 800.0, "lateral": 300.0, "fore_aft": 400.0, "loss_factor": 0.15}
+    assert record["rates"]["A"] == own
     for number, mode in enumerate(record["modes"], start=1):
         assert mode["number"] == number
         assert set(mode) == {
@@ -53,12 +54,13 @@ def test_modes_json_has_its_documented_structure(capsys, folder):
 def test_psd_json_is_the_solution_of_the_tuned_vehicle(capsys, folder):
     record = printed_json(
         capsys, "psd", folder, "--json", "--rates", "soft", "--set", "B.fore-aft=131 N/mm",
-        "--road", "rough", "--speed", "90 km/h",
+        "--set", "B.loss_factor=0.3", "--road", "rough", "--speed", "90 km/h",
     )  # fmt: skip
     assert set(record) == {
         "vehicle", "rates", "road", "speed_m_per_s", "frequency_hz", "responses", "rating",
     }  # fmt: skip
-    rates = {"A": MountRates(2e5, 1e5, 1e5), "B": MountRates(8e5, 3e5, 1.31e5)}
+    rates = {"A": MountRates(2e5, 1e5, 1e5), "B": MountRates(8e5, 3e5, 1.31e5, 0.3)}
+    assert [record["rates"][group]["loss_factor"] for group in "AB"] == [0.15, 0.3]
     expected = solve(prepare(mounted_cabin()), rates, Conditions("rough", 25.0))
     by_direction = {r["direction"]: r for r in record["responses"]}
     assert {r["point"] for r in record["responses"]} == {"seat"}

@@ -518,3 +518,11 @@ def test_names_that_make_the_same_file_name_get_different_files(tmp_path):
     write_vehicle(replace(vehicle, roads=roads), tmp_path / "x")
     assert len(list((tmp_path / "x/roads").iterdir())) == 5
     assert [r.name for r in read_vehicle(tmp_path / "x").roads] == ["a b", "A-b", "é", "ü", "a_b"]
+
+
+def test_a_group_may_be_called_loss_factor(tmp_path):
+    vehicle = one_of_everything()
+    group = replace(vehicle.mount_groups[0], name="loss_factor")
+    sets = {"optimised": {"loss_factor": vehicle.rate_sets["optimised"]["C1"]}}
+    write_vehicle(replace(vehicle, mount_groups=(group,), rate_sets=sets), tmp_path / "a")
+    assert read_vehicle(tmp_path / "a").rate_sets == sets

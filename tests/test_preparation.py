@@ -32,8 +32,23 @@ def test_rates_that_are_not_given_are_the_vehicles_own(prepared):
     assert prepared.all_rates(SOFT) == {**mounted_cabin().rates, **SOFT}
 
 
+def test_a_loss_factor_is_among_all_rates_only_where_it_is_not_the_vehicles_own(prepared):
+    own = prepared.vehicle.rates
+    same, other = (replace(own["A"], loss_factor=g) for g in (0.15, 0.2))
+    assert prepared.all_rates({"A": same}) == own
+    assert prepared.all_rates({"A": other}) == {**own, "A": other}
+
+
+@pytest.mark.parametrize("loss_factor", [0.0, 0.3])
+def test_a_loss_factor_is_that_of_the_groups_springs(prepared, loss_factor):
+    rates = {"B": replace(SOFT["A"], loss_factor=loss_factor)}
+    stiffness = prepared.mount_stiffness(rates)
+    np.testing.assert_array_equal(stiffness[6:], np.tile([1e5, 1e5, 2e5], 2) * (1 + 1j * loss_factor))
+    np.testing.assert_array_equal(stiffness, mount_stiffness(mounted_cabin().with_rates(rates)))
+
+
 def test_a_group_that_is_not_there_is_an_error(prepared):
-    for use in (prepared.all_rates, prepared.mount_stiffness, prepared.near):
+    for use in (prepared.all_rates, prepared.mount_stiffness, prepared.loss, prepared.near):
         with pytest.raises(VehicleError, match=r"unknown mount group 'C'.*there are A, B"):
             use({"C": MountRates(1.0, 1.0, 1.0)})
 
@@ -50,9 +65,10 @@ def test_receptances_hold_at_the_softest_rates(prepared):
 
 
 def test_answers_near_other_rates_are_the_same(prepared):
-    near = prepared.near(SOFT)
-    np.testing.assert_array_equal(near.receptances.mount_stiffness, prepared.mount_stiffness(SOFT))
-    for rates in ({}, SOFT, {"B": MountRates(0.0, 1e8, 0.0)}):
+    lossy = {"A": replace(SOFT["A"], loss_factor=0.3)}
+    near = prepared.near(lossy)
+    np.testing.assert_array_equal(near.receptances.mount_stiffness, prepared.mount_stiffness(lossy))
+    for rates in ({}, SOFT, lossy, {"B": MountRates(0.0, 1e8, 0.0)}):
         np.testing.assert_allclose(
             solve(near, rates, FLAT).psd, solve(prepared, rates, FLAT).psd, rtol=1e-10
         )

@@ -5,6 +5,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.ride.psd import acceleration_psd
@@ -30,6 +31,42 @@ def test_the_ride_is_the_direct_solution_of_the_tuned_vehicle(results):
     H = direct_response(tuned, f, track_forces(tuned, f, 20.0), seat)
     S = road_spectrum(tuned.vehicle.road("flat"), f, 20.0)
     np.testing.assert_allclose(results.psd[::37, 0], acceleration_psd(f, H, S), rtol=1e-8)
+
+
+LOSS = {
+    "A": MountRates(2e5, 1e5, 1e5, loss_factor=0.0),
+    "B": MountRates(8e5, 3e5, 4e5, loss_factor=0.3),
+}
+
+
+def test_loss_factors_are_those_of_the_direct_solution():
+    """Of rides, of wheel loads and, near other rates, of both."""
+    f = FREQUENCY_HZ[::37]
+    tuned = assemble(mounted_cabin().with_rates(LOSS))
+    seat = tuned.motion("cab", np.array([1.2, -0.4, 0.9]))[:3]
+    S = road_spectrum(tuned.vehicle.road("flat"), f, 20.0)
+    psd = acceleration_psd(f, direct_response(tuned, f, track_forces(tuned, f, 20.0), seat), S)
+    forces = wheel_forces(tuned, tuned.vehicle.wheel_loads, f)
+    g = (
+        np.abs(direct_response(tuned, f, forces, seat)[:, :, 0])
+        * (2 * np.pi * f[:, None]) ** 2
+        / 9.80665
+    )
+    prepared = prepare(mounted_cabin(), f)
+    for way in (prepared, prepared.near(LOSS), prepared.near(SOFT)):
+        np.testing.assert_allclose(solve(way, LOSS, FLAT).psd[:, 0], psd, rtol=1e-9)
+        np.testing.assert_allclose(solve_wheels(way, LOSS).acceleration_g[:, 0, 0], g, rtol=1e-9)
+    assert np.abs(solve(prepared, SOFT, FLAT).psd[:, 0] / psd - 1).max() > 0.1
+
+
+@pytest.mark.parametrize("method", ["enriched", "exact"])
+def test_modal_damping_is_that_of_the_loss_factors(method):
+    modal = solve_modal(prepare_modes(mounted_cabin()), LOSS, method)
+    tuned = solve_modes(assemble(mounted_cabin().with_rates(LOSS)))
+    n = len(modal.modes.frequency_hz)
+    np.testing.assert_allclose(modal.modes.damping_ratio, tuned.damping_ratio[:n], rtol=1e-9)
+    assert modal.vehicle.mount_group("B").loss_factor == 0.3
+    assert modal.vehicle.rates["B"] == mounted_cabin().rates["B"]
 
 
 def test_directions_are_told_apart(results):

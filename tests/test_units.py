@@ -5,7 +5,7 @@ import math
 import pytest
 
 from modeviz.errors import ModevizError, unknown
-from modeviz.units import UNITS, factor, parse
+from modeviz.units import UNITS, factor, parse, parse_number
 
 
 @pytest.mark.parametrize(
@@ -75,3 +75,13 @@ def test_unknown_name_gets_the_likeliest_one_whatever_its_case():
         "unknown body 'CABB': did you mean 'cab'? there are frame, cab"
     )
     assert unknown("body", "x", []) == "unknown body 'x': there are none"
+
+
+def test_a_number_has_no_unit():
+    assert parse_number(" +.25 ") == 0.25
+    assert parse_number("2e-1") == 0.2
+    for text in ("0.2 N/mm", "20 %", "nan", "soft", "", "1_0"):
+        with pytest.raises(ModevizError, match="expected a number without a unit"):
+            parse_number(text)
+    with pytest.raises(ModevizError, match="found '1e999', expected a finite number"):
+        parse_number("1e999")

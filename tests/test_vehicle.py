@@ -81,6 +81,11 @@ def refused(value, **changes) -> str:
         (TYRE, {"wheel_center": [0, NAN, 0]}, "wheel_center: found 1 values that are not finite"),
         (RATES, {"lateral": -1.0}, "lateral rate: found -1.0 N/m, expected zero or more"),
         (RATES, {"fore_aft": NAN}, "fore-aft rate: found nan"),
+        (RATES, {"loss_factor": NAN}, "loss_factor: found nan, expected zero or more"),
+        (RATES, {"loss_factor": -0.1}, "loss_factor: found -0.1, expected zero or more"),
+        (RATES, {"loss_factor": INF}, "loss_factor: found inf, expected zero or more"),
+        (GROUP, {"rates": replace(RATES, loss_factor=0.2)}, "expected it as the group's own"),
+        (GROUP, {"bounds": (RATES, replace(RATES, loss_factor=0.2))}, "expected it as the group's own"),
         (GROUP, {"mounts": ()}, "has no mounts"),
         (GROUP, {"loss_factor": NAN}, "loss_factor: found nan"),
         (GROUP, {"bounds": (RATES, RATES)}, "bounds: vertical: found 1.0 to 1.0 N/m"),
@@ -197,6 +202,13 @@ def test_rates_of_a_group_are_its_mounts_stiffness_along_x_y_z():
         np.testing.assert_array_equal(mount.stiffness, [1.0, 2.0, 3.0])
         assert (mount.group, mount.loss_factor) == ("C1", GROUP.loss_factor)
     assert VEHICLE.rates["C1"] == GROUP.rates
+
+
+def test_a_loss_factor_among_rates_becomes_the_groups_and_its_mounts():
+    tuned = VEHICLE.with_rates({"C1": replace(RATES, loss_factor=0.2)})
+    assert tuned.rates == {"C1": RATES}
+    assert {g.loss_factor for g in (*tuned.mount_groups, *tuned.mounts)} == {0.2}
+    assert tuned.with_rates({"C1": RATES}).mount_group("C1").loss_factor == 0.2
 
 
 def test_residual_compliance_is_what_the_residual_vectors_give():

@@ -18,7 +18,7 @@ from modeviz.vehicle.vehicle import Vehicle
 def vehicle_and_rates(options: Namespace) -> tuple[Vehicle, Rates]:
     """The vehicle with its own rates, and the rates chosen."""
     vehicle = read_vehicle(options.vehicle or builtin_vehicle())
-    return vehicle, resolve_rates(vehicle, options.rates, options.settings).rates
+    return vehicle, resolve_rates(vehicle, options.rates, options.settings)
 
 
 def conditions(options: Namespace, vehicle: Vehicle) -> Conditions:

@@ -11,18 +11,21 @@ from modeviz.tuning.following import Followed
 from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import RATE_FIELDS, MountGroup
 from modeviz.vehicle.vehicle import Vehicle
 
 Record = dict[str, Any]
 
 
 def rates_record(vehicle: Vehicle) -> Record:
-    """`{group: {"vertical", "lateral", "fore_aft"}}`, N/mm."""
+    """`{group: {"vertical", "lateral", "fore_aft", "loss_factor"}}`, rates in N/mm."""
+    return {group.name: _group_record(group) for group in vehicle.mount_groups}
+
+
+def _group_record(group: MountGroup) -> Record:
     per_mm = factor("N/mm", "stiffness")
-    return {
-        group: {direction: rate / per_mm for direction, rate in asdict(rates).items()}
-        for group, rates in vehicle.rates.items()
-    }
+    rates = {name: getattr(group.rates, name) / per_mm for name in RATE_FIELDS}
+    return {**rates, "loss_factor": group.loss_factor}
 
 
 def modes_record(followed: Followed, below_hz: float) -> Record:

@@ -49,7 +49,8 @@ def accept(results: ModalResults) -> Track:
 def follow_rates(track: Track, before: ModalResults, now: ModalResults) -> Track:
     """The track led on from the rates of `before`, where it is, to those of `now`.
 
-    Between them every rate goes in equal ratios, or in equal steps where one of both is zero.
+    Between them every rate goes in equal ratios, or in equal steps where one of both is zero; what
+    damps it does the same.
     """
     prepared = now.prepared
     start, end = (prepared.mount_stiffness(r.rates) for r in (before, now))
@@ -61,7 +62,8 @@ def follow_rates(track: Track, before: ModalResults, now: ModalResults) -> Track
 
 
 def _part_way(start: Complexes, end: Complexes, part: float) -> Complexes:
-    """Rates between two sets, all of one loss factor."""
-    both = (start != 0) & (end != 0)
-    ratio = np.where(both, np.abs(end) / np.where(both, np.abs(start), 1.0), 1.0)
-    return np.where(both, start * ratio**part, start + part * (end - start))
+    """Rates between two sets, real and imaginary parts each on their own way."""
+    a, b = start.view(np.float64), end.view(np.float64)
+    both = (a != 0) & (b != 0)
+    ratio = np.where(both, b / np.where(both, a, 1.0), 1.0)
+    return np.where(both, a * ratio**part, a + part * (b - a)).view(np.complex128)

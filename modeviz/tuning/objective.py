@@ -82,7 +82,7 @@ class Objective:
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         """F and ∂F/∂k, (n_variables,) in the order of `rate_variables`; raises as `solve`."""
         H, a, b = self.driven.response_gradient(self.prepared.mount_stiffness(rates))
-        shares = spring_shares(self.prepared.vehicle)
+        shares = spring_shares(self.prepared, rates)
         gradient = np.zeros(shares.shape[1])
         for term in self.terms:
             f, S = self.driven.frequency_hz[term.lines], term.input_psd

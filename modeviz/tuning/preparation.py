@@ -11,7 +11,6 @@ from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.basis import TOP_HZ, EnrichedBasis, prepare_basis
 from modeviz.dynamics.naming import Namer, prepare_names
 from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
-from modeviz.errors import VehicleError, unknown
 from modeviz.ride.roads import tyre_directions
 from modeviz.ride.wheels import wheel_directions
 from modeviz.vehicle.arrays import Complexes, Floats
@@ -46,34 +45,26 @@ class PreparedModes:
         return self.system.n_bytes + self.basis.n_bytes + self.namer.rows.nbytes
 
     def all_rates(self, rates: Rates) -> dict[str, MountRates]:
-        """The rates of every group: those given, and the vehicle's own for the others.
-
-        Raises:
-            VehicleError: a group that the vehicle does not have.
-        """
-        own = self.vehicle.rates
-        for group in rates:
-            if group not in own:
-                raise VehicleError(unknown("mount group", group, own))
-        return {**own, **rates}
+        """The rates of every group, see `Vehicle.all_rates`."""
+        return self.vehicle.all_rates(rates)
 
     def mount_stiffness(self, rates: Rates) -> Complexes:
         """Complex rates k (1 + jg) of every mount spring, (n_springs,), N/m; raises as `all_rates`."""
         every = self.all_rates(rates)
         of_groups = np.array([every[g.name].local() for g in self.vehicle.mount_groups]).reshape(-1, 3)
-        return (of_groups[self._groups] * self._loss[:, None]).ravel()
+        return (of_groups[self._groups] * self.loss(rates)[:, None]).ravel()
+
+    def loss(self, rates: Rates) -> Complexes:
+        """1 + jg of each mount, (n_mounts,); raises as `all_rates`."""
+        every = self.all_rates(rates)
+        factors = [g.loss_factor_with(every[g.name]) for g in self.vehicle.mount_groups]
+        return 1 + 1j * np.array(factors)[self._groups]
 
     @cached_property
     def _groups(self) -> NDArray[np.intp]:
         """The number of each mount's group, (n_mounts,)."""
         groups = self.vehicle.mount_groups
         return np.repeat(np.arange(len(groups)), [len(g.mounts) for g in groups])
-
-    @cached_property
-    def _loss(self) -> Complexes:
-        """1 + jg of each mount, (n_mounts,)."""
-        factors = np.array([g.loss_factor for g in self.vehicle.mount_groups])
-        return 1 + 1j * factors[self._groups]
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,6 +162,8 @@ def prepare(
 def _soft(rates: Rates) -> dict[str, MountRates]:
     """The same rates, but none above `STIFFEST_BASE`."""
     return {
-        group: MountRates(*(min(rate, STIFFEST_BASE) for rate in r.as_tuple()))
+        group: MountRates(
+            *(min(rate, STIFFEST_BASE) for rate in r.as_tuple()), loss_factor=r.loss_factor
+        )
         for group, r in rates.items()
     }

@@ -1,17 +1,17 @@
 """What each mount rate does to frequencies and accelerations: analytic derivatives."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
 
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.ride.psd import acceleration_psd, mean_square, rms
-from modeviz.tuning.preparation import Prepared
+from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.tuning.results import Conditions, ModalResults, Results, drive
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import MountRates, Rates
+from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -21,22 +21,23 @@ class RateVariable:
 
     group: str
     direction: str
-    """A field of `MountRates`."""
+    """One of `RATE_FIELDS`."""
 
 
 def rate_variables(vehicle: Vehicle) -> tuple[RateVariable, ...]:
     """Every rate of every mount group: vertical, lateral and fore-aft of the first, and so on."""
-    return tuple(RateVariable(g.name, f.name) for g in vehicle.mount_groups for f in fields(MountRates))
+    return tuple(RateVariable(g.name, name) for g in vehicle.mount_groups for name in RATE_FIELDS)
 
 
-def spring_shares(vehicle: Vehicle) -> Complexes:
-    """∂(spring rate)/∂(rate), (n_springs, n_variables): 1 + jg where a spring has that rate."""
+def spring_shares(prepared: PreparedModes, rates: Rates) -> Complexes:
+    """∂(spring rate)/∂(rate), (n_springs, n_variables): 1 + jg where a spring has that rate.
+
+    Arguments and errors as `prepared.loss`.
+    """
     of_mount = np.transpose([MountRates(*unit).local() for unit in np.eye(3)])
-    per_group = [
-        np.tile((1 + 1j * group.loss_factor) * of_mount, (len(group.mounts), 1))
-        for group in vehicle.mount_groups
-    ]
-    return np.asarray(scipy.linalg.block_diag(np.zeros((0, 0)), *per_group), complex)
+    per_group = [np.tile(of_mount, (len(g.mounts), 1)) for g in prepared.vehicle.mount_groups]
+    has_rate = np.asarray(scipy.linalg.block_diag(np.zeros((0, 0)), *per_group))
+    return np.repeat(prepared.loss(rates), 3)[:, None] * has_rate
 
 
 def frequency_sensitivity(results: ModalResults) -> Floats:
@@ -48,7 +49,7 @@ def frequency_sensitivity(results: ModalResults) -> Floats:
     """
     prepared = results.prepared
     stretch = prepared.system.mount_motions @ results.modes.shapes
-    squares = (stretch**2).T @ spring_shares(prepared.vehicle).real
+    squares = (stretch**2).T @ spring_shares(prepared, results.rates).real
     f = results.modes.frequency_hz[:, None]
     return np.divide(squares, 8 * np.pi**2 * f, out=np.zeros_like(squares), where=f > RESOLVED_HZ)
 
@@ -68,7 +69,7 @@ def ride_sensitivity(prepared: Prepared, rates: Rates, conditions: Conditions) -
     f = prepared.frequency_hz
     on_road = drive(prepared, conditions)
     H, a, b = on_road.receptances.response_gradient(prepared.mount_stiffness(rates))
-    change = psd_gradient(f, H, a, b, on_road.spectrum, spring_shares(prepared.vehicle))
+    change = psd_gradient(f, H, a, b, on_road.spectrum, spring_shares(prepared, rates))
     psd = acceleration_psd(f, H, on_road.spectrum)
     root = rms(f, psd)[:, None]
     square_change = mean_square(f, change)

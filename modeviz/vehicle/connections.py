@@ -18,6 +18,9 @@ GROUND = "ground"
 DIRECTIONS = ("vertical", "lateral", "fore-aft")
 """The directions of a mount's rates: local z, y and x."""
 
+RATE_FIELDS = ("vertical", "lateral", "fore_aft")
+"""The fields of `MountRates` that are rates, in the order of `DIRECTIONS`."""
+
 
 @dataclass(frozen=True, eq=False)
 class Connection:
@@ -98,28 +101,33 @@ class Tyre(Connection):
 
 @dataclass(frozen=True)
 class MountRates:
-    """The static rates of a mount, N/m."""
+    """The static rates of a mount, N/m, and how much of its stiffness is damping."""
 
     vertical: float
     lateral: float
     fore_aft: float
+    loss_factor: float | None = None
+    """g of k (1 + jg); None is that of the mount's group."""
 
     def __post_init__(self) -> None:
         for direction, rate in zip(DIRECTIONS, self.as_tuple(), strict=True):
             if not (np.isfinite(rate) and rate >= 0):
                 raise VehicleError(f"{direction} rate: found {rate} N/m, expected zero or more")
+        loss = self.loss_factor
+        if loss is not None and not (np.isfinite(loss) and loss >= 0):
+            raise VehicleError(f"loss_factor: found {loss}, expected zero or more")
 
     def as_tuple(self) -> tuple[float, float, float]:
-        """In the order of `DIRECTIONS`."""
+        """The rates, in the order of `DIRECTIONS`."""
         return self.vertical, self.lateral, self.fore_aft
 
     def local(self) -> tuple[float, float, float]:
-        """In the order x, y, z."""
+        """The rates, in the order x, y, z."""
         return self.fore_aft, self.lateral, self.vertical
 
 
 Rates = Mapping[str, MountRates]
-"""The rates of every mount group, by the group's name."""
+"""The rates of mount groups, by the group's name."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,6 +150,11 @@ class MountGroup:
     def __post_init__(self) -> None:
         if not self.mounts:
             raise VehicleError(f"mount group {self.name!r}: has no mounts")
+        if any(r.loss_factor is not None for r in (self.rates, *self.bounds)):
+            raise VehicleError(
+                f"mount group {self.name!r}: found a loss factor in its rates or bounds, expected it "
+                "as the group's own"
+            )
         for low, high, direction in zip(
             self.bounds[0].as_tuple(), self.bounds[1].as_tuple(), DIRECTIONS, strict=True
         ):
@@ -161,5 +174,16 @@ class MountGroup:
         )
         object.__setattr__(self, "mounts", tuned)
 
+    def loss_factor_with(self, rates: MountRates) -> float:
+        """The loss factor of the group with other rates."""
+        return self.loss_factor if rates.loss_factor is None else rates.loss_factor
+
+    def plain(self, rates: MountRates) -> MountRates:
+        """The same rates, with a loss factor only if it is not the group's own."""
+        is_own = rates.loss_factor == self.loss_factor
+        return replace(rates, loss_factor=None) if is_own else rates
+
     def with_rates(self, rates: MountRates) -> "MountGroup":
-        return replace(self, rates=rates)
+        """The group with other rates; a loss factor among them becomes its own."""
+        loss_factor = self.loss_factor_with(rates)
+        return replace(self, rates=replace(rates, loss_factor=None), loss_factor=loss_factor)

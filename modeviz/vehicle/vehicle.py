@@ -76,8 +76,19 @@ class Vehicle:
 
     @property
     def rates(self) -> dict[str, MountRates]:
-        """The mount rates this vehicle has."""
+        """The mount rates this vehicle has; their loss factors are the groups'."""
         return {g.name: g.rates for g in self.mount_groups}
+
+    def all_rates(self, rates: Rates) -> dict[str, MountRates]:
+        """The rates of every group: those given, and the vehicle's own for the others.
+
+        They have a loss factor where it is not the vehicle's own.
+
+        Raises:
+            VehicleError: a group that does not exist.
+        """
+        given = {name: self.mount_group(name).plain(its_rates) for name, its_rates in rates.items()}
+        return {**self.rates, **given}
 
     def body(self, name: str) -> Body:
         """The body of that name.
@@ -96,7 +107,7 @@ class Vehicle:
         return _named("mount group", name, self.mount_groups)
 
     def with_rates(self, rates: Rates) -> "Vehicle":
-        """The same vehicle with other rates in the groups that are named.
+        """The same vehicle with other rates and loss factors in the groups that are named.
 
         Raises:
             VehicleError: a group that does not exist.

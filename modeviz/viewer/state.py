@@ -8,7 +8,7 @@ from typing import Literal
 from modeviz.dynamics.roles import unit_of_role
 from modeviz.export.wording import sentence_case
 from modeviz.tuning.results import Conditions
-from modeviz.vehicle.connections import DIRECTIONS, MountRates, Rates
+from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 ORIGINAL = "Original"
@@ -99,8 +99,8 @@ class State:
         old = getattr(before, direction)
         if group in self.linked and old > 0:
             scaled = {
-                name.replace("-", "_"): value * rate / old
-                for name, value in zip(DIRECTIONS, before.as_tuple(), strict=True)
+                name: value * rate / old
+                for name, value in zip(RATE_FIELDS, before.as_tuple(), strict=True)
             }
         else:
             scaled = {}
@@ -125,7 +125,7 @@ def known_sets(vehicle: Vehicle) -> dict[str, Rates]:
     """The sets of rates that come with a vehicle, its own first."""
     sets: dict[str, Rates] = {ORIGINAL: vehicle.rates}
     for name, rates in vehicle.rate_sets.items():
-        sets.setdefault(sentence_case(name), {**vehicle.rates, **rates})
+        sets.setdefault(sentence_case(name), vehicle.all_rates(rates))
     return sets
 
 

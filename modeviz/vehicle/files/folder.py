@@ -25,7 +25,7 @@ from modeviz.vehicle.files.records import (
     ConnectionRecord,
     FlexibleBodyRecord,
     MountGroupRecord,
-    RatesRecord,
+    RateSetRecord,
     ResponsePointRecord,
     RigidBodyRecord,
     RoadRecord,
@@ -183,7 +183,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         road=_road_records(vehicle.roads, folder),
         wheel_load=[WheelLoadRecord.of(load) for load in vehicle.wheel_loads],
         rates={
-            name: {group: RatesRecord.of(r) for group, r in rates.items()}
+            name: {group: RateSetRecord.of(r) for group, r in rates.items()}
             for name, rates in vehicle.rate_sets.items()
         },
     )

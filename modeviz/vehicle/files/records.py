@@ -4,6 +4,7 @@ A record is one table as it stands in the file, so its fields are the keys. `bui
 part from it, `of` the record from the part.
 """
 
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -153,6 +154,19 @@ class RatesRecord(Record, kw_only=True):
 
     def build(self) -> MountRates:
         return MountRates(self.vertical, self.lateral, self.fore_aft)
+
+
+class RateSetRecord(RatesRecord, kw_only=True):
+    """The rates of a mount, and its loss factor if that is not the group's own."""
+
+    loss_factor: NonNegative | None = None
+
+    @classmethod
+    def of(cls, rates: MountRates) -> Self:
+        return cls(**asdict(rates))
+
+    def build(self) -> MountRates:
+        return replace(super().build(), loss_factor=self.loss_factor)
 
 
 class MountRecord(Record, kw_only=True):
@@ -307,7 +321,7 @@ class VehicleRecord(Record, kw_only=True):
     response_point: list[ResponsePointRecord] = []
     road: list[RoadRecord] = []
     wheel_load: list[WheelLoadRecord] = []
-    rates: dict[str, dict[str, RatesRecord]] = {}
+    rates: dict[str, dict[str, RateSetRecord]] = {}
     """[rates.SET.GROUP]."""
 
 

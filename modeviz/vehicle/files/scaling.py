@@ -89,7 +89,7 @@ def _converted(data: Any, convert: Callable[[float, str], float], quantity: str 
     """The data with `convert(value, quantity)` in place of each number that is a quantity."""
     if isinstance(data, dict):
         return {
-            key: _converted(value, convert, quantity or _quantity(key, data))
+            key: _converted(value, convert, _quantity(key, data, quantity))
             for key, value in data.items()
         }
     if isinstance(data, list | tuple):
@@ -99,6 +99,10 @@ def _converted(data: Any, convert: Callable[[float, str], float], quantity: str 
     return convert(data, quantity)
 
 
-def _quantity(key: str, table: Mapping[str, Any]) -> str | None:
-    """The quantity of the numbers at `key` of `table`."""
+def _quantity(key: str, table: Mapping[str, Any], whole: str | None) -> str | None:
+    """The quantity of the numbers at `key` of `table`, which may be of one `whole`."""
+    if key == "loss_factor" and not isinstance(table[key], dict):  # else a group of that name
+        return None
+    if whole:
+        return whole
     return _AMPLITUDES.get(str(table.get("kind"))) if key == "amplitude" else _QUANTITIES.get(key)

@@ -2,21 +2,17 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import fields
 
 import viser
 
 from modeviz.export.wording import sentence_case, signed
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS, MountGroup, MountRates, Rates
+from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, MountRates, Rates
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
 from modeviz.viewer.state import known_sets
-
-FIELDS = tuple(f.name for f in fields(MountRates))
-"""In the order of `DIRECTIONS`."""
 
 PER_MM = factor("N/mm", "stiffness")
 
@@ -45,7 +41,7 @@ class MountsPanel:
     def set_rates(self, rates: Rates) -> None:
         """Puts rates that were not chosen with a slider on the sliders."""
         for group, its_rates in rates.items():
-            for name in FIELDS:
+            for name in RATE_FIELDS:
                 self._sliders[group, name].value = getattr(its_rates, name) / PER_MM
 
     def show(self, solved: Solved) -> None:
@@ -60,7 +56,7 @@ class MountsPanel:
 
     def _label_sliders(self, group: MountGroup, now: MountRates) -> None:
         self._labelled[group.name] = now
-        for name, direction in zip(FIELDS, DIRECTIONS, strict=True):
+        for name, direction in zip(RATE_FIELDS, DIRECTIONS, strict=True):
             label = _label(direction, getattr(now, name), getattr(group.rates, name))
             assign(self._sliders[group.name, name], label=label)
 
@@ -80,7 +76,7 @@ class MountsPanel:
     def _add_group(self, gui: viser.GuiApi, group: MountGroup) -> None:
         self._folders[group.name] = folder = gui.add_folder(f"{group.name}  {group.label}")
         with folder:
-            for name, direction in zip(FIELDS, DIRECTIONS, strict=True):
+            for name, direction in zip(RATE_FIELDS, DIRECTIONS, strict=True):
                 self._sliders[group.name, name] = self._add_slider(gui, group, name, direction)
 
     def _add_slider(
