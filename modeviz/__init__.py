@@ -2,6 +2,11 @@
 
 from modeviz.dynamics.assembly import System as System
 from modeviz.dynamics.assembly import assemble as assemble
+from modeviz.dynamics.components import ComponentModes as ComponentModes
+from modeviz.dynamics.components import ComponentShare as ComponentShare
+from modeviz.dynamics.components import component_modes as component_modes
+from modeviz.dynamics.components import component_shares as component_shares
+from modeviz.dynamics.damped import DampedMode as DampedMode
 from modeviz.dynamics.energy import kinetic_energy as kinetic_energy
 from modeviz.dynamics.energy import strain_energy as strain_energy
 from modeviz.dynamics.modes import ComplexModes as ComplexModes
@@ -49,6 +54,9 @@ from modeviz.tuning.sensitivity import RateVariable as RateVariable
 from modeviz.tuning.sensitivity import frequency_sensitivity as frequency_sensitivity
 from modeviz.tuning.sensitivity import rate_variables as rate_variables
 from modeviz.tuning.sensitivity import ride_sensitivity as ride_sensitivity
+from modeviz.tuning.shown import complex_mode as complex_mode
+from modeviz.tuning.shown import road_shape as road_shape
+from modeviz.tuning.shown import wheel_shape as wheel_shape
 from modeviz.vehicle.bodies import AddedMass as AddedMass
 from modeviz.vehicle.bodies import Attachment as Attachment
 from modeviz.vehicle.bodies import FlexibleBody as FlexibleBody

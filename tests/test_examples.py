@@ -68,3 +68,18 @@ def test_derivatives_say_what_ten_per_cent_of_a_rate_do():
     # A change of 1 % either way leaves about its square in a central difference.
     assert which.yaw_hz[largest] == pytest.approx(yaw, rel=1e-3)
     assert which.seat_g[largest] == pytest.approx(seat, rel=1e-3)
+
+
+def test_the_seat_moves_at_its_peak_mostly_by_the_cab_yaw():
+    moving = example("04_what_moves")
+    results, omega = moving.results, 2 * np.pi * moving.peak.frequency_hz
+    seat = moving.prepared.outputs[1] @ moving.on_road
+    assert (omega**2 * seat.real / 9.80665) ** 2 == pytest.approx(moving.peak.psd, rel=1e-9)
+    assert results.names[moving.mode].name == "cab yaw"
+    # Damping couples the mode to the front tramp 0.08 Hz below: it has another ratio than by itself.
+    assert moving.damped.damping_ratio == pytest.approx(
+        results.modes.damping_ratio[moving.mode], rel=0.1
+    )
+    assert 0.2 < moving.likeness(moving.on_road, moving.damped.shape) < 0.5
+    assert moving.likeness(moving.damped.shape, moving.damped.shape) == pytest.approx(1.0)
+    assert {s.name for s in moving.shares[:2]} == {"lateral", "yaw"}

@@ -119,17 +119,30 @@ def solve_complex_modes(system: System, modes: Modes) -> ComplexModes:
     do not vibrate, are left out. Exact when `modes` are all of the system's.
     """
     phi = modes.shapes
-    n = phi.shape[1]
-    C = phi.T @ system.damping @ phi
     K = np.diag(modes.omega_n_squared) + 1j * (phi.T @ system.structural_damping @ phi)
+    roots, vectors = vibrating_roots(phi.T @ system.damping @ phi, K)
+    shapes = phi @ vectors
+    largest = np.abs(shapes).argmax(axis=0)
+    return ComplexModes(roots, shapes / shapes[largest, np.arange(len(roots))])
+
+
+def vibrating_roots(damping: Floats, stiffness: Complexes) -> tuple[Complexes, Complexes]:
+    """The roots λ of (λ²I + λC + K) q = 0 that vibrate, (n_roots,), rising by |λ|, with their q.
+
+    Args:
+        damping: C, (n, n), in mass-normalised coordinates.
+        stiffness: K, (n, n), with structural damping.
+
+    Returns:
+        λ, rad/s, Im λ > 0, and q, (n, n_roots), of no particular size.
+    """
+    n = len(damping)
     state = np.zeros((2 * n, 2 * n), complex)
     state[:n, n:] = np.eye(n)
-    state[n:] = np.hstack([-K, -C])
+    state[n:] = np.hstack([-stiffness, -damping])
     solution = np.linalg.eig(state)
     roots: Complexes = np.asarray(solution.eigenvalues, complex)
     vectors: Complexes = np.asarray(solution.eigenvectors, complex)
     vibrates = roots.imag > 1e-6 * np.abs(roots) + 1e-3
     order = np.flatnonzero(vibrates)[np.argsort(np.abs(roots[vibrates]))]
-    shapes = phi @ vectors[:n, order]
-    largest = np.abs(shapes).argmax(axis=0)
-    return ComplexModes(roots[order], shapes / shapes[largest, np.arange(len(order))])
+    return roots[order], vectors[:n, order]

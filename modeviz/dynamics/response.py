@@ -29,17 +29,31 @@ def direct_response(
             the stiffest spring drowns the answer.
     """
     check_frequencies(frequency_hz)
-    K = system.stiffness + 1j * system.structural_damping
-    stiffness, mass = np.abs(K), np.abs(system.mass)
     H = np.empty((len(frequency_hz), len(outputs), forces.shape[2]), complex)
-    for i, omega in enumerate(2 * np.pi * np.asarray(frequency_hz)):
-        Z = K - omega**2 * system.mass + 1j * omega * system.damping
-        directions = np.hstack([forces[i], outputs.T], dtype=complex)
-        x = _solve(Z, directions, frequency_hz[i])
-        parts = stiffness + omega**2 * mass
-        check_accuracy(parts, x, directions.T @ x, frequency_hz[i], DIRECT_ACCURACY)
-        H[i] = outputs @ x[:, : forces.shape[2]]
+    for i, f in enumerate(frequency_hz):
+        H[i] = outputs @ direct_shape(system, f, forces[i], outputs)
     return H
+
+
+def direct_shape(system: System, frequency_hz: float, forces: Complexes, outputs: Floats) -> Complexes:
+    """The displacement of every coordinate at one frequency, (n_dofs, n_inputs).
+
+    Args:
+        system: what vibrates.
+        frequency_hz: above zero.
+        forces: (n_dofs, n_inputs), generalised forces per unit of input.
+        outputs: rows (n_outputs, n_dofs) along which, as along the forces, it must be accurate.
+
+    Raises:
+        SolveError: as `direct_response`.
+    """
+    omega = 2 * np.pi * frequency_hz
+    K = system.stiffness + 1j * system.structural_damping
+    directions = np.hstack([forces, outputs.T], dtype=complex)
+    x = _solve(K - omega**2 * system.mass + 1j * omega * system.damping, directions, frequency_hz)
+    parts = np.abs(K) + omega**2 * np.abs(system.mass)
+    check_accuracy(parts, x, directions.T @ x, frequency_hz, DIRECT_ACCURACY)
+    return x[:, : forces.shape[1]]
 
 
 def check_frequencies(frequency_hz: Floats) -> None:

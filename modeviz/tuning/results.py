@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.dynamics.band import BandModes, Method, band_modes
+from modeviz.dynamics.damped import DampedModes, damped_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.naming import ModeName, name_modes
@@ -82,6 +83,11 @@ class ModalResults:
     def vehicle(self) -> Vehicle:
         """With these rates."""
         return self.prepared.vehicle.with_rates(self.rates)
+
+    @cached_property
+    def damped(self) -> DampedModes:
+        """The modes with what damping couples, in the order of `modes`."""
+        return damped_modes(self.band)
 
     @cached_property
     def _mount_rates(self) -> Floats:

@@ -102,6 +102,10 @@ class Vehicle:
         """The road of that name; raises VehicleError as `body` does."""
         return _named("road", name, self.roads)
 
+    def wheel_load(self, name: str) -> WheelLoad:
+        """The wheel load of that name; raises VehicleError as `body` does."""
+        return _named("wheel load", name, self.wheel_loads)
+
     def mount_group(self, name: str) -> MountGroup:
         """The mount group of that name; raises VehicleError as `body` does."""
         return _named("mount group", name, self.mount_groups)

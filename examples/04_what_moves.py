@@ -1,0 +1,36 @@
+"""What does the truck do at 12 Hz, and which of the cab's own modes take part?
+
+The seat's lateral spectrum has its highest peak there. Three motions help to understand it: how the
+whole truck moves on the road at that frequency, as seen from the seat; the damped mode that makes most
+of the peak, which is only a part of that; and the cab's own free-free modes, of which the mode is made.
+"""
+
+import numpy as np
+
+import modeviz as mv
+
+vehicle = mv.read_vehicle(mv.builtin_vehicle())
+prepared = mv.prepare(vehicle)
+results = mv.solve(prepared, vehicle.rates, mv.Conditions("road 1", vehicle.speed))
+
+peak = max(results.peaks(0, "lateral"), key=lambda p: p.psd)
+on_road = mv.road_shape(results, peak.frequency_hz, point=0, direction="lateral")
+mode = peak.contributors[0].mode
+damped = mv.complex_mode(results, mode)
+
+
+def likeness(a: np.ndarray, b: np.ndarray) -> float:
+    """How much two motions are alike, weighted with mass, 0 to 1."""
+    M = prepared.system.mass
+    product = abs(np.vdot(a, M @ b)) ** 2
+    return float(product / np.real(np.vdot(a, M @ a) * np.vdot(b, M @ b)))
+
+
+shares = mv.component_shares(prepared.system, damped.shape, "cab")
+
+if __name__ == "__main__":
+    print(f"at {peak.frequency_hz:.1f} Hz mostly {results.names[mode].name}")
+    print(f"  damped: {damped.damped_frequency_hz:.2f} Hz, {damped.damping_ratio:.1%} of critical")
+    print(f"  {likeness(on_road, damped.shape):.0%} of the motion on the road is like it")
+    for share in shares[:4]:
+        print(f"  {share.share:.1%} of its kinetic energy: cab {share.name}")
