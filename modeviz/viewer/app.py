@@ -14,7 +14,9 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.doors import open_server
+from modeviz.viewer.hotkeys import Hotkeys
 from modeviz.viewer.panels.animation import AnimationCard
+from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import EnergyPanel, ModesPanel, listed
 from modeviz.viewer.panels.mounts import MountsPanel
 from modeviz.viewer.panels.response import ResponsePanel, RoadPanel
@@ -23,6 +25,7 @@ from modeviz.viewer.panels.view import PicturePanel, ViewPanel
 from modeviz.viewer.scene import Scene
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import first_state, variant_name
+from modeviz.viewer.title import Title
 
 LEFT_WIDTH, RIGHT_WIDTH, CARD_WIDTH = 376, 484, 380
 BRAND = {False: (32, 104, 168), True: (64, 146, 214)}
@@ -51,7 +54,7 @@ class App:
         """
         self.server, self._gui = server, server.gui
         self._last: Solved | None = None
-        self._title = ""
+        self._title = Title(server)
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
@@ -59,6 +62,7 @@ class App:
             dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
         )
         self._scene = Scene(server, vehicle, dark, self._select)
+        self._hotkeys = Hotkeys(self._gui)
         self._lay_out(dark)
 
     def start(self, progress: Callable[[float], None] | None = None) -> None:
@@ -94,6 +98,7 @@ class App:
             ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             PicturePanel(gui, self._file_name)
+        self.guide = Guide(self.server, self._hotkeys)
 
         right = gui.add_panel()
         with right.add_tab("Response", viser.Icon.CHART_LINE):
@@ -112,6 +117,9 @@ class App:
         with card.add_tab("Shown mode", viser.Icon.PLAYER_PLAY):
             self._animation = AnimationCard(gui, self._scene.driver, self._step_mode)
         card.float(x=24, y=-24, width=CARD_WIDTH)
+        self._hotkeys.add("Play or pause", "space", lambda _: self._animation.toggle())
+        self._hotkeys.add("Next mode", "N", lambda _: self._step_mode(1))
+        self._hotkeys.add("Mode before", "P", lambda _: self._step_mode(-1))
 
     def _show(self, solved: Solved) -> None:
         """Draws an answer: the panels in one batch, the scene in another, which waits for a frame.
@@ -121,7 +129,7 @@ class App:
         self._last = solved
         with self.server.atomic():
             vehicle = self.session.vehicle
-            self._show_title(f"{vehicle.name}  ·  {variant_name(vehicle, solved.state)}")
+            self._title.show(vehicle.name, variant_name(vehicle, solved.state))
             self._response.show(solved)
             self._animation.show(solved)
             self._status.show(solved)
@@ -131,11 +139,6 @@ class App:
                 self._energy.show(solved)
         self.server.flush()
         self._scene.show(solved)
-
-    def _show_title(self, title: str) -> None:
-        if title != self._title:
-            self._title = title
-            self._gui.set_panel_label(title)
 
     def _tell_failure(self, error: Exception) -> None:
         """Says what went wrong; the last good answer stays on the screen."""
@@ -198,6 +201,7 @@ def serve(
         server = open_server(host, port, token, title=f"{vehicle.name} · modeviz")
         try:
             app = App(vehicle, rates, conditions, server, dark)
+            app.guide.welcome_first()
         except ModevizError:
             server.stop()
             raise

@@ -65,6 +65,7 @@ class AnimationCard:
             slider.on_update(lambda event: write_back.touch(event.target))
         self._transport.on_click(lambda _: self._press(self._transport.value))
         driver.drive(frequency_hz=START_SPEED_HZ, running=True)
+        self._is_running = True
 
     def show(self, solved: Solved) -> None:
         """Names an answer's shown mode."""
@@ -75,12 +76,17 @@ class AnimationCard:
         scale = _color_scale() if solved.state.coloring == "displacement" else ""
         assign(self._head, content=block(heading(mode, about), scale))
 
+    def toggle(self) -> None:
+        """Stops the motion, or lets it go on."""
+        self._run(not self._is_running)
+
     def _hold(self) -> None:
         self._run(False)
         self._driver.seek(np.deg2rad(self._phase.value))
 
     def _run(self, running: bool) -> None:
         self._driver.drive(running=running)
+        self._is_running = running
         self._transport.options = (PAUSE if running else PLAY, PREVIOUS, NEXT)
 
     def _press(self, button: str) -> None:

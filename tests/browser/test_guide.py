@@ -1,0 +1,91 @@
+"""What a page is called, the guide, and the keys, on the smallest vehicle."""
+
+import pytest
+from mounted_cabin import mounted_cabin
+from pages import wait_for, wait_until
+
+from modeviz.tuning.results import Conditions
+from modeviz.viewer.app import App
+
+SOLVE_S = 60
+GUIDE = "!!document.querySelector('.mv .keys')"
+
+
+@pytest.fixture(scope="module")
+def app(server):
+    vehicle = mounted_cabin()
+    app = App(vehicle, vehicle.rates, Conditions("flat", 20.0), server)
+    server.scene.configure_environment_map(None)  # rendering in software takes nearly all the time
+    app._animation._run(False)
+    app.guide.welcome_first()
+    app.start()
+    assert app.session.wait(SOLVE_S)
+    yield app
+    app.session.close()
+
+
+@pytest.fixture(scope="module")
+def page(app, server, open_page):
+    """The first page of the session."""
+    return open_page(server, viewport=(980, 640))
+
+
+def test_the_guide_welcomes_the_first_page_and_no_other(app, server, page, open_page):
+    wait_for(page, GUIDE)
+    page.get_by_role("button", name="Start").click()
+    wait_for(page, f"!{GUIDE}")
+    second = open_page(server, viewport=(980, 640))
+    wait_for(second, "document.title.includes('Original')")  # that comes last when a page connects
+    assert not second.evaluate(GUIDE)
+
+
+def test_the_guide_comes_back_on_the_page_that_asks_with_all_keys(app, page):
+    page.get_by_role("button", name="What can I do here?").click()
+    wait_for(page, GUIDE)
+    keys = page.evaluate("Array.from(document.querySelectorAll('.keys kbd'), (k) => k.textContent)")
+    assert keys == [key for hotkey in app._hotkeys.listed for key in hotkey.keys]
+    page.keyboard.press("h")  # opens no second one
+    page.get_by_role("button", name="Start").click()
+    wait_for(page, f"!{GUIDE}")
+
+
+def test_the_title_names_vehicle_and_variant(app, page):
+    wait_for(page, "document.title === 'cabin · Original · modeviz'")
+    app.session.load("Soft")
+    wait_for(page, "document.title === 'cabin · Soft · modeviz'")
+    app.session.undo()
+    wait_for(page, "document.title === 'cabin · Original · modeviz'")
+
+
+def test_keys_show_the_next_mode_and_the_one_before(app, page):
+    names = [name.name for name in app._last.now.names]
+    app.session.change(mode=names[6])
+    page.keyboard.press("n")
+    wait_until(page, lambda: app.session.state.mode == names[7])
+    assert app.session.wait(SOLVE_S)
+    page.keyboard.press("p")
+    wait_until(page, lambda: app.session.state.mode == names[6])
+
+
+def test_the_space_bar_plays_and_stops_once_even_on_the_button_that_was_clicked(app, page):
+    driver = app._scene.driver
+    page.get_by_role("button", name="Play", exact=True).click()
+    wait_until(page, lambda: driver._running)
+    page.keyboard.press("Space")
+    wait_until(page, lambda: not driver._running)
+    page.wait_for_timeout(500)  # a second press would come by now
+    assert not driver._running
+
+
+def test_keys_do_nothing_while_somebody_types(app, page):
+    before = app.session.state
+    page.locator("input[inputmode=decimal]").first.focus()
+    page.keyboard.press("n")
+    page.keyboard.press("Space")
+    page.keyboard.press("Escape")
+    page.locator("body").click(position={"x": 490, "y": 20})
+    page.keyboard.press("p")
+    wait_until(page, lambda: app.session.state != before)
+    app.session.undo()
+    assert app.session.state == before
+    assert not app._scene.driver._running
