@@ -55,7 +55,7 @@ class Guide:
         button.on_click(lambda event: event.client and self.open(event.client))
         hotkeys.add("This guide", "H", lambda event: event.client and self.open(event.client))
         server.on_client_connect(self._welcome)
-        server.on_client_disconnect(lambda client: self._open.pop(client.client_id, None))
+        server.on_client_disconnect(self._forget)
 
     def welcome_first(self) -> None:
         """Opens the guide on the next page that comes, and on no other."""
@@ -76,6 +76,9 @@ class Guide:
         window = self._open.pop(client.client_id, None)
         if window is not None:
             window.close()
+
+    def _forget(self, client: viser.ClientHandle) -> None:
+        self._open.pop(client.client_id, None)
 
     def _welcome(self, client: viser.ClientHandle) -> None:
         with self._lock:
