@@ -15,6 +15,7 @@ from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.doors import open_server
 from modeviz.viewer.hotkeys import Hotkeys
+from modeviz.viewer.layout import NARROW, WIDE, Layout
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import EnergyPanel, ModesPanel, listed
@@ -27,7 +28,11 @@ from modeviz.viewer.session import Session
 from modeviz.viewer.state import first_state, variant_name
 from modeviz.viewer.title import Title
 
-LEFT_WIDTH, RIGHT_WIDTH, CARD_WIDTH = 376, 484, 380
+LEFT = {WIDE: 376, NARROW: 300}
+RIGHT = {WIDE: 484, NARROW: 380}
+CARD = {WIDE: 380, NARROW: 300}
+"""Pixels; see `layout`."""
+
 BRAND = {False: (32, 104, 168), True: (64, 146, 214)}
 """By darkness: the light page's blue is too dim in the dark."""
 
@@ -90,14 +95,14 @@ class App:
     def _lay_out(self, dark: bool) -> None:
         gui, session = self._gui, self.session
         gui.main_panel.dock_left()
-        gui.main_panel.set_width(LEFT_WIDTH)
-        self._status = StatusPanel(gui)
-        self._mounts = MountsPanel(gui, session, self._set_rates)
         tabs = gui.add_tab_group()
+        with tabs.add_tab("Mounts", viser.Icon.ADJUSTMENTS):
+            self._mounts = MountsPanel(gui, session, self._set_rates)
         with tabs.add_tab("View", viser.Icon.EYE):
-            ViewPanel(gui, session, self._scene.look)
+            self._view = ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             PicturePanel(gui, self._file_name)
+        self._status = StatusPanel(gui)
         self.guide = Guide(self.server, self._hotkeys)
 
         right = gui.add_panel()
@@ -111,12 +116,12 @@ class App:
         with right.add_tab("Road", viser.Icon.ROAD):
             RoadPanel(gui, session)
         right.dock_right()
-        right.set_width(RIGHT_WIDTH)
 
         card = gui.add_panel()
         with card.add_tab("Shown mode", viser.Icon.PLAYER_PLAY):
             self._animation = AnimationCard(gui, self._scene.driver, self._step_mode)
-        card.float(x=24, y=-24, width=CARD_WIDTH)
+        card.float(x=24, y=-24)
+        Layout(self.server, ((gui.main_panel, LEFT), (right, RIGHT), (card, CARD)))
         self._hotkeys.add("Play or pause", "space", lambda _: self._animation.toggle())
         self._hotkeys.add("Next mode", "N", lambda _: self._step_mode(1))
         self._hotkeys.add("Mode before", "P", lambda _: self._step_mode(-1))
@@ -135,6 +140,7 @@ class App:
             self._status.show(solved)
             if solved.is_detailed:
                 self._mounts.show(solved)
+                self._view.show()
                 self._modes.show(solved)
                 self._energy.show(solved)
         self.server.flush()

@@ -108,6 +108,15 @@ class Session:
 
         self._update(shown)
 
+    def show_body(self, name: str, drawn: bool) -> None:
+        """Asks to draw a body, or not to."""
+
+        def shown(state: State) -> State:
+            hidden = state.hidden - {name} if drawn else state.hidden | {name}
+            return replace(state, hidden=hidden)
+
+        self._update(shown)
+
     def undo(self) -> None:
         """Goes back to the state before the last change."""
         self._go(self._history.undo)

@@ -207,6 +207,7 @@ def test_what_a_page_loses_is_put_back(app, page):
 
 def test_a_picture_has_the_chosen_size_and_shows_the_truck(page):
     page.set_viewport_size({"width": 1500, "height": 500})
+    page.get_by_role("tab", name="View").click()
     page.get_by_role("button", name="Iso", exact=True).click()
     page.get_by_role("tab", name="Pictures").click()
     with page.expect_download(timeout=120_000) as download:
@@ -270,3 +271,15 @@ def test_the_motion_plays_and_stops_with_a_click(app, page):
     page.get_by_role("button", name="Play", exact=True).click()
     wait_until(page, lambda: driver._running)
     app._animation._run(False)
+
+
+def test_panels_are_narrower_on_a_small_page_and_on_that_alone(app, server, page, open_page):
+    def canvas(of):
+        return of.evaluate("window.__viserMutable.canvas.clientWidth")
+
+    small = open_page(server, viewport=(1280, 500))
+    wait_until(small, lambda: canvas(small) == 1280 - 300 - 380)
+    page.set_viewport_size({"width": 1600, "height": 500})
+    wait_until(page, lambda: canvas(page) == 1600 - 376 - 484)
+    assert canvas(small) == 1280 - 300 - 380
+    small.context.close()

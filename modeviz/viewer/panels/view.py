@@ -1,22 +1,28 @@
-"""Left column, lower part: how the truck is looked at, and pictures of it."""
+"""Left column: how the vehicle is looked at, and pictures of it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from io import BytesIO
+from typing import get_args
 
 import imageio.v3 as iio
 import viser
 
+from modeviz.export.wording import sentence_case
+from modeviz.vehicle.bodies import Body
+from modeviz.viewer.binding import Binding, show_all
 from modeviz.viewer.session import Session
+from modeviz.viewer.state import Coloring
 
 VIEWS = ("Iso", "Side", "Front", "Top", "Under")
-COLORINGS = {"Bodies": "bodies", "Displacement": "displacement"}
+COLORINGS = {sentence_case(name): name for name in get_args(Coloring)}
+GHOSTS = {"None": "none", "At rest": "rest", "Compared set": "compared"}
 SIZES = {"1920 × 1080": (1920, 1080), "1280 × 720": (1280, 720), "3840 × 2160": (3840, 2160)}
 TIMEOUT = 60.0
 """s: a picture takes long where a page renders in software."""
 
 
 class ViewPanel:
-    """Camera presets, colours, see-through, ghost, and the error of the classic method."""
+    """Camera presets, colours, outlines, which bodies are drawn, the error of the classic method."""
 
     def __init__(
         self, gui: viser.GuiApi, session: Session, look: Callable[[viser.ClientHandle, str], None]
@@ -28,6 +34,7 @@ class ViewPanel:
             session: what the choices change.
             look: turns a page's camera to one of `VIEWS`.
         """
+        self._gui, self._session = gui, session
         views = gui.add_button_group("View", VIEWS, hint="Where to look from")
 
         @views.on_click
@@ -35,24 +42,59 @@ class ViewPanel:
             if event.client is not None:
                 look(event.client, views.value)
 
-        coloring = gui.add_dropdown(
-            "Colour", tuple(COLORINGS), hint="What the colours of the bodies mean"
+        self._bindings = [
+            self._choice("Colours", COLORINGS, "coloring", "What the colours of the bodies mean"),
+            self._choice(
+                "Outlines",
+                GHOSTS,
+                "ghost",
+                "Drawn beside the bodies: the vehicle at rest, or moving as with the set of rates that "
+                "all is compared with",
+            ),
+            self._switch("See through", "see_through", "Shows what is behind the sheet metal"),
+            self._switch("Follow", "follow", "The camera looks at the selected mounts"),
+            self._switch(
+                "Classic error",
+                "classic",
+                "How far the paper's equation, on the original modes alone, is off; said at the foot",
+            ),
+        ]
+        drawn = [body for body in session.vehicle.bodies if body.mesh]
+        with gui.add_folder("Bodies", expand_by_default=False):
+            self._bindings += [self._body(body) for body in drawn]
+
+    def show(self) -> None:
+        """Brings the controls after the newest state."""
+        show_all(self._bindings)
+
+    def _choice(self, label: str, choices: Mapping[str, str], field: str, hint: str) -> Binding:
+        """A dropdown for one field of the state, whose values are `choices` by what they are called."""
+        words = {value: word for word, value in choices.items()}
+        value = getattr(self._session.state, field)
+        return Binding(
+            self._gui.add_dropdown(label, tuple(choices), initial_value=words[value], hint=hint),
+            self._session,
+            lambda state: words[getattr(state, field)],
+            lambda word: self._session.change(**{field: choices[word]}),
         )
-        coloring.on_update(lambda _: session.change(coloring=COLORINGS[coloring.value]))
-        through = gui.add_checkbox(
-            "See through", session.state.see_through, hint="Shows mounts and engine"
+
+    def _switch(self, label: str, field: str, hint: str) -> Binding:
+        """A checkbox for one field of the state."""
+        return Binding(
+            self._gui.add_checkbox(label, getattr(self._session.state, field), hint=hint),
+            self._session,
+            lambda state: getattr(state, field),
+            lambda value: self._session.change(**{field: value}),
         )
-        through.on_update(lambda _: session.change(see_through=through.value))
-        ghost = gui.add_checkbox(
-            "Undeformed", session.state.ghost == "rest", hint="Outlines of the truck at rest"
+
+    def _body(self, body: Body) -> Binding:
+        """A checkbox for whether a body is drawn."""
+        return Binding(
+            self._gui.add_checkbox(sentence_case(body.label), True, hint=f"Draws the {body.label}"),
+            self._session,
+            lambda state: body.name not in state.hidden,
+            lambda drawn: self._session.show_body(body.name, drawn),
         )
-        ghost.on_update(lambda _: session.change(ghost="rest" if ghost.value else "none"))
-        classic = gui.add_checkbox(
-            "Classic error",
-            session.state.classic,
-            hint="How far the paper's equation, on the original modes alone, is off; see below",
-        )
-        classic.on_update(lambda _: session.change(classic=classic.value))
 
 
 class PicturePanel:
