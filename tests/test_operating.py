@@ -58,6 +58,7 @@ def test_without_power_there_is_no_shape(input_psd):
 
 
 def test_a_reference_that_moves_by_rounding_alone_is_an_error():
-    symmetric = np.array([[0.1, 0.3], [0.3, 0.1], [1.0, 1.0], [1.0, 1.0]])
+    still, reference = np.array([[0.1], [0.2], [0.3]]), np.array([1.0, 1.0, -1.0])
+    assert reference @ still != 0
     with pytest.raises(SolveError, match="choose another point or direction"):
-        operating_shape(symmetric, np.ones((2, 2)), np.array([3.0, -3.0, 0.1, -0.1]))
+        operating_shape(still, np.ones((1, 1)), reference)
