@@ -1,5 +1,7 @@
 """A cabin on four tunable mounts over a chassis on four tyres: the smallest vehicle to tune."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from modeviz.vehicle.bodies import RigidBody
@@ -48,3 +50,11 @@ def mounted_cabin() -> Vehicle:
         wheel_loads=(WheelLoad("front left radial force", "radial force", tyres[0].name, 50.0),),
         rate_sets={"soft": {"A": MountRates(2e5, 1e5, 1e5)}},
     )  # fmt: skip
+
+
+def twisted_cabin() -> Vehicle:
+    """The same, but its front mounts resist rotation too, as much as their distance does."""
+    cabin = mounted_cabin()
+    front, rear = cabin.mount_groups
+    mounts = tuple(replace(m, rotational_stiffness=np.array([2e5, 0.0, 1e5])) for m in front.mounts)
+    return replace(cabin, mount_groups=(replace(front, mounts=mounts), rear))

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 import scipy.linalg
+from mounted_cabin import twisted_cabin
 from oracles import Beam, direct_system
 
 from modeviz.dynamics.assembly import assemble
@@ -155,6 +156,20 @@ def test_other_rates_give_what_assembling_anew_gives():
     np.testing.assert_allclose(tuned.stiffness, anew.stiffness, atol=1e-12 * scale)
     np.testing.assert_allclose(tuned.structural_damping, anew.structural_damping, atol=1e-9)
     assert tuned.vehicle.rates["M"].vertical == 5e4
+
+
+def test_another_loss_factor_gives_what_assembling_anew_gives():
+    """Of springs along and about the axes of mounts."""
+    rates = {"A": MountRates(2e5, 1e5, 1e5, loss_factor=0.4)}
+    tuned, anew = (
+        assemble(twisted_cabin()).with_rates(rates),
+        assemble(twisted_cabin().with_rates(rates)),
+    )
+    scale = np.abs(anew.structural_damping).max()
+    np.testing.assert_allclose(tuned.structural_damping, anew.structural_damping, atol=1e-12 * scale)
+    np.testing.assert_allclose(
+        tuned.stiffness, anew.stiffness, atol=1e-12 * np.abs(anew.stiffness).max()
+    )
 
 
 def test_rates_of_a_group_that_is_not_there_are_an_error():

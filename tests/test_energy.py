@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from mounted_cabin import SOFT, mounted_cabin
+from mounted_cabin import SOFT, mounted_cabin, twisted_cabin
 from oracles import Beam
 from test_modes import mass_on_a_string, spring
 
@@ -72,8 +72,9 @@ def test_what_moves_freely_has_no_strain_energy():
     np.testing.assert_allclose(strain[6:], 1.0)
 
 
-def test_other_mount_rates_give_the_shares_of_the_vehicle_that_has_them():
-    system = assemble(mounted_cabin())
+@pytest.mark.parametrize("vehicle", [mounted_cabin(), twisted_cabin()], ids=["cabin", "twisted"])
+def test_other_mount_rates_give_the_shares_of_the_vehicle_that_has_them(vehicle):
+    system = assemble(vehicle)
     softer = system.with_rates({"A": SOFT})
     shapes = solve_modes(softer).shapes
     expected = strain_energy(softer, shapes)

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mounted_cabin import mounted_cabin
+from mounted_cabin import mounted_cabin, twisted_cabin
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
@@ -39,10 +39,11 @@ LOSS = {
 }
 
 
-def test_loss_factors_are_those_of_the_direct_solution():
+@pytest.mark.parametrize("vehicle", [mounted_cabin(), twisted_cabin()], ids=["cabin", "twisted"])
+def test_loss_factors_are_those_of_the_direct_solution(vehicle):
     """Of rides, of wheel loads and, near other rates, of both."""
     f = FREQUENCY_HZ[::37]
-    tuned = assemble(mounted_cabin().with_rates(LOSS))
+    tuned = assemble(vehicle.with_rates(LOSS))
     seat = tuned.motion("cab", np.array([1.2, -0.4, 0.9]))[:3]
     S = road_spectrum(tuned.vehicle.road("flat"), f, 20.0)
     psd = acceleration_psd(f, direct_response(tuned, f, track_forces(tuned, f, 20.0), seat), S)
@@ -52,17 +53,18 @@ def test_loss_factors_are_those_of_the_direct_solution():
         * (2 * np.pi * f[:, None]) ** 2
         / 9.80665
     )
-    prepared = prepare(mounted_cabin(), f)
+    prepared = prepare(vehicle, f)
     for way in (prepared, prepared.near(LOSS), prepared.near(SOFT)):
         np.testing.assert_allclose(solve(way, LOSS, FLAT).psd[:, 0], psd, rtol=1e-9)
         np.testing.assert_allclose(solve_wheels(way, LOSS).acceleration_g[:, 0, 0], g, rtol=1e-9)
     assert np.abs(solve(prepared, SOFT, FLAT).psd[:, 0] / psd - 1).max() > 0.1
 
 
+@pytest.mark.parametrize("vehicle", [mounted_cabin(), twisted_cabin()], ids=["cabin", "twisted"])
 @pytest.mark.parametrize("method", ["enriched", "exact"])
-def test_modal_damping_is_that_of_the_loss_factors(method):
-    modal = solve_modal(prepare_modes(mounted_cabin()), LOSS, method)
-    tuned = solve_modes(assemble(mounted_cabin().with_rates(LOSS)))
+def test_modal_damping_is_that_of_the_loss_factors(vehicle, method):
+    modal = solve_modal(prepare_modes(vehicle), LOSS, method)
+    tuned = solve_modes(assemble(vehicle.with_rates(LOSS)))
     n = len(modal.modes.frequency_hz)
     np.testing.assert_allclose(modal.modes.damping_ratio, tuned.damping_ratio[:n], rtol=1e-9)
     assert modal.vehicle.mount_group("B").loss_factor == 0.3

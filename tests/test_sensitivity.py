@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from differences import central_difference, relative_to_largest
-from mounted_cabin import mounted_cabin
+from mounted_cabin import mounted_cabin, twisted_cabin
 
-from modeviz.tuning.preparation import prepare
+from modeviz.tuning.preparation import prepare, prepare_modes
 from modeviz.tuning.results import Conditions, solve, solve_modal
 from modeviz.tuning.sensitivity import (
     RateVariable,
@@ -22,7 +22,7 @@ RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4), "B": MountRates(9e5, 4
 
 @pytest.fixture(scope="module")
 def prepared():
-    return prepare(mounted_cabin(), np.linspace(0.5, 40, 80))
+    return prepare(twisted_cabin(), np.linspace(0.5, 40, 80))
 
 
 def differences(function):
@@ -74,9 +74,9 @@ def test_derivatives_of_the_rms_are_central_differences(prepared):
     assert relative_to_largest(found, expected, over=2).max() < 1e-6
 
 
-def test_what_moves_freely_has_no_derivative(prepared):
+def test_what_moves_freely_has_no_derivative():
     loose = {g: MountRates(0.0, 0.0, 0.0) for g in "AB"}
-    modal = solve_modal(prepared, loose)
+    modal = solve_modal(prepare_modes(mounted_cabin()), loose)
     assert (modal.modes.frequency_hz[:6] < 1e-3).all()
     np.testing.assert_array_equal(frequency_sensitivity(modal)[:6], 0)
 

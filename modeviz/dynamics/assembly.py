@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
@@ -83,9 +84,10 @@ class System:
 
     @cached_property
     def mount_motions(self) -> Floats:
-        """Rows (3 n_mounts, n_dofs): how every mount is stretched along its local axes."""
-        by_connection = self.connection_motions.reshape(-1, 6, self.n_dofs)
-        return by_connection[: len(self.vehicle.mounts), :3].reshape(-1, self.n_dofs)
+        """Rows (n_springs, n_dofs): how every mount spring is stretched; see `mount_stiffness`."""
+        turns = turning_axes(self.vehicle)
+        by_mount = self.connection_motions.reshape(-1, 6, self.n_dofs)[: len(turns)]
+        return np.vstack([by_mount[:, :3].reshape(-1, self.n_dofs), by_mount[:, 3:][turns]])
 
     def with_rates(self, rates: Rates) -> "System":
         """The system of the same vehicle with other mount rates, K + RᵀΔkR.
@@ -135,9 +137,26 @@ def assemble(vehicle: Vehicle) -> System:
 
 
 def mount_stiffness(vehicle: Vehicle) -> Complexes:
-    """Complex rates k (1 + jg), N/m, of every mount along its local axes, (3 n_mounts,)."""
-    rates = [mount.stiffness * (1 + 1j * mount.loss_factor) for mount in vehicle.mounts]
-    return np.concatenate([np.zeros(0, complex), *rates])
+    """Complex rates k (1 + jg) of every mount spring, (n_springs,).
+
+    Those along the local axes of each mount come first, N/m, then those about axes in which a mount has
+    rotational stiffness, N m/rad: that is not tuned, but damps with the mount's loss factor.
+    """
+    k = np.array([(m.stiffness, m.rotational_stiffness) for m in vehicle.mounts]).reshape(-1, 2, 3)
+    loss = 1 + 1j * np.array([m.loss_factor for m in vehicle.mounts])
+    rates = k * loss[:, None, None]
+    return np.concatenate([rates[:, 0].ravel(), rates[:, 1][turning_axes(vehicle)]])
+
+
+def mounts_of_springs(vehicle: Vehicle) -> NDArray[np.intp]:
+    """The number of the mount of every mount spring, (n_springs,)."""
+    turns = turning_axes(vehicle)
+    return np.concatenate([np.repeat(np.arange(len(turns)), 3), turns.nonzero()[0]])
+
+
+def turning_axes(vehicle: Vehicle) -> NDArray[np.bool_]:
+    """About which of its local axes each mount has rotational stiffness, (n_mounts, 3)."""
+    return np.array([m.rotational_stiffness for m in vehicle.mounts]).reshape(-1, 3) > 0
 
 
 def _number(vehicle: Vehicle) -> dict[str, slice]:

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 import scipy.linalg
 
+from modeviz.dynamics.assembly import mounts_of_springs
 from modeviz.dynamics.basis import REACH, EnrichedBasis
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes, damping_ratio
 from modeviz.dynamics.trust import EDGE, Trust, count_below, frequency_error, gap_error, missed
@@ -77,8 +78,9 @@ def _check_resolved(basis: EnrichedBasis, change: Floats) -> None:
     added = change * (basis.spring_motions**2).max(axis=1, initial=0.0)
     if np.finfo(np.float64).eps * added.max(initial=0.0) > (2 * np.pi * RESOLVED_HZ) ** 2:
         stiffest = int(added.argmax())
-        mount = basis.system.vehicle.mounts[stiffest // 3]
-        rate = mount.stiffness[stiffest % 3] + change[stiffest]
+        vehicle = basis.system.vehicle
+        mount = vehicle.mounts[mounts_of_springs(vehicle)[stiffest]]
+        rate = basis.mount_stiffness[stiffest].real + change[stiffest]
         raise SolveError(
             f"the slow modes drown in rounding: mount {mount.name!r} has a rate of {rate:.2g} N/m; "
             "soften it"

@@ -31,7 +31,7 @@ def strain_energy(
     Args:
         system: what vibrates.
         shapes: mass-normalised, (n_dofs, n_modes).
-        mount_stiffness: N/m along the local axes of every mount, (3 n_mounts,), in place of its own.
+        mount_stiffness: real rates of every mount spring, (n_springs,), in place of its own.
     """
     bodies = [body for body in system.vehicle.bodies if isinstance(body, FlexibleBody)]
     groups, stretch = _group_energy(system, shapes, mount_stiffness)
@@ -51,7 +51,8 @@ def _group_energy(
     k = system.connection_stiffness
     if mount_stiffness is not None:
         k = k.copy()
-        k.reshape(-1, 6)[: len(system.vehicle.mounts), :3] = mount_stiffness.reshape(-1, 3)
+        n_mounts = len(system.vehicle.mounts)
+        k.reshape(-1, 6)[:n_mounts, :3] = mount_stiffness[: 3 * n_mounts].reshape(-1, 3)
     stretch = k[:, None] * (system.connection_motions @ shapes) ** 2
     by_connection = stretch.reshape(-1, 6, shapes.shape[1]).sum(axis=1)
     group_of = [connection.group for connection in system.vehicle.all_connections]

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.assembly import System, assemble
+from modeviz.dynamics.assembly import System, assemble, mount_stiffness, mounts_of_springs
 from modeviz.dynamics.basis import TOP_HZ, EnrichedBasis, prepare_basis
 from modeviz.dynamics.naming import Namer, prepare_names
 from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
@@ -49,22 +49,28 @@ class PreparedModes:
         return self.vehicle.all_rates(rates)
 
     def mount_stiffness(self, rates: Rates) -> Complexes:
-        """Complex rates k (1 + jg) of every mount spring, (n_springs,), N/m; raises as `all_rates`."""
+        """Complex rates k (1 + jg) of every mount spring, (n_springs,); raises as `all_rates`."""
         every = self.all_rates(rates)
-        of_groups = np.array([every[g.name].local() for g in self.vehicle.mount_groups]).reshape(-1, 3)
-        return (of_groups[self._groups] * self.loss(rates)[:, None]).ravel()
+        along = [every[g.name].local() for g in self.vehicle.mount_groups for _ in g.mounts]
+        return np.concatenate([np.ravel(along), self._rotational]) * self.loss(rates)
 
     def loss(self, rates: Rates) -> Complexes:
-        """1 + jg of each mount, (n_mounts,); raises as `all_rates`."""
+        """1 + jg of every mount spring, (n_springs,); raises as `all_rates`."""
         every = self.all_rates(rates)
-        factors = [g.loss_factor_with(every[g.name]) for g in self.vehicle.mount_groups]
-        return 1 + 1j * np.array(factors)[self._groups]
+        factors = [
+            g.loss_factor_with(every[g.name]) for g in self.vehicle.mount_groups for _ in g.mounts
+        ]
+        return 1 + 1j * np.array(factors)[self._mounts]
 
     @cached_property
-    def _groups(self) -> NDArray[np.intp]:
-        """The number of each mount's group, (n_mounts,)."""
-        groups = self.vehicle.mount_groups
-        return np.repeat(np.arange(len(groups)), [len(g.mounts) for g in groups])
+    def _mounts(self) -> NDArray[np.intp]:
+        """The number of each spring's mount, (n_springs,)."""
+        return mounts_of_springs(self.vehicle)
+
+    @cached_property
+    def _rotational(self) -> Floats:
+        """The rates of the springs about an axis, which are not tuned."""
+        return mount_stiffness(self.vehicle)[3 * len(self.vehicle.mounts) :].real.astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,7 +37,9 @@ def spring_shares(prepared: PreparedModes, rates: Rates) -> Complexes:
     of_mount = np.transpose([MountRates(*unit).local() for unit in np.eye(3)])
     per_group = [np.tile(of_mount, (len(g.mounts), 1)) for g in prepared.vehicle.mount_groups]
     has_rate = np.asarray(scipy.linalg.block_diag(np.zeros((0, 0)), *per_group))
-    return np.repeat(prepared.loss(rates), 3)[:, None] * has_rate
+    loss = prepared.loss(rates)
+    n_rotational = len(loss) - len(has_rate)  # which no variable changes
+    return loss[:, None] * np.pad(has_rate, ((0, n_rotational), (0, 0)))
 
 
 def frequency_sensitivity(results: ModalResults) -> Floats:
