@@ -145,6 +145,7 @@ def test_file_is_in_the_units_it_names(folder):
     }
     assert [w["amplitude"] for w in data["wheel_load"]] == [12.3, 35.6]  # g m and N
     assert data["road"][0]["speed"] == 72.0
+    assert data["rates"]["optimised"]["C1"]["loss_factor"] == 0.1
 
 
 def numbers(vehicle: Vehicle) -> dict[str, list[np.ndarray]]:
@@ -525,4 +526,7 @@ def test_a_group_may_be_called_loss_factor(tmp_path):
     group = replace(vehicle.mount_groups[0], name="loss_factor")
     sets = {"optimised": {"loss_factor": vehicle.rate_sets["optimised"]["C1"]}}
     write_vehicle(replace(vehicle, mount_groups=(group,), rate_sets=sets), tmp_path / "a")
+    data = tomllib.loads((tmp_path / "a" / "vehicle.toml").read_text())
+    rates = {"vertical": 1000 / 3, "lateral": 131.0, "fore_aft": 0.0, "loss_factor": 0.1}
+    assert data["rates"]["optimised"]["loss_factor"] == rates
     assert read_vehicle(tmp_path / "a").rate_sets == sets
