@@ -17,8 +17,9 @@ from modeviz.viewer.doors import open_server
 from modeviz.viewer.hotkeys import Hotkeys
 from modeviz.viewer.layout import NARROW, WIDE, Layout
 from modeviz.viewer.panels.animation import AnimationCard
+from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.guide import Guide
-from modeviz.viewer.panels.modes import EnergyPanel, ModesPanel, listed
+from modeviz.viewer.panels.modes import ModesPanel, listed
 from modeviz.viewer.panels.mounts import MountsPanel
 from modeviz.viewer.panels.response import ResponsePanel, RoadPanel
 from modeviz.viewer.panels.status import StatusPanel
@@ -112,7 +113,7 @@ class App:
             with tabs.add_tab("Modes", viser.Icon.WAVE_SINE):
                 self._modes = ModesPanel(gui, session)
             with tabs.add_tab("Energy", viser.Icon.CHART_BAR):
-                self._energy = EnergyPanel(gui, session.vehicle)
+                self._energy = EnergyPanel(gui, session)
         with right.add_tab("Road", viser.Icon.ROAD):
             RoadPanel(gui, session)
         right.dock_right()

@@ -1,6 +1,6 @@
 """Fragments of page text: tables, changes, and rows that can be clicked."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from html import escape
 from importlib.resources import files
@@ -26,10 +26,22 @@ def heading(left: str, right: str = "") -> str:
     return f'<div class="heading"><span>{left}</span>{quiet}</div>'
 
 
-def table(header: Sequence[str], rows: Sequence[str]) -> str:
-    """A table of finished rows, see `row`."""
-    head = "".join(f"<th>{cell}</th>" for cell in header)
-    return f"<table><tr>{head}</tr>{''.join(rows)}</table>"
+def legend(entries: Iterable[tuple[str, str]]) -> str:
+    """What colours mean: variables of the style sheet and finished text."""
+    return " &nbsp; ".join(
+        f'<i class="swatch" style="background:var({color})"></i>{text}' for color, text in entries
+    )
+
+
+def hinted(text: str, hint: str) -> str:
+    """Text with something to read where the pointer rests; both are page text already."""
+    return f'<span title="{hint}">{text}</span>'
+
+
+def table(header: Sequence[str], rows: Sequence[str], kind: str = "") -> str:
+    """A table of finished rows, see `row`; `kind` is its class in the style sheet."""
+    head = f"<tr>{''.join(f'<th>{cell}</th>' for cell in header)}</tr>" if header else ""
+    return f'<table class="{kind}">{head}{"".join(rows)}</table>'
 
 
 def row(cells: Sequence[str], chosen: bool = False) -> str:

@@ -1,20 +1,24 @@
-"""The frequency ladder: natural frequencies before and now, joined where a shape went."""
+"""The frequency ladder: natural frequencies before and now, joined where a shape went.
 
-from collections.abc import Sequence
+Places across are in percent, so that it is as wide as its panel and its text keeps its size.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from html import escape
 
-WIDTH, TOP, BOTTOM, HEIGHT = 440, 34, 70, 100
-LOW, HIGH = 7.0, 16.0
-"""Hz: the part of the band that is drawn."""
+TOP, BOTTOM, HEIGHT = 8, 44, 70
+MARGIN = 4.0
+"""Percent, left and right of the scale."""
 
-DIM, TEXT, BASE, NOW = (
-    "var(--mantine-color-dimmed)",
-    "var(--mantine-color-text)",
-    "var(--mv-base)",
-    "var(--mv-now)",
-)
+LABELS = 12
+"""About how many numbers fit along the scale of a narrow panel."""
+
+DIM, BASE, NOW = "var(--mantine-color-dimmed)", "var(--mv-base)", "var(--mv-now)"
+
+Scale = tuple[int, int]
+"""Hz: the part of the band that is drawn."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +26,7 @@ class Rail:
     """Where the shape of a mode went."""
 
     before: float
-    """Its frequency with the original rates, Hz."""
+    """Its frequency with the rates compared with, Hz."""
     after: float
     """Now."""
     weak: bool
@@ -31,73 +35,86 @@ class Rail:
     """Whether it belongs to the shown mode."""
 
 
+def around(frequency_hz: Sequence[float]) -> Scale:
+    """The scale of whole hertz that holds some frequencies, with room at both ends."""
+    return max(math.floor(min(frequency_hz) - 0.5), 0), math.ceil(max(frequency_hz) + 0.5)
+
+
 def ladder(
-    before: Sequence[float], after: Sequence[float], rails: Sequence[Rail], shown: int, label: str
+    before: Mapping[str, float],
+    after: Mapping[str, float],
+    rails: Sequence[Rail],
+    shown: str,
+    scale: Scale,
 ) -> str:
-    """An SVG drawing: frequencies with the original rates above, those of now below.
+    """An SVG drawing: frequencies with the rates compared with above, those of now below.
 
     Args:
-        before: Hz.
-        after: Hz.
-        rails: what to join, such as are drawn at one end at least; the other is then at the edge.
-        shown: which of `after` is the shown mode.
-        label: what is written above it.
+        before: Hz, by the modes' names.
+        after: Hz, by the modes' names.
+        rails: what to join; an end that is off the scale is drawn at its edge.
+        shown: the name of the shown mode.
+        scale: what part of the band to draw.
     """
-    parts = [_grid()]
-    parts += [_rail(r) for r in sorted(rails, key=lambda r: r.strong)]
-    parts += [_line(_x(f), TOP - 6, _x(f), TOP, BASE, 2) for f in before if drawn(f)]
-    parts += [
-        _line(_x(f), BOTTOM, _x(f), BOTTOM + 7, NOW, 3 if i == shown else 2)
-        for i, f in enumerate(after)
-        if drawn(f)
+    low, high = scale
+
+    def x(f: float) -> float:
+        return MARGIN + (100 - 2 * MARGIN) * (min(max(f, low), high) - low) / (high - low)
+
+    def drawn(f: float) -> bool:
+        return low <= f <= high
+
+    parts = _grid(scale, x)
+    for rail in sorted(rails, key=lambda r: r.strong):
+        if drawn(rail.before) or drawn(rail.after):
+            parts.append(_rail(rail, x))
+    for name, f in before.items():
+        if drawn(f):
+            parts.append(_line(x(f), TOP - 6, x(f), TOP, BASE, 2, _tip(name, f)))
+    for name, f in after.items():
+        if drawn(f):
+            thickness = 4 if name == shown else 2
+            parts.append(_line(x(f), BOTTOM, x(f), BOTTOM + 7, NOW, thickness, _tip(name, f)))
+    size = f'width="100%" height="{HEIGHT}" style="display:block;margin-bottom:4px"'
+    return f"<svg {size}>{''.join(parts)}</svg>"
+
+
+def _grid(scale: Scale, x) -> list[str]:
+    """A line and a number at whole hertz, the last with the unit."""
+    low, high = scale
+    step = next(s for s in (1, 2, 5, 10) if (high - low) / s <= LABELS or s == 10)
+    at = range(-(-low // step) * step, high + 1, step)
+    lines = [_line(x(f), TOP, x(f), BOTTOM, "var(--mv-soft)", 1) for f in at]
+    texts = [
+        f'<text x="{x(f):.2f}%" y="{BOTTOM + 22}" text-anchor="middle" '
+        f'fill="{DIM}" font-size="11">{f}{" Hz" if f == at[-1] else ""}</text>'
+        for f in at
     ]
-    parts += [
-        f'<text x="0" y="14" font-size="11" fill="{DIM}">original</text>',
-        f'<text x="0" y="{BOTTOM + 25}" font-size="11" fill="{NOW}">now</text>',
-    ]
-    if shown < len(after):
-        middle = min(max(_x(after[shown]), 110), WIDTH - 90)
-        parts.append(_text(middle, 22, label, TEXT, 'font-weight="600"'))
-    view = f'viewBox="0 0 {WIDTH} {HEIGHT}" width="100%" style="display:block"'
-    return f"<svg {view}>{''.join(parts)}</svg>"
+    return lines + texts
 
 
-def drawn(frequency_hz: float) -> bool:
-    """Whether a frequency is on the scale."""
-    return LOW < frequency_hz < HIGH
-
-
-def _x(f: float) -> float:
-    """Where a frequency is drawn, one off the scale at its edge."""
-    return 30 + (min(max(f, LOW), HIGH) - LOW) / (HIGH - LOW) * (WIDTH - 50)
-
-
-@cache
-def _grid() -> str:
-    whole = range(int(LOW) + 1, int(HIGH))
-    lines = "".join(_line(_x(f), TOP, _x(f), BOTTOM, "var(--mv-soft)", 1) for f in whole)
-    labels = [f"{f} Hz" if f == whole[-1] else str(f) for f in whole]
-    texts = (_text(_x(f), BOTTOM + 25, t, DIM) for f, t in zip(whole, labels, strict=True))
-    return lines + "".join(texts)
-
-
-def _rail(rail: Rail) -> str:
+def _rail(rail: Rail, x) -> str:
     color, thickness = (NOW, 2) if rail.strong else (BASE, 1)
     dashes = ' stroke-dasharray="4 3"' if rail.weak else ""
-    return _line(_x(rail.before), TOP, _x(rail.after), BOTTOM, color, thickness, dashes)
+    return _line(x(rail.before), TOP, x(rail.after), BOTTOM, color, thickness, more=dashes)
+
+
+def _tip(name: str, frequency_hz: float) -> str:
+    """What is shown where the pointer rests."""
+    return f"<title>{escape(name)} {frequency_hz:.2f} Hz</title>"
 
 
 def _line(
-    x1: float, y1: float, x2: float, y2: float, color: str, thickness: float, more: str = ""
+    x1: float,
+    y1: float,
+    x2: float,
+    y2: float,
+    color: str,
+    thickness: float,
+    inside: str = "",
+    more: str = "",
 ) -> str:
     return (
-        f'<line x1="{x1:.1f}" y1="{y1}" x2="{x2:.1f}" y2="{y2}" stroke="{color}" '
-        f'stroke-width="{thickness}"{more}/>'
-    )
-
-
-def _text(at: float, y: float, label: str, color: str, style: str = "") -> str:
-    return (
-        f'<text x="{at:.1f}" y="{y}" text-anchor="middle" fill="{color}" font-size="11" {style}>'
-        f"{escape(label)}</text>"
+        f'<line x1="{x1:.2f}%" y1="{y1}" x2="{x2:.2f}%" y2="{y2}" stroke="{color}" '
+        f'stroke-width="{thickness}"{more}>{inside}</line>'
     )

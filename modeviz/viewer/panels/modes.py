@@ -1,31 +1,25 @@
-"""Right column, lower part: the modes and where the shown one has its energy."""
+"""Right column, lower part: the modes, where each was before, and which of them is shown."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from html import escape
 
 import numpy as np
 import viser
 
 from modeviz.dynamics.naming import ModeName
-from modeviz.export.wording import sentence_case, signed
+from modeviz.export.wording import signed
 from modeviz.tuning.results import Results
-from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import FREE_HZ, Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import (
-    HiddenButtons,
-    block,
-    heading,
-    row,
-    span,
-    table,
-    title,
-)
-from modeviz.viewer.ladder import Rail, drawn, ladder
+from modeviz.viewer.html import HiddenButtons, block, heading, hinted, legend, row, span, table, title
+from modeviz.viewer.ladder import Rail, Scale, around, ladder
 from modeviz.viewer.session import Session
 
 LISTED_HZ = (FREE_HZ, 21.0)
 """Above, the ride ends."""
+
+HELD = 0.1
+"""Where mounts have this share of the strain energy, their rates move the mode."""
 
 SAME_SHAPE = 0.8
 """A shape of which a mode holds this much needs no further word."""
@@ -34,7 +28,10 @@ N_PARTS, LEAST_PART = 3, 0.05
 """How many modes that hold a part of a shape are named, and how large a part must be."""
 
 N_ROWS = 40
-BODY_COLORS = ("#c4704e", "#4a749e", "#5c8668", "#9499a0", "#5d656f", "#b59a5a", "#7d6b8f", "#8a8378")
+NONE_LISTED = (
+    f"No mode between {LISTED_HZ[0]:g} and {LISTED_HZ[1]:g} Hz with these rates: undo the last change, "
+    "or load another set."
+)
 
 
 class ModesPanel:
@@ -54,25 +51,36 @@ class ModesPanel:
 
     def show(self, solved: Solved) -> None:
         """Lists the modes of an answer."""
-        now, modes = solved.now, listed(solved.now)
+        modes = listed(solved.now)
+        self._names = [name.name for name, _ in modes.values()][:N_ROWS]
+        content = block(_ladder(solved), _old_shape(solved), self._table(solved, list(modes)))
+        assign(self._content, content=content)
+
+    def _table(self, solved: Solved, modes: list[int]) -> str:
+        if not modes:
+            return span(NONE_LISTED, "dim")
         before = {name.name: f for name, f in listed(solved.base).values()}
-        after = {name.name: f for name, f in modes.values()}
-        self._names = list(after)[:N_ROWS]
-        moved = _moves_most(now, self._labels)
+        moved = _moves_most(solved.now, self._labels)
         rows = [
-            row(self._cells(i, mode, now, before, moved[mode]), chosen=mode == solved.mode)
-            for i, mode in enumerate(list(modes)[:N_ROWS])
+            row(self._cells(i, mode, solved.now, before, moved[mode]), chosen=mode == solved.mode)
+            for i, mode in enumerate(modes[:N_ROWS])
         ]
-        listing = table(("Mode", "Hz", "Δ Hz", "ζ %", "moves most"), rows)
-        assign(self._content, content=block(_ladder(solved), _old_shape(solved), listing))
+        header = (
+            hinted("Mode", "Click a mode to see it move; ~ marks a name that fits weakly"),
+            hinted("Hz", "Natural frequency, undamped"),
+            hinted("Δ Hz", f"Change against {escape(solved.state.against)}"),
+            hinted("ζ %", "Damping, percent of critical"),
+            hinted("moves most", "Body with most of the mode's kinetic energy, and its share"),
+        )
+        return table(header, rows, "modes")
 
     def _cells(
         self, i: int, mode: int, now: Results, before: dict[str, float], moved: str
     ) -> list[str]:
-        name, f = now.names[mode].name, float(now.modes.frequency_hz[mode])
-        change = f - before[name] if name in before else None
+        name, f = now.names[mode], float(now.modes.frequency_hz[mode])
+        change = f - before[name.name] if name.name in before else None
         return [
-            self._buttons.label(i, title(now.names[mode].spoken)),
+            self._buttons.label(i, hinted(title(name.spoken), title(name.spoken))),
             f"{f:.2f}",
             span("new" if change is None else signed(change, 2), "dim" if not change else ""),
             f"{100 * now.modes.damping_ratio[mode]:.1f}",
@@ -80,47 +88,58 @@ class ModesPanel:
         ]
 
 
-class EnergyPanel:
-    """Kinetic energy of the shown mode by body, strain energy by mount group."""
+def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
+    """The modes of the ride band by index: name and frequency."""
+    return {
+        i: (results.names[i], f)
+        for i, f in enumerate(results.modes.frequency_hz.tolist())
+        if LISTED_HZ[0] < f < LISTED_HZ[1]
+    }
 
-    def __init__(self, gui: viser.GuiApi, vehicle: Vehicle) -> None:
-        """Makes room; `show` fills it."""
-        self._labels = {body.name: body.label for body in vehicle.bodies}
-        self._groups = [group.name for group in vehicle.mount_groups]
-        self._content = gui.add_html("")
 
-    def show(self, solved: Solved) -> None:
-        """Draws the shares of an answer's shown mode."""
-        name = title(solved.name.spoken)
-        content = block(
-            heading(f"{name}: kinetic energy by body"),
-            _kinetic(solved.now, solved.mode, self._labels),
-            heading("Strain energy by mount group"),
-            _strain(solved, self._groups),
-        )
-        assign(self._content, content=content)
+def scale(base: Results) -> Scale | None:
+    """The part of the band in which the mounts hold the modes: there is something to see on a ladder.
+
+    Of all listed modes if the mounts hold none, None if there are none. It goes by the rates compared
+    with, so that it stands still while others move.
+    """
+    modes = listed(base)
+    none = np.zeros(len(base.modes.frequency_hz))
+    held = sum((base.strain_energy[group] for group in base.rates), none)
+    moved = [f for i, (_, f) in modes.items() if held[i] > HELD]
+    frequency_hz = moved or [f for _, f in modes.values()]
+    return around(frequency_hz) if frequency_hz else None
 
 
 def _ladder(solved: Solved) -> str:
-    """The ladder of all modes, joined where the shapes of the original's modes went."""
+    """The ladder of all modes, joined where the shapes of the modes compared with went."""
     base, now, track = solved.base, solved.now, solved.track
+    drawn = scale(base)
+    if drawn is None:
+        return ""
     old = base.mode_index(solved.name.name)
-    before, after = base.modes.frequency_hz.tolist(), track.frequency_hz.tolist()
-    weak = track.weak.tolist()
+    before, weak = base.modes.frequency_hz.tolist(), track.weak.tolist()
     rails = [
-        Rail(before[i], after[i], weak[i], strong=i == old)
-        for i in range(len(before))
-        if track.index[i] >= 0 and (drawn(before[i]) or drawn(after[i]))
+        Rail(before[i], after, weak[i], strong=i == old)
+        for i, after in enumerate(track.frequency_hz.tolist())
+        if track.index[i] >= 0
     ]
-    f = now.modes.frequency_hz[solved.mode]
-    was = "" if old is None else f" {base.modes.frequency_hz[old]:.2f} →"
-    return ladder(
-        before,
-        now.modes.frequency_hz.tolist(),
-        rails,
-        solved.mode,
-        f"{sentence_case(solved.name.spoken)}{was} {f:.2f}",
-    )
+    drawing = ladder(_by_name(base), _by_name(now), rails, solved.name.name, drawn)
+    return _heading(solved, old) + drawing
+
+
+def _heading(solved: Solved, old: int | None) -> str:
+    """The shown mode before and now, and which colour is which."""
+    f = solved.now.modes.frequency_hz[solved.mode]
+    was = "" if old is None else f"{solved.base.modes.frequency_hz[old]:.2f} → "
+    colors = legend((("--mv-base", escape(solved.state.against)), ("--mv-now", "now")))
+    return heading(f"{title(solved.name.spoken)} {was}{f:.2f} Hz", colors)
+
+
+def _by_name(results: Results) -> dict[str, float]:
+    return {
+        name.name: f for name, f in zip(results.names, results.modes.frequency_hz.tolist(), strict=True)
+    }
 
 
 def _old_shape(solved: Solved) -> str:
@@ -135,16 +154,8 @@ def _old_shape(solved: Solved) -> str:
         for i, share in solved.track.split(old, N_PARTS)
         if share > LEAST_PART
     ]
-    return f'<div class="dim">The original\'s {escape(name)} is now {", ".join(parts)}</div>'
-
-
-def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
-    """The modes of the ride band by index: name and frequency."""
-    return {
-        i: (results.names[i], f)
-        for i, f in enumerate(results.modes.frequency_hz.tolist())
-        if LISTED_HZ[0] < f < LISTED_HZ[1]
-    }
+    shape = f"The {escape(name)} of {escape(solved.state.against)} is now {', '.join(parts)}"
+    return f'<div class="dim">{shape}</div>'
 
 
 def _moves_most(results: Results, labels: Mapping[str, str]) -> list[str]:
@@ -154,62 +165,3 @@ def _moves_most(results: Results, labels: Mapping[str, str]) -> list[str]:
     most = shares.argmax(axis=0).tolist()
     percent = (100 * shares.max(axis=0)).tolist()
     return [f"{bodies[i]} {share:.0f} %" for i, share in zip(most, percent, strict=True)]
-
-
-def _kinetic(results: Results, mode: int, labels: Mapping[str, str]) -> str:
-    """One bar in the colours of the bodies, and its legend."""
-    shares = sorted(((e[mode], body) for body, e in results.kinetic_energy.items()), reverse=True)
-    shown = [
-        (share, labels[body], BODY_COLORS[i])
-        for i, (share, body) in enumerate(shares[: len(BODY_COLORS)])
-        if share > 0.01
-    ]
-    bars = "".join(
-        f'<i style="width:{100 * share:.1f}%;background:{color}" '
-        f'title="{escape(label)} {100 * share:.0f} %"></i>'
-        for share, label, color in shown
-    )
-    legend = " &nbsp; ".join(
-        f'<span style="white-space:nowrap"><i class="swatch" style="background:{color}"></i>'
-        f"{title(label)} {100 * share:.0f} %</span>"
-        for share, label, color in shown
-    )
-    return (
-        f'<div class="bar" style="height:11px">{bars}</div>'
-        f'<div style="font-size:11px;margin:4px 0 8px">{legend}</div>'
-    )
-
-
-def _strain(solved: Solved, groups: Sequence[str]) -> str:
-    """A table of the mount groups: their share now and with the original rates."""
-    name = solved.name.name
-    before = solved.base.mode_index(name)
-    now = {g: solved.strain[g] for g in groups}
-    base = {g: solved.base.strain_energy[g][before] if before is not None else 0.0 for g in groups}
-    largest = max([*now.values(), *base.values(), 1e-9])
-    rows = [
-        row(
-            [
-                escape(g),
-                _bars(now[g] / largest, base[g] / largest),
-                _percent(now[g]),
-                span(_percent(base[g]), "dim"),
-            ],
-            chosen=g == solved.state.group,
-        )
-        for g in groups
-    ]
-    return table(("", "", "now", "original"), rows)
-
-
-def _bars(now: float, base: float) -> str:
-    """The share now above the one before, as parts of the largest."""
-    return "".join(
-        f'<div class="bar" style="height:{height}px;margin-top:1px">'
-        f'<i style="width:{100 * share:.1f}%;background:var({color})"></i></div>'
-        for share, height, color in ((now, 6, "--mv-now"), (base, 3, "--mv-base"))
-    )
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:.0f} %"

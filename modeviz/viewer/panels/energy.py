@@ -1,0 +1,104 @@
+"""Right column, lower part: where the shown mode has its energy, now and before."""
+
+from collections.abc import Mapping
+from html import escape
+
+import viser
+
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.assign import assign
+from modeviz.viewer.html import HiddenButtons, block, heading, legend, row, span, table, title
+from modeviz.viewer.session import Session
+
+LEAST_SHOWN = 0.005
+"""Shares below are not listed, but those of the mount groups are."""
+
+MOVES_FREELY = (
+    "Nothing is strained: this mode moves freely. Stiffen the mounts, or choose another mode."
+)
+
+Shares = Mapping[str, float]
+
+
+class EnergyPanel:
+    """Kinetic energy of the shown mode by body, strain energy by mount group and the rest."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Makes room; `show` fills it."""
+        bodies = session.vehicle.bodies
+        self._bodies = {body.name: body.label for body in bodies}
+        self._groups = {group.name: group.label for group in session.vehicle.mount_groups}
+        groups = list(self._groups)
+        self._buttons = HiddenButtons(gui, len(groups), lambda i: session.change(group=groups[i]))
+        self._content = gui.add_html("")
+
+    def show(self, solved: Solved) -> None:
+        """Draws the shares of an answer's shown mode."""
+        before = solved.base.mode_index(solved.name.name)
+        colors = legend((("--mv-base", escape(solved.state.against)), ("--mv-now", "now")))
+        kinetic = {name: float(e[solved.mode]) for name, e in solved.now.kinetic_energy.items()}
+        content = block(
+            heading(f"{title(solved.name.spoken)}: kinetic energy", colors),
+            self._kinetic(kinetic, _shares(solved.base.kinetic_energy, before)),
+            heading("Strain energy", "click a mount group to see its rates" if self._groups else ""),
+            self._strain(solved, _shares(solved.base.strain_energy, before)),
+        )
+        assign(self._content, content=content)
+
+    def _kinetic(self, now: Shares, base: Shares | None) -> str:
+        names = sorted(_worth_listing(now, base), key=lambda name: -now[name])
+        largest = _largest(now, base)
+        return table(
+            (), [row(_cells(title(self._bodies[n]), n, now, base, largest)) for n in names], "energy"
+        )
+
+    def _strain(self, solved: Solved, base: Shares | None) -> str:
+        """The mount groups in their order, then what else is strained."""
+        now, largest = solved.strain, _largest(solved.strain, base)
+        rows = [
+            row(
+                _cells(self._group(i, name), name, now, base, largest),
+                chosen=name == solved.state.group,
+            )
+            for i, name in enumerate(self._groups)
+        ]
+        others = sorted(_worth_listing(now, base) - set(self._groups), key=lambda name: -now[name])
+        rows += [row(_cells(self._other(n), n, now, base, largest)) for n in others]
+        return table((), rows, "energy") if largest > 0 else span(MOVES_FREELY, "dim")
+
+    def _group(self, i: int, name: str) -> str:
+        label = f"{escape(name)} {span(escape(self._groups[name]), 'dim')}"
+        return self._buttons.label(i, label)
+
+    def _other(self, name: str) -> str:
+        """What is strained but no mount group: a body that bends, or other connections."""
+        bends = f"{title(self._bodies[name])} itself" if name in self._bodies else title(name)
+        return span(bends, "dim")
+
+
+def _shares(energy: Mapping, mode: int | None) -> Shares | None:
+    """The shares of one mode; None if there is no such mode."""
+    return None if mode is None else {name: float(share[mode]) for name, share in energy.items()}
+
+
+def _worth_listing(now: Shares, base: Shares | None) -> set[str]:
+    return {n for n, share in now.items() if max(share, base[n] if base else 0.0) > LEAST_SHOWN}
+
+
+def _largest(now: Shares, base: Shares | None) -> float:
+    return max([*now.values(), *(base or {}).values()], default=0.0)
+
+
+def _cells(label: str, name: str, now: Shares, base: Shares | None, largest: float) -> list[str]:
+    """A label, the share now above the one before as parts of the largest, and both in numbers."""
+    before = base[name] if base else 0.0
+    bars = "".join(
+        f'<div class="bar" style="height:{height}px;margin-top:1px">'
+        f'<i style="width:{100 * share / (largest or 1.0):.1f}%;background:var({color})"></i></div>'
+        for share, height, color in ((now[name], 6, "--mv-now"), (before, 3, "--mv-base"))
+    )
+    return [label, bars, _percent(now[name]), span(_percent(before) if base else "–", "dim")]
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.0f} %"
