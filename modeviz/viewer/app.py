@@ -162,11 +162,11 @@ class App:
         self.session.change(group=group)
 
     def _step_mode(self, step: int) -> None:
-        if self._last is None:
+        names = [name.name for name, _ in listed(self._last.now).values()] if self._last else []
+        if not names:
             return
-        names = [name.name for name, _ in listed(self._last.now).values()]
-        shown = self._last.name.name
-        at = names.index(shown) + step if shown in names else 0
+        asked = self.session.state.mode  # which may not be drawn yet
+        at = names.index(asked) + step if asked in names else 0
         self.session.show_mode(names[at % len(names)])
 
     def _file_name(self) -> str:
