@@ -1,4 +1,4 @@
-"""The command line: `modeviz [view|modes|psd|wheels] [VEHICLE]`."""
+"""The command line: `modeviz [view|modes|psd|wheels|report] [VEHICLE]`."""
 
 import argparse
 import os
@@ -9,12 +9,14 @@ from pathlib import Path
 from typing import get_args
 
 from modeviz.commands import tables
+from modeviz.commands.report import write_report
 from modeviz.commands.view import view as open_view
 from modeviz.dynamics.band import Method
 from modeviz.errors import ModevizError
+from modeviz.tuning.rates import ORIGINAL
 
 DEFAULT_PORT = 8080
-COMMANDS = ("view", "modes", "psd", "wheels")
+COMMANDS = ("view", "modes", "psd", "wheels", "report")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -72,6 +74,20 @@ def _parser() -> argparse.ArgumentParser:
     _add_json(
         _command(commands, "wheels", tables.wheels, "response to unbalance and tyre force variation")
     )
+
+    report = _command(
+        commands, "report", write_report, "write a comparison of two sets of rates as HTML"
+    )
+    report.add_argument(
+        "--against",
+        default=ORIGINAL,
+        metavar="NAME|FILE",
+        help="the rates that those of --rates are compared with (default: original)",
+    )
+    _add_road(report)
+    report.add_argument(
+        "--output", type=Path, default=Path("report.html"), metavar="FILE", help="default report.html"
+    )
     return parser
 
 
@@ -83,7 +99,7 @@ def _command(commands, name: str, run, help_text: str) -> argparse.ArgumentParse
     )
     command.add_argument(
         "--rates",
-        default="original",
+        default=ORIGINAL,
         metavar="NAME|FILE",
         help="a set of the vehicle's, such as original or optimised, or a JSON or CSV file",
     )

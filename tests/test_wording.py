@@ -1,6 +1,14 @@
 import pytest
 
-from modeviz.export.wording import number, power_of_ten, scientific, sentence_case, signed
+from modeviz.export.wording import (
+    number,
+    percent_change,
+    power_of_ten,
+    scientific,
+    sentence_case,
+    signed,
+    significant,
+)
 
 
 @pytest.mark.parametrize(
@@ -37,5 +45,19 @@ def test_powers_and_small_numbers_are_written_with_superscripts():
         "1000",
         "10⁴",
     ]
-    assert [scientific(v) for v in (7.4e-8, 0.0, 2e10)] == ["7 × 10⁻⁸", "zero", "2 × 10¹⁰"]
-    assert scientific(float("inf")) == "unknown"
+    assert [scientific(v) for v in (7.4e-8, 0.0, 2e10)] == ["7 × 10⁻⁸", "0", "2 × 10¹⁰"]
+    assert scientific(float("inf")) == "∞"
+
+
+def test_four_digits_are_kept_and_no_empty_ones():
+    values = {1094.0: "1094", 21000.0: "21000", 137.75: "137.8", 0.25: "0.25", 100.0: "100", 0.0: "0"}
+    assert {v: significant(v) for v in values} == values
+    assert significant(100 / 3) == "33.33"
+    assert significant(9.99996) == "10"
+
+
+def test_a_change_is_relative_to_what_was():
+    assert percent_change(0.45, 1.0) == "−55.0 %"
+    assert percent_change(2.5, 1.0) == "+150.0 %"
+    assert percent_change(0.0, 0.0) == "0.0 %"
+    assert percent_change(1.0, 0.0) == "–"

@@ -44,17 +44,18 @@ def need(vehicle: Vehicle, what: str, found: Sized) -> None:
 
 def prepare_telling(vehicle: Vehicle) -> Prepared:
     """Prepares a vehicle and shows on a terminal how far that is."""
-    return prepare(vehicle, progress=progress())
+    return prepare(vehicle, progress=progress("preparing"))
 
 
-def progress() -> Callable[[float], None] | None:
-    """Shows on a terminal how far the preparation is; nothing where errors go to a file."""
-    return _tell_progress if sys.stderr.isatty() else None
+def progress(what: str) -> Callable[[float], None]:
+    """Tells on a terminal how far something is, 0 to 1; nothing where errors go to a file."""
 
+    def tell(done: float) -> None:
+        if sys.stderr.isatty():
+            text = f"\r{what} {done:4.0%}" if done < 1 else "\r\x1b[K"
+            print(end=text, file=sys.stderr, flush=True)
 
-def _tell_progress(done: float) -> None:
-    text = f"\rpreparing {done:4.0%}" if done < 1 else "\r\x1b[K"
-    print(end=text, file=sys.stderr, flush=True)
+    return tell
 
 
 def _speed(text: str) -> float:

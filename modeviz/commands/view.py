@@ -18,5 +18,5 @@ def view(options: Namespace) -> None:
         options.port,
         options.token,
         options.dark,
-        progress(),
+        progress("preparing"),
     )

@@ -45,9 +45,14 @@ class ModeName:
     """Share of that motion in the mode, 0 to 1."""
 
     @property
+    def is_weak(self) -> bool:
+        """Whether the name fits weakly."""
+        return self.score < WEAK_SCORE
+
+    @property
     def spoken(self) -> str:
         """As shown to people: "~cab yaw" where the name fits weakly."""
-        return f"~{self.name}" if self.score < WEAK_SCORE else self.name
+        return f"~{self.name}" if self.is_weak else self.name
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.export.wording import scientific
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import amplitude_decibels, power_decibels
 from modeviz.tuning.following import Followed
@@ -48,7 +49,7 @@ def modes_table(followed: Followed, below_hz: float) -> str:
         if f < below_hz
     ]
     header = ["  #  mode", "Hz", "damping %", "moves most", "strained most", "was originally"]
-    return f"{table(header, rows)}\n\n{_health(results)}"
+    return f"{table(header, rows)}\n\n{health(results)}"
 
 
 def _came_from(followed: Followed, mode: int) -> str:
@@ -61,14 +62,14 @@ def _came_from(followed: Followed, mode: int) -> str:
     return f"{mark}{base.names[origin].name} {base.modes.frequency_hz[origin]:.2f}"
 
 
-def _health(results: ModalResults) -> str:
+def health(results: ModalResults) -> str:
     """Whether a mode may be missing, and how exact those found are."""
     f, trust = results.modes.frequency_hz, results.trust
     missed = f"{trust.n_missed} missed" if trust.n_missed else "none missed"
     worst = float(trust.frequency_error_hz[f > RESOLVED_HZ].max(initial=0.0))
     return (
         f"{len(f)} modes below {results.prepared.basis.top_hz:.0f} Hz, {missed}; "
-        f"natural frequencies within {worst:.0e} Hz of exact"
+        f"natural frequencies within {scientific(worst)} Hz of exact"
     )
 
 

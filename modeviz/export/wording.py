@@ -33,10 +33,24 @@ def power_of_ten(exponent: int) -> str:
 
 
 def scientific(value: float) -> str:
-    """A small positive number by its first digit, 7 × 10⁻⁸; zero and what is infinite are words."""
-    if not math.isfinite(value):
-        return "unknown"
-    if value == 0:
-        return "zero"
+    """A positive number by its first digit, 7 × 10⁻⁸."""
+    if value == 0 or not math.isfinite(value):
+        return "0" if value == 0 else "∞"
     digit, exponent = f"{value:.0e}".split("e")
     return f"{digit} × 10{str(int(exponent)).translate(SUPERSCRIPTS)}"
+
+
+def significant(value: float) -> str:
+    """A positive number to four digits, those before the point in full: 1094, 137.8, 0.25."""
+    if value == 0:
+        return "0"
+    decimals = max(0, 3 - math.floor(math.log10(value)))
+    text = f"{value:.{decimals}f}"
+    return text.rstrip("0").rstrip(".") if decimals else text
+
+
+def percent_change(now: float, base: float) -> str:
+    """How much more or less something is than it was; of nothing there is no percentage."""
+    if base == 0:
+        return "0.0 %" if now == 0 else "–"
+    return signed(100 * (now / base - 1), 1, " %")

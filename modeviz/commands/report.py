@@ -1,0 +1,52 @@
+"""The command that writes a comparison of two sets of rates as an HTML file."""
+
+from argparse import Namespace
+from collections.abc import Sequence
+from datetime import date
+from pathlib import Path
+
+from modeviz.commands.options import conditions, prepare_telling, progress, vehicle_and_rates
+from modeviz.export.report import report
+from modeviz.tuning.check import Check, check_exactly
+from modeviz.tuning.comparison import Comparison, RateSet, compare
+from modeviz.tuning.rates import resolve_rates
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.files.disk import check_writable, write_text
+from modeviz.vehicle.vehicle import Vehicle
+
+
+def write_report(options: Namespace) -> None:
+    """Solves with both sets of rates, checks the answer and writes the report."""
+    vehicle, rates = vehicle_and_rates(options)
+    base = RateSet(_name(options.against), resolve_rates(vehicle, options.against).rates)
+    now = RateSet(_name(options.rates, options.settings), rates)
+    chosen = _conditions(options, vehicle)
+    check_writable(options.output)
+    comparison = compare(prepare_telling(vehicle), base, now, chosen)
+    page = report(comparison, date.today(), check=_check(comparison))
+    write_text(options.output, page)
+    print(f"{options.output}: {now.name} against {base.name}")
+
+
+def _conditions(options: Namespace, vehicle: Vehicle) -> Conditions | None:
+    """Road and speed; None for a vehicle that has neither, unless they are asked for."""
+    asked = options.road is not None or options.speed is not None
+    if asked or (vehicle.roads and vehicle.response_points):
+        return conditions(options, vehicle)
+    return None
+
+
+def _name(choice: str, settings: Sequence[str] = ()) -> str:
+    """What a set of rates is called: its name or its file's, and what was set besides."""
+    return ", ".join([Path(choice).name, *settings])
+
+
+def _check(comparison: Comparison) -> Check | None:
+    """The second set of rates against the full model, solved from scratch; None without a road."""
+    if comparison.rides is None:
+        return None
+    tell, found = progress("checking"), None
+    for found in check_exactly(comparison.rides[1]):
+        tell(found.n_lines / found.n_freqs)
+    tell(1.0)
+    return found

@@ -1,0 +1,35 @@
+"""What a report says of how exact it is."""
+
+from html import escape
+
+import numpy as np
+
+from modeviz.export.markup import section, title
+from modeviz.export.tables import health
+from modeviz.export.wording import scientific
+from modeviz.tuning.check import Check
+from modeviz.tuning.comparison import Comparison
+
+
+def exactness(comparison: Comparison, check: Check | None) -> str:
+    """How far the numbers are from those of the full model."""
+    sets = zip(comparison.names, (comparison.base, comparison.now), strict=True)
+    items = [f"{title(name)}: {health(results)}." for name, results in sets]
+    if check is not None:
+        items.append(_checked(check, escape(comparison.names[1])))
+    return section("How exact this is", "<ul>", *(f"<li>{item}</li>" for item in items), "</ul>")
+
+
+def _checked(check: Check, name: str) -> str:
+    if not np.isfinite(check.frequency_error):
+        return f"The full model with the rates of {name} has another number of modes."
+    text = (
+        f"Against the full model solved from scratch with the rates of {name}: natural frequencies "
+        f"differ by {scientific(check.frequency_error)} at most, relative"
+    )
+    if check.n_lines:
+        text += (
+            f", spectra by {scientific(check.psd_error)} of the largest of each, at "
+            f"{check.n_lines} of {check.n_freqs} frequencies"
+        )
+    return f"{text}. {escape(check.impossible)}".strip()

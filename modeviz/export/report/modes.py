@@ -1,0 +1,148 @@
+"""What a report says of mounts and modes; a section that has nothing to say is empty."""
+
+from collections.abc import Iterator
+from html import escape
+
+import numpy as np
+
+from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.export.markup import NONE, note, section, span, table, title
+from modeviz.export.report.ride import SHOWN_HZ
+from modeviz.export.wording import number, percent_change, signed, significant
+from modeviz.ride.psd import power_decibels
+from modeviz.tuning.comparison import Comparison
+from modeviz.tuning.following import FOLLOWED_HZ
+from modeviz.tuning.results import ModalResults, Results
+from modeviz.units import factor
+from modeviz.vehicle.connections import DIRECTIONS, MountGroup
+
+
+def rates(comparison: Comparison) -> str:
+    """Mount rates, as the paper's Table 4, and the loss factors that are not the same."""
+    sides = (comparison.base.vehicle.mount_groups, comparison.now.vehicle.mount_groups)
+    rows = [row for before, after in zip(*sides, strict=True) for row in _group_rows(before, after)]
+    if not rows:
+        return ""
+    header = ["Mount", *(f"{escape(name)}, N/mm" for name in comparison.names), "Change"]
+    return section("Mount rates", table(header, rows))
+
+
+def _group_rows(before: MountGroup, after: MountGroup) -> Iterator[list[str]]:
+    per_mm = factor("N/mm", "stiffness")
+    yield [f"{escape(before.name)} <small>{escape(before.label)}</small>"]
+    values = zip(DIRECTIONS, before.rates.as_tuple(), after.rates.as_tuple(), strict=True)
+    for direction, base, now in values:
+        yield [direction, significant(base / per_mm), significant(now / per_mm), _change(now, base)]
+    base, now = before.loss_factor, after.loss_factor
+    if base != now:
+        yield ["loss factor", significant(base), significant(now), _change(now, base)]
+
+
+def frequencies(comparison: Comparison) -> str:
+    """Natural frequencies by name, as the paper's Table 1, and where the shapes went."""
+    rows = [_mode_row(comparison, before, after) for before, after in _pairs(comparison)]
+    first, second = map(escape, comparison.names)
+    groups = [("", 1), ("Frequency, Hz", 2), ("Change", 2), ("Damping, %", 2), ("", 1)]
+    header = ["Mode", first, second, "Hz", "%", first, second, "The shape went to"]
+    return section(
+        f"Natural frequencies below {FOLLOWED_HZ:g} Hz",
+        table(header, rows, groups, words={7}),
+        note(
+            "Modes are called after what moves; “~” says that a name fits weakly. Where the shape of a "
+            f"mode of “{first}” has gone to one of another name, the last column says which and how "
+            "much of the shape that has (MAC)."
+        ),
+    )
+
+
+def _pairs(comparison: Comparison) -> list[tuple[int | None, int | None]]:
+    """The modes of each name with both sets of rates, by rising frequency."""
+    base, now = comparison.base, comparison.now
+    pairs = [(i, now.mode_index(base.names[i].name)) for i in _below(base)]
+    both = {after for _, after in pairs}
+    pairs += [(base.mode_index(now.names[i].name), i) for i in _below(now) if i not in both]
+
+    def frequency(pair: tuple[int | None, int | None]) -> float:
+        before, after = pair
+        if before is not None:
+            return float(base.modes.frequency_hz[before])
+        return float(now.modes.frequency_hz[after])
+
+    return sorted(pairs, key=frequency)
+
+
+def _mode_row(comparison: Comparison, before: int | None, after: int | None) -> list[str]:
+    """A name's modes with both sets of rates; with one of them there may be none of that name."""
+    sides = ((comparison.base, before), (comparison.now, after))
+    found = [(r, i) for r, i in sides if i is not None]
+    results, mode = found[0]
+    changes = [NONE, NONE]
+    if len(found) == 2:
+        f, f_now = (float(r.modes.frequency_hz[i]) for r, i in found)
+        changes = [signed(f_now - f, 2), signed(100 * (f_now / f - 1), 1)]
+    return [
+        title(results.names[mode].name),
+        *(_frequency(r, i) for r, i in sides),
+        *changes,
+        *(NONE if i is None else f"{100 * r.modes.damping_ratio[i]:.1f}" for r, i in sides),
+        NONE if before is None else _went_to(comparison, before, after),
+    ]
+
+
+def _frequency(results: ModalResults, mode: int | None) -> str:
+    if mode is None:
+        return NONE
+    mark = "~" if results.names[mode].is_weak else ""
+    return f"{mark}{results.modes.frequency_hz[mode]:.2f}"
+
+
+def _went_to(comparison: Comparison, before: int, after: int | None) -> str:
+    """Which mode a shape has become, where that is not clear from the name."""
+    track, now = comparison.track, comparison.now
+    went = int(track.index[before])
+    if went < 0:
+        return "above the band"
+    if went == after and not track.weak[before]:
+        return ""
+    f, mac = now.modes.frequency_hz[went], track.mac[before]
+    return f"{escape(now.names[went].spoken)}, {f:.2f} Hz <small>(MAC {mac:.2f})</small>"
+
+
+def participation(comparison: Comparison) -> str:
+    """The modes that make the peaks at the driver's point, as the paper's Table 2."""
+    rides = comparison.rides
+    if rides is None:
+        return ""
+    rows = []
+    for direction in ("vertical", "lateral"):
+        for name, results in zip(comparison.names, rides, strict=True):
+            rows.append([f"{direction.capitalize()}, {escape(name)}"])
+            rows.extend(_peak_rows(results, direction))
+    groups = [("Response peak", 2), ("Largest contributor", 2), ("Second largest", 3)]
+    header = ["Hz", "dB re 1 g²/Hz", "Hz", "Mode", "Hz", "Mode", "Ratio"]
+    point = escape(comparison.vehicle.response_points[0].name)
+    return section(f"Modes in the peaks at {point}", table(header, rows, groups, words={3, 5}))
+
+
+def _peak_rows(results: Results, direction: str) -> Iterator[list[str]]:
+    f, names = results.modes.frequency_hz, results.names
+    low, high = SHOWN_HZ
+    for peak in results.peaks(0, direction, 2):
+        if low <= peak.frequency_hz <= high:
+            cells = [f"{peak.frequency_hz:.1f}", number(float(power_decibels(np.array(peak.psd))), 1)]
+            for c in peak.contributors:
+                cells += [f"{f[c.mode]:.2f}", escape(names[c.mode].spoken)]
+            if len(peak.contributors) == 2:
+                cells.append(f"{peak.contributors[1].ratio:.2f}")
+            yield cells + [NONE] * (7 - len(cells))
+
+
+def _change(now: float, base: float) -> str:
+    text = percent_change(now, base)
+    return span(text, "dim") if now == base else text
+
+
+def _below(results: ModalResults) -> list[int]:
+    """The modes that are listed; what moves freely is none that mounts change."""
+    f = results.modes.frequency_hz
+    return np.flatnonzero((f > RESOLVED_HZ) & (f < FOLLOWED_HZ)).tolist()

@@ -1,0 +1,248 @@
+import re
+from base64 import b64decode
+from dataclasses import replace
+from datetime import date
+
+import numpy as np
+import pytest
+from html_documents import Document, value
+from mounted_cabin import mounted_cabin
+
+from modeviz.export.axes import decibel_axis
+from modeviz.export.charts import BOTTOM, LEFT, RIGHT, TOP
+from modeviz.export.report import Picture, report
+from modeviz.export.report.ride import SHOWN_HZ
+from modeviz.ride.psd import power_decibels
+from modeviz.tuning.check import Check
+from modeviz.tuning.comparison import RateSet, compare
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+
+TODAY = date(2026, 11, 22)
+SOFT = RateSet("soft", {"A": MountRates(2e5, 1e5, 4e5)})
+ORIGINAL = RateSet("original", {})
+FLAT = Conditions("flat", 25.0)
+
+
+@pytest.fixture(scope="module")
+def comparison():
+    return compare(prepare(mounted_cabin()), ORIGINAL, SOFT, FLAT)
+
+
+@pytest.fixture(scope="module")
+def text(comparison):
+    return report(comparison, TODAY)
+
+
+@pytest.fixture(scope="module")
+def document(text):
+    return Document(text)
+
+
+def test_it_says_what_is_compared_on_which_road_and_when(document):
+    assert document.headings[0] == "cabin: soft against original"
+    for words in ("Flat road", "90 km/h", "2026-11-22", "modeviz 0."):
+        assert words in document.words
+
+
+def test_rates_are_in_newtons_per_millimetre_with_their_change(document):
+    header, *rows = document.tables["Mount rates"]
+    assert header == ["Mount", "original, N/mm", "soft, N/mm", "Change"]
+    assert rows[:4] == [
+        ["A front"],
+        ["vertical", "800", "200", "−75.0 %"],
+        ["lateral", "300", "100", "−66.7 %"],
+        ["fore-aft", "400", "400", "0.0 %"],
+    ]
+    assert rows[4] == ["B rear"]
+
+
+def test_loss_factors_are_told_where_they_changed():
+    damped = RateSet("damped", {"B": MountRates(8e5, 3e5, 4e5, loss_factor=0.3)})
+    found = compare(prepare(mounted_cabin()), ORIGINAL, damped, FLAT)
+    rows = Document(report(found, TODAY)).tables["Mount rates"]
+    assert [row for row in rows if row[0] == "loss factor"] == [
+        ["loss factor", "0.15", "0.3", "+100.0 %"]
+    ]
+    assert rows[-1][0] == "loss factor"
+
+
+def test_modes_of_one_name_stand_side_by_side(comparison, document):
+    _, _, *rows = document.tables["Natural frequencies below 25 Hz"]
+    base, now = comparison.base, comparison.now
+    named = {row[0].lower(): row for row in rows}
+    both = 0
+    for i, name in enumerate(base.names):
+        f, mode = base.modes.frequency_hz[i], now.mode_index(name.name)
+        if f < 25 and mode is None:
+            assert named[name.name][2:5] == ["–", "–", "–"]
+        elif f < 25:
+            both += 1
+            f_now, damping = now.modes.frequency_hz[mode], 100 * now.modes.damping_ratio[mode]
+            cells = [value(named[name.name][column]) for column in (1, 2, 3, 6)]
+            assert cells == pytest.approx([f, f_now, f_now - f, damping], abs=0.051)
+            assert value(named[name.name][4]) == pytest.approx(100 * (f_now / f - 1), abs=0.051)
+    assert both > 5
+    before = [value(row[1] if row[1] != "–" else row[2]) for row in rows]
+    assert before == sorted(before)
+
+
+def test_peaks_name_their_largest_contributors(comparison, document):
+    (table,) = (rows for heading, rows in document.tables.items() if heading.startswith("Modes in"))
+    start = table.index(["Lateral, soft"]) + 1
+    results = comparison.now
+    for peak, row in zip(results.peaks(0, "lateral", 2), table[start:], strict=False):
+        first, second = peak.contributors
+        assert [value(cell) for cell in (row[0], row[2], row[4], row[6])] == pytest.approx(
+            [
+                peak.frequency_hz,
+                results.modes.frequency_hz[first.mode],
+                results.modes.frequency_hz[second.mode],
+                second.ratio,
+            ],
+            abs=0.0051,
+        )
+        assert [row[3], row[5]] == [results.names[c.mode].spoken for c in peak.contributors]
+
+
+def test_wheel_loads_have_means_from_11_to_16_hz(comparison, document):
+    row = document.tables["Seat"][-1]
+    base, now = (1000 * w.mean((11.0, 16.0))[0, 0] for w in comparison.wheels)
+    expected = [mean[axis] for axis in (1, 2, 0) for mean in (base, now)]
+    assert [value(row[i]) for i in (1, 2, 4, 5, 7, 8)] == pytest.approx(expected, abs=0.0051)
+
+
+@pytest.mark.parametrize(("number", "direction"), list(enumerate(["lateral", "vertical", "fore-aft"])))
+def test_curves_are_the_spectra_of_both_sets(comparison, text, number, direction):
+    svg = re.findall(r"<svg xmlns.*?</figure>", text)[number]
+    _, _, width, height = map(float, re.search(r'viewBox="([^"]*)"', svg)[1].split())
+    levels = [power_decibels(r.response(0, direction)) for r in comparison.rides]
+    f = comparison.base.frequency_hz
+    inside = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
+    axis = decibel_axis("", [level[inside] for level in levels])
+    lines = re.findall(r'<polyline points="([^"]*)"', svg)
+    for line, level in zip(lines, levels, strict=True):
+        x, y = np.array([point.split(",") for point in line.split()], float)[inside].T
+        shown = level[inside] > axis.low
+        hertz = SHOWN_HZ[0] + x / (width - LEFT - RIGHT) * (SHOWN_HZ[1] - SHOWN_HZ[0])
+        decibels = axis.high - y / (height - TOP - BOTTOM) * (axis.high - axis.low)
+        np.testing.assert_allclose(hertz, f[inside], atol=0.06 * 24 / (width - LEFT - RIGHT))
+        np.testing.assert_allclose(decibels[shown], level[inside][shown], atol=0.06 * 60 / 190)
+
+
+def test_it_says_how_exact_it_is(comparison, document):
+    assert document.words.count("none missed") == 2
+    checked = report(comparison, TODAY, check=Check(2.3e-9, 4.1e-11, 10, 400))
+    assert "differ by 2 × 10⁻⁹ at most" in checked
+    assert "spectra by 4 × 10⁻¹¹ of the largest of each, at 10 of 400 frequencies" in checked
+    wrong = report(comparison, TODAY, check=Check(np.inf, 0.0, 0, 400))
+    assert "another number of modes" in wrong
+    halted = report(comparison, TODAY, check=Check(0.0, 0.0, 0, 400, "it is <singular>"))
+    assert "it is &lt;singular&gt;" in halted
+
+
+def test_nothing_has_to_be_loaded_or_run(text, document):
+    assert not document.tags & {"script", "link", "iframe", "object"}
+    assert document.addresses == []
+    assert not re.search(r"url\(|@import|https?://(?!www\.w3\.org/2000/svg)", text)
+
+
+def test_pictures_are_in_the_file_with_their_captions(comparison):
+    document = Document(report(comparison, TODAY, [Picture('cab "yaw" <1>', b"\x89PNG data")]))
+    (address,) = document.addresses
+    kind, data = address.split(",")
+    assert kind == "data:image/png;base64"
+    assert b64decode(data) == b"\x89PNG data"
+    assert 'cab "yaw" <1>' in document.words
+
+
+def named_badly():
+    """Every name of the cabin that a user gives brings markup."""
+    vehicle, bad = mounted_cabin(), "<script>&\"'"
+    groups = tuple(
+        replace(g, name=g.name + bad, label=bad, mounts=tuple(replace(m, group="") for m in g.mounts))
+        for g in vehicle.mount_groups
+    )
+    return replace(
+        vehicle,
+        name=f"cabin {bad}",
+        bodies=tuple(replace(b, label=f"{b.label}{bad}") for b in vehicle.bodies),
+        mount_groups=groups,
+        response_points=tuple(replace(p, name=f"seat {bad}") for p in vehicle.response_points),
+        roads=tuple(replace(r, name=f"{r.name}{bad}", label=f"{r.label}{bad}") for r in vehicle.roads),
+        wheel_loads=tuple(replace(w, name=f"{w.name}{bad}") for w in vehicle.wheel_loads),
+        rate_sets={},
+    )
+
+
+def test_no_name_brings_markup_into_it():
+    bad = "<script>&\"'"
+    vehicle = named_badly()
+    rates = {vehicle.mount_groups[0].name: MountRates(2e5, 1e5, 4e5)}
+    sets = RateSet(f"first{bad}", {}), RateSet(f"second{bad}", rates)
+    found = compare(prepare(vehicle), *sets, Conditions(f"flat{bad}", 20.0))
+    document = Document(report(found, TODAY, [Picture(f"shape{bad}", b"")]))
+    assert "script" not in document.tags
+    for name in (
+        "cabin ",
+        "A",
+        "seat ",
+        "flat",
+        "Flat road",
+        "front left radial force",
+        "first",
+        "shape",
+    ):
+        assert f"{name}{bad}".lower() in document.words.lower()
+
+
+ALL = [
+    "Mount rates",
+    "Natural frequencies below 25 Hz",
+    "Acceleration at seat",
+    "Ride",
+    "Modes in the peaks at seat",
+    "Unbalance and tyre force variation",
+    "How exact this is",
+]
+ON_A_ROAD = {"Acceleration at seat", "Ride", "Modes in the peaks at seat"}
+
+
+@pytest.mark.parametrize(
+    ("without", "missing"),
+    [
+        ({"wheel_loads": ()}, {"Unbalance and tyre force variation"}),
+        ({"roads": ()}, ON_A_ROAD),
+        ({"response_points": ()}, ON_A_ROAD | {"Unbalance and tyre force variation"}),
+        ({"mount_groups": (), "rate_sets": {}}, {"Mount rates"}),
+    ],
+)
+def test_what_a_vehicle_does_not_have_is_left_out(without, missing):
+    vehicle = replace(mounted_cabin(), **without)
+    road = FLAT if vehicle.roads and vehicle.response_points else None
+    now = SOFT if vehicle.mount_groups else ORIGINAL
+    document = Document(report(compare(prepare(vehicle), ORIGINAL, now, road), TODAY))
+    assert [h for h in document.headings if h in ALL] == [h for h in ALL if h not in missing]
+
+
+def test_the_same_set_twice_changes_nothing():
+    same = compare(prepare(mounted_cabin()), ORIGINAL, ORIGINAL, FLAT)
+    text = report(same, TODAY)
+    assert 'class="good"' not in text
+    assert 'class="bad"' not in text
+    assert all(row[-1] == "" for row in Document(text).tables["Natural frequencies below 25 Hz"][2:])
+
+
+def test_where_name_and_shape_part_the_shape_is_followed():
+    """As README has it: cab yaw at 9.78 Hz, the original's shape at 11.88 Hz with a MAC of 0.43."""
+    truck = read_vehicle(builtin_vehicle())
+    optimised = RateSet("optimised", truck.rate_sets["optimised"])
+    found = compare(prepare(truck), ORIGINAL, optimised, Conditions("road 1", truck.speed))
+    rows = Document(report(found, TODAY)).tables["Natural frequencies below 25 Hz"]
+    (yaw,) = [row for row in rows if row[0] == "Cab yaw"]
+    assert yaw[1:4] == ["11.69", "9.78", "−1.91"]
+    assert yaw[-1] == "~engine lateral, 11.88 Hz (MAC 0.43)"
+    (new,) = [row for row in rows if row[0] == "Cab fore-aft"]
+    assert new[1:4] == ["–", "~10.89", "–"]
