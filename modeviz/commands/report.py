@@ -18,7 +18,7 @@ from modeviz.vehicle.vehicle import Vehicle
 def write_report(options: Namespace) -> None:
     """Solves with both sets of rates, checks the answer and writes the report."""
     vehicle, rates = vehicle_and_rates(options)
-    base = RateSet(_name(options.against), resolve_rates(vehicle, options.against).rates)
+    base = RateSet(_name(options.against), resolve_rates(vehicle, options.against))
     now = RateSet(_name(options.rates, options.settings), rates)
     chosen = _conditions(options, vehicle)
     check_writable(options.output)
