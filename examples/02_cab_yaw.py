@@ -31,7 +31,7 @@ fall = 1 - lateral_g(optimised) / lateral_g(original)
 
 if __name__ == "__main__":
     for label, results in (("original", original), ("optimised", optimised)):
-        peak = max(results.peaks(0, "lateral", count=2), key=lambda p: p.psd)
+        peak = max(results.peaks(0, "lateral", count=2), key=lambda p: p.level)
         names = [results.names[c.mode].name for c in peak.contributors]
         print(f"{label}: cab yaw at {cab_yaw_hz(results):.2f} Hz, {lateral_g(results):.4f} g lateral")
         print(f"  highest peak at {peak.frequency_hz:.1f} Hz, mostly {' and '.join(names)}")

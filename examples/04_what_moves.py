@@ -13,7 +13,7 @@ vehicle = mv.read_vehicle(mv.builtin_vehicle())
 prepared = mv.prepare(vehicle)
 results = mv.solve(prepared, vehicle.rates, mv.Conditions("road 1", vehicle.speed))
 
-peak = max(results.peaks(0, "lateral"), key=lambda p: p.psd)
+peak = max(results.peaks(0, "lateral"), key=lambda p: p.level)
 on_road = mv.road_shape(results, peak.frequency_hz, point=0, direction="lateral")
 mode = peak.contributors[0].mode
 damped = mv.complex_mode(results, mode)

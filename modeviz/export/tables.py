@@ -89,7 +89,7 @@ def psd_table(results: Results) -> str:
             [
                 direction,
                 f"{peak.frequency_hz:.1f}",
-                f"{power_decibels(np.array(peak.psd)):.1f}",
+                f"{power_decibels(np.array(peak.level)):.1f}",
                 _modes_in(results, peak),
             ]
             for direction in ("lateral", "vertical")

@@ -27,7 +27,8 @@ class Peak:
     """A peak of a response and the modes that make it, the largest first."""
 
     frequency_hz: float
-    psd: float
+    level: float
+    """Of the response there: g²/Hz of a PSD, g of a harmonic response."""
     contributors: tuple[Contributor, ...]
 
 
@@ -56,19 +57,19 @@ def contributors(participations: Floats, count: int) -> tuple[Contributor, ...]:
 
 
 def peaks(
-    frequency_hz: Floats, psd: Floats, participations: Floats, count: int = 2
+    frequency_hz: Floats, level: Floats, participations: Floats, count: int = 2
 ) -> tuple[Peak, ...]:
     """Peaks with the `count` largest contributors to each.
 
     Args:
         frequency_hz: (n_peaks,), see `peak_lines`.
-        psd: (n_peaks,), of the response there.
+        level: (n_peaks,), of the response there.
         participations: (n_peaks, n_modes), see `participation`.
         count: how many modes to name.
     """
     return tuple(
-        Peak(float(f), float(level), contributors(parts, count))
-        for f, level, parts in zip(frequency_hz, psd, participations, strict=True)
+        Peak(float(f), float(height), contributors(parts, count))
+        for f, height, parts in zip(frequency_hz, level, participations, strict=True)
     )
 
 

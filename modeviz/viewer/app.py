@@ -18,10 +18,12 @@ from modeviz.viewer.hotkeys import Hotkeys
 from modeviz.viewer.layout import NARROW, WIDE, Layout
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.energy import EnergyPanel
+from modeviz.viewer.panels.excitation import ExcitationPanel
+from modeviz.viewer.panels.figures import TablePanel
 from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import ModesPanel, listed
 from modeviz.viewer.panels.mounts import MountsPanel
-from modeviz.viewer.panels.response import ResponsePanel, RoadPanel
+from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.view import PicturePanel, ViewPanel
 from modeviz.viewer.scene import Scene
@@ -114,8 +116,10 @@ class App:
                 self._modes = ModesPanel(gui, session)
             with tabs.add_tab("Energy", viser.Icon.CHART_BAR):
                 self._energy = EnergyPanel(gui, session)
+        with right.add_tab("Figures", viser.Icon.TABLE):
+            self._table = TablePanel(gui)
         with right.add_tab("Road", viser.Icon.ROAD):
-            RoadPanel(gui, session)
+            self._excitation = ExcitationPanel(gui, session)
         right.dock_right()
 
         card = gui.add_panel()
@@ -140,6 +144,8 @@ class App:
             self._animation.show(solved)
             self._status.show(solved)
             if solved.is_detailed:
+                self._table.show(solved)
+                self._excitation.show(solved)
                 self._mounts.show(solved)
                 self._view.show()
                 self._modes.show(solved)

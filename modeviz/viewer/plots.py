@@ -1,106 +1,173 @@
-"""The charts of the page: spectra as uPlot."""
+"""The charts of the page: responses as uPlot."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import viser
 
-from modeviz.export.wording import MINUS
-from modeviz.ride.psd import power_decibels
+from modeviz.export.axes import DECIBELS, Axis
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.assign import assign, send
+from modeviz.viewer.assign import send_together
+from modeviz.viewer.responses import Quantity
 
 SHOWN_HZ = (1.0, 25.0)
+TICKS_HZ, LOG_TICKS_HZ = (1.0, 5.0, 10.0, 15.0, 20.0, 25.0), (1.0, 2.0, 5.0, 10.0, 25.0)
 FONT = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
 GRID = {"show": True, "width": 1, "stroke": "rgba(128,138,150,0.16)"}
 NO_TICKS = {"show": False, "size": 0}
-PEAK_GRID = {"show": True, "stroke": "rgba(43,124,196,0.45)", "width": 1, "dash": [3, 3]}
+
+HEADROOM = 3
+"""dB above the highest curve, so that the scale need not change when the present one grows."""
+
+SET_COLORS = ("#e69f00", "#009e73", "#cc79a7", "#d55e00")
+"""Of the sets that are drawn beside, told apart by the colour-blind too (M. Okabe and K. Ito, 2008)."""
+
+SET_DASHES = ((), (7, 3), (2, 3))
+"""Of the first four sets, the next four and all others."""
 
 
-class PsdPlot:
-    """A response's acceleration PSD in dB: the original grey, the present blue, its peaks marked."""
+@dataclass(frozen=True)
+class Scale:
+    """How responses are drawn."""
+
+    quantity: Quantity
+    decibels: bool
+    log_frequency: bool
+
+
+@dataclass(frozen=True)
+class Line:
+    """How a set's curve is drawn."""
+
+    label: str
+    color: str
+    thickness: float
+    dash: tuple[int, ...] = ()
+
+
+def set_line(label: str, number: int) -> Line:
+    """How the set of that number is drawn."""
+    turn, color = divmod(number, len(SET_COLORS))
+    return Line(label, SET_COLORS[color], 1.5, SET_DASHES[min(turn, len(SET_DASHES) - 1)])
+
+
+class ResponsePlot:
+    """Responses of several sets; the last is the present one, whose peaks are marked.
+
+    uPlot forgets how far it is zoomed when its axes change. So they only change with what is drawn,
+    and where the present curve would leave the top; peaks are points of a curve of their own.
+    """
 
     def __init__(self, gui: viser.GuiApi, frequency_hz: Floats, dark: bool, height: int = 130) -> None:
         """Draws an empty chart; `show` fills it."""
         self._inside = (frequency_hz >= SHOWN_HZ[0]) & (frequency_hz <= SHOWN_HZ[1])
+        self._lines = np.flatnonzero(self._inside)
         self._f = frequency_hz[self._inside]
-        self._now_color = "#5aa9ea" if dark else "#2b7cc4"
-        base_color = "#8a95a1" if dark else "#98a2ad"
         self._text_color = "#b4bcc6" if dark else "#5b6670"
-        self._frame: tuple[int, int, tuple[float, ...]] = (-80, -20, ())
-        self._curves = np.full((2, len(self._f)), -60.0)
+        self._paper = "#242424" if dark else "#ffffff"
+        self._subject: Hashable = None
+        self._top = 0
+        self._data = np.zeros((1, 0))
         self._chart = gui.add_uplot(
-            (self._f, *self._curves),
-            (
-                {"label": "Hz"},
-                {"label": "original", "stroke": base_color, "width": 1.5, "points": {"show": False}},
-                {
-                    "label": "current",
-                    "stroke": self._now_color,
-                    "width": 2.2,
-                    "points": {"show": False},
-                },
-            ),
-            scales=self._scales(*self._frame[:2]),
-            axes=self._axes(*self._frame),
+            (self._f, np.full(len(self._f), np.nan)),
+            ({"label": "Hz"}, {"label": "now"}),
+            scales={"x": {"time": False, "range": SHOWN_HZ}, "y": {"range": (-80, -20)}},
             legend={"show": False},
-            cursor={"sync": {"key": "psd"}, "drag": {"x": True, "y": False}},
-            padding=(0, 18, 0, 0),
+            cursor={"sync": {"key": "response"}, "drag": {"x": True, "y": False}},
+            padding=(6, 18, 0, 0),
             height=height,
         )
 
-    def show(self, base: Floats, now: Floats, peaks_hz: Sequence[float]) -> None:
+    def show(
+        self,
+        subject: Hashable,
+        scale: Scale,
+        lines: Sequence[Line],
+        levels: Floats,
+        peaks: Sequence[int],
+    ) -> None:
         """Replaces the curves.
 
         Args:
-            base: (n_freqs,), g²/Hz, drawn grey.
-            now: (n_freqs,), g²/Hz, drawn blue.
-            peaks_hz: where to mark a peak.
+            subject: what is drawn; with another one the axes are chosen anew.
+            scale: how.
+            lines: one for each curve.
+            levels: (n_curves, n_freqs), in the unit of the scale's quantity; the last is the present.
+            peaks: numbers of the frequencies at which that one is marked.
         """
-        curves = power_decibels(np.stack([base[self._inside], now[self._inside]]))
-        if not np.array_equal(curves, self._curves):
-            self._curves = curves
-            send(self._chart, "data", (self._f, *curves))
-        frame = (*_range(curves), tuple(round(f, 1) for f in peaks_hz))
-        if frame != self._frame:  # a chart with other axes is built anew and forgets its zoom
-            low, high, peaks = self._frame = frame
-            assign(self._chart, scales=self._scales(low, high), axes=self._axes(low, high, peaks))
+        levels = levels[:, self._inside]
+        decibels = scale.quantity.decibels(levels)
+        drawn = decibels if scale.decibels else levels
+        data = np.vstack([drawn, np.where(np.isin(self._lines, peaks), drawn[-1], np.nan)])
+        axes = {}
+        key = (subject, scale, tuple(lines))
+        if key != self._subject or decibels[-1].max() > self._top:
+            self._subject = key
+            bottom, self._top = _range(decibels)
+            axes = self._axes(scale, bottom, self._top) | {"series": self._series(lines)}
+        if axes or not np.array_equal(data, self._data, equal_nan=True):
+            self._data = data
+            send_together(self._chart, data=(self._f, *data), **axes)
 
-    def _scales(self, low: int, high: int) -> dict:
-        return {"x": {"time": False, "range": SHOWN_HZ}, "y": {"range": (low, high)}}
-
-    def _axes(self, low: int, high: int, peaks_hz: Sequence[float]) -> tuple:
-        x = [1, 5, 10, 15, 20, 25]
-        step = 20 if high - low > 40 else 10
-        y = list(range(low + low % step, high + 1, step))
-        common = {"font": FONT, "stroke": self._text_color, "ticks": NO_TICKS}
-        return (
-            {"splits": x, "values": [*map(str, x[:-1]), "25 Hz"], "grid": GRID, "size": 20, "gap": 3}
-            | common,
-            {"splits": y, "values": [_plain(v) for v in y], "grid": GRID, "size": 34, "gap": 4}
-            | common,
+    def _series(self, lines: Sequence[Line]) -> tuple:
+        """The curves, and the marks on the last."""
+        none = {"show": False}
+        curves = [
             {
-                "side": 0,
-                "scale": "x",
-                "splits": list(peaks_hz),
-                "values": [f"{f:.1f}" for f in peaks_hz],
-                "size": 16,
-                "gap": 2,
-                "font": f"600 {FONT}",
-                "stroke": self._now_color,
-                "grid": PEAK_GRID,
-                "ticks": {"show": False},
+                "label": line.label,
+                "stroke": line.color,
+                "width": line.thickness,
+                "dash": list(line.dash),
+                "points": none,
+            }
+            for line in lines
+        ]
+        color = lines[-1].color
+        points = {"show": True, "size": 7, "width": 2, "stroke": color, "fill": self._paper}
+        return ({"label": "Hz"}, *curves, {"label": "peaks", "width": 0, "points": points})
+
+    def _axes(self, scale: Scale, bottom: int, top: int) -> dict:
+        y = _level_axis(scale, bottom, top)
+        *inner, end = LOG_TICKS_HZ if scale.log_frequency else TICKS_HZ
+        x_ticks = [*((f, f"{f:g}") for f in inner), (end, f"{end:g} Hz")]
+        common = {"font": FONT, "stroke": self._text_color, "ticks": NO_TICKS, "grid": GRID, "space": 1}
+        return {
+            "scales": {
+                "x": {"time": False, "range": SHOWN_HZ} | _distribution(scale.log_frequency),
+                "y": {"range": (y.low, y.high)} | _distribution(y.is_logarithmic),
             },
-        )
+            "axes": (
+                _ticks(x_ticks) | {"size": 20, "gap": 3} | common,
+                _ticks(_thinned(y.ticks())) | {"size": 34, "gap": 4} | common,
+            ),
+        }
 
 
-def _range(curves: Floats) -> tuple[int, int]:
-    """Whole tens of dB that hold the curves, at most 60 dB below their top."""
-    top = 10 * math.ceil(curves.max() / 10)
-    bottom = 10 * math.floor(curves.min() / 10)
-    return max(bottom, top - 60), top
+def _level_axis(scale: Scale, bottom: int, top: int) -> Axis:
+    """From `bottom` to `top` dB."""
+    if scale.decibels:
+        return Axis("", bottom, top)
+    decade = 10 * scale.quantity.bels_per_decade
+    return Axis("", 10 ** (bottom / decade), 10 ** (top / decade), is_logarithmic=True)
 
 
-def _plain(value: int) -> str:
-    return (MINUS if value < 0 else "") + str(abs(value))
+def _distribution(is_logarithmic: bool) -> dict:
+    return {"distr": 3, "log": 10} if is_logarithmic else {}
+
+
+def _ticks(ticks: Sequence[tuple[float, str]]) -> dict:
+    return {"splits": [value for value, _ in ticks], "values": [text for _, text in ticks]}
+
+
+def _thinned(ticks: list[tuple[float, str]]) -> list[tuple[float, str]]:
+    """Every other one where they would stand too close, counted from the top."""
+    return ticks[::-1][::2][::-1] if len(ticks) > 5 else ticks
+
+
+def _range(decibels: Floats) -> tuple[int, int]:
+    """Whole tens of dB that hold the curves, at most `DECIBELS` below the top."""
+    top = 10 * math.ceil((decibels.max() + HEADROOM) / 10)
+    bottom = 10 * math.floor(decibels.min() / 10)
+    return max(min(bottom, top - 20), top - DECIBELS), top

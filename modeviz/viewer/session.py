@@ -99,12 +99,13 @@ class Session:
         kind = ("rate", group, direction)
         self._update(lambda state: state.with_rate(group, direction, rate), kind)
 
-    def show_mode(self, name: str) -> None:
-        """Asks for another mode, and to see it if something else moves."""
+    def show_mode(self, name: str, group: str | None = None) -> None:
+        """Asks for another mode, to see it if something else moves, and for a mount group if given."""
 
         def shown(state: State) -> State:
             motion = state.motion if state.motion == "damped mode" else "mode"
-            return replace(state, mode=name, motion=motion)
+            selected = state.group if group is None else group
+            return replace(state, mode=name, motion=motion, group=selected)
 
         self._update(shown)
 

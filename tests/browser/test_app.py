@@ -187,8 +187,10 @@ def test_a_click_in_the_mode_table_shows_that_mode(app, page):
 
 
 def test_a_click_on_a_peaks_contributor_shows_that_mode(app, page):
-    page.get_by_role("button", name=re.compile(r"^Rear tramp 0\.\d\d$")).first.click()
-    wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "rear tramp"))
+    page.locator(".mv .pill label", has_text=re.compile(r"^First torsion")).first.click()
+    wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "first torsion"))
+    shares = app._last.strain
+    assert app.session.state.group == max(GROUPS, key=lambda group: shares[group])
 
 
 def test_what_a_page_loses_is_put_back(app, page):
@@ -228,7 +230,7 @@ def test_another_road_is_solved(page, capsys):
     page.get_by_role("combobox", name="Road").click()
     page.get_by_role("option", name="Road 2").click()
     page.get_by_role("tab", name="Response").click()
-    wait_for(page, "document.body.textContent.includes('road 2, 72 km/h')")
+    wait_for(page, "document.body.textContent.includes('Road 2, 72 km/h')")
     record = printed(capsys, "psd", "--road", "road 2")
     wait_for(page, f"{CHARTS}.length === 2")
     np.testing.assert_allclose(page.evaluate(CURRENT)[0], chart_db(record, "lateral"), atol=1e-6)

@@ -1,6 +1,6 @@
 from types import SimpleNamespace
 
-from modeviz.viewer.panels.response import _road_labels
+from modeviz.viewer.panels.excitation import _road_labels
 
 
 def test_roads_of_one_label_are_told_apart_by_their_names():

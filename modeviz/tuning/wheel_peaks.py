@@ -1,0 +1,47 @@
+"""Which modes make the response to a wheel load."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from modeviz.dynamics.response import modal_coordinates
+from modeviz.ride.participation import Peak, participation, peak_lines, peaks
+from modeviz.ride.wheels import wheel_amplitudes
+from modeviz.tuning.results import AXIS, Results, WheelResults
+
+
+def wheel_peak_lines(wheels: WheelResults, load: int, point: int, direction: str) -> list[int]:
+    """Where a response to a wheel load has its peaks, numbers of frequencies; see `wheel_peaks`."""
+    return peak_lines(np.square(wheels.acceleration_g[:, load, point, AXIS[direction]]))
+
+
+def wheel_peaks(
+    results: Results,
+    wheels: WheelResults,
+    load: int,
+    point: int,
+    direction: str,
+    count: int = 3,
+    lines: Sequence[int] | None = None,
+) -> tuple[Peak, ...]:
+    """Peaks of the response to a wheel load with the `count` modes that make most of each.
+
+    Args:
+        results: the modes with the same rates.
+        wheels: the responses.
+        load: number of the vehicle's wheel load.
+        point: number of the response point.
+        direction: one of `DIRECTIONS`.
+        count: how many modes to name.
+        lines: which peaks, all of `wheel_peak_lines` if None.
+    """
+    found = wheel_peak_lines(wheels, load, point, direction) if lines is None else lines
+    at = np.asarray(found, int)
+    prepared, band, f = results.prepared, results.band, results.frequency_hz[at]
+    shapes = band.modes.shapes
+    amplitudes = wheel_amplitudes(prepared.vehicle, [prepared.vehicle.wheel_loads[load]], f)
+    forces = (prepared.input_directions[prepared.wheel_inputs] @ shapes).T @ amplitudes
+    q = modal_coordinates(band.modes.omega_n_squared, band.damping, band.structural_damping, f, forces)
+    output = prepared.outputs[3 * point + AXIS[direction]] @ shapes
+    parts = participation(output, q, np.ones((len(at), 1, 1), complex))
+    return peaks(f, wheels.acceleration_g[at, load, point, AXIS[direction]], parts, count)

@@ -1,0 +1,113 @@
+"""Right column: two charts of responses, and what their colours mean."""
+
+from html import escape
+
+import numpy as np
+import viser
+
+from modeviz.tuning.preparation import FREQUENCY_HZ
+from modeviz.units import factor
+from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.assign import assign
+from modeviz.viewer.binding import Binding, show_all
+from modeviz.viewer.html import block, heading, title
+from modeviz.viewer.plots import Line, ResponsePlot, Scale, set_line
+from modeviz.viewer.responses import NOW, Responses, curve_label
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import Curve, State
+
+
+class ChartsPanel:
+    """Charts of the responses that are chosen, top down: compared set, overlaid ones, present rates."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session, dark: bool) -> None:
+        """Builds the charts; `show` fills them."""
+        self._session = session
+        self._ends = (
+            ("#8a95a1", "#5aa9ea") if dark else ("#98a2ad", "#2b7cc4")
+        )  # of the compared set and of the present rates
+        self._curves = _curve_labels(session.vehicle)
+        self._legend = gui.add_html("")
+        self._choices: list[viser.GuiDropdownHandle[str]] = []
+        self._bindings: list[Binding] = []
+        self._plots: list[ResponsePlot] = []
+        for i in range(len(session.state.curves)):
+            self._add_chart(gui, i, dark)
+
+    def show(self, solved: Solved, responses: Responses, peaks: list[list[int]]) -> None:
+        """Draws an answer.
+
+        Args:
+            solved: the answer.
+            responses: its responses.
+            peaks: for each chart the numbers of the frequencies that are marked.
+        """
+        state = solved.state
+        scale = Scale(responses.quantity, state.decibels, state.log_frequency)
+        unit = scale.quantity.unit_text(state.decibels)
+        lines = self._lines(solved, responses)
+        names = [state.against, *responses.overlaid, NOW]
+        show_all(self._bindings)
+        assign(self._legend, content=block(_legend(lines, solved)))
+        for curve, choice, plot, marked in zip(
+            state.curves, self._choices, self._plots, peaks, strict=True
+        ):
+            assign(choice, label=unit)
+            levels = np.stack([responses.of(name, curve) for name in names])
+            subject = curve, state.load, state.conditions
+            plot.show(subject, scale, lines, levels, marked)
+
+    def _add_chart(self, gui: viser.GuiApi, i: int, dark: bool) -> None:
+        choice = gui.add_dropdown(
+            "dB",
+            tuple(self._curves),
+            initial_value=curve_label(self._session.vehicle, self._session.state.curves[i]),
+            hint="Which point's acceleration is drawn, and in which direction; drag in the chart to "
+            "look closer, double-click to see all",
+        )
+
+        def read(state: State) -> str:
+            return curve_label(self._session.vehicle, state.curves[i])
+
+        def write(label: str) -> None:
+            curves = list(self._session.state.curves)
+            curves[i] = self._curves[label]
+            self._session.change(curves=tuple(curves))
+
+        self._choices.append(choice)
+        self._bindings.append(Binding(choice, self._session, read, write))
+        self._plots.append(ResponsePlot(gui, FREQUENCY_HZ, dark))
+
+    def _lines(self, solved: Solved, responses: Responses) -> list[Line]:
+        base, now = self._ends
+        numbers = {name: i for i, name in enumerate(solved.named)}
+        overlaid = [set_line(name, numbers[name]) for name in responses.overlaid]
+        return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
+
+
+def _curve_labels(vehicle: Vehicle) -> dict[str, Curve]:
+    """All responses there are, by what they are called."""
+    curves = [Curve(i, d) for i in range(len(vehicle.response_points)) for d in DIRECTIONS]
+    return {curve_label(vehicle, curve): curve for curve in curves}
+
+
+def _legend(lines: list[Line], solved: Solved) -> str:
+    """The sets with their colours, and what excites the vehicle."""
+    swatches = "".join(f'<span class="key">{swatch(line)}{escape(line.label)}</span>' for line in lines)
+    return heading(f'<span class="legend">{swatches}</span>', excited_by(solved))
+
+
+def swatch(line: Line) -> str:
+    """A sample of a line."""
+    style = "dashed" if line.dash else "solid"
+    return f'<i class="line" style="border-top:3px {style} {line.color}"></i>'
+
+
+def excited_by(solved: Solved) -> str:
+    """What excites the vehicle, as page text."""
+    if solved.state.load:
+        return title(solved.state.load)
+    conditions = solved.now.conditions
+    return f"{title(conditions.road)}, {conditions.speed / factor('km/h', 'speed'):.0f} km/h"

@@ -1,0 +1,153 @@
+"""Right column: what excites the vehicle, and the scales of the charts."""
+
+import math
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import viser
+
+from modeviz.export.wording import sentence_case
+from modeviz.tuning.preparation import FREQUENCY_HZ
+from modeviz.units import factor
+from modeviz.vehicle.loads import Road
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.assign import assign
+from modeviz.viewer.binding import Binding, show_all
+from modeviz.viewer.html import block, span
+from modeviz.viewer.session import Session
+from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.state import State
+
+SPEEDS = (20, 160)
+"""km/h: what is of interest."""
+
+PER_KMH = factor("km/h", "speed")
+ROAD = "Road"
+LEVELS = {"Decibels": True, "Linear unit, logarithmic axis": False}
+FREQUENCIES = {"Linear": False, "Logarithmic": True}
+
+
+class ExcitationPanel:
+    """Road or wheel load, which road, how fast; decibels or not, linear or logarithmic frequency."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Builds the controls."""
+        self._session = session
+        self._bindings: list[Binding] = []
+        vehicle = session.vehicle
+        loads = {ROAD: ""} | {sentence_case(load.name): load.name for load in vehicle.wheel_loads}
+        self._add_choice(
+            gui,
+            "Excitation",
+            loads,
+            "The road, or a harmonic force at one wheel: the charts then show peak accelerations",
+            lambda state: state.load,
+            lambda load: session.change(load=load),
+        )
+        self._add_choice(
+            gui,
+            "Road",
+            _road_labels(vehicle.roads),
+            "What is driven over",
+            lambda state: state.conditions.road,
+            lambda road: self._drive(road=road),
+        )
+        self._add_speed(gui, _speed_limits(vehicle.roads))
+        self._about = gui.add_html("")
+        self._add_choice(
+            gui,
+            "Level",
+            LEVELS,
+            "How the charts' accelerations are written",
+            lambda state: state.decibels,
+            lambda decibels: session.change(decibels=decibels),
+        )
+        self._add_choice(
+            gui,
+            "Frequency",
+            FREQUENCIES,
+            "How the charts' frequencies are spaced",
+            lambda state: state.log_frequency,
+            lambda is_log: session.change(log_frequency=is_log),
+        )
+
+    def show(self, solved: Solved) -> None:
+        """Brings the controls after the state."""
+        show_all(self._bindings)
+        assign(self._about, content=block(span(_about(solved.state), "dim")))
+
+    def _add_choice(
+        self,
+        gui: viser.GuiApi,
+        label: str,
+        values: dict[str, Any],
+        hint: str,
+        read: Callable[[State], Any],
+        write: Callable[[Any], None],
+    ) -> None:
+        """A dropdown of values by what they are called."""
+        labels = {value: text for text, value in values.items()}
+        dropdown = gui.add_dropdown(
+            label, tuple(values), initial_value=labels[read(self._session.state)], hint=hint
+        )
+        self._bindings.append(
+            Binding(
+                dropdown,
+                self._session,
+                lambda state: labels[read(state)],
+                lambda text: write(values[text]),
+            )
+        )
+
+    def _add_speed(self, gui: viser.GuiApi, limits: tuple[int, int]) -> None:
+        slowest, fastest = limits
+
+        def read(state: State) -> float:
+            return float(min(max(round(state.conditions.speed / PER_KMH), slowest), fastest))
+
+        slider = gui.add_slider(
+            "Speed, km/h",
+            min=float(slowest),
+            max=float(fastest),
+            step=1.0,
+            initial_value=read(self._session.state),
+            hint="The same road at another speed; the rear wheels follow the front ones sooner",
+        )
+        self._bindings.append(
+            Binding(
+                slider,
+                self._session,
+                read,
+                lambda kmh: self._drive(kind="speed", speed=kmh * PER_KMH),
+                WriteBack(),
+            )
+        )
+
+    def _drive(self, kind: str | None = None, **fields: Any) -> None:
+        conditions = replace(self._session.state.conditions, **fields)
+        self._session.change(kind, conditions=conditions)
+
+
+def _about(state: State) -> str:
+    """What the choice means."""
+    if state.load:
+        return "A force of the same size at every frequency; the road is for figures of sets only."
+    return "The rear wheels meet the same road later, by wheelbase and speed."
+
+
+def _road_labels(roads: Sequence[Road]) -> dict[str, str]:
+    """The roads' names by what they are called on screen, with the name too where labels are alike."""
+    count = Counter(road.label for road in roads)
+    return {
+        road.label if count[road.label] == 1 else f"{road.label} ({road.name})": road.name
+        for road in roads
+    }
+
+
+def _speed_limits(roads: Sequence[Road]) -> tuple[int, int]:
+    """The speeds, whole km/h within `SPEEDS`, at which every road's table holds the whole band."""
+    slowest = max(FREQUENCY_HZ[-1] / road.frequency_hz[-1] * road.speed for road in roads)
+    fastest = min(FREQUENCY_HZ[0] / road.frequency_hz[0] * road.speed for road in roads)
+    return max(math.ceil(slowest / PER_KMH), SPEEDS[0]), min(math.floor(fastest / PER_KMH), SPEEDS[1])

@@ -1,0 +1,176 @@
+"""Right column: the four figures on top, and the table of all of them."""
+
+from html import escape
+
+import viser
+
+from modeviz.export.tables import WHEEL_BAND
+from modeviz.export.wording import number, sentence_case, signed
+from modeviz.ride.psd import rms
+from modeviz.tuning.results import Results
+from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.assign import assign
+from modeviz.viewer.html import block, change, heading, row, span, table, title
+from modeviz.viewer.responses import NOW, PSD, Responses
+from modeviz.viewer.state import Curve
+
+DRIVER = 0
+"""The response point that is rated: the vehicle's first."""
+
+BAND = (11.0, 17.0)
+"""Hz: where the paper's optimised mounts act on the lateral response."""
+
+AXES = ("Fore-aft, Wd", "Lateral, Wd", "Vertical, Wk")
+"""The weighted accelerations of ISO 2631-1, in the order of `Rating.weighted_rms`."""
+
+
+class FiguresPanel:
+    """Four figures at the driver's point against the compared set."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        """Makes room; `show` fills it."""
+        self._content = gui.add_html("")
+
+    def show(self, solved: Solved, responses: Responses) -> None:
+        """Draws the figures of an answer."""
+        figures = _road_figures if responses.quantity is PSD else _wheel_figures
+        assign(self._content, content=block(figures(solved, responses)))
+
+
+class TablePanel:
+    """The figures of every response point and direction, and the weighted ones of the driver."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        """Makes room; `show` fills it."""
+        self._content = gui.add_html(block(span("Figures follow with the first answer.", "dim")))
+
+    def show(self, solved: Solved) -> None:
+        """Lists the figures of an answer."""
+        responses = Responses(solved)
+        content = [_all_points(solved, responses)]
+        if responses.quantity is PSD:
+            content.append(_ratings(solved))
+        else:
+            content.append(span("Ratings are those of a ride: choose the road again.", "dim"))
+        assign(self._content, content=block(*content))
+
+
+def _road_figures(solved: Solved, responses: Responses) -> str:
+    """The rating and three RMS values."""
+    base, now = solved.base, solved.now
+    before, after = base.rating.mean_personal_rating, now.rating.mean_personal_rating
+    gain = span(f"{signed(after - before, 2)} points", _kind(after - before))
+    figures = [_figure("Ride rating", number(after, 2), "MPR", gain, _about_rating(now))]
+    for direction in ("lateral", "vertical"):
+        curve = Curve(DRIVER, direction)
+        value, old = responses.figure(NOW, curve), responses.figure(solved.state.against, curve)
+        about = f"RMS acceleration, {_point(now)}, {direction}, 0 to 40 Hz"
+        label = f"RMS {direction}"
+        figures.append(_figure(label, f"{value:.3f}", "g", change(value, old), about))
+    value = _band_rms(now)
+    label, about = f"Lat. {BAND[0]:g}–{BAND[1]:g} Hz", f"RMS lateral, {_point(now)}, in this band"
+    figures.append(_figure(label, f"{value:.3f}", "g", change(value, _band_rms(base)), about))
+    return f'<div class="figures">{"".join(figures)}</div>'
+
+
+def _wheel_figures(solved: Solved, responses: Responses) -> str:
+    """The means over the paper's band, and the highest lateral value in it."""
+    against, now = solved.state.against, solved.now
+    figures = []
+    for direction in ("lateral", "vertical", "fore-aft"):
+        curve = Curve(DRIVER, direction)
+        value, old = responses.figure(NOW, curve), responses.figure(against, curve)
+        about = f"Mean peak acceleration, {_point(now)}, {direction}, {_band_text()}"
+        label = f"Mean {direction}"
+        figures.append(_figure(label, f"{1000 * value:.2f}", "10⁻³ g", change(value, old), about))
+    lateral = Curve(DRIVER, "lateral")
+    value, old = (_highest(solved, responses.of(name, lateral)) for name in (NOW, against))
+    about = f"Highest peak acceleration, {_point(now)}, lateral, {_band_text()}"
+    label = "Highest lateral"
+    figures.append(_figure(label, f"{1000 * value:.2f}", "10⁻³ g", change(value, old), about))
+    return f'<div class="figures">{"".join(figures)}</div>'
+
+
+def _figure(label: str, value: str, unit: str, delta: str, about: str) -> str:
+    return (
+        f'<div title="{escape(about)}"><span>{label}</span>'
+        f"<b>{value} <small>{unit}</small></b>{delta}</div>"
+    )
+
+
+def _all_points(solved: Solved, responses: Responses) -> str:
+    """A row for each point and direction."""
+    is_road = responses.quantity is PSD
+    scale, decimals = (1, 4) if is_road else (1000, 2)
+    rows = []
+    for i, point in enumerate(solved.now.vehicle.response_points):
+        for direction in DIRECTIONS:
+            curve = Curve(i, direction)
+            old, value = (responses.figure(n, curve) for n in (solved.state.against, NOW))
+            name = title(point.name) if direction == DIRECTIONS[0] else ""
+            cells = [
+                name,
+                direction,
+                span(f"{scale * old:.{decimals}f}", "dim"),
+                f"{scale * value:.{decimals}f}",
+                change(value, old),
+            ]
+            rows.append(row(cells))
+    what = "RMS, g" if is_road else "Mean, 10⁻³ g"
+    quiet = "0 to 40 Hz" if is_road else _band_text()
+    header = ("Point", "", escape(solved.state.against), "now", "change")
+    return heading(what, quiet) + table(header, rows)
+
+
+def _ratings(solved: Solved) -> str:
+    """The driver's rating and weighted values."""
+    base, now = solved.base.rating, solved.now.rating
+    weighted = zip(AXES, base.weighted_rms, now.weighted_rms, strict=True)
+    rows = [_weighted(label, old, new) for label, old, new in weighted]
+    rows.append(_weighted("Total, a<sub>v</sub>", base.weighted_total, now.weighted_total))
+    gain = now.mean_personal_rating - base.mean_personal_rating
+    cells = [
+        "Mean personal rating",
+        span(number(base.mean_personal_rating, 2), "dim"),
+        number(now.mean_personal_rating, 2),
+        span(signed(gain, 2), _kind(gain)),
+    ]
+    header = ("", escape(solved.state.against), "now", "change")
+    return (
+        heading("ISO 2631-1 weighted, m/s²", escape(_point(solved.now)))
+        + table(header, rows)
+        + heading("Ride rating", "10 is best")
+        + f'<div title="{escape(_about_rating(solved.now))}">{table(header, [row(cells)])}</div>'
+    )
+
+
+def _weighted(label: str, old: float, new: float) -> str:
+    return row([label, span(f"{old:.3f}", "dim"), f"{new:.3f}", change(new, old)])
+
+
+def _point(results: Results) -> str:
+    return sentence_case(results.vehicle.response_points[DRIVER].name)
+
+
+def _band_text() -> str:
+    return f"{WHEEL_BAND[0]:g} to {WHEEL_BAND[1]:g} Hz"
+
+
+def _band_rms(results: Results) -> float:
+    """Of the driver's lateral response within `BAND`, g."""
+    return float(rms(results.frequency_hz, results.response(DRIVER, "lateral"), BAND))
+
+
+def _highest(solved: Solved, levels) -> float:
+    """Within the paper's band of wheel responses."""
+    f = solved.now.frequency_hz
+    return float(levels[(f >= WHEEL_BAND[0]) & (f <= WHEEL_BAND[1])].max())
+
+
+def _about_rating(results: Results) -> str:
+    return results.rating.note or "Mean personal rating of the driver, 10 is best"
+
+
+def _kind(gain: float) -> str:
+    return "dim" if abs(gain) < 0.005 else "good" if gain > 0 else "bad"

@@ -1,0 +1,109 @@
+"""Right column: the highest peaks of the charts, and the modes in them."""
+
+from dataclasses import dataclass
+from html import escape
+
+import viser
+
+from modeviz.export.wording import sentence_case
+from modeviz.ride.participation import Peak
+from modeviz.tuning.results import Results
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.assign import assign
+from modeviz.viewer.html import HiddenButtons, block, heading, span
+from modeviz.viewer.responses import Responses
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import Curve
+
+PEAK_BAND = (5.0, 25.0)
+"""Hz: below it mounts do nothing (Duncan, "The requirement")."""
+
+PEAK_GAP_HZ = 2.0
+N_PEAKS = 2
+"""Of each chart."""
+
+N_CONTRIBUTORS = 3
+SHORT = {"lateral": "Lat.", "vertical": "Vert.", "fore-aft": "Fore-aft"}
+HINT = "a click shows the mode and selects its mounts"
+
+
+@dataclass(frozen=True)
+class _Contributor:
+    """A mode that can be clicked."""
+
+    results: Results
+    mode: int
+
+    @property
+    def group(self) -> str | None:
+        """The mount group that holds most of its strain energy, if there is any."""
+        shares = self.results.strain_shares(self.mode)
+        groups = [group.name for group in self.results.vehicle.mount_groups]
+        return max(groups, key=lambda name: shares[name], default=None)
+
+
+class PeaksPanel:
+    """A row for each peak with the modes that make it; a click on one shows it and its mounts."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Makes room; `show` fills it."""
+        self._session = session
+        self._contributors: list[_Contributor] = []
+        n_buttons = len(session.state.curves) * N_PEAKS * N_CONTRIBUTORS
+        self._buttons = HiddenButtons(gui, n_buttons, self._select)
+        self._content = gui.add_html("")
+
+    def show(self, solved: Solved, responses: Responses) -> list[list[int]]:
+        """Lists the peaks of an answer; for each chart the numbers of their frequencies."""
+        lines = [strongest(responses, curve, solved) for curve in solved.state.curves]
+        contributors: list[_Contributor] = []
+        rows = []
+        for curve, label, its_lines in zip(
+            solved.state.curves, _labels(solved.state.curves), lines, strict=True
+        ):
+            for peak in responses.peaks(curve, N_CONTRIBUTORS, its_lines):
+                rows.append(
+                    self._row(f"{label} {peak.frequency_hz:.1f} Hz", peak, solved, contributors)
+                )
+        self._contributors = contributors
+        none = span("No peak between 5 and 25 Hz: look at another point or direction.", "dim")
+        listing = "".join(rows) or none
+        assign(self._content, content=block(heading("Peaks and the modes in them", HINT), listing))
+        return lines
+
+    def _row(self, label: str, peak: Peak, solved: Solved, contributors: list[_Contributor]) -> str:
+        """A peak's modes, which are added to those that can be clicked."""
+        pills = []
+        for part in peak.contributors:
+            name = sentence_case(solved.now.names[part.mode].spoken)
+            about = f"{name}: {part.ratio:.2f} of the largest part in this peak"
+            text = f"<span>{escape(name)}</span><b>{part.ratio:.2f}</b>"
+            on = " on" if part.mode == solved.mode else ""
+            button = self._buttons.label(len(contributors), text)
+            pills.append(f'<div class="pill{on}" title="{escape(about)}">{button}</div>')
+            contributors.append(_Contributor(solved.now, part.mode))
+        return f'<div class="peak"><span class="dim">{label}</span>{"".join(pills)}</div>'
+
+    def _select(self, i: int) -> None:
+        contributors = self._contributors
+        if i < len(contributors):  # else another answer came between the click and here
+            chosen = contributors[i]
+            self._session.show_mode(chosen.results.names[chosen.mode].name, chosen.group)
+
+
+def strongest(responses: Responses, curve: Curve, solved: Solved) -> list[int]:
+    """The lines of the `N_PEAKS` highest peaks within `PEAK_BAND` that stand apart, rising."""
+    f, levels = solved.now.frequency_hz, responses.of("", curve)
+    lines = [i for i in responses.peak_lines(curve) if PEAK_BAND[0] <= f[i] <= PEAK_BAND[1]]
+    chosen: list[int] = []
+    for line in sorted(lines, key=lambda i: -levels[i]):
+        if all(abs(f[line] - f[other]) > PEAK_GAP_HZ for other in chosen):
+            chosen.append(line)
+    return sorted(chosen[:N_PEAKS])
+
+
+def _labels(curves: tuple[Curve, ...]) -> list[str]:
+    """What the charts are called beside their peaks: the direction, if that tells them apart."""
+    if len({curve.direction for curve in curves}) == len(curves):
+        return [SHORT[curve.direction] for curve in curves]
+    return [f"Chart {i}," for i in range(1, len(curves) + 1)]
