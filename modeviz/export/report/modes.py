@@ -129,7 +129,7 @@ def _peak_rows(results: Results, direction: str) -> Iterator[list[str]]:
     low, high = SHOWN_HZ
     for peak in results.peaks(0, direction, 2):
         if low <= peak.frequency_hz <= high:
-            cells = [f"{peak.frequency_hz:.1f}", number(float(power_decibels(np.array(peak.psd))), 1)]
+            cells = [f"{peak.frequency_hz:.1f}", number(float(power_decibels(np.array(peak.level))), 1)]
             for c in peak.contributors:
                 cells += [f"{f[c.mode]:.2f}", escape(names[c.mode].spoken)]
             if len(peak.contributors) == 2:
