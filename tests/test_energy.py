@@ -94,6 +94,17 @@ def test_groups_share_a_common_stretch_in_proportion_to_their_rates():
     assert strain["tyres"][0] == 0.0
 
 
+def test_complex_shape_has_the_energies_of_its_two_parts():
+    system = assemble(mounted_cabin())
+    both = solve_modes(system).shapes[:, [7, 9]] * [1.0, 1.0]
+    for energy in (kinetic_energy, strain_energy):
+        shares = energy(system, both[:, :1] + 1j * both[:, 1:])
+        # of orthogonal parts the energies add: unit modal masses, and stiffnesses ω²
+        weights = solve_modes(system).frequency_hz[[7, 9]] ** (0 if energy is kinetic_energy else 2)
+        for name, (one, other) in energy(system, both).items():
+            assert shares[name][0] == pytest.approx(np.average([one, other], weights=weights))
+
+
 def test_kinetic_and_strain_shares_of_one_mode_are_those_among_many():
     system = assemble(mounted_cabin())
     shapes = solve_modes(system).shapes

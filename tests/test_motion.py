@@ -5,6 +5,7 @@ from modeviz.shapes.motion import (
     animated,
     default_amplitude,
     displacement,
+    mean_square,
     peak_displacement,
     vertex_shapes,
 )
@@ -99,6 +100,14 @@ def test_peak_displacement_is_the_largest_of_the_cycle():
     cycle = np.linalg.norm((shape[:, :, None] * np.exp(1j * phases)).real, axis=1).max(axis=1)
     sampling = (phases[1] / 2) ** 2  # the maximum is flat: relative loss below δ²/2 times 2
     assert peak_displacement(shape) == pytest.approx(cycle, rel=sampling)
+
+
+def test_mean_square_is_twice_that_of_the_cycle():
+    shape = RNG.normal(size=(40, 3)) + 1j * RNG.normal(size=(40, 3))
+    phases = np.arange(8) * np.pi / 4  # a square of a cosine has no more than two periods in a turn
+    cycle = np.linalg.norm((shape[:, :, None] * np.exp(1j * phases)).real, axis=1)
+    assert mean_square(shape) == pytest.approx(2 * (cycle**2).mean(axis=1), rel=1e-14)
+    assert mean_square(shape.real) == pytest.approx(np.linalg.norm(shape.real, axis=1) ** 2)
 
 
 def test_default_amplitude_draws_the_largest_displacement_at_a_fortieth_of_the_length():

@@ -4,10 +4,22 @@ from small_vehicles import tyre, wheel
 
 from modeviz.vehicle.bodies import Material, MeshPart, RigidBody
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.stage import FIELD_OF_VIEW, VIEWS, Box, box, camera
+from modeviz.viewer.stage import (
+    CARD_FRACTION,
+    CARD_HEIGHT,
+    FIELD_OF_VIEW,
+    FILLED,
+    VIEWS,
+    Box,
+    box,
+    camera,
+)
 
 TRUCK = Box((-1.05, -1.0, 0.0), (4.35, 1.0, 1.8))
 CORNERS = np.array([[x, y, z] for x in (-1.05, 4.35) for y in (-1, 1) for z in (0, 1.8)])
+
+
+SIZES = [(440, 360), (592, 720), (1060, 1080), (1600, 900)]
 
 
 def on_picture(points, position, look_at, aspect):
@@ -22,15 +34,19 @@ def on_picture(points, position, look_at, aspect):
 
 
 @pytest.mark.parametrize("view", VIEWS)
-@pytest.mark.parametrize("aspect", [0.8, 0.98, 1.6])
-def test_vehicle_is_inside_every_view_and_fills_a_good_part_of_it(view, aspect):
-    seen = np.abs(on_picture(CORNERS, *camera(TRUCK, view, aspect), aspect))
-    assert seen.max() < 1
-    assert seen[:, 0].max() > 0.35
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_vehicle_fills_every_view_as_far_as_the_card_lets_it(view, width, height):
+    seen = on_picture(CORNERS, *camera(TRUCK, view, width, height), width / height)
+    lowest = FILLED * (2 * min(CARD_HEIGHT / height, CARD_FRACTION) - 1)
+    assert np.abs(seen).max() <= FILLED + 1e-9
+    assert seen[:, 1].min() >= lowest - 1e-9
+    fills_width = np.ptp(seen[:, 0]) == pytest.approx(2 * FILLED)
+    fills_height = np.ptp(seen[:, 1]) == pytest.approx(FILLED - lowest)
+    assert fills_width or fills_height
 
 
 def test_first_view_has_the_front_on_the_left_and_the_drivers_side_towards_us():
-    position, look_at = camera(TRUCK, "Iso", 1.0)
+    position, look_at = camera(TRUCK, "Iso", 1000, 1000)
     front, rear, top, ground = on_picture(
         np.array([[-1.05, 0, 0.5], [4.35, 0, 0.5], [1.6, 0, 1.8], [1.6, 0, 0]]), position, look_at, 1.0
     )

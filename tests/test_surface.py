@@ -1,6 +1,6 @@
 import numpy as np
 
-from modeviz.shapes.surface import surface
+from modeviz.shapes.surface import outlines, surface
 from modeviz.vehicle.bodies import Material, MeshPart
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
@@ -26,6 +26,14 @@ def test_small_parts_are_dressing():
 def test_edges_are_those_of_opaque_skin():
     drawn = surface((square("lamp", 0.2), square("panel", 1.0), square("glass", 1.0, opacity=0.8)))
     assert {tuple(e) for e in drawn.edges.tolist()} == {(4, 5), (5, 6), (6, 7), (4, 7)}
+
+
+def test_outlines_keep_only_the_vertices_of_edges_and_their_places():
+    drawn = surface((square("lamp", 0.2), square("panel", 1.0), square("glass", 1.0, opacity=0.8)))
+    alone, kept = outlines(drawn)
+    assert kept.tolist() == [4, 5, 6, 7]
+    assert np.array_equal(alone.vertices, drawn.vertices[4:8])
+    assert np.array_equal(kept[alone.edges], drawn.edges)
 
 
 def test_body_without_a_mesh_has_nothing_to_draw():

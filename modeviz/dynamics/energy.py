@@ -13,10 +13,11 @@ from modeviz.vehicle.bodies import FlexibleBody
 def kinetic_energy(system: System, shapes: Floats) -> Mapping[str, Floats]:
     """Each body's share of a mode's kinetic energy, (n_modes,) by body; they sum to one.
 
-    T_b = φ_bᵀ (Mφ)_b / φᵀMφ, added masses counted with the body that carries them.
+    T_b = φ_bᴴ (Mφ)_b / φᴴMφ, added masses counted with the body that carries them. A complex shape
+    has the mean of its cycle.
     """
     starts = [dofs.start for dofs in system.dofs.values()]
-    energy = np.add.reduceat(shapes * system.momentum(shapes), starts)
+    energy = np.add.reduceat((np.conj(shapes) * system.momentum(shapes)).real, starts)
     return dict(zip(system.dofs, energy / energy.sum(axis=0), strict=True))
 
 
@@ -36,7 +37,8 @@ def strain_energy(
     bodies = [body for body in system.vehicle.bodies if isinstance(body, FlexibleBody)]
     groups, stretch = _group_energy(system, shapes, mount_stiffness)
     energy = np.array(
-        [body.omega_n_squared @ shapes[system.dofs[body.name]] ** 2 for body in bodies] + [*stretch]
+        [body.omega_n_squared @ np.abs(shapes[system.dofs[body.name]]) ** 2 for body in bodies]
+        + [*stretch]
     ).reshape(-1, shapes.shape[1])
     total = energy.sum(axis=0)
     free = total < (2 * np.pi * RESOLVED_HZ) ** 2
@@ -53,7 +55,7 @@ def _group_energy(
         k = k.copy()
         n_mounts = len(system.vehicle.mounts)
         k.reshape(-1, 6)[:n_mounts, :3] = mount_stiffness[: 3 * n_mounts].reshape(-1, 3)
-    stretch = k[:, None] * (system.connection_motions @ shapes) ** 2
+    stretch = k[:, None] * np.abs(system.connection_motions @ shapes) ** 2
     by_connection = stretch.reshape(-1, 6, shapes.shape[1]).sum(axis=1)
     group_of = [connection.group for connection in system.vehicle.all_connections]
     number = {group: i for i, group in enumerate(dict.fromkeys(group_of))}

@@ -80,6 +80,11 @@ def peak_displacement(shape: NDArray) -> Floats:
     return np.sqrt((np.real(_dot(u, np.conj(u))) + np.abs(_dot(u, u))) / 2)
 
 
+def mean_square(shape: NDArray) -> Floats:
+    """u·ū of every vertex, (n_vertices,): |u|² if u is real, else twice the mean of a cycle."""
+    return np.real(_dot(shape, np.conj(shape)))
+
+
 def default_amplitude(shapes: Iterable[NDArray], length: float) -> float:
     """The factor that draws the largest of several displacements clearly and without distortion.
 

@@ -56,6 +56,13 @@ def surface(mesh: Mesh) -> Surface:
     )
 
 
+def outlines(drawn: Surface) -> tuple[Surface, NDArray[np.int32]]:
+    """The edges of a surface alone, and which of its vertices they have kept, (n_kept,)."""
+    kept, edges = np.unique(drawn.edges, return_inverse=True)
+    reduced = edges.reshape(-1, 2).astype(np.int32)
+    return Surface(drawn.vertices[kept], (), reduced), kept
+
+
 def _area(part: MeshPart) -> float:
     a, b, c = np.moveaxis(part.vertices[part.faces], 1, 0)
     return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

@@ -103,10 +103,15 @@ class ModalResults:
         """Share of each flexible body and connection group, (n_modes,) by name."""
         return strain_energy(self.prepared.system, self.modes.shapes, self._mount_rates)
 
-    def strain_shares(self, mode: int) -> dict[str, float]:
-        """The strain energy of one mode: share of each flexible body and connection group."""
-        shape = self.modes.shapes[:, mode : mode + 1]
-        shares = strain_energy(self.prepared.system, shape, self._mount_rates)
+    def strain_shares(self, shape: NDArray) -> dict[str, float]:
+        """The strain energy of a shape: share of each flexible body and connection group.
+
+        Args:
+            shape: (n_dofs,), real or complex, in any scale.
+        """
+        system, phi = self.prepared.system, shape[:, None]
+        norm = np.sqrt(np.vdot(phi, system.momentum(phi)).real) or 1.0
+        shares = strain_energy(system, phi / norm, self._mount_rates)
         return {name: float(share[0]) for name, share in shares.items()}
 
     def mode_index(self, name: str) -> int | None:

@@ -84,7 +84,7 @@ class Solved:
     @cached_property
     def strain(self) -> Mapping[str, float]:
         """Of the shown mode: each flexible body's and connection group's share of the strain energy."""
-        return self.now.strain_shares(self.mode)
+        return self.now.strain_shares(self.shape)
 
 
 class Answers:

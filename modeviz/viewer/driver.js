@@ -1,15 +1,39 @@
 // Draws x + amplitude Re(φ e^{iθ}) on the meshes of the page, every frame, from what driver.py sends.
 //
 // The shapes of all meshes are the points of one hidden point cloud, mesh after mesh; if they are complex,
-// all real parts come before all imaginary ones. Its colours are the vertices'. For each mesh there is a
-// hidden node whose position is the mesh's place in that order, its number of vertices and its opacity;
-// amplitude, frequency and phase are the position of another.
+// all real parts come before all imaginary ones. A mesh that moves rigidly has two points there: the
+// displacement of its first vertex and its rotation. For each mesh there is a hidden node whose position is
+// the mesh's place in that order, the number of its points and its opacity; its orientation is the gain and
+// the power of its shade (modeviz/shapes/colors.py) and whether it has one. Amplitude, frequency and phase
+// are the position of another.
 // A page that has a hidden node of its own for it stands at the phase in that node's position.
 // State and failure are in window.__modeviz, where the browser tests read them.
-(prefix, cloudName, driverName, heldName) => {
+(prefix, cloudName, driverName, heldName, stops) => {
   const PATIENCE = 30; // s: how long a mesh or viser itself may take to appear
   const LONGEST_FRAME = 0.25; // s: a page that was in the background goes on where it was
+  const RIGID = 2; // points of a mesh that moves rigidly
   const MATTE = { roughness: 0.6, metalness: 0.05 }; // under colours that mean something
+
+  const LOOKS = ["colored", "gain", "power", "opacity"];
+  const DECLARATIONS = `
+    attribute vec3 modevizReal, modevizImaginary;
+    uniform vec2 modevizWeights, modevizShade;
+    uniform vec3 modevizStops[${stops.length}];
+    vec3 modevizColor() {
+      float real = dot(modevizReal, modevizReal);
+      float imaginary = dot(modevizImaginary, modevizImaginary);
+      float mixed = dot(modevizReal, modevizImaginary);
+      float difference = real - imaginary;
+      float value = modevizShade.x;
+      if (modevizShade.y == 1.0)
+        value *= sqrt((real + imaginary + sqrt(difference * difference + 4.0 * mixed * mixed)) / 2.0);
+      if (modevizShade.y == 2.0) value *= real + imaginary;
+      float place = clamp(value, 0.0, 1.0) * ${stops.length - 1}.0;
+      vec3 color = modevizStops[0];
+      for (int i = 1; i < ${stops.length}; i++)
+        color = mix(color, modevizStops[i], clamp(place - float(i - 1), 0.0, 1.0));
+      return color;
+    }`;
 
   const page = (window.__modeviz ??= {
     weights: { value: [0, 0] },
@@ -55,28 +79,51 @@
 
   // Writes into the attribute, which is made at the first time; the primitives of a mesh share it.
   function write(attributes, name, values, Attribute) {
-    if (attributes[name]) {
+    if (attributes[name]?.array.constructor === values.constructor) {
       attributes[name].array.set(values);
       attributes[name].needsUpdate = true;
       return;
     }
-    const isHalf = values instanceof Uint16Array;
-    attributes[name] = new Attribute(values.slice(), 3, !isHalf);
-    attributes[name].isFloat16BufferAttribute = isHalf;
+    attributes[name] = new Attribute(values.slice(), 3);
+    attributes[name].isFloat16BufferAttribute = values instanceof Uint16Array;
+  }
+
+  // The number that has these 16 bits.
+  function number(half) {
+    const exponent = (half >> 10) & 31;
+    const size = exponent ? 2 ** (exponent - 15) * (1 + (half & 1023) / 1024) : (half & 1023) / 2 ** 24;
+    return half >> 15 ? -size : size;
+  }
+
+  // The displacements u + θ x r of all vertices of a mesh that moves rigidly; r is from its first vertex.
+  function spread(points, vertices) {
+    const [ux, uy, uz, a, b, c] = Array.from(points, number);
+    const shape = new Float32Array(vertices.length);
+    for (let i = 0; i < vertices.length; i += 3) {
+      const [x, y, z] = [vertices[i] - vertices[0], vertices[i + 1] - vertices[1], vertices[i + 2] - vertices[2]];
+      shape[i] = ux + b * z - c * y;
+      shape[i + 1] = uy + c * x - a * z;
+      shape[i + 2] = uz + a * y - b * x;
+    }
+    return shape;
   }
 
   function patch(material) {
+    material.userData.shade = { value: [0, 0] };
     material.onBeforeCompile = (shader) => {
       shader.uniforms.modevizWeights = page.weights;
+      shader.uniforms.modevizShade = material.userData.shade;
+      shader.uniforms.modevizStops = { value: stops.flat() };
       const add = (chunk, code) => {
         if (!shader.vertexShader.includes(`#include <${chunk}>`)) fail(`three.js has no ${chunk}`);
         shader.vertexShader = shader.vertexShader.replace(`#include <${chunk}>`, `#include <${chunk}>\n${code}`);
       };
-      add("common", "attribute vec3 modevizReal, modevizImaginary; uniform vec2 modevizWeights;");
+      add("common", DECLARATIONS);
       add("begin_vertex", "transformed += modevizWeights.x * modevizReal + modevizWeights.y * modevizImaginary;");
       add(
         "color_vertex",
         `#ifdef USE_COLOR
+          vColor.rgb = modevizColor();
           vColor.rgb = mix(vColor.rgb / 12.92, pow((vColor.rgb + 0.055) / 1.055, vec3(2.4)), step(0.04045, vColor.rgb));
         #endif`,
       );
@@ -94,8 +141,9 @@
 
   // Skin takes the colours and the opacity of its body, glass the opacity; dressing keeps its own. On
   // colours the edges are black.
-  function dress(material, colored, opacity) {
-    const { own, skin } = material.userData;
+  function dress(material, { colored, gain, power, opacity }) {
+    const { own, skin, shade } = material.userData;
+    shade.value = [gain, power];
     if (skin || own.opacity < 1) material.opacity = own.opacity * opacity;
     material.transparent = material.opacity < 1;
     material.depthWrite = !material.transparent;
@@ -111,22 +159,28 @@
 
   // Gives a mesh what was sent for it; true if that is done.
   function apply(group, sent) {
-    const { points, colors, complex, colored, total, start, count, opacity } = sent;
+    const { points, complex, total, start, count } = sent;
     const meshes = [];
     group.traverse((object) => object.geometry?.index && meshes.push(object));
-    if (!meshes.length || meshes.some((mesh) => mesh.geometry.attributes.position.count !== count)) return false;
-    const Attribute = meshes[0].geometry.attributes.position.constructor;
+    if (!meshes.length) return false;
+    const vertices = meshes[0].geometry.attributes.position;
+    if (count !== RIGID && meshes.some((mesh) => mesh.geometry.attributes.position.count !== count)) return false;
+    const Attribute = vertices.constructor;
     const last = shown.get(group);
     const attributes = last?.attributes ?? {};
-    const part = (array, before) => array.subarray(before + 3 * start, before + 3 * (start + count));
-    write(attributes, "modevizReal", part(points, 0), Attribute);
-    if (complex) write(attributes, "modevizImaginary", part(points, 3 * total), Attribute);
-    else if (!last || last.complex) write(attributes, "modevizImaginary", new Uint16Array(3 * count), Attribute);
-    if (colored) write(attributes, "color", part(colors, 0), Attribute);
+    const shape = (before) => {
+      const part = points.subarray(before + 3 * start, before + 3 * (start + count));
+      return count === RIGID ? spread(part, vertices.array) : part;
+    };
+    const real = shape(0);
+    write(attributes, "modevizReal", real, Attribute);
+    if (complex) write(attributes, "modevizImaginary", shape(3 * total), Attribute);
+    else if (!last || last.complex || last.count !== count)
+      write(attributes, "modevizImaginary", new real.constructor(real.length), Attribute);
     for (const mesh of meshes) {
       for (const name in attributes) mesh.geometry.setAttribute(name, attributes[name]);
       if (!mesh.material.userData.own) patch(mesh.material);
-      if (last?.colored !== colored || last.opacity !== opacity) dress(mesh.material, colored, opacity);
+      if (LOOKS.some((look) => last?.[look] !== sent[look])) dress(mesh.material, sent);
       mesh.frustumCulled = false; // it moves out of the bounds it was loaded with
     }
     shown.set(group, { ...sent, attributes });
@@ -138,8 +192,10 @@
     return Object.keys(nodes)
       .filter((node) => nodes[node] && node.startsWith(prefix + "/"))
       .map((node) => {
-        const [order, count, opacity] = viewer.nodePoseData[node]?.position ?? [0, 0, 0];
-        return { name: node.slice(prefix.length), order, count, opacity };
+        const { position, wxyz } = viewer.nodePoseData[node] ?? { position: [0, 0, 0], wxyz: [] };
+        const [order, count, opacity] = position;
+        const [gain, power, colored] = wxyz;
+        return { name: node.slice(prefix.length), order, count, opacity, gain, power, colored: !!colored };
       })
       .filter(({ count }) => count)
       .sort((a, b) => a.order - b.order);
@@ -147,7 +203,7 @@
 
   // Gives every mesh the newest shape that was sent for it; true if one of them changed.
   function applyShapes(viewer, nodes, seconds) {
-    const { points, colors } = nodes[cloudName]?.message.props ?? {};
+    const { points } = nodes[cloudName]?.message.props ?? {};
     if (!points) return false;
     const meshes = drivenMeshes(viewer, nodes);
     const total = meshes.reduce((sum, { count }) => sum + count, 0);
@@ -157,13 +213,12 @@
       return wait("the shape of a mesh", seconds);
     }
     delete waiting["the shape of a mesh"];
-    const colored = colors.length === 3 * total;
     let changed = false;
     let complete = meshes.length > 0;
     let start = 0;
-    for (const { name, count, opacity } of meshes) {
-      const sent = { points, colors, complex, colored, total, start, count, opacity };
-      start += count;
+    for (const { name, order, ...looks } of meshes) {
+      const sent = { ...looks, points, complex, total, start };
+      start += looks.count;
       const group = viewer.nodeRefFromName[name]?.children[0];
       const last = group && shown.get(group);
       if (last && Object.keys(sent).every((key) => last[key] === sent[key])) continue;

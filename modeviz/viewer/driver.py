@@ -17,11 +17,13 @@ import viser
 from numpy.typing import NDArray
 from viser import _messages
 
-from modeviz.viewer.assign import send
+from modeviz.shapes.colors import Shade, stop_colors
+from modeviz.viewer.assign import assign, send
 
 PREFIX = "/_shape"
 """Where the hidden nodes of the meshes are; the rest of their name is their mesh's. Their position is
-the mesh's place among the shapes, its number of vertices and the opacity of its skin."""
+the mesh's place among the shapes, the number of points of its shape and the opacity of its skin; their
+orientation is the gain and the power of its shade, 1 if it has one, and 0."""
 
 CLOUD = "/_shapes"
 """The hidden point cloud that carries the shapes, one after the other."""
@@ -32,8 +34,10 @@ DRIVER = "/_driver"
 HELD = "/_held"
 """The hidden node of one page alone: while it is there, its position is the phase of that page."""
 
-NO_COLORS = np.zeros(3, np.uint8)
-"""One colour, and not one for each vertex: the page then draws the materials' own."""
+UNSHADED = (1.0, 0.0, 0.0, 0.0)
+
+AT_REST = np.zeros((2, 3), np.float32)
+"""The shape of a mesh that stands still, as a rigid motion."""
 
 LARGEST = float(np.finfo(np.float16).max)
 
@@ -50,8 +54,9 @@ class ShapeDriver:
         self._scene = scene
         self._meshes: dict[str, viser.GlbHandle] = {}
         self._nodes: dict[str, viser.FrameHandle] = {}
+        self._n_vertices: dict[str, int] = {}
         self._shapes: dict[str, NDArray] = {}
-        self._sent: dict[str, bytes] = {}
+        self._sent = b""
         self._n_added = 0
         self._amplitude, self._frequency_hz, self._running = 1.0, 1.0, False
         self._phase, self._n_seeks = 0.0, 0
@@ -59,7 +64,7 @@ class ShapeDriver:
         self._cloud = scene.add_point_cloud(
             CLOUD,
             np.zeros((0, 3), np.float16),
-            NO_COLORS,
+            np.zeros(3, np.uint8),
             point_size=1.0,
             precision="float16",
             visible=False,
@@ -67,12 +72,13 @@ class ShapeDriver:
         self._node = scene.add_frame(DRIVER, show_axes=False, visible=False)
         self._send_motion()
         script = files("modeviz.viewer").joinpath("driver.js").read_text("utf-8")
-        names = ", ".join(map(json.dumps, (PREFIX, CLOUD, DRIVER, HELD)))
-        source = f"({script.rstrip()})({names});"
+        stops = (stop_colors() / 255).tolist()
+        arguments = ", ".join(map(json.dumps, (PREFIX, CLOUD, DRIVER, HELD, stops)))
+        source = f"({script.rstrip()})({arguments});"
         scene._websock_interface.queue_message(_messages.RunJavascriptMessage(source=source))
 
     def add(self, name: str, glb: bytes, n_vertices: int, *, cast_shadow: bool = False) -> None:
-        """Adds a mesh, or replaces the one of that name, undeformed; colours have to be shown anew.
+        """Adds a mesh, or replaces the one of that name, at rest and in its own colours.
 
         Args:
             name: its place in the scene tree, "/vehicle/cab".
@@ -88,54 +94,71 @@ class ShapeDriver:
             self._nodes[name] = self._scene.add_frame(
                 PREFIX + name,
                 show_axes=False,
-                position=(self._n_added, n_vertices, 1.0),
+                position=(self._n_added, len(AT_REST), 1.0),
+                wxyz=UNSHADED,
                 visible=False,
             )
+            self._n_vertices[name] = n_vertices
             self._shapes.pop(name, None)  # the newest mesh is the last
-            self._shapes[name] = np.zeros((n_vertices, 3), np.float32)
-            self.show({})
+            self.show({name: AT_REST})
 
     def remove(self, name: str) -> None:
-        """Removes a mesh and its shape; colours have to be shown anew."""
+        """Removes a mesh and its shape."""
         with self._scene._websock_interface.atomic():
             self._meshes.pop(name).remove()
             self._nodes.pop(name).remove()
-            del self._shapes[name]
+            del self._shapes[name], self._n_vertices[name]
             self.show({})
 
-    def show(
-        self, shapes: Mapping[str, NDArray], colors: Mapping[str, NDArray[np.uint8]] | None = None
-    ) -> None:
-        """Sends meshes their shapes φ and their colours; the last ones sent are what every page shows.
+    def show(self, shapes: Mapping[str, NDArray]) -> None:
+        """Sends meshes their shapes φ; the last ones sent are what every page shows.
 
         Real shapes are half as long on the way as complex ones, and nothing new is nothing sent.
 
         Args:
-            shapes: (n_vertices, 3) by mesh, real or complex; a mesh that is left out keeps its own.
-                Single numbers beyond 65 504 cannot be sent.
-            colors: (n_vertices, 3) sRGB of the skin, of every mesh; without them it has its own colour.
+            shapes: by mesh, real or complex; a mesh that is left out keeps its own. (n_vertices, 3), or
+                (2, 3) for a rigid motion: the displacement of the mesh's first vertex, and the rotation
+                θ, so that a vertex at r from the first one moves by u + θ x r. Single numbers beyond
+                65 504 cannot be sent.
 
         Raises:
             ValueError: another number of vertices, or a value that is not finite or too large.
         """
-        _check_lengths("a shape", shapes, self._shapes)
+        for name, shape in shapes.items():
+            expected = (self._n_vertices[name], 3)
+            if shape.shape not in (expected, AT_REST.shape):
+                raise ValueError(f"{name}: found a shape of {shape.shape}, expected {expected}")
         newest = {**self._shapes, **shapes}
         points = _halves(newest.values())
-        skins = NO_COLORS
-        if colors is not None:
-            _check_lengths("colours", colors, newest)
-            skins = np.concatenate([colors[name] for name in newest])
         self._shapes = newest
+        content = points.tobytes()  # compared as numbers, halves would take ten times as long
         with self._scene._websock_interface.atomic():
-            self._send_if_new("points", points)
-            self._send_if_new("colors", skins)
+            for name, shape in shapes.items():
+                order, n_points, opacity = self._nodes[name].position
+                if n_points != len(shape):
+                    self._nodes[name].position = (order, len(shape), opacity)
+            if content != self._sent:
+                self._sent = content
+                send(self._cloud, "points", points)
+
+    def shade(self, shades: Mapping[str, Shade]) -> None:
+        """Colours the skins of meshes by how they move; a mesh without a shade has its own colours."""
+        for name, node in self._nodes.items():
+            found = shades.get(name)
+            coded = UNSHADED if found is None else (found.gain, float(found.power), 1.0, 0.0)
+            if tuple(node.wxyz) != coded:
+                node.wxyz = coded
+
+    def set_visible(self, name: str, visible: bool) -> None:
+        """Draws a mesh or leaves it out."""
+        assign(self._meshes[name], visible=visible)
 
     def set_opacity(self, name: str, factor: float) -> None:
         """Multiplies the opacity of a mesh's skin and glass."""
         node = self._nodes[name]
-        order, n_vertices, opacity = node.position
+        order, n_points, opacity = node.position
         if factor != opacity:
-            node.position = (order, n_vertices, factor)
+            node.position = (order, n_points, factor)
 
     def drive(
         self,
@@ -167,12 +190,6 @@ class ShapeDriver:
         frequency_hz = self._frequency_hz if self._running else 0.0
         self._node.position = (self._amplitude, frequency_hz, sought)
 
-    def _send_if_new(self, name: str, array: NDArray) -> None:
-        content = array.tobytes()  # compared as numbers, halves would take ten times as long
-        if content != self._sent.get(name):
-            self._sent[name] = content
-            send(self._cloud, name, array)
-
 
 @contextmanager
 def held(client: viser.ClientHandle) -> Iterator[Callable[[float], None]]:
@@ -189,13 +206,6 @@ def held(client: viser.ClientHandle) -> Iterator[Callable[[float], None]]:
         yield hold
     finally:
         node.remove()
-
-
-def _check_lengths(what: str, found: Mapping[str, NDArray], expected: Mapping[str, NDArray]) -> None:
-    """Raises ValueError if an array does not go with its mesh."""
-    for name, array in found.items():
-        if array.shape != expected[name].shape:
-            raise ValueError(f"{name}: found {what} of {array.shape}, expected {expected[name].shape}")
 
 
 def _halves(shapes: Iterable[NDArray]) -> NDArray[np.float16]:

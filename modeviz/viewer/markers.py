@@ -1,7 +1,7 @@
 """Marks on the vehicle: its mounts, the selected group's card, response points and tyre patches."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 import numpy as np
 import viser
@@ -12,6 +12,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, Mount, MountGroup, MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.assign import assign
+from modeviz.viewer.stage import Color
 
 RUBBER, SELECTED, WASHER, BLUE = (236, 190, 96), (242, 140, 24), (60, 64, 70), (43, 124, 196)
 RADIUS, HEIGHT = 0.045, 0.085
@@ -32,6 +33,9 @@ PATCH = (0.14, 0.10)
 
 PER_MM = factor("N/mm", "stiffness")
 
+Marks = list[tuple[viser.SceneNodeHandle, str]]
+"""What marks points of bodies, each with the name of its body."""
+
 
 class MountMarker:
     """A mount: rubber between two washers, along its own axes, with its name."""
@@ -39,10 +43,11 @@ class MountMarker:
     def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup) -> None:
         """Draws a mount at rest and not selected."""
         self._label_text = _short_name(mount, group)
-        self._looks: tuple[float, bool, bool] | None = None
+        self._looks: tuple[float, bool, bool, Color] | None = None
         axes = SO3.from_matrix(mount.axes.T).wxyz
         path = f"/mounts/{mount.name.replace('/', '-')}"
-        scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.points[0])
+        self._bodies = mount.bodies
+        self._frame = scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.points[0])
         self._rubber = scene.add_cylinder(
             f"{path}/rubber", RADIUS, HEIGHT, color=RUBBER, cast_shadow=False
         )
@@ -70,20 +75,25 @@ class MountMarker:
         for washer in self._washers:
             washer.on_click(lambda _: callback())
 
-    def show(self, share: float, selected: bool, carded: bool) -> None:
+    def hide(self, bodies: Collection[str]) -> None:
+        """Leaves the mount out while both bodies that it joins are."""
+        assign(self._frame, visible=not bodies or not set(self._bodies) <= set(bodies))
+
+    def show(self, share: float, selected: bool, carded: bool, color: Color = RUBBER) -> None:
         """Draws the mount by its share of the largest group's energy, and as selected or not.
 
         Args:
             share: 0 to 1.
             selected: whether its group is.
             carded: whether the group's card hangs on this mount and names it.
+            color: sRGB of its rubber while it is not selected.
         """
         size = SIZE_STEP * round((0.6 + 0.9 * math.sqrt(share)) / SIZE_STEP)
-        looks = (size, selected, carded)
+        looks = (size, selected, carded, color)
         if looks == self._looks:
             return
         self._looks = looks
-        assign(self._rubber, scale=size, color=SELECTED if selected else RUBBER)
+        assign(self._rubber, scale=size, color=SELECTED if selected else color)
         for washer, z in zip(self._washers, (WASHER_Z, -WASHER_Z), strict=True):
             assign(washer, scale=size)
             washer.position = (0.0, 0.0, z * size)
@@ -134,11 +144,23 @@ class Markers:
                 marker.on_click(lambda name=name: on_select(name))
         self._nearest = {name: _nearest_to_us(group) for name, group in self._groups.items()}
         self._card = Card(scene)
-        _add_points(scene, vehicle)
-        _add_patches(scene, vehicle)
+        self._others = _add_points(scene, vehicle) + _add_patches(scene, vehicle)
+
+    def hide(self, bodies: Collection[str]) -> None:
+        """Leaves out what hangs on nothing but bodies that are not drawn."""
+        for markers in self._mounts.values():
+            for marker in markers:
+                marker.hide(bodies)
+        for mark, body in self._others:
+            assign(mark, visible=body not in bodies)
 
     def show(
-        self, selected: str, rates: Mapping[str, MountRates], shares: Mapping[str, float], mode: str
+        self,
+        selected: str,
+        rates: Mapping[str, MountRates],
+        shares: Mapping[str, float],
+        mode: str,
+        colors: Mapping[str, Color],
     ) -> None:
         """Draws each group by its share of a mode's strain energy, and the selected one's card.
 
@@ -147,13 +169,15 @@ class Markers:
             rates: what the card says.
             shares: of the mode's strain energy, by group.
             mode: what the mode is called.
+            colors: sRGB, by group, of those whose colour means something.
         """
         largest = max(shares.values(), default=0.0) or 1.0
         for name, markers in self._mounts.items():
             is_selected = name == selected
             for i, marker in enumerate(markers):
                 is_carded = is_selected and i == self._nearest[name]
-                marker.show(shares[name] / largest, is_selected, is_carded)
+                color = colors.get(name, RUBBER)
+                marker.show(shares[name] / largest, is_selected, is_carded, color)
         group = self._groups.get(selected)
         if group is None:
             self._card.show("", np.zeros(3))
@@ -182,11 +206,13 @@ def _nearest_to_us(group: MountGroup) -> int:
     return int(np.argmin([mount.points[0][1] for mount in group.mounts]))
 
 
-def _add_points(scene: viser.SceneApi, vehicle: Vehicle) -> None:
+def _add_points(scene: viser.SceneApi, vehicle: Vehicle) -> Marks:
     """The response points; only those on our side are named, which is enough and less to read."""
+    marks: Marks = []
     for point in vehicle.response_points:
         path = f"/points/{point.name.replace('/', '-')}"
-        scene.add_icosphere(path, 0.038, BLUE, position=point.position, cast_shadow=False)
+        mark = scene.add_icosphere(path, 0.038, BLUE, position=point.position, cast_shadow=False)
+        marks.append((mark, point.body))
         if point.position[1] <= 0:
             scene.add_label(
                 f"{path}/name",
@@ -195,12 +221,15 @@ def _add_points(scene: viser.SceneApi, vehicle: Vehicle) -> None:
                 anchor="bottom-center",
                 font_screen_scale=0.8,
             )
+    return marks
 
 
-def _add_patches(scene: viser.SceneApi, vehicle: Vehicle) -> None:
+def _add_patches(scene: viser.SceneApi, vehicle: Vehicle) -> Marks:
+    """The tyre patches."""
+    marks: Marks = []
     for tyre in vehicle.tyres:
         x, y, _ = tyre.points[1]
-        scene.add_line_segments(
+        mark = scene.add_line_segments(
             f"/patches/{tyre.name.replace('/', '-')}",
             _ellipse(*PATCH),
             BLUE,
@@ -208,6 +237,8 @@ def _add_patches(scene: viser.SceneApi, vehicle: Vehicle) -> None:
             thickness_units="screen",
             position=(x, y, 0.004),
         )
+        marks.append((mark, tyre.bodies[0]))
+    return marks
 
 
 def _ellipse(along_x: float, along_y: float) -> np.ndarray:

@@ -1,31 +1,21 @@
 """The vehicle in the middle of the page: its bodies in a moving shape, its marks, the stage."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from modeviz.shapes.colors import displacement_colors
-from modeviz.shapes.gltf import glb
-from modeviz.shapes.motion import DRAWN_FRACTION, default_amplitude, displacement, vertex_shapes
-from modeviz.shapes.surface import Surface, surface
-from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import Body
+from modeviz.dynamics.assembly import System
+from modeviz.shapes.motion import default_amplitude
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
+from modeviz.viewer.cameras import Cameras
+from modeviz.viewer.coloring import Coloring, Shares, energy_shares, shades, share_colors, strain_shares
+from modeviz.viewer.drawn import DrawnBody
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.markers import Markers
-from modeviz.viewer.stage import DARK, FIELD_OF_VIEW, ISO, LIGHT, Stage, Theme, box, camera
-
-SHEET_ROLES = ("cabin", "bed")
-"""Bodies that hide others: they are seen through, and their outlines are drawn."""
-
-SEE_THROUGH = 0.5
-
-UNTOUCHED = 1e-3
-"""m: a camera this close to where it was put has not been moved by anybody."""
+from modeviz.viewer.stage import DARK, LIGHT, Stage, box
 
 
 class Scene:
@@ -46,117 +36,86 @@ class Scene:
             dark: whether the page is.
             on_select: called with the group of a clicked mount.
         """
-        scene, theme = server.scene, DARK if dark else LIGHT
+        theme = DARK if dark else LIGHT
         self._vehicle, self._box = vehicle, box(vehicle)
         self._server = server
-        self._stage = Stage(scene, self._box, theme)
-        self.driver = ShapeDriver(scene)
-        self._surfaces = {body.name: surface(body.mesh) for body in vehicle.bodies if body.mesh}
-        self._shapes = {
-            body.name: vertex_shapes(body, self._surfaces[body.name].vertices)
-            for body in self._drawn_bodies()
-        }
-        for body in self._drawn_bodies():
-            _add_body(self.driver, body, self._surfaces[body.name], theme)
-        self._ghosts = [
-            _add_ghost(scene, body, self._surfaces[body.name], theme)
-            for body in self._drawn_bodies()
-            if body.role in SHEET_ROLES
-        ]
-        self._markers = Markers(scene, vehicle, on_select)
-        self._views: dict[int, tuple[str, Floats]] = {}
-        self._aim_cameras()
+        self._stage = Stage(server.scene, self._box, theme)
+        self.driver = ShapeDriver(server.scene)
+        self._bodies = [DrawnBody(self.driver, body, theme) for body in vehicle.bodies if body.mesh]
+        self._markers = Markers(server.scene, vehicle, on_select)
+        self._cameras = Cameras(server, self._box)
+        self._followed = ""
 
     def show(self, solved: Solved) -> None:
-        """Draws the answer of a session: its mode's shape and energy, and how it wants to be seen."""
+        """Draws the answer of a session: what moves in it, and how it wants to be seen."""
         state = solved.state
-        coordinates = {
-            name: solved.movement.shape[dofs] for name, dofs in solved.now.prepared.system.dofs.items()
-        }
+        shares = energy_shares(solved)
         with self._server.atomic():
-            self.show_shape(coordinates, state.coloring == "displacement")
-            self.show_style(state.coloring == "displacement", state.see_through, state.ghost == "rest")
+            moving = solved.movement
+            drawn = self.show_shape(solved.now.prepared.system, moving.shape, moving.other)
+            self.show_colors(state.coloring, drawn, shares)
+            see_through = state.see_through and state.coloring == "bodies"
+            has_ghost = state.ghost == "rest" or moving.other is not None
+            self.show_bodies(state.hidden, see_through, has_ghost)
             if solved.is_detailed:
-                shares = {group: solved.strain[group] for group in state.rates}
-                mode = solved.name.spoken
-                self._markers.show(state.group, state.rates, shares, mode)
+                strain = strain_shares(solved)
+                groups = {group: strain[group] for group in state.rates}
+                what = moving.title[:1].lower() + moving.title[1:]
+                self._markers.show(state.group, state.rates, groups, what, share_colors(shares))
+        self.follow(state.group if state.follow else "")
 
-    def show_shape(self, coordinates: Mapping[str, NDArray], colored: bool) -> None:
+    def show_shape(
+        self, system: System, shape: NDArray, other: NDArray | None
+    ) -> Mapping[str, NDArray]:
         """Sends the page a shape, scaled so that it is clear to see at the driver's amplitude of one.
 
         Args:
-            coordinates: of every body by name, (n_coordinates,), real or complex.
-            colored: whether bodies have the colours of their displacement.
-        """
-        shapes = {name: displacement(s, coordinates[name]) for name, s in self._shapes.items()}
-        scale = default_amplitude(shapes.values(), self._box.length)
-        drawn = {_path(name): scale * shape for name, shape in shapes.items()}
-        largest = DRAWN_FRACTION * self._box.length
-        colors = None
-        if colored:
-            colors = {path: displacement_colors(shape, largest) for path, shape in drawn.items()}
-        self.driver.show(drawn, colors)
+            system: whose coordinates they are.
+            shape: (n_dofs,), real or complex.
+            other: the shape that outlines show, on the same scale; without it they rest.
 
-    def show_style(self, colored: bool, see_through: bool, ghost: bool) -> None:
-        """Chooses light and transparency, and whether the outlines at rest are there."""
-        self._stage.light(colored)
-        opacity = SEE_THROUGH if see_through and not colored else 1.0
-        for body in self._drawn_bodies():
-            if body.role in SHEET_ROLES:
-                self.driver.set_opacity(_path(body.name), opacity)
-        for outline in self._ghosts:
-            assign(outline, visible=ghost)
+        Returns:
+            The displacements of bodies by name as they are drawn, (n_vertices, 3), m.
+        """
+        shapes = {b.name: b.displacement(shape[system.dofs[b.name]]) for b in self._bodies}
+        scale = default_amplitude(shapes.values(), self._box.length)
+        drawn = {name: scale * shape for name, shape in shapes.items()}
+        points = {}
+        for body in self._bodies:
+            dofs = system.dofs[body.name]
+            beside = None if other is None else scale * other[dofs]
+            points |= body.points(drawn[body.name], scale * shape[dofs], beside)
+        self.driver.show(points)
+        return drawn
+
+    def show_colors(self, coloring: Coloring, drawn: Mapping[str, NDArray], shares: Shares) -> None:
+        """Colours bodies by what moves as drawn, and chooses the light for it."""
+        self._stage.light(colored=coloring != "bodies")
+        chosen = shades(coloring, drawn, self._box.length, shares)
+        self.driver.shade({b.path: chosen[b.name] for b in self._bodies if b.name in chosen})
+
+    def show_bodies(self, hidden: Collection[str], see_through: bool, ghost: bool) -> None:
+        """Chooses what is drawn.
+
+        Args:
+            hidden: names of bodies that are not, nor what hangs only on them.
+            see_through: whether sheet metal lets one see mounts and engine.
+            ghost: whether outlines are drawn beside it.
+        """
+        for body in self._bodies:
+            body.show(body.name not in hidden, see_through, ghost)
+        self._markers.hide(hidden)
+
+    def follow(self, group: str) -> None:
+        """Turns the cameras of all pages to the mounts of a group; none, "", is the whole vehicle."""
+        if group == self._followed:
+            return
+        self._followed = group
+        mounts = [
+            mount.points[0] for g in self._vehicle.mount_groups if g.name == group for mount in g.mounts
+        ]
+        self._cameras.follow(np.mean(mounts, axis=0) if mounts else None)
 
     def look(self, client: viser.ClientHandle, view: str) -> None:
         """Turns a page's camera to one of `stage.VIEWS`."""
-        position, look_at = camera(self._box, view, client.camera.aspect)
-        self._views[client.client_id] = view, position
-        with client.atomic():
-            client.camera.position = position
-            client.camera.look_at = look_at
-
-    def _drawn_bodies(self) -> list[Body]:
-        return [body for body in self._vehicle.bodies if body.name in self._surfaces]
-
-    def _aim_cameras(self) -> None:
-        """Points the cameras of pages to come at the vehicle."""
-        initial = self._server.initial_camera
-        initial.position, initial.look_at = camera(self._box, ISO, aspect=1.0)
-        initial.fov = FIELD_OF_VIEW
-
-        @self._server.on_client_connect
-        def _(client: viser.ClientHandle) -> None:
-            self.look(client, ISO)
-            client.camera.on_update(lambda _: self._keep_framed(client))
-
-        @self._server.on_client_disconnect
-        def _(client: viser.ClientHandle) -> None:
-            self._views.pop(client.client_id, None)
-
-    def _keep_framed(self, client: viser.ClientHandle) -> None:
-        """Looks again when the picture's shape has changed, unless somebody has moved the camera."""
-        if client.client_id not in self._views:
-            return
-        view, position = self._views[client.client_id]
-        framed, _ = camera(self._box, view, client.camera.aspect)
-        is_untouched = np.allclose(client.camera.position, position, atol=UNTOUCHED)
-        if is_untouched and not np.allclose(framed, position, atol=UNTOUCHED):
-            self.look(client, view)
-
-
-def _path(body: str) -> str:
-    return f"/vehicle/{body.replace('/', '-')}"
-
-
-def _add_body(driver: ShapeDriver, body: Body, drawn: Surface, theme: Theme) -> None:
-    edge_color = theme.edges if body.role in SHEET_ROLES else None
-    driver.add(_path(body.name), glb(drawn, edge_color), len(drawn.vertices), cast_shadow=True)
-
-
-def _add_ghost(
-    scene: viser.SceneApi, body: Body, drawn: Surface, theme: Theme
-) -> viser.LineSegmentsHandle:
-    """The outlines of a body at rest."""
-    points = drawn.vertices[drawn.edges].astype(np.float32)
-    path = f"/ghost/{body.name.replace('/', '-')}"
-    return scene.add_line_segments(path, points, theme.ghost, thickness=1.0, thickness_units="screen")
+        self._cameras.look(client, view)

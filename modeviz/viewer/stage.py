@@ -15,14 +15,20 @@ FIELD_OF_VIEW = 0.52
 """rad, vertical: that of a long lens, which keeps a vehicle's lines nearly parallel."""
 
 ISO = "Iso"
-VIEWS: Mapping[str, tuple[tuple[float, float, float], float]] = {
-    ISO: ((-4.6, -6.1, 2.75), 1.0),
-    "Side": ((0.0, -1.0, 0.08), 1.06),
-    "Front": ((-1.0, 0.0, 0.12), 0.78),
-    "Top": ((0.0, -0.02, 1.0), 1.06),
-    "Under": ((0.0, -0.02, -1.0), 1.06),
+VIEWS: Mapping[str, tuple[float, float, float]] = {
+    ISO: (-4.6, -6.1, 2.75),
+    "Side": (0.0, -1.0, 0.08),
+    "Front": (-1.0, 0.0, 0.12),
+    "Top": (0.0, -0.02, 1.0),
+    "Under": (0.0, -0.02, -1.0),
 }
-"""From which direction, and from how far in parts of `Box.distance`; the driver's side faces us."""
+"""From which direction; the driver's side faces us."""
+
+FILLED = 0.94
+"""How much of its picture a vehicle takes."""
+
+CARD_HEIGHT, CARD_FRACTION = 300, 0.32
+"""The card at the bottom hides so many pixels, of which so much of the picture is kept free."""
 
 
 @dataclass(frozen=True)
@@ -73,15 +79,16 @@ class Box:
         return max(self.high[0] - self.low[0], self.high[1] - self.low[1], 0.1)
 
     @property
-    def look_at(self) -> Floats:
-        """Its middle, a little low: what matters are the mounts, and the card stands below."""
+    def middle(self) -> Floats:
+        """Where a camera turns about it: low, for what matters are the mounts."""
         low, high = np.array(self.low), np.array(self.high)
-        return low + (high - low) * (0.5, 0.5, 0.3)
+        return low + (high - low) * (0.5, 0.5, 0.4)
 
     @property
-    def distance(self) -> float:
-        """From where it fills a camera that is as wide as it is high."""
-        return 2.2 * self.length
+    def corners(self) -> Floats:
+        """(8, 3), m."""
+        ends = np.array([self.low, self.high])
+        return np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
 def box(vehicle: Vehicle) -> Box:
@@ -92,17 +99,48 @@ def box(vehicle: Vehicle) -> Box:
     return Box(tuple(everything.min(axis=0).tolist()), tuple(everything.max(axis=0).tolist()))
 
 
-def camera(box: Box, view: str, aspect: float) -> tuple[Floats, Floats]:
+def camera(box: Box, view: str, width: int, height: int) -> tuple[Floats, Floats]:
     """Where the camera is and what it looks at, for one of `VIEWS`, m.
+
+    The box fills the picture as far as it can and stays clear of the card at the bottom.
 
     Args:
         box: what to show.
         view: one of `VIEWS`.
-        aspect: width over height of the picture; a narrow one is looked at from further away.
+        width: of the picture, pixels.
+        height: of the picture, pixels.
     """
-    direction, factor = VIEWS[view]
-    distance = factor * box.distance * max(1.0, 0.98 / aspect)
-    return box.look_at + distance * np.array(direction) / np.linalg.norm(direction), box.look_at
+    backward = np.array(VIEWS[view]) / np.linalg.norm(VIEWS[view])
+    right = np.cross([0, 0, 1.0], backward)
+    right /= np.linalg.norm(right)
+    up = np.cross(backward, right)
+    half = np.tan(FIELD_OF_VIEW / 2)
+    across, above, nearer = np.stack([right, up, backward]) @ (box.corners - box.middle).T
+    below = 2 * min(CARD_HEIGHT / height, CARD_FRACTION) - 1
+    x_range = FILLED * half * width / height * np.array([-1, 1])
+    y_range = FILLED * half * np.array([below, 1])
+    distance = max(_nearest(across, nearer, x_range), _nearest(above, nearer, y_range))
+    look_at = box.middle + _moved(across, nearer, x_range, distance) * right
+    look_at += _moved(above, nearer, y_range, distance) * up
+    return look_at + distance * backward, look_at
+
+
+def _nearest(places: Floats, nearer: Floats, seen: Floats) -> float:
+    """The smallest distance from which points fit a camera that may be moved along `places`.
+
+    A point is seen at (place - s) / (distance - nearer), which has to be within `seen` for some s.
+    """
+    low, high = seen
+    reach = (places + high * nearer)[:, None] - (places + low * nearer)[None]
+    return float(reach.max() / (high - low))
+
+
+def _moved(places: Floats, nearer: Floats, seen: Floats, distance: float) -> float:
+    """The smallest s that makes points fit from a distance."""
+    low, high = seen
+    lower = (places - high * (distance - nearer)).max()
+    upper = (places - low * (distance - nearer)).min()
+    return float(np.clip(0.0, lower, upper))
 
 
 class Stage:
@@ -150,7 +188,7 @@ def _add_ground(scene: viser.SceneApi, box: Box, theme: Theme) -> None:
         "/ground",
         width=round(2.6 * box.length),
         height=round(1.9 * box.length),
-        position=(float(box.look_at[0]), float(box.look_at[1]), 0.0),
+        position=(float(box.middle[0]), float(box.middle[1]), 0.0),
         cell_color=theme.cells,
         cell_thickness=0.6,
         section_color=theme.sections,

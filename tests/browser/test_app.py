@@ -260,7 +260,7 @@ def test_a_move_of_a_slider_sends_its_shape_once_and_less_than_200_kb(app, serve
         app.session.set_rate("C2", "lateral", 250e3)
         assert app.session.wait_checked(SOLVE_S)
         sent = sum(map(len, drained(socket)))
-    shape = 6 * sum(len(s.vertices) for s in app._scene._surfaces.values())
+    shape = len(app._scene.driver._sent)
     assert shape < sent < min(2 * shape, 200_000)
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from pages import wait_for
 
+from modeviz.shapes.colors import Shade
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import animated
 from modeviz.shapes.surface import surface
@@ -15,7 +16,6 @@ HALF = 2.0**-11  # relative rounding of half precision
 PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
 SHAPE = np.array([[0.1, 0, 1], [0.2, 0, 1], [0, 0.3, 1], [0, 0.4j, 1]])
-COLORS = np.array([[0, 10, 20], [30, 40, 50], [60, 70, 80], [90, 100, 110]], np.uint8)
 
 READ = """
 (() => {
@@ -26,7 +26,7 @@ READ = """
   const real = meshes[0].geometry.attributes.modevizReal;
   const values = (name) => Array.from(meshes[0].geometry.attributes[name]?.array ?? []);
   return {
-    real: values("modevizReal"), imaginary: values("modevizImaginary"), colors: values("color"),
+    real: values("modevizReal"), imaginary: values("modevizImaginary"),
     position: values("position"),
     shared: meshes.every((m) => m.geometry.attributes.modevizReal === real),
     kinds: meshes.map((m) => m.type),
@@ -36,6 +36,14 @@ READ = """
       color: m.material.color.toArray(), roughness: m.material.roughness,
     })),
   };
+})()
+"""
+
+MATERIAL = """
+(() => {
+  let found;
+  window.__viserMutable.nodeRefFromName[a.name]?.traverse((object) => { found ??= object.material; });
+  return found;
 })()
 """
 
@@ -164,19 +172,63 @@ def test_real_shape_travels_in_six_bytes_a_vertex_and_an_old_one_not_at_all(serv
         new = [m for i, m in buffer.message_from_id.items() if i >= first]
         return sum(array.nbytes for m in new for array in m.updates.values())
 
+    driver.show({NAME: whole(SHAPE)})
     assert bytes_of(whole(SHAPE) * 2) == 12 * 12
     assert bytes_of(whole(SHAPE).real * 2) == 12 * 6
     assert bytes_of(whole(SHAPE).real * 2) == 0
 
 
+def test_rigid_motion_moves_every_vertex_with_the_first_and_turns_them_about_it(driver, page):
+    motion = np.array([[0.1, 0.2j, 0.3], [0.4, -0.5, 0.6j]])
+    driver.show({NAME: motion})
+    wait_for(page, f"({READ.strip()})?.imaginary[1] > 0.1", name=NAME)
+    read = wait_for(page, READ, name=NAME)
+    vertices = cab().vertices
+    exact = motion[0] + np.cross(motion[1], vertices - vertices[0])
+    for part, values in (("real", exact.real), ("imaginary", exact.imag)):
+        largest = HALF * (0.3 + 0.6 * np.ptp(vertices, axis=0).max() * 2)
+        assert np.reshape(read[part], (-1, 3)) == pytest.approx(values, abs=largest)
+
+
+def test_mesh_moves_freely_again_after_a_rigid_motion(driver, page):
+    driver.show({NAME: np.ones((2, 3))})
+    wait_for(page, f"({READ.strip()})?.real[0] === 1", name=NAME)
+    driver.show({NAME: whole(SHAPE) * 2})
+    assert shown_real(page, 2.0) == pytest.approx(whole(SHAPE).real * 2, rel=HALF)
+
+
+@pytest.mark.parametrize(
+    ("power", "gain", "value"),
+    [(1, 2.0, 0.6), (2, 2.0, 0.26)],  # of 0.3 and 0.2 at right angles: the largest, and 0.09 + 0.04
+)
+def test_shader_colors_by_the_measure_of_the_displacement(server, driver, page, power, gain, value):
+    client = next(iter(server.get_clients().values()))
+    client.camera.position, client.camera.look_at, client.camera.fov = (-10.0, 0, 0), (0.0, 0, 0), 0.5
+    driver.show({NAME: np.tile([0.0, 0.3, 0.2j], (12, 1))})
+    wait_for(page, f"({READ.strip()})?.imaginary[2] > 0.1", name=NAME)
+    driver.drive(amplitude=0.0)
+    light = server.scene.add_light_ambient("/light", intensity=2.0)
+
+    def picture(shade):
+        driver.shade({NAME: shade})
+        coded = [shade.gain, shade.power]
+        shown = "(m => m?.userData.shade?.value.join() === a.coded.join() && m.vertexColors)"
+        wait_for(page, f"{shown}({MATERIAL})", name=NAME, coded=coded)
+        return client.get_render(height=100, width=100)[35:65, 35:65].reshape(-1, 3).mean(axis=0)
+
+    measured = picture(Shade(gain, power))
+    assert measured == pytest.approx(picture(Shade(value, 0)), abs=1.5)
+    assert np.abs(measured - picture(Shade(value + 0.1, 0))).max() > 5
+    light.remove()
+
+
 def test_colors_are_drawn_on_the_skin_only_while_asked(driver, page):
     own = wait_for(page, READ, name=NAME)["materials"]
-    driver.show({NAME: whole(SHAPE)}, {NAME: np.tile(COLORS, (3, 1))})
+    driver.shade({NAME: Shade(0.5, 0)})
     colored = wait_for(page, f"(s => s?.materials[0].colored && s)({READ.strip()})", name=NAME)
-    assert colored["colors"] == np.tile(COLORS, (3, 1)).reshape(-1).tolist()
     assert [m["colored"] for m in colored["materials"]] == [True, False, False, False]
     assert colored["materials"][0]["color"] == [1, 1, 1]
-    driver.show({NAME: whole(SHAPE)})
+    driver.shade({})
     plain = wait_for(page, f"(s => s && !s.materials[0].colored && s)({READ.strip()})", name=NAME)
     assert plain["materials"] == own
 
@@ -280,15 +332,14 @@ def test_page_that_cannot_be_patched_says_so(server, driver, open_page, no_error
 
 
 @pytest.mark.parametrize(
-    ("shape", "colors", "said"),
+    ("shape", "said"),
     [
-        (np.zeros((5, 3)), None, "expected"),
-        (np.full((12, 3), np.nan), None, "not finite"),
-        (np.full((12, 3), 1e5), None, "not finite or beyond 65504"),
-        (np.full((12, 3), 1j * np.inf), None, "not finite"),
-        (np.zeros((12, 3)), {NAME: np.zeros((4, 3), np.uint8)}, "colours"),
+        (np.zeros((5, 3)), "expected"),
+        (np.full((12, 3), np.nan), "not finite"),
+        (np.full((12, 3), 1e5), "not finite or beyond 65504"),
+        (np.full((12, 3), 1j * np.inf), "not finite"),
     ],
 )
-def test_shape_that_cannot_be_sent_is_refused(driver, shape, colors, said):
+def test_shape_that_cannot_be_sent_is_refused(driver, shape, said):
     with pytest.raises(ValueError, match=said):
-        driver.show({NAME: shape}, colors)
+        driver.show({NAME: shape})

@@ -1,7 +1,10 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pages import wait_for, wait_until
 
+from modeviz.shapes.motion import peak_displacement
 from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.results import Conditions, solve_modal
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Material, MeshPart, RigidBody
@@ -9,6 +12,7 @@ from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, T
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
+from modeviz.viewer.coloring import energy_shares, largest_share
 from modeviz.viewer.movement import Movement
 from modeviz.viewer.scene import Scene
 from modeviz.viewer.state import State
@@ -61,6 +65,8 @@ PLACES = """
   return [box.left + ((near.x + 1) / 2) * box.width, box.top + ((1 - near.y) / 2) * box.height];
 })()
 """
+
+RUBBER = "window.__viserSceneTree.getState()['/mounts/C left/rubber'].message.props.color"
 
 
 @pytest.fixture(scope="module")
@@ -130,27 +136,36 @@ def node(page, name):
 
 
 def drawn(page, body):
-    """The shape the page draws, the opacity of its first material and whether that has colours."""
-    bits, opacity, colored = page.evaluate(
+    """The shape the page draws, the opacity of its first material and the shade that colours it."""
+    values, is_half, opacity, shade = page.evaluate(
         """name => {
           let mesh;
           const group = window.__viserMutable.nodeRefFromName[name];
           group?.traverse((object) => { if (object.geometry?.index) mesh ??= object; });
-          if (!mesh?.geometry.attributes.modevizReal) return [[], 0, false];
-          const shape = Array.from(mesh.geometry.attributes.modevizReal.array);
-          return [shape, mesh.material.opacity, mesh.material.vertexColors];
+          if (!mesh?.geometry.attributes.modevizReal) return [[], false, 0, null];
+          const { array } = mesh.geometry.attributes.modevizReal;
+          const { opacity, vertexColors, userData } = mesh.material;
+          const shade = vertexColors ? userData.shade.value : null;
+          return [Array.from(array), array instanceof Uint16Array, opacity, shade];
         }""",
-        f"/vehicle/{body}",
+        body if body.startswith("/") else f"/vehicle/{body}",
     )
-    return np.array(bits, np.uint16).view(np.float16).astype(float).reshape(-1, 3), opacity, colored
+    shape = np.array(values, np.uint16).view(np.float16) if is_half else np.array(values)
+    return shape.astype(float).reshape(-1, 3), opacity, shade
 
 
 def show(scene, page, answer):
-    """Draws an answer, and waits until the page has taken over every body's shape."""
+    """Draws an answer, and waits until the page has taken over the cab's shape, with which all come."""
     scene.show(answer)
-    for body in ("cab", "axle"):
-        sent = scene.driver._shapes[f"/vehicle/{body}"].astype(np.float16)
-        wait_until(page, lambda body=body, sent=sent: np.array_equal(drawn(page, body)[0], sent))
+    sent = scene.driver._shapes["/vehicle/cab"].real.astype(np.float16)
+    wait_until(page, lambda: np.array_equal(drawn(page, "cab")[0], sent))
+
+
+def displacements(modal, shape):
+    """Of the corners of cab and axle, by their rigid motions."""
+    cab, axle = (shape[modal.prepared.system.dofs[body]] for body in ("cab", "axle"))
+    arms = corners((0, 0, 0.3), (0.2, 1.8, 0.2)) - [0, 0, 0.3]
+    return modal.vehicle.body("cab").shapes[:, :3] @ cab, axle[:3] + np.cross(axle[3:], arms)
 
 
 def test_shape_is_drawn_in_proportion_with_its_largest_at_a_fortieth_of_the_length(scene, page, modal):
@@ -158,25 +173,80 @@ def test_shape_is_drawn_in_proportion_with_its_largest_at_a_fortieth_of_the_leng
     show(scene, page, solved(modal, mode, see_through=False))
     bodies = [drawn(page, body)[0] for body in ("cab", "axle")]
     assert max(np.linalg.norm(b, axis=1).max() for b in bodies) == pytest.approx(4.0 / 40, rel=HALF)
-    q = modal.modes.shapes[modal.prepared.system.dofs["axle"], mode]
-    exact = q[:3] + np.cross(q[3:], corners((0, 0, 0.3), (0.2, 1.8, 0.2)) - [0, 0, 0.3])
-    cab_q = modal.modes.shapes[modal.prepared.system.dofs["cab"], mode]
-    cab_exact = modal.vehicle.body("cab").shapes[:, :3] @ cab_q
-    factor = 0.1 / max(np.linalg.norm(exact, axis=1).max(), np.linalg.norm(cab_exact, axis=1).max())
-    assert bodies[1] == pytest.approx(factor * exact, abs=0.1 * HALF)
-    assert bodies[0] == pytest.approx(factor * cab_exact, abs=0.1 * HALF)
+    exact = displacements(modal, modal.modes.shapes[:, mode])
+    factor = 0.1 / max(np.linalg.norm(u, axis=1).max() for u in exact)
+    turn = factor * np.abs(modal.modes.shapes[modal.prepared.system.dofs["axle"], mode][3:]).max()
+    assert bodies[1] == pytest.approx(factor * exact[1], abs=HALF * (0.1 + 2 * turn))
+    assert bodies[0] == pytest.approx(factor * exact[0], abs=0.1 * HALF)
 
 
 def test_cab_is_seen_through_and_axle_is_not(scene, page, modal):
     show(scene, page, solved(modal, 8, see_through=True))
-    wait_until(page, lambda: drawn(page, "cab")[1:] == (0.5, False))
-    wait_until(page, lambda: drawn(page, "axle")[1:] == (1, False))
+    wait_until(page, lambda: drawn(page, "cab")[1:] == (0.5, None))
+    wait_until(page, lambda: drawn(page, "axle")[1:] == (1, None))
 
 
 def test_displacement_colors_are_on_opaque_bodies(scene, page, modal):
     show(scene, page, solved(modal, 9, coloring="displacement", see_through=True))
-    wait_until(page, lambda: drawn(page, "cab")[1:] == (1, True))
-    wait_until(page, lambda: drawn(page, "axle")[1:] == (1, True))
+    shade = [pytest.approx(1 / 0.1), 1]
+    wait_until(page, lambda: drawn(page, "cab")[1:] == (1, shade))
+    wait_until(page, lambda: drawn(page, "axle")[1:] == (1, shade))
+
+
+def test_kinetic_energy_colors_the_body_that_has_most_of_it_to_the_end_of_the_scale(scene, page, modal):
+    mode = 7
+    answer = solved(modal, mode, coloring="kinetic energy")
+    show(scene, page, answer)
+    shares = {body: share[mode] for body, share in modal.kinetic_energy.items()}
+    assert dict(energy_shares(answer)) == pytest.approx(shares)
+    for body, share in shares.items():
+        wait_until(page, lambda body=body: (drawn(page, body)[2] or [0, 0])[1] == 2)
+        shape, _, (gain, _) = drawn(page, body)
+        most = (shape**2).sum(axis=1).max()
+        assert gain * most == pytest.approx(share / max(shares.values()), rel=4 * HALF)
+
+
+def test_strain_energy_colors_mounts_on_the_scale_of_the_bodies(scene, page, modal):
+    answer = solved(modal, 7, coloring="strain energy", group="")
+    show(scene, page, answer)
+    shares = energy_shares(answer)
+    assert set(shares) == {"cab", "C"}  # no tyres: they are not drawn as what is strained
+    assert largest_share(shares) == shares["C"] > shares["cab"]
+    wait_until(page, lambda: drawn(page, "cab")[2] == [shares["cab"] / shares["C"], 0])
+    last = "[176, 44, 52]"
+    wait_for(page, f"JSON.stringify({RUBBER}) === a.last.replaceAll(' ', '')", last=last)
+    scene.show(solved(modal, 7, group=""))
+    wait_for(page, f"JSON.stringify({RUBBER}) === '[236,190,96]'")
+
+
+def test_bodies_are_left_out_one_by_one_with_what_hangs_only_on_them(scene, page, modal):
+    def shown(*hidden):
+        scene.show(solved(modal, hidden=frozenset(hidden)))
+        names = ["/vehicle/cab", "/ghost/cab", "/vehicle/axle", "/mounts/C left", "/points/seat"]
+        names.append("/patches/tyre")
+        read = "a.names.map((n) => window.__viserSceneTree.getState()[n].effectiveVisibility)"
+        return lambda: page.evaluate(f"a => {read}", {"names": names})
+
+    found = shown("cab")
+    wait_until(page, lambda: found() == [False, False, True, True, False, True])
+    found = shown("cab", "axle")
+    wait_until(page, lambda: found() == [False] * 6)
+    found = shown()
+    wait_until(page, lambda: found() == [True] * 6)
+
+
+def test_complex_shape_is_drawn_with_both_parts_and_its_outlines_with_another(scene, page, modal):
+    first, second = modal.modes.shapes[:, 7], modal.modes.shapes[:, 8]
+    answer = solved(modal, 7, ghost="compared")
+    movement = Movement("Damped", 1.0, "", first + 1j * second, second)
+    show(scene, page, replace(answer, movement=movement))
+    (cab, axle), (beside, _) = displacements(modal, movement.shape), displacements(modal, second)
+    factor = 0.1 / max(peak_displacement(u).max() for u in (cab, axle))
+    assert drawn(page, "cab")[0] == pytest.approx(factor * cab.real, abs=0.1 * HALF)
+    ghost = drawn(page, "/ghost/cab")[0]
+    assert ghost == pytest.approx(factor * beside, rel=HALF, abs=0.1 * HALF)
+    scene.show(solved(modal, 7, ghost="rest"))
+    wait_until(page, lambda: not drawn(page, "/ghost/cab")[0].any())
 
 
 def test_outlines_at_rest_are_those_of_the_cab_and_can_be_put_away(scene, page, modal):
@@ -227,7 +297,7 @@ def test_view_stays_framed_when_the_page_narrows_until_somebody_moves_the_camera
         scene.look(client, "Iso")
         wide = distance()
         resize(200)
-        wait_until(page, lambda: distance() == pytest.approx(wide * 0.98 / 0.5, rel=1e-3))
+        wait_until(page, lambda: distance() > 1.5 * wide)
         resize(900)
         wait_until(page, lambda: distance() == pytest.approx(wide, rel=1e-3))
         page.mouse.move(450, 200)
@@ -240,6 +310,18 @@ def test_view_stays_framed_when_the_page_narrows_until_somebody_moves_the_camera
         assert distance() == pytest.approx(moved, rel=1e-3)
     finally:
         resize(900)
+
+
+def test_camera_glides_to_the_mounts_that_are_followed_and_back(server, scene, page, modal):
+    camera = next(iter(server.get_clients().values())).camera
+    scene.look(next(iter(server.get_clients().values())), "Side")
+    framed, offset = camera.look_at, camera.position - camera.look_at
+    scene.show(solved(modal, follow=True))
+    wait_until(page, lambda: np.allclose(camera.look_at, [0, 0, 0.6], atol=1e-3))
+    assert camera.position - camera.look_at == pytest.approx(offset, abs=1e-3)
+    scene.show(solved(modal, follow=False))
+    wait_until(page, lambda: np.allclose(camera.look_at, framed, atol=1e-3))
+    assert camera.position - camera.look_at == pytest.approx(offset, abs=1e-3)
 
 
 def test_clicking_a_mount_selects_its_group(server, scene, page, chosen):

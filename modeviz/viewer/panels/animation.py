@@ -5,9 +5,11 @@ from collections.abc import Callable
 import numpy as np
 import viser
 
-from modeviz.shapes.colors import DISPLACEMENT_STOPS
+from modeviz.export.wording import sentence_case
+from modeviz.shapes.colors import COLOR_STOPS
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
+from modeviz.viewer.coloring import energy_shares, largest_share
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.html import block, heading, style_sheet, title
 from modeviz.viewer.settle import WriteBack
@@ -73,7 +75,7 @@ class AnimationCard:
         name = title(solved.name.spoken)
         mode = f'<span class="title">{name}  {modes.frequency_hz[i]:.2f} Hz</span>'
         about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
-        scale = _color_scale() if solved.state.coloring == "displacement" else ""
+        scale = _color_scale(solved) if solved.state.coloring != "bodies" else ""
         assign(self._head, content=block(heading(mode, about), scale))
 
     def toggle(self) -> None:
@@ -96,11 +98,16 @@ class AnimationCard:
             self._run(button == PLAY)
 
 
-def _color_scale() -> str:
-    """What the colours of the displacement mean."""
-    ticks = "".join(f"<span>{percent} %</span>" for percent in (0, 25, 50, 75, 100))
+def _color_scale(solved: Solved) -> str:
+    """What the colours of bodies mean."""
+    coloring = solved.state.coloring
+    if coloring == "displacement":
+        last, about = 1.0, "relative to the largest on the bodies"
+    else:
+        last, about = largest_share(energy_shares(solved)), "share of each body"
+    ticks = "".join(f"<span>{100 * last * part:.0f} %</span>" for part in (0, 0.25, 0.5, 0.75, 1))
     return (
-        heading("Displacement", "relative to the largest on the bodies")
+        heading(sentence_case(coloring), about)
         + '<div class="scale" style="background:linear-gradient(90deg,'
-        + f'{",".join(DISPLACEMENT_STOPS)})"></div><div class="ticks dim">{ticks}</div>'
+        + f'{",".join(COLOR_STOPS)})"></div><div class="ticks dim">{ticks}</div>'
     )
