@@ -235,6 +235,13 @@ def test_the_same_set_twice_changes_nothing():
     assert all(row[-1] == "" for row in Document(text).tables["Natural frequencies below 25 Hz"][2:])
 
 
+def test_an_identity_that_is_uncertain_is_told_even_of_the_same_name(comparison):
+    f = "Natural frequencies below 25 Hz"
+    doubtful = replace(comparison.track, step_mac=np.zeros_like(comparison.track.step_mac))
+    document = Document(report(replace(comparison, track=doubtful), TODAY))
+    assert all("MAC" in row[-1] for row in document.tables[f][2:] if row[1] != "–")
+
+
 def test_where_name_and_shape_part_the_shape_is_followed():
     """As README has it: cab yaw at 9.78 Hz, the original's shape at 11.88 Hz with a MAC of 0.43."""
     truck = read_vehicle(builtin_vehicle())

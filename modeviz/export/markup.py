@@ -1,6 +1,7 @@
 """Pieces of HTML that need no program behind them. Cells and content are HTML already, see `escape`."""
 
 from collections.abc import Collection, Sequence
+from functools import lru_cache
 from html import escape
 
 from modeviz.export.wording import percent_change, sentence_case
@@ -16,13 +17,14 @@ def span(content: str, kind: str) -> str:
     return f'<span class="{kind}">{content}</span>'
 
 
+@lru_cache
 def title(name: str) -> str:
     """A name with a capital, escaped."""
     return escape(sentence_case(name))
 
 
-def less_is_better(now: float, base: float) -> str:
-    """The change in percent, in the colour of what it means."""
+def change(now: float, base: float) -> str:
+    """The change in percent, good or bad where less is better."""
     text = percent_change(now, base)
     unchanged = text in ("0.0 %", "–")
     return span(text, "dim" if unchanged else "good" if now < base else "bad")

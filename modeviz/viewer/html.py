@@ -1,13 +1,13 @@
 """Fragments of page text: tables, changes, and rows that can be clicked."""
 
 from collections.abc import Iterable, Sequence
-from functools import lru_cache
-from html import escape
 from importlib.resources import files
 
 import viser
 
-from modeviz.export.wording import sentence_case, signed
+from modeviz.export.markup import change as change
+from modeviz.export.markup import span as span
+from modeviz.export.markup import title as title
 
 
 def style_sheet() -> str:
@@ -48,24 +48,6 @@ def row(cells: Sequence[str], chosen: bool = False) -> str:
     """A table row; the cells are page text already."""
     state = ' class="on"' if chosen else ""
     return f"<tr{state}>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
-
-
-def span(text: str, kind: str) -> str:
-    """Text of a kind: "dim", "good" or "bad"."""
-    return f'<span class="{kind}">{text}</span>'
-
-
-@lru_cache
-def title(name: str) -> str:
-    """A name with a capital, safe to put into a page."""
-    return escape(sentence_case(name))
-
-
-def change(now: float, base: float) -> str:
-    """The change in percent, good or bad where less is better."""
-    percent = 100 * (now / base - 1) if base else 0.0
-    kind = "dim" if abs(percent) < 0.05 else "good" if percent < 0 else "bad"
-    return span(signed(percent, 1, " %"), kind)
 
 
 class HiddenButtons:

@@ -8,7 +8,7 @@ from html import escape
 from importlib.metadata import version
 from importlib.resources import files
 
-from modeviz.export.markup import less_is_better, section, span
+from modeviz.export.markup import change, section, span
 from modeviz.export.report.exactness import exactness
 from modeviz.export.report.modes import frequencies, participation, rates
 from modeviz.export.report.ride import levels, spectra, wheels
@@ -90,17 +90,17 @@ def _counting(comparison: Comparison) -> Iterator[tuple[str, str, str, str]]:
     base, now = comparison.rides
     before, after = base.rating.mean_personal_rating, now.rating.mean_personal_rating
     kind = "dim" if after == before else "good" if after > before else "bad"
-    change = span(signed(after - before, 2), kind)
-    yield "Rating (MPR), of 10", number(after, 2), number(before, 2), change
+    gain = span(signed(after - before, 2), kind)
+    yield "Rating (MPR), of 10", number(after, 2), number(before, 2), gain
     for direction in ("lateral", "vertical"):
         old, new = (float(r.rms[0, AXIS[direction]]) for r in (base, now))
-        yield f"{direction.capitalize()} RMS, g", f"{new:.4f}", f"{old:.4f}", less_is_better(new, old)
+        yield f"{direction.capitalize()} RMS, g", f"{new:.4f}", f"{old:.4f}", change(new, old)
     old, new = base.rating.weighted_total, now.rating.weighted_total
-    yield "ISO 2631-1 total, m/s²", f"{new:.3f}", f"{old:.3f}", less_is_better(new, old)
+    yield "ISO 2631-1 total, m/s²", f"{new:.3f}", f"{old:.3f}", change(new, old)
 
 
-def _figure(what: str, now: str, base: str, change: str) -> str:
-    return f"<div><span>{what}</span><b>{now}</b><small>from {base} {change}</small></div>"
+def _figure(what: str, now: str, base: str, difference: str) -> str:
+    return f"<div><span>{what}</span><b>{now}</b><small>from {base} {difference}</small></div>"
 
 
 def _pictures(pictures: Sequence[Picture]) -> str:

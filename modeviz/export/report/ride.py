@@ -5,7 +5,7 @@ from html import escape
 
 from modeviz.export.axes import Axis, decibel_axis
 from modeviz.export.charts import BASE, NOW, Curve, line_chart
-from modeviz.export.markup import less_is_better, note, section, table, title
+from modeviz.export.markup import change, note, section, table, title
 from modeviz.export.tables import WHEEL_BAND
 from modeviz.export.wording import number, signed
 from modeviz.ride.psd import power_decibels
@@ -122,4 +122,4 @@ def _by_direction(
 def _compared(values: Sequence[float], decimals: int) -> list[str]:
     """Base, now and the change, of what had better be less."""
     base, now = values
-    return [number(base, decimals), number(now, decimals), less_is_better(now, base)]
+    return [number(base, decimals), number(now, decimals), change(now, base)]
