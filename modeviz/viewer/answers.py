@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import STEP_MAC, Track
+from modeviz.errors import ModevizError
 from modeviz.tuning.check import Check, ClassicError, classic_error
 from modeviz.tuning.following import accept, follow_rates
 from modeviz.tuning.preparation import Prepared, prepare
@@ -25,7 +26,7 @@ from modeviz.tuning.results import (
 from modeviz.tuning.sensitivity import Sensitivity
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.movement import Movement, movement
+from modeviz.viewer.movement import Movement, ShownMode, asks, movement
 from modeviz.viewer.state import State, rate_sets
 
 FREE_HZ = 0.5
@@ -152,7 +153,7 @@ class Answers:
         name = now.names[mode] if is_detailed or last is None else last.name
         shape = self._in_phase(now.modes.shapes[:, mode])
         wheels = self._solve_wheels(state, named, now)
-        moving = movement(state, now, mode, shape, name, base)
+        moving = self._move(state, ShownMode(now, mode, name, shape, base))
         is_known = rest is not None and rest.now is now
         self._last = Solved(
             state=state,
@@ -241,6 +242,19 @@ class Answers:
             f = now.modes.frequency_hz
             return min(int(np.searchsorted(f, FREE_HZ)), len(f) - 1)
         return _most_alike(now, self._last.shape)[0]
+
+    def _move(self, state: State, shown: ShownMode) -> Movement:
+        """What moves; if that cannot be, what moved before, and why."""
+        last = self._last
+        if last is None:
+            return movement(state, shown)
+        is_same_mode = last.now is shown.now and last.mode == shown.index and last.base is shown.base
+        if is_same_mode and asks(last.state) == asks(state):
+            return last.movement
+        try:
+            return movement(state, shown)
+        except ModevizError as error:
+            return replace(last.movement, problem=str(error))
 
     def _in_phase(self, shape: Floats) -> Floats:
         """The shape, turned so that it does not jump by half a cycle from the one before."""

@@ -1,14 +1,32 @@
 """What moves on the screen: a mode, or whatever else was asked for, in generalised coordinates."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
+import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.components import ComponentShare, component_modes, component_shares
 from modeviz.dynamics.naming import ModeName
 from modeviz.export.wording import sentence_case
 from modeviz.tuning.results import Results
-from modeviz.vehicle.arrays import Floats
+from modeviz.tuning.shown import complex_mode, road_shape, wheel_shape
+from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.viewer.state import State
+
+
+@dataclass(frozen=True, eq=False)
+class ShownMode:
+    """The mode that is followed, whatever moves."""
+
+    now: Results
+    index: int
+    """Which of `now.modes`."""
+    name: ModeName
+    shape: Floats
+    """(n_dofs,), in the phase that it is shown in."""
+    base: Results
+    """What all is compared with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,31 +42,110 @@ class Movement:
     """(n_dofs,), real or complex."""
     other: NDArray | None
     """The shape it is compared with, in the same phase and scale, if its outlines are wanted."""
+    bodies: frozenset[str] | None = None
+    """The only bodies to be seen; None if all are."""
+    shares: tuple[ComponentShare, ...] = ()
+    """Of a body alone: what its own modes have of the mode that is followed, the largest first."""
+    problem: str = ""
+    """Why this is not what was asked for, but what moved before; "" if it is."""
 
 
-def movement(
-    state: State, now: Results, mode: int, shape: Floats, name: ModeName, base: Results
-) -> Movement:
+def movement(state: State, shown: ShownMode) -> Movement:
     """What moves in the answer to a state.
 
-    Args:
-        state: what is asked for.
-        now: its results.
-        mode: the shown mode, an index of `now.modes`.
-        shape: of that mode, (n_dofs,), in the phase it is shown in.
-        name: of that mode.
-        base: the results compared with.
+    Raises:
+        SolveError: there is no such shape, because the mode does not vibrate, the frequency is that of
+            an undamped resonance or the reference does not move.
     """
-    about = f"mode {mode + 1}, damping {100 * now.modes.damping_ratio[mode]:.1f} %"
-    other = _same_mode(base, name, shape) if state.ghost == "compared" else None
-    frequency_hz = float(now.modes.frequency_hz[mode])
-    return Movement(sentence_case(name.spoken), frequency_hz, about, shape, other)
+    match state.motion:
+        case "mode":
+            return _undamped(state, shown)
+        case "damped mode":
+            return _damped(state, shown)
+        case "operating shape":
+            return _operating(state, shown)
+        case "component":
+            return _component(state, shown)
 
 
-def _same_mode(base: Results, name: ModeName, shape: Floats) -> Floats | None:
-    """The shape of the base's mode of that name, turned to move with another; None if it has none."""
-    mode = base.mode_index(name.name)
-    if mode is None:
-        return None
-    other = base.modes.shapes[:, mode]
-    return -other if other @ base.prepared.system.mass @ shape < 0 else other
+def asks(state: State) -> tuple:
+    """All of a state that decides what moves beyond the shown mode."""
+    return (
+        state.motion,
+        state.operating_hz,
+        state.load,
+        state.curves[:1],
+        state.component,
+        state.component_mode,
+        state.ghost == "compared",
+    )
+
+
+def _undamped(state: State, shown: ShownMode) -> Movement:
+    modes, i = shown.now.modes, shown.index
+    about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
+    other, same = None, _same_mode(state, shown)
+    if same is not None:
+        other = _in_phase(shown.base.modes.shapes[:, same], shown)
+    title = sentence_case(shown.name.spoken)
+    return Movement(title, float(modes.frequency_hz[i]), about, shown.shape, other)
+
+
+def _damped(state: State, shown: ShownMode) -> Movement:
+    mode = complex_mode(shown.now, shown.index)
+    about = f"damped, {100 * mode.damping_ratio:.1f} % of critical"
+    other, same = None, _same_mode(state, shown)
+    if same is not None:
+        other = _in_phase(complex_mode(shown.base, same).shape, shown)
+    title = sentence_case(shown.name.spoken)
+    return Movement(title, mode.damped_frequency_hz, about, _in_phase(mode.shape, shown), other)
+
+
+def _operating(state: State, shown: ShownMode) -> Movement:
+    """The shape under road or wheel load; the phase of either is that of what excites or is read."""
+    now, curve = shown.now, state.curves[0]
+    if state.load:
+        about = state.load
+    else:
+        point = now.vehicle.response_points[curve.point].name
+        about = f"{now.conditions.road}, as at {point}, {curve.direction}"
+    other = _excited(state, shown.base) if state.ghost == "compared" else None
+    return Movement("Operating shape", state.operating_hz, about, _excited(state, now), other)
+
+
+def _excited(state: State, results: Results) -> Complexes:
+    if state.load:
+        return wheel_shape(results, state.load, state.operating_hz)
+    curve = state.curves[0]
+    return road_shape(results, state.operating_hz, curve.point, curve.direction)
+
+
+def _component(state: State, shown: ShownMode) -> Movement:
+    system = shown.now.prepared.system
+    modes = _free_modes(system, state.component)
+    i = min(state.component_mode, len(modes.names) - 1)
+    label = sentence_case(system.vehicle.body(state.component).label)
+    return Movement(
+        f"{label} alone: {modes.names[i]}",
+        float(modes.frequency_hz[i]),
+        "free, nothing attached",
+        modes.shapes[:, i],
+        None,
+        frozenset({state.component}),
+        component_shares(system, shown.shape, state.component),
+    )
+
+
+_free_modes = lru_cache(maxsize=1)(component_modes)
+"""A body's own modes, which no rate changes."""
+
+
+def _same_mode(state: State, shown: ShownMode) -> int | None:
+    """Which mode of the base has the shown one's name, if its shape is wanted and there is one."""
+    return shown.base.mode_index(shown.name.name) if state.ghost == "compared" else None
+
+
+def _in_phase(shape: NDArray, shown: ShownMode) -> NDArray:
+    """A shape turned to move with the shown mode as far as it can; a real one stays real."""
+    product = np.vdot(shape, shown.now.prepared.system.mass @ shown.shape)
+    return shape * (product / abs(product)) if product else shape
