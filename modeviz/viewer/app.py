@@ -24,6 +24,7 @@ from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import ModesPanel, listed
 from modeviz.viewer.panels.mounts import MountsPanel
 from modeviz.viewer.panels.response import ResponsePanel
+from modeviz.viewer.panels.shape import ShapePanel
 from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.view import PicturePanel, ViewPanel
 from modeviz.viewer.scene import Scene
@@ -123,8 +124,10 @@ class App:
         right.dock_right()
 
         card = gui.add_panel()
-        with card.add_tab("Shown mode", viser.Icon.PLAYER_PLAY):
+        with card.add_tab("Motion", viser.Icon.PLAYER_PLAY):
             self._animation = AnimationCard(gui, self._scene.driver, self._step_mode)
+        with card.add_tab("What moves", viser.Icon.WAVE_SINE):
+            self._shape = ShapePanel(gui, session)
         card.float(x=24, y=-24)
         Layout(self.server, ((gui.main_panel, LEFT), (right, RIGHT), (card, CARD)))
         self._hotkeys.add("Play or pause", "space", lambda _: self._animation.toggle())
@@ -142,6 +145,7 @@ class App:
             self._title.show(vehicle.name, variant_name(vehicle, solved.state))
             self._response.show(solved)
             self._animation.show(solved)
+            self._shape.show(solved)
             self._status.show(solved)
             if solved.is_detailed:
                 self._table.show(solved)

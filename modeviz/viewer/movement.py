@@ -6,7 +6,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.components import ComponentShare, component_modes, component_shares
+from modeviz.dynamics.components import (
+    ComponentModes,
+    ComponentShare,
+    component_modes,
+    component_shares,
+)
 from modeviz.dynamics.naming import ModeName
 from modeviz.export.wording import sentence_case
 from modeviz.tuning.results import Results
@@ -44,8 +49,10 @@ class Movement:
     """The shape it is compared with, in the same phase and scale, if its outlines are wanted."""
     bodies: frozenset[str] | None = None
     """The only bodies to be seen; None if all are."""
+    component: ComponentModes | None = None
+    """Of a body alone: all its own modes."""
     shares: tuple[ComponentShare, ...] = ()
-    """Of a body alone: what its own modes have of the mode that is followed, the largest first."""
+    """What these have of the mode that is followed, the largest first."""
     problem: str = ""
     """Why this is not what was asked for, but what moved before; "" if it is."""
 
@@ -132,6 +139,7 @@ def _component(state: State, shown: ShownMode) -> Movement:
         modes.shapes[:, i],
         None,
         frozenset({state.component}),
+        modes,
         component_shares(system, shown.shape, state.component),
     )
 

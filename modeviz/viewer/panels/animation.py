@@ -1,6 +1,7 @@
 """The floating card: the shown mode and how it moves. Nothing here solves anything."""
 
 from collections.abc import Callable
+from html import escape
 
 import numpy as np
 import viser
@@ -70,13 +71,14 @@ class AnimationCard:
         self._is_running = True
 
     def show(self, solved: Solved) -> None:
-        """Names an answer's shown mode."""
-        modes, i = solved.now.modes, solved.mode
-        name = title(solved.name.spoken)
-        mode = f'<span class="title">{name}  {modes.frequency_hz[i]:.2f} Hz</span>'
-        about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
+        """Names what moves in an answer."""
+        moving = solved.movement
+        hertz = f"  {moving.frequency_hz:.2f} Hz" if moving.frequency_hz > 0 else ""
+        name = f'<span class="title">{title(moving.title)}{hertz}</span>'
         scale = _color_scale(solved) if solved.state.coloring != "bodies" else ""
-        assign(self._head, content=block(heading(mode, about), scale))
+        problem = f'<div class="bad">{_said(moving.problem)}</div>' if moving.problem else ""
+        content = block(heading(name, escape(moving.about)), scale, problem)
+        assign(self._head, content=content)
 
     def toggle(self) -> None:
         """Stops the motion, or lets it go on."""
@@ -98,16 +100,20 @@ class AnimationCard:
             self._run(button == PLAY)
 
 
+def _said(problem: str) -> str:
+    """Why what was asked for does not move, and what to do."""
+    return f"{escape(sentence_case(problem))}. This moved before: choose something else."
+
+
 def _color_scale(solved: Solved) -> str:
-    """What the colours of bodies mean."""
+    """What the colours of bodies mean, on one line."""
     coloring = solved.state.coloring
     if coloring == "displacement":
-        last, about = 1.0, "relative to the largest on the bodies"
+        last, about = 1.0, "Relative to the largest on the bodies"
     else:
-        last, about = largest_share(energy_shares(solved)), "share of each body"
-    ticks = "".join(f"<span>{100 * last * part:.0f} %</span>" for part in (0, 0.25, 0.5, 0.75, 1))
+        last, about = largest_share(energy_shares(solved)), "Share of each body in the whole vehicle's"
     return (
-        heading(sentence_case(coloring), about)
-        + '<div class="scale" style="background:linear-gradient(90deg,'
-        + f'{",".join(COLOR_STOPS)})"></div><div class="ticks dim">{ticks}</div>'
+        f'<div class="scale" title="{about}"><span>{sentence_case(coloring)}</span><span>0</span>'
+        f'<i style="background:linear-gradient(90deg,{",".join(COLOR_STOPS)})"></i>'
+        f"<span>{100 * last:.0f} %</span></div>"
     )

@@ -1,0 +1,201 @@
+"""The floating card's second tab: what moves, a mode or something else."""
+
+from html import escape
+
+import numpy as np
+import viser
+
+from modeviz.dynamics.components import ComponentModes, ComponentShare
+from modeviz.ride.participation import peak_lines
+from modeviz.tuning.results import AXIS
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.assign import assign
+from modeviz.viewer.binding import Binding, show_all
+from modeviz.viewer.html import HiddenButtons, block, heading, hinted, row, span, table, title
+from modeviz.viewer.plots import SHOWN_HZ
+from modeviz.viewer.session import Session
+from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.state import Motion
+
+MOTIONS: dict[str, Motion] = {
+    "Mode": "mode",
+    "Mode with damping": "damped mode",
+    "Shape at a frequency": "operating shape",
+    "One body alone": "component",
+}
+HZ_STEP = 0.05
+N_PEAKS, N_SHARES = 4, 4
+
+
+class ShapePanel:
+    """Chooses what moves, and at which frequency or which body alone."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Builds the controls; `show` fills in what is known of the answer."""
+        self._session = session
+        self._motion = gui.add_dropdown(
+            "Shows",
+            tuple(MOTIONS),
+            initial_value=_motion_label(session.state.motion),
+            hint="A mode without or with its damping, the shape in which road or wheel load move "
+            "everything at one frequency, or one body without all others",
+        )
+        write_back = WriteBack()
+        self._frequency = gui.add_slider(
+            "Frequency",
+            *SHOWN_HZ,
+            HZ_STEP,
+            session.state.operating_hz,
+            marks=(),
+            hint="Of the shape, Hz, excited by what the Response tab says",
+        )
+        self._peaks = gui.add_button_group("Peaks", ("–",), hint="Where the first chart peaks, Hz")
+        self._peaks_hz: dict[str, float] = {}
+        self._peaks.on_click(lambda _: self._to_peak(self._peaks.value))
+        bodies = session.vehicle.bodies
+        self._body = gui.add_dropdown(
+            "Body",
+            tuple(body.name for body in bodies),
+            initial_value=session.state.component,
+            hint="Which body is seen alone, held by nothing",
+        )
+        self._number = gui.add_slider(
+            "Its mode",
+            1,
+            n_free_modes(session.vehicle, session.state.component),
+            1,
+            session.state.component_mode + 1,
+            marks=(),
+            hint="The first six are rigid, then by rising frequency",
+        )
+        self._shares: tuple[ComponentShare, ...] = ()
+        self._buttons = HiddenButtons(gui, N_SHARES, self._to_share)
+        self._content = gui.add_html("")
+        self._bindings = (
+            Binding(
+                self._motion,
+                session,
+                lambda state: _motion_label(state.motion),
+                lambda label: session.change(motion=MOTIONS[label]),
+            ),
+            Binding(
+                self._frequency,
+                session,
+                lambda state: state.operating_hz,
+                lambda f: session.change("operating_hz", operating_hz=float(f)),
+                write_back,
+            ),
+            Binding(self._body, session, lambda state: state.component, self._to_body),
+            Binding(
+                self._number,
+                session,
+                lambda state: state.component_mode + 1,
+                lambda number: session.change("component_mode", component_mode=int(number) - 1),
+                write_back,
+            ),
+        )
+
+    def show(self, solved: Solved) -> None:
+        """Draws an answer: the controls of what moves, its peaks or what makes it up."""
+        state = solved.state
+        is_operating, is_alone = state.motion == "operating shape", state.motion == "component"
+        assign(self._number, max=n_free_modes(self._session.vehicle, state.component))
+        show_all(self._bindings)
+        assign(self._frequency, visible=is_operating)
+        assign(self._body, visible=is_alone)
+        assign(self._number, visible=is_alone)
+        if not solved.is_detailed:
+            return
+        self._peaks_hz = _peaks(solved) if is_operating else {}
+        assign(self._peaks, visible=bool(self._peaks_hz))
+        if self._peaks_hz:
+            assign(self._peaks, options=tuple(self._peaks_hz))
+        assign(self._content, content=self._about(solved), visible=not is_operating)
+
+    def _about(self, solved: Solved) -> str:
+        moving = solved.movement
+        self._shares = moving.shares[:N_SHARES]
+        if moving.component is None:
+            return block(span(ABOUT[solved.state.motion], "dim"))
+        label = escape(solved.now.vehicle.body(solved.state.component).label)
+        total = sum(share.share for share in moving.shares)
+        rows = [
+            row(self._share(i, share, moving.component), chosen=share.mode == shown_mode(solved))
+            for i, share in enumerate(self._shares)
+        ]
+        return block(
+            heading(
+                f"{title(label)} in {escape(solved.name.spoken)}",
+                hinted(f"{100 * total:.0f} % of its energy", "Kinetic energy of the whole vehicle"),
+            ),
+            table((), rows, "energy"),
+        )
+
+    def _share(self, i: int, share: ComponentShare, modes: ComponentModes) -> list[str]:
+        """What one of the body's modes has of the vehicle's; a click shows it alone."""
+        name, hertz = title(share.name), ""
+        if share.mode is not None:
+            name = self._buttons.label(i, name)
+            hertz = f"{modes.frequency_hz[share.mode]:.1f} Hz" if share.mode > 5 else "rigid"
+        bar = f'<i style="width:{100 * share.share:.1f}%;background:var(--mv-now)"></i>'
+        percent = f"{100 * share.share:.1f} %"
+        return [name, span(hertz, "dim"), f'<div class="bar">{bar}</div>', percent]
+
+    def _to_share(self, i: int) -> None:
+        if i < len(self._shares) and (mode := self._shares[i].mode) is not None:
+            self._session.change(component_mode=mode)
+
+    def _to_peak(self, text: str) -> None:
+        if text in self._peaks_hz:  # else the peaks moved between the click and here
+            self._session.change(operating_hz=self._peaks_hz[text])
+
+    def _to_body(self, name: str) -> None:
+        """Shows a body in its first elastic mode, or a rigid one in its first."""
+        is_flexible = isinstance(self._session.vehicle.body(name), FlexibleBody)
+        first = FlexibleBody.N_RIGID if is_flexible else 0
+        self._session.change(component=name, component_mode=first)
+
+
+ABOUT: dict[Motion, str] = {
+    "mode": "All points pass their middle at once. N and P go to the next mode and the one before.",
+    "damped mode": "Damping lets some points lag behind others: the motion travels.",
+    "operating shape": "",
+    "component": "",
+}
+
+
+def n_free_modes(vehicle: Vehicle, body: str) -> int:
+    """How many free modes a body has: six rigid ones, and its elastic ones."""
+    its = vehicle.body(body)
+    return its.n_modes - its.n_residuals if isinstance(its, FlexibleBody) else 6
+
+
+def shown_mode(solved: Solved) -> int:
+    """Which of its own modes a body alone shows."""
+    return min(
+        solved.state.component_mode, n_free_modes(solved.now.vehicle, solved.state.component) - 1
+    )
+
+
+def _motion_label(motion: Motion) -> str:
+    return next(label for label, m in MOTIONS.items() if m == motion)
+
+
+def _peaks(solved: Solved) -> dict[str, float]:
+    """The highest peaks of what the first chart draws, by rising frequency: Hz by their text."""
+    f, level = solved.now.frequency_hz, _first_response(solved)
+    inside = [i for i in peak_lines(level) if SHOWN_HZ[0] <= f[i] <= SHOWN_HZ[1]]
+    highest = sorted(sorted(inside, key=lambda i: -level[i])[:N_PEAKS])
+    return {f"{f[i]:.1f}": float(f[i]) for i in highest}
+
+
+def _first_response(solved: Solved) -> Floats:
+    """The power of the response in the first chart, (n_freqs,)."""
+    state, curve = solved.state, solved.state.curves[0]
+    if not state.load:
+        return solved.now.response(curve.point, curve.direction)
+    load = [load.name for load in solved.now.vehicle.wheel_loads].index(state.load)
+    return np.square(solved.wheels[""].acceleration_g[:, load, curve.point, AXIS[curve.direction]])
