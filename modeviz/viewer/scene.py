@@ -56,13 +56,20 @@ class Scene:
             self.show_colors(state.coloring, drawn, shares)
             see_through = state.see_through and state.coloring == "bodies"
             has_ghost = state.ghost == "rest" or moving.other is not None
-            self.show_bodies(state.hidden, see_through, has_ghost)
+            self.show_bodies(self._hidden(solved), see_through, has_ghost)
             if solved.is_detailed:
                 strain = strain_shares(solved)
                 groups = {group: strain[group] for group in state.rates}
                 what = moving.title[:1].lower() + moving.title[1:]
                 self._markers.show(state.group, state.rates, groups, what, share_colors(shares))
         self.follow(state.group if state.follow else "")
+
+    def _hidden(self, solved: Solved) -> Collection[str]:
+        """The bodies that are not drawn: all but the one that moves alone, or those chosen."""
+        alone = solved.movement.bodies
+        if alone is None:
+            return solved.state.hidden
+        return {body.name for body in self._vehicle.bodies} - alone
 
     def show_shape(
         self, system: System, shape: NDArray, other: NDArray | None
