@@ -1,7 +1,6 @@
 """The command that writes a comparison of two sets of rates as an HTML file."""
 
 from argparse import Namespace
-from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 
@@ -19,7 +18,7 @@ def write_report(options: Namespace) -> None:
     """Solves with both sets of rates, checks the answer and writes the report."""
     vehicle, rates = vehicle_and_rates(options)
     base = RateSet(_name(options.against), resolve_rates(vehicle, options.against))
-    now = RateSet(_name(options.rates, options.settings), rates)
+    now = RateSet(_name(options.rates, bool(options.settings)), rates)
     chosen = _conditions(options, vehicle)
     check_writable(options.output)
     comparison = compare(prepare_telling(vehicle), base, now, chosen)
@@ -36,9 +35,9 @@ def _conditions(options: Namespace, vehicle: Vehicle) -> Conditions | None:
     return None
 
 
-def _name(choice: str, settings: Sequence[str] = ()) -> str:
-    """What a set of rates is called: its name or its file's, and what was set besides."""
-    return ", ".join([Path(choice).name, *settings])
+def _name(choice: str, is_changed: bool = False) -> str:
+    """What a set of rates is called: short, for it stands above columns; the rates tell the rest."""
+    return f"{Path(choice).name}, changed" if is_changed else Path(choice).name
 
 
 def _check(comparison: Comparison) -> Check | None:
