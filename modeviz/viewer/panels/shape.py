@@ -18,7 +18,7 @@ from modeviz.viewer.html import HiddenButtons, block, heading, hinted, row, span
 from modeviz.viewer.plots import SHOWN_HZ
 from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
-from modeviz.viewer.state import Motion
+from modeviz.viewer.state import Motion, State
 
 MOTIONS: dict[str, Motion] = {
     "Mode": "mode",
@@ -67,7 +67,7 @@ class ShapePanel:
             1,
             n_free_modes(session.vehicle, session.state.component),
             1,
-            session.state.component_mode + 1,
+            own_mode(session.vehicle, session.state) + 1,
             marks=(),
             hint="The first six are rigid, then by rising frequency",
         )
@@ -92,7 +92,7 @@ class ShapePanel:
             Binding(
                 self._number,
                 session,
-                lambda state: state.component_mode + 1,
+                lambda state: own_mode(session.vehicle, state) + 1,
                 lambda number: session.change("component_mode", component_mode=int(number) - 1),
                 write_back,
             ),
@@ -122,8 +122,9 @@ class ShapePanel:
             return block(span(ABOUT[solved.state.motion], "dim"))
         label = escape(solved.now.vehicle.body(solved.state.component).label)
         total = sum(share.share for share in moving.shares)
+        own = own_mode(solved.now.vehicle, solved.state)
         rows = [
-            row(self._share(i, share, moving.component), chosen=share.mode == shown_mode(solved))
+            row(self._share(i, share, moving.component), chosen=share.mode == own)
             for i, share in enumerate(self._shares)
         ]
         return block(
@@ -173,11 +174,9 @@ def n_free_modes(vehicle: Vehicle, body: str) -> int:
     return its.n_modes - its.n_residuals if isinstance(its, FlexibleBody) else 6
 
 
-def shown_mode(solved: Solved) -> int:
-    """Which of its own modes a body alone shows."""
-    return min(
-        solved.state.component_mode, n_free_modes(solved.now.vehicle, solved.state.component) - 1
-    )
+def own_mode(vehicle: Vehicle, state: State) -> int:
+    """Which of its own modes a body alone shows: the one asked for, or the last it has."""
+    return min(state.component_mode, n_free_modes(vehicle, state.component) - 1)
 
 
 def _motion_label(motion: Motion) -> str:
