@@ -10,23 +10,25 @@ from viser.transforms import SO3
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, Mount, MountGroup, MountRates
+from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.assign import assign
-from modeviz.viewer.stage import Color
+from modeviz.viewer.labels import keep_apart
+from modeviz.viewer.stage import Color, Theme
 
 RUBBER, SELECTED, WASHER, BLUE = (236, 190, 96), (242, 140, 24), (60, 64, 70), (43, 124, 196)
 RADIUS, HEIGHT = 0.045, 0.085
 """m, of the rubber of the largest marker but for half."""
 
-WASHER_Z, LABEL_Z = 0.53 * HEIGHT, 1.2 * HEIGHT
+WASHER_Z = 0.53 * HEIGHT
 """m, above the middle of the rubber."""
 
 SIZE_STEP = 0.05
 """Of a marker's size, 2 mm: no eye sees it, and a drag changes few markers at a time."""
 
 RING_RADIUS = 0.13
-CARD_OFFSET = np.array([0.36, -0.55, -0.44])
-"""m, from a mount to the card of its group: out to our side and down, clear of the vehicle."""
+CARD = "/card"
+"""Stands at the mount that the card hangs on."""
 
 PATCH = (0.14, 0.10)
 """m, half length and half width of the ring around a tyre patch."""
@@ -65,8 +67,9 @@ class MountMarker:
             thickness_units="screen",
             visible=False,
         )
+        self.label_name = f"{path}/name"
         self._label = scene.add_label(
-            f"{path}/name", self._label_text, anchor="bottom-center", font_screen_scale=0.85
+            self.label_name, self._label_text, anchor="center-center", font_screen_scale=0.85
         )
 
     def on_click(self, callback: Callable[[], None]) -> None:
@@ -99,7 +102,6 @@ class MountMarker:
             washer.position = (0.0, 0.0, z * size)
         assign(self._ring, visible=selected)
         assign(self._label, visible=not carded)
-        self._label.position = (0.0, 0.0, LABEL_Z * size)
 
 
 class Card:
@@ -107,31 +109,32 @@ class Card:
 
     def __init__(self, scene: viser.SceneApi) -> None:
         """Makes an empty card."""
-        self._label = scene.add_label("/card", "", anchor="top-left", visible=False)
-        self._line = scene.add_line_segments(
-            "/card line",
-            np.zeros((1, 2, 3), np.float32),
+        self._frame = scene.add_frame(CARD, show_axes=False, visible=False)
+        self._label = scene.add_label(f"{CARD}/text", "", anchor="center-center")
+        scene.add_line_segments(
+            f"{CARD}/line",
+            np.array([[[0, 0, 0], [1, 0, 0]]], np.float32),
             SELECTED,
             thickness=2.0,
             thickness_units="screen",
-            visible=False,
         )
 
     def show(self, text: str, mount: Floats) -> None:
         """Hangs the card on a mount; an empty text puts it away."""
-        assign(self._label, visible=bool(text), text=text)
-        assign(self._line, visible=bool(text))
-        corner = mount + CARD_OFFSET
-        if not np.array_equal(corner, self._label.position):
-            self._label.position = corner
-            self._line.points = np.array([[mount, corner]], np.float32)
+        assign(self._frame, visible=bool(text))
+        assign(self._label, text=text)
+        self._frame.position = mount
 
 
 class Markers:
     """All marks of a vehicle."""
 
     def __init__(
-        self, scene: viser.SceneApi, vehicle: Vehicle, on_select: Callable[[str], None]
+        self,
+        scene: viser.SceneApi,
+        vehicle: Vehicle,
+        theme: Theme,
+        on_select: Callable[[str], None],
     ) -> None:
         """Draws them; `on_select` is called with the group of a clicked mount."""
         self._groups = {group.name: group for group in vehicle.mount_groups}
@@ -145,6 +148,9 @@ class Markers:
         self._nearest = {name: _nearest_to_us(group) for name, group in self._groups.items()}
         self._card = Card(scene)
         self._others = _add_points(scene, vehicle) + _add_patches(scene, vehicle)
+        labels = [marker.label_name for markers in self._mounts.values() for marker in markers]
+        labels += [f"{_point_path(point)}/name" for point in vehicle.response_points]
+        keep_apart(scene, labels, f"{CARD}/text", f"{CARD}/line", theme)
 
     def hide(self, bodies: Collection[str]) -> None:
         """Leaves out what hangs on nothing but bodies that are not drawn."""
@@ -210,18 +216,21 @@ def _add_points(scene: viser.SceneApi, vehicle: Vehicle) -> Marks:
     """The response points; only those on our side are named, which is enough and less to read."""
     marks: Marks = []
     for point in vehicle.response_points:
-        path = f"/points/{point.name.replace('/', '-')}"
+        path = _point_path(point)
         mark = scene.add_icosphere(path, 0.038, BLUE, position=point.position, cast_shadow=False)
         marks.append((mark, point.body))
         if point.position[1] <= 0:
             scene.add_label(
                 f"{path}/name",
                 point.name,
-                position=(0.0, 0.0, 0.05),
-                anchor="bottom-center",
+                anchor="center-center",
                 font_screen_scale=0.8,
             )
     return marks
+
+
+def _point_path(point: ResponsePoint) -> str:
+    return f"/points/{point.name.replace('/', '-')}"
 
 
 def _add_patches(scene: viser.SceneApi, vehicle: Vehicle) -> Marks:

@@ -45,6 +45,10 @@ class Theme:
     """The deformed borders and folds of a body."""
     ghost: Color
     """Those at rest."""
+    ink: Color
+    """Text on labels."""
+    paper: Color
+    """What it is on."""
 
 
 LIGHT = Theme(
@@ -55,6 +59,8 @@ LIGHT = Theme(
     shadow=0.16,
     edges=(30, 36, 44),
     ghost=(120, 132, 146),
+    ink=(16, 20, 26),
+    paper=(255, 255, 255),
 )
 DARK = Theme(
     top=(24, 28, 33),
@@ -64,6 +70,8 @@ DARK = Theme(
     shadow=0.28,
     edges=(150, 160, 172),
     ghost=(104, 113, 124),
+    ink=(232, 236, 240),
+    paper=(30, 34, 40),
 )
 
 
@@ -159,6 +167,9 @@ class Stage:
         )
         scene.add_light_directional(
             "/light/fill", color=(226, 236, 255), intensity=0.35, position=(6.0, 8.0, 5.0)
+        )
+        scene.add_light_directional(
+            "/light/under", color=(240, 244, 255), intensity=0.6, position=(-1.0, -2.0, -8.0)
         )
         self._sky = scene.add_light_hemisphere(
             "/light/sky", sky_color=(244, 248, 255), ground_color=(150, 150, 150)

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from modeviz.viewer.answers import Solved
 from modeviz.viewer.coloring import energy_shares, largest_share
 from modeviz.viewer.movement import Movement
 from modeviz.viewer.scene import Scene
+from modeviz.viewer.stage import VIEWS
 from modeviz.viewer.state import State
 
 HALF = 2.0**-11  # relative rounding of half precision
@@ -266,7 +268,9 @@ def test_card_says_what_the_selected_group_is_and_does(scene, page, modal):
         f"{100 * share:.0f} % of strain energy in {modal.names[mode].name}"
     )
     wait_for(
-        page, "window.__viserSceneTree.getState()['/card'].message.props.text === a.text", text=text
+        page,
+        "window.__viserSceneTree.getState()['/card/text'].message.props.text === a.text",
+        text=text,
     )
     assert page.evaluate("window.__viserSceneTree.getState()['/mounts/C left/ring'].visibility")
     scene.show(solved(modal, mode, group=""))
@@ -322,6 +326,41 @@ def test_camera_glides_to_the_mounts_that_are_followed_and_back(server, scene, p
     scene.show(solved(modal, follow=False))
     wait_until(page, lambda: np.allclose(camera.look_at, framed, atol=1e-3))
     assert camera.position - camera.look_at == pytest.approx(offset, abs=1e-3)
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_labels_are_apart_from_each_other_in_every_view(server, scene, page, modal, view):
+    scene.show(solved(modal))
+    scene.look(next(iter(server.get_clients().values())), view)
+
+    def are_apart():
+        places = page.evaluate("Object.values(window.__modevizLabels.places)")
+        return len(places) >= 2 and all(
+            a["right"] <= b["left"]
+            or b["right"] <= a["left"]
+            or a["bottom"] <= b["top"]
+            or b["bottom"] <= a["top"]
+            for a, b in combinations(places, 2)
+        )
+
+    wait_for(page, "window.__modevizLabels.places['/card/text']")
+    wait_until(page, are_apart)
+
+
+def test_clicking_a_label_selects_the_group_of_its_mount(server, scene, page, modal, chosen):
+    scene.show(solved(modal, group=""))
+    scene.look(next(iter(server.get_clients().values())), "Iso")
+    place = wait_for(page, "window.__modevizLabels.places['/mounts/C left/name']")
+    canvas = page.evaluate("window.__viserMutable.canvas.getBoundingClientRect().toJSON()")
+    chosen.clear()
+    x = canvas["left"] + (place["left"] + place["right"]) / 2
+    y = canvas["top"] + (place["top"] + place["bottom"]) / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.up()
+    wait_until(page, lambda: chosen)
+    assert set(chosen) == {"C"}
+    chosen.clear()
 
 
 def test_clicking_a_mount_selects_its_group(server, scene, page, chosen):
