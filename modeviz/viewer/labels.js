@@ -118,6 +118,7 @@
         .replace("vec4(1.0, 1.0, 1.0, 0.85", `vec4(${colors.paper.join()}, 0.85`)
         .replace("vec4(0.0, 0.0, 0.0, a)", `vec4(${colors.ink.join()}, a)`);
       material.needsUpdate = true;
+      viewer.requestRender();
     });
   }
 
@@ -126,6 +127,7 @@
     requestAnimationFrame(frame);
     const viewer = window.__viserMutable;
     if (!viewer?.scene || !viewer.camera || !viewer.cameraControl || !window.__viserSceneTree) return;
+    paint(viewer); // viser makes the meshes of labels when it has drawn their letters
     const nodes = window.__viserSceneTree.getState();
     const canvas = viewer.canvas.getBoundingClientRect();
     const { camera } = viewer;
@@ -140,7 +142,6 @@
     if (now === drawn) return;
     drawn = now;
     place(viewer, nodes, canvas);
-    paint(viewer);
     viewer.requestRender();
   }
 
