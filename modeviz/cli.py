@@ -1,4 +1,4 @@
-"""The command line: `modeviz [view|modes|psd|wheels|report] [VEHICLE]`."""
+"""The command line: `modeviz [view|modes|psd|wheels|render|report] [VEHICLE]`."""
 
 import argparse
 import os
@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import get_args
 
 from modeviz.commands import tables
+from modeviz.commands.render import render_file
 from modeviz.commands.report import write_report
 from modeviz.commands.view import view as open_view
 from modeviz.dynamics.band import Method
@@ -16,7 +17,7 @@ from modeviz.errors import ModevizError
 from modeviz.tuning.rates import ORIGINAL
 
 DEFAULT_PORT = 8080
-COMMANDS = ("view", "modes", "psd", "wheels", "report")
+COMMANDS = ("view", "modes", "psd", "wheels", "render", "report")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -74,6 +75,9 @@ def _parser() -> argparse.ArgumentParser:
     _add_json(
         _command(commands, "wheels", tables.wheels, "response to unbalance and tyre force variation")
     )
+    _add_picture(
+        _command(commands, "render", render_file, "write a picture, a loop, a film or an offline page")
+    )
 
     report = _command(
         commands, "report", write_report, "write a comparison of two sets of rates as HTML"
@@ -122,3 +126,38 @@ def _add_road(command: argparse.ArgumentParser) -> None:
 
 def _add_json(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="print JSON instead of a table")
+
+
+def _add_picture(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--output",
+        type=Path,
+        required=True,
+        metavar="FILE",
+        help="its ending chooses: .png, .gif, .mp4 or .html",
+    )
+    command.add_argument("--mode", default="", metavar="NAME", help='such as "cab yaw" (default)')
+    command.add_argument("--view", choices=("Iso", "Side", "Front", "Top", "Under"), default="Iso")
+    command.add_argument(
+        "--color",
+        choices=("bodies", "displacement", "kinetic energy", "strain energy"),
+        default="bodies",
+        help="what the colours of the bodies mean",
+    )
+    command.add_argument(
+        "--background",
+        choices=("scene", "white", "transparent"),
+        default="scene",
+        help="as on screen (default), or another; loops and films are never transparent, but white",
+    )
+    command.add_argument("--dark", action="store_true", help="the dark scene")
+    command.add_argument("--width", type=int, default=1280, help="pixels, default 1280")
+    command.add_argument("--height", type=int, default=720, help="pixels, default 720")
+    command.add_argument("--amplitude", type=float, default=1.0, help="times the usual one")
+    command.add_argument(
+        "--phase", type=float, default=0.0, metavar="DEGREES", help="of a PNG (default 0: the largest)"
+    )
+    command.add_argument(
+        "--frames", type=int, default=36, help="of a cycle in a GIF or MP4, default 36"
+    )
+    _add_road(command)

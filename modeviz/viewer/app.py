@@ -10,12 +10,14 @@ from threadpoolctl import threadpool_limits
 
 from modeviz.errors import ModevizError
 from modeviz.tuning.results import Conditions
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
-from modeviz.viewer.doors import open_server
+from modeviz.viewer.doors import Server, open_server
 from modeviz.viewer.hotkeys import Hotkeys
 from modeviz.viewer.layout import NARROW, WIDE, Layout
+from modeviz.viewer.offline import offline_page
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.excitation import ExcitationPanel
@@ -23,12 +25,14 @@ from modeviz.viewer.panels.figures import TablePanel
 from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import ModesPanel, listed
 from modeviz.viewer.panels.mounts import MountsPanel
+from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.shape import ShapePanel
 from modeviz.viewer.panels.status import StatusPanel
-from modeviz.viewer.panels.view import PicturePanel, ViewPanel
+from modeviz.viewer.panels.view import ViewPanel
 from modeviz.viewer.scene import Scene
 from modeviz.viewer.session import Session
+from modeviz.viewer.stage import DARK, LIGHT
 from modeviz.viewer.state import first_state, variant_name
 from modeviz.viewer.title import Title
 
@@ -49,7 +53,7 @@ class App:
         vehicle: Vehicle,
         rates: Rates,
         conditions: Conditions,
-        server: viser.ViserServer,
+        server: Server,
         dark: bool = False,
     ) -> None:
         """Builds the page; nothing is solved before `start`.
@@ -63,7 +67,7 @@ class App:
         """
         self.server, self._gui = server, server.gui
         self._last: Solved | None = None
-        self._title = Title(server)
+        self._title, self._dark = Title(server), dark
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
@@ -91,6 +95,31 @@ class App:
 
         self.session.start(tell)
 
+    @property
+    def scene(self) -> Scene:
+        """What stands in the middle of every page."""
+        return self._scene
+
+    @property
+    def shown(self) -> Solved | None:
+        """The answer on the pages, once there is one."""
+        return self._last
+
+    def offline(self, position: Floats, look_at: Floats) -> bytes:
+        """What is shown, in a file that needs no server, see `offline_page`.
+
+        Args:
+            position: of the camera it opens with, m.
+            look_at: what that looks at, m.
+
+        Raises:
+            ModevizError: nothing is shown yet.
+        """
+        if self._last is None:
+            raise ModevizError("nothing is solved yet: try again when the preparation is done")
+        variant = variant_name(self.session.vehicle, self._last.state)
+        return offline_page(self.server, self._last, variant, self._dark, position, look_at)
+
     def close(self) -> None:
         """Ends the session and the server."""
         self.session.close()
@@ -105,7 +134,8 @@ class App:
         with tabs.add_tab("View", viser.Icon.EYE):
             self._view = ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
-            PicturePanel(gui, self._file_name)
+            theme = DARK if dark else LIGHT
+            self._pictures = PicturePanel(gui, self.server, theme, self._file_name, self.offline)
         self._status = StatusPanel(gui)
         self.guide = Guide(self.server, self._hotkeys)
 

@@ -36,7 +36,16 @@ class Server(viser.ViserServer):
         for request in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
             self._websock_server.unregister_handler(request)
         gate_messages(self)
+        self._door = door
         door.is_open = True
+
+    @property
+    def link(self) -> str:
+        """What opens the page in a browser of this machine, with its token; ready for `&name=value`."""
+        host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(self._door.host, self._door.host)
+        bracketed = f"[{host}]" if ":" in host else host
+        token = self._door.token or ""
+        return f"http://{bracketed}:{self.get_port()}/?token={token}"
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         """Never opens viser's public tunnel."""

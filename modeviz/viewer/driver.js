@@ -38,7 +38,7 @@
   const page = (window.__modeviz ??= {
     weights: { value: [0, 0] },
     phase: 0,
-    complete: false, // whether every mesh shows what was sent for it
+    nShown: -1, // how many meshes there are, once all show what was sent for them
     sought: null,
     error: null,
   });
@@ -209,12 +209,12 @@
     const total = meshes.reduce((sum, { count }) => sum + count, 0);
     const complex = points.length === 6 * total;
     if (!complex && points.length !== 3 * total) {
-      page.complete = false;
+      page.nShown = -1;
       return wait("the shape of a mesh", seconds);
     }
     delete waiting["the shape of a mesh"];
     let changed = false;
-    let complete = meshes.length > 0;
+    let complete = true;
     let start = 0;
     for (const { name, order, ...looks } of meshes) {
       const sent = { ...looks, points, complex, total, start };
@@ -230,7 +230,7 @@
         wait(name, seconds);
       }
     }
-    page.complete = complete;
+    page.nShown = complete ? meshes.length : -1;
     return changed;
   }
 

@@ -117,7 +117,7 @@ class Door:
             return response
         if is_first_page:
             if not self.pages:
-                page = _named_page(response.body, self.title)
+                page = named_page(response.body, self.title)
                 self.pages = {False: page, True: gzip.compress(page, 6)}
             response.body = self.pages[zipped]
             _set(response.headers, "Content-Length", str(len(response.body)))
@@ -130,7 +130,8 @@ class Door:
         return response
 
 
-def _named_page(page: bytes | bytearray, title: str) -> bytes:
+def named_page(page: bytes | bytearray, title: str) -> bytes:
+    """Viser's page with another title and our icon."""
     icon = "data:image/svg+xml;base64," + b64encode(ICON.encode()).decode()
     html = page.decode().replace("<title>Viser</title>", f"<title>{escape(title)}</title>", 1)
     return re.sub(r'(<link\s+rel="icon"\s+href=)"[^"]*"', rf'\1"{icon}"', html, count=1).encode()

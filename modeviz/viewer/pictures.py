@@ -1,7 +1,7 @@
 """Pictures of the 3-D view, drawn by a page: one, or a cycle of the shown motion."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Generator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -45,6 +45,8 @@ class Shot:
     backdrop: Backdrop
     theme: Theme
     """Of the scene; its colours are the backdrop "scene"."""
+    field_of_view: float
+    """From the top to the bottom of the picture, rad."""
 
     def __post_init__(self) -> None:
         for name, side in (("width", self.width), ("height", self.height)):
@@ -66,7 +68,15 @@ def picture(client: viser.ClientHandle, shot: Shot) -> Image.Image:
         ModevizError: the page did not draw it, or not in time.
     """
     try:
-        drawn = client.get_render(shot.height, shot.width, transport_format="png", timeout=TIMEOUT)
+        drawn = client.get_render(
+            shot.height,
+            shot.width,
+            wxyz=client.camera.wxyz,
+            position=client.camera.position,
+            fov=shot.field_of_view,
+            transport_format="png",
+            timeout=TIMEOUT,
+        )
     except TimeoutError:
         raise ModevizError(
             f"the page did not draw it within {TIMEOUT:.0f} s: keep the page in front, "
@@ -82,7 +92,7 @@ def picture(client: viser.ClientHandle, shot: Shot) -> Image.Image:
     return on_color(image, shot.theme.top, shot.theme.bottom)
 
 
-def cycle(client: viser.ClientHandle, shot: Shot, n_frames: int) -> Iterator[Image.Image]:
+def cycle(client: viser.ClientHandle, shot: Shot, n_frames: int) -> Generator[Image.Image]:
     """Pictures of one cycle of the shown motion, at phases 2πk/n; the page then moves on as before.
 
     Raises:
@@ -92,3 +102,9 @@ def cycle(client: viser.ClientHandle, shot: Shot, n_frames: int) -> Iterator[Ima
         for k in range(n_frames):
             hold(2 * math.pi * k / n_frames)
             yield picture(client, shot)
+
+
+def same_field_of_view(camera: viser.CameraHandle, width: int, height: int) -> float:
+    """The one with which the square in the middle of a page's view is that of a picture's, rad."""
+    zoom = min(1.0, camera.aspect) / min(1.0, width / height)
+    return 2 * math.atan(zoom * math.tan(camera.fov / 2))

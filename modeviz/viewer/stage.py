@@ -35,6 +35,7 @@ CARD_HEIGHT, CARD_FRACTION = 300, 0.32
 class Theme:
     """The colours of an empty stage."""
 
+    is_dark: bool
     top: Color
     bottom: Color
     cells: Color
@@ -52,6 +53,7 @@ class Theme:
 
 
 LIGHT = Theme(
+    is_dark=False,
     top=(223, 229, 235),
     bottom=(250, 251, 252),
     cells=(214, 220, 226),
@@ -63,6 +65,7 @@ LIGHT = Theme(
     paper=(255, 255, 255),
 )
 DARK = Theme(
+    is_dark=True,
     top=(24, 28, 33),
     bottom=(40, 46, 53),
     cells=(70, 78, 88),

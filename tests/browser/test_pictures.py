@@ -1,21 +1,33 @@
 """Pictures to take away, taken by real pages."""
 
+import io
 from contextlib import suppress
+from pathlib import Path
 
+import av
 import numpy as np
 import pytest
-from pages import wait_for
+from pages import wait_for, wait_until
+from PIL import Image
 
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.surface import surface
+from modeviz.tuning.results import Conditions
 from modeviz.vehicle.bodies import Material, MeshPart
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.viewer.app import App
+from modeviz.viewer.doors import open_server
 from modeviz.viewer.driver import ShapeDriver, held
-from modeviz.viewer.pictures import Shot, cycle, picture
+from modeviz.viewer.pictures import N_CYCLES, Shot, cycle, picture
 from modeviz.viewer.stage import LIGHT
 
 PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
 SIDE = 160
+SOLVE_S = 120
+CLOSE_NOTICES = (
+    "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
+)
 RISE, DRIFT = 0.6, 0.3j
 """Of the panel up the picture and, a quarter of a cycle apart, across it, m."""
 
@@ -36,7 +48,7 @@ def driver(server):
 
 @pytest.fixture(scope="module")
 def client(server, driver, page):
-    wait_for(page, "window.__modeviz?.complete")
+    wait_for(page, "window.__modeviz?.nShown === 1")
     client = max(server.get_clients().items())[1]
     client.camera.position, client.camera.look_at, client.camera.fov = (-10.0, 0, 0), (0.0, 0, 0), 0.5
     wait_for(page, "Math.abs(window.__viserMutable.camera.position.length() - 10) < 1e-3")
@@ -53,7 +65,7 @@ def center(image):
 
 def test_frames_of_a_cycle_are_where_their_phases_put_them(client):
     n = 8
-    frames = list(cycle(client, Shot(SIDE, SIDE, "white", LIGHT), n))
+    frames = list(cycle(client, Shot(SIDE, SIDE, "white", LIGHT, 0.5), n))
     angles = 2 * np.pi * np.arange(n) / n
     expected = np.stack([-(DRIFT * np.exp(1j * angles)).real, (RISE * np.exp(1j * angles)).real])
     pixel = 2 * 10 * np.tan(0.25) / SIDE
@@ -61,7 +73,7 @@ def test_frames_of_a_cycle_are_where_their_phases_put_them(client):
 
 
 def test_a_whole_turn_later_is_the_same_picture(client):
-    shot = Shot(SIDE, SIDE, "white", LIGHT)
+    shot = Shot(SIDE, SIDE, "white", LIGHT, 0.5)
     with held(client) as hold:
         drawn = []
         for phase in (1.0, 4.0, 1.0 + 2 * np.pi):
@@ -75,7 +87,7 @@ def test_a_page_goes_on_where_it_was_even_after_an_error_and_others_never_stop(
     server, driver, client, page, open_page
 ):
     other = open_page(server)
-    wait_for(other, "window.__modeviz?.complete")
+    wait_for(other, "window.__modeviz?.nShown === 1")
     with suppress(KeyError), held(client) as hold:
         hold(1.0)
         wait_for(page, "window.__modeviz.weights.value[0] === Math.cos(1)")
@@ -92,7 +104,7 @@ def test_picture_has_the_size_asked_for_and_its_backdrop(client):
         ("white", (255, 255, 255)),
         ("transparent", (0,) * 4),
     ):
-        image = picture(client, Shot(96, 64, backdrop, LIGHT))
+        image = picture(client, Shot(96, 64, backdrop, LIGHT, 0.5))
         assert image.size == (96, 64)
         assert image.getpixel((0, 0))[: len(corner)] == corner
     assert image.getpixel((48, 32))[3] == 255
@@ -102,8 +114,134 @@ def test_background_of_the_page_is_in_no_picture_and_stays_on_the_page(server, c
     server.scene.set_background_image(np.full((4, 4, 3), (255, 0, 0), np.uint8), format="png")
     is_drawn = "window.__viserMutable.backgroundMaterial.uniforms.enabled.value"
     wait_for(page, is_drawn)
-    image = picture(client, Shot(64, 64, "transparent", LIGHT))
+    image = picture(client, Shot(64, 64, "transparent", LIGHT, 0.5))
     assert image.getpixel((0, 0))[3] == 0
     wait_for(page, "window.__viserMutable.backgroundMaterial.visible")
     server.scene.set_background_image(None)
     wait_for(page, f"!{is_drawn}")
+
+
+@pytest.fixture(scope="module")
+def app():
+    """The pickup at the optimised rates, drawn without what is slow in software."""
+    vehicle = read_vehicle(builtin_vehicle())
+    server = open_server(port=0, token="sesame")
+    app = App(vehicle, vehicle.rate_sets["optimised"], Conditions("road 1", vehicle.speed), server)
+    server.scene.configure_environment_map(None)
+    app.scene._stage._key.cast_shadow = False
+    app.start()
+    app.session.show_mode("cab yaw")
+    assert app.session.wait(SOLVE_S)
+    yield app
+    app.close()
+
+
+@pytest.fixture(scope="module")
+def bench(app, open_page):
+    """Its page, with the pictures' tab open and a small size chosen."""
+    page = open_page(app.server, viewport=(980, 640), query="?token=sesame&fixedDpr=1")
+    wait_for(page, "window.__modeviz?.nShown > 0")
+    page.evaluate(CLOSE_NOTICES)
+    page.get_by_role("tab", name="Pictures").click()
+    for label, value in (("Width", 160), ("Height", 120)):
+        field = page.get_by_label(label, exact=True)
+        field.fill(str(value))
+        field.press("Enter")
+    panel = app._pictures
+    wait_until(page, lambda: (panel._width.value, panel._height.value) == (160, 120))
+    return page
+
+
+def saved(app, page, kind):
+    """The content of what the page downloads."""
+    app._pictures._kind.value = kind
+    with page.expect_download(timeout=1000 * SOLVE_S) as downloading:
+        page.get_by_role("button", name="Save").click()
+    wait_for(page, "!document.querySelector('.mantine-Modal-content')")
+    return downloading.value.suggested_filename, Path(downloading.value.path()).read_bytes()
+
+
+def test_picture_is_downloaded_in_its_size_and_not_blank(app, bench):
+    app._pictures._backdrop.value = "Transparent"
+    name, content = saved(app, bench, "Picture, PNG")
+    image = Image.open(io.BytesIO(content))
+    assert (name, image.size, image.mode) == ("pickup-cab-yaw.png", (160, 120), "RGBA")
+    alpha = np.asarray(image)[..., 3]
+    assert alpha[0, 0] == 0
+    assert 0.05 < (alpha > 200).mean() < 0.6
+
+
+def test_loop_is_downloaded_and_its_frames_differ(app, bench, monkeypatch):
+    monkeypatch.setattr("modeviz.viewer.panels.pictures.N_FRAMES", 4)
+    name, content = saved(app, bench, "Loop, GIF")
+    with Image.open(io.BytesIO(content)) as gif:
+        assert (name, gif.size, gif.n_frames) == ("pickup-cab-yaw.gif", (160, 120), 4)
+        frames = []
+        for k in range(4):
+            gif.seek(k)
+            frames.append(np.asarray(gif.convert("RGB")).astype(int))
+    assert np.abs(frames[0] - frames[2]).max() > 30
+    at_ends, at_rest = (np.abs(frames[k] - frames[k + 2]).mean() for k in (0, 1))
+    assert at_rest < 0.2 * at_ends  # outlines at rest fight for the same pixels
+
+
+def test_film_is_downloaded_and_plays_some_cycles(app, bench, monkeypatch):
+    monkeypatch.setattr("modeviz.viewer.panels.pictures.N_FRAMES", 4)
+    name, content = saved(app, bench, "Film, MP4")
+    with av.open(io.BytesIO(content)) as film:
+        frames = [frame.to_ndarray(format="rgb24").astype(int) for frame in film.decode(video=0)]
+    assert (name, len(frames), frames[0].shape) == ("pickup-cab-yaw.mp4", 4 * N_CYCLES, (120, 160, 3))
+    assert np.abs(frames[0] - frames[2]).max() > 30
+    np.testing.assert_array_equal(frames[0], frames[4])
+
+
+def test_cancel_stops_a_loop_saves_nothing_and_the_motion_goes_on(app, bench):
+    downloads = []
+    bench.on("download", lambda download: downloads.append(download))
+    app._pictures._kind.value = "Loop, GIF"
+    bench.get_by_role("button", name="Save").click()
+    wait_for(bench, "window.__viserSceneTree.getState()['/_held']")
+    bench.get_by_role("button", name="Cancel").click()
+    wait_for(bench, "!document.querySelector('.mantine-Modal-content')")
+    wait_for(bench, "!window.__viserSceneTree.getState()['/_held']")
+    before = bench.evaluate("window.__modeviz.phase")
+    wait_for(bench, "window.__modeviz.phase !== a.before", before=before)
+    assert not downloads
+
+
+def test_whole_page_is_taken_by_a_browser_beside_with_the_same_view(app, bench):
+    name, content = saved(app, bench, "Whole page, PNG")
+    image = Image.open(io.BytesIO(content)).convert("RGB")
+    assert name == "pickup-cab-yaw-page.png"
+    assert image.height == 640
+    canvas = bench.evaluate("window.__viserMutable.canvas.clientWidth")
+    assert abs(image.width - 980) <= 2, canvas
+    assert len(image.getcolors(maxcolors=1 << 24)) > 1000
+
+
+def test_offline_page_is_downloaded_and_moves_with_the_network_off(app, bench, browser, tmp_path):
+    name, content = saved(app, bench, "Offline page, HTML")
+    assert name == "pickup-cab-yaw.html"
+    file = tmp_path / name
+    file.write_bytes(content)
+    context = browser.new_context(viewport={"width": 700, "height": 400})
+    context.set_offline(True)
+    page = context.new_page()
+    page.set_default_timeout(60_000)
+    asked, errors = [], []
+    page.on("request", lambda request: asked.append(request.url))
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("console", lambda said: said.type == "error" and errors.append(said.text))
+    page.goto(file.as_uri())
+    wait_for(page, "window.__modeviz?.nShown === a.count", count=len(app.scene.driver._meshes))
+    before = page.evaluate("window.__modeviz.phase")
+    wait_for(page, "window.__modeviz.phase !== a.before", before=before)
+    page.get_by_role("button", name="Pause").click()
+    page.get_by_label("Phase").evaluate("(field) => { field.value = 90; field.oninput(); }")
+    wait_for(page, "Math.abs(window.__modeviz.phase - Math.PI / 2) < 1e-9")
+    page.get_by_label("Amplitude").evaluate("(field) => { field.value = 2; field.oninput(); }")
+    wait_for(page, "Math.abs(Math.hypot(...window.__modeviz.weights.value) - 2) < 1e-9")
+    assert page.locator("aside svg").count() >= 3
+    assert not errors
+    assert {url.split(":")[0] for url in asked} <= {"file", "data", "blob"}
+    context.close()

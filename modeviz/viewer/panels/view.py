@@ -1,10 +1,8 @@
-"""Left column: how the vehicle is looked at, and pictures of it."""
+"""Left column: how the vehicle is looked at."""
 
 from collections.abc import Callable, Mapping
-from io import BytesIO
 from typing import get_args
 
-import imageio.v3 as iio
 import viser
 
 from modeviz.export.wording import sentence_case
@@ -16,9 +14,6 @@ from modeviz.viewer.state import Coloring
 VIEWS = ("Iso", "Side", "Front", "Top", "Under")
 COLORINGS = {sentence_case(name): name for name in get_args(Coloring)}
 GHOSTS = {"None": "none", "At rest": "rest", "Compared set": "compared"}
-SIZES = {"1920 × 1080": (1920, 1080), "1280 × 720": (1280, 720), "3840 × 2160": (3840, 2160)}
-TIMEOUT = 60.0
-"""s: a picture takes long where a page renders in software."""
 
 
 class ViewPanel:
@@ -95,41 +90,3 @@ class ViewPanel:
             lambda state: body.name not in state.hidden,
             lambda drawn: self._session.show_body(body.name, drawn),
         )
-
-
-class PicturePanel:
-    """A picture of the 3-D view as a PNG file."""
-
-    def __init__(self, gui: viser.GuiApi, file_name: Callable[[], str]) -> None:
-        """Builds the controls; `file_name` names a picture, without its ending."""
-        size = gui.add_dropdown("Size", tuple(SIZES), hint="Width and height of the picture, pixels")
-        button = gui.add_button("Save picture", icon=viser.Icon.CAMERA, hint="PNG of the 3-D view")
-
-        @button.on_click
-        def _(event: viser.GuiEvent) -> None:
-            client = event.client
-            if client is None:
-                return
-            button.disabled = True
-            try:
-                content = png(client, *SIZES[size.value])
-                client.send_file_download(f"{file_name()}.png", content, save_immediately=True)
-            except TimeoutError:
-                client.add_notification(
-                    "No picture",
-                    f"The page did not draw it within {TIMEOUT:.0f} s: try a smaller size.",
-                )
-            finally:
-                button.disabled = False
-
-
-def png(client: viser.ClientHandle, width: int, height: int) -> bytes:
-    """The 3-D view of a page as a PNG file with a transparent background.
-
-    Raises:
-        TimeoutError: the page did not draw it in time.
-    """
-    image = client.get_render(height, width, transport_format="png", timeout=TIMEOUT)
-    content = BytesIO()
-    iio.imwrite(content, image, extension=".png")
-    return content.getvalue()

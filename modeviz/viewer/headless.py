@@ -1,0 +1,220 @@
+"""A page that nobody looks at: a headless Chromium opens an open server to be photographed.
+
+A page cannot photograph itself with its panels, and on the command line nobody has one open.
+"""
+
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+import viser
+from viser import _messages
+
+from modeviz.errors import ModevizError
+from modeviz.viewer.doors import Server
+from modeviz.viewer.driver import PREFIX, held
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, ConsoleMessage, Page
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = (
+    "--use-angle=swiftshader",  # WebGL in software: there may be no graphics card
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+PATIENCE = 180.0
+"""s: a large page takes long in software."""
+
+MARK = "modevizClient"
+"""The name in a page's window under which it finds the server's number for it."""
+
+DRAWN = """(nMeshes) => {
+  const viewer = window.__viserMutable;
+  viewer?.requestRender?.();
+  const isShown = window.__modeviz?.nShown === nMeshes;
+  return isShown && Number(getComputedStyle(viewer.canvas).opacity) > 0.999;
+}"""
+"""Whether all meshes show their shapes, and light has faded in."""
+
+NO_NOTICES = """() => {
+  const buttons = document.querySelectorAll(".mantine-Notification-closeButton");
+  buttons.forEach((button) => button.click());
+  return !buttons.length;
+}"""
+STANDS_AT = """(phase) => {
+  const nodes = window.__viserSceneTree.getState();
+  return nodes["/_held"] && window.__viserMutable.nodePoseData["/_held"]?.position[0] === phase;
+}"""
+
+
+class Studio:
+    """One page of a server in a headless Chromium, to be used in a `with` statement by one thread."""
+
+    client: viser.ClientHandle
+    """The page as the server sees it: `pictures.picture` and `pictures.cycle` take its scene."""
+
+    def __init__(
+        self,
+        server: Server,
+        width: int = 1280,
+        height: int = 720,
+        tick: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Nothing is started yet.
+
+        Args:
+            server: an open one.
+            width: of the window, pixels.
+            height: of the window, pixels.
+            tick: called ten times a second while the page is waited for; what it raises ends that.
+        """
+        self._server, self._size, self._tick = server, (width, height), tick
+        self._reported: list[str] = []
+        self._page: Page
+        self._open = ExitStack()
+
+    def __enter__(self) -> Self:
+        """Opens the page and waits until its scene is drawn.
+
+        Raises:
+            ModevizError: Playwright or Chromium is missing, or the page was not drawn in time.
+        """
+        with ExitStack() as opening, _told_simply():
+            browser = opening.enter_context(_chromium())
+            width, height = self._size
+            self._page = browser.new_page(viewport={"width": width, "height": height})
+            self._page.set_default_timeout(1000 * PATIENCE)
+            self._page.on("pageerror", lambda error: self._reported.append(str(error)))
+            self._page.on("console", self._note)
+            self._page.goto(f"{self._server.link}&fixedDpr=1")
+            self.client = self._find_client()
+            self._wait_drawn()
+            self._open = opening.pop_all()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Closes the browser.
+
+        Raises:
+            RuntimeError: nothing else went wrong, but the page reported an error.
+        """
+        self._open.close()
+        if error is None and self._reported:
+            raise RuntimeError(f"the page reported: {self._reported[0]}")
+
+    def page_png(self, like: viser.ClientHandle | None = None, phase: float = 0.0) -> bytes:
+        """The whole page as a PNG file.
+
+        Args:
+            like: the page whose 3-D view this one's is to have, in size and camera.
+            phase: θ at which the shapes stand, rad.
+        """
+        with _told_simply(), held(self.client) as hold:
+            if like is not None:
+                self._fit(like.camera.image_width, like.camera.image_height)
+                with self.client.atomic():
+                    self.client.camera.position = like.camera.position
+                    self.client.camera.look_at = like.camera.look_at
+                    self.client.camera.fov = like.camera.fov
+            self.stand(hold, phase)
+            self._wait(NO_NOTICES)
+            self._wait_drawn()
+            return self._page.screenshot(timeout=1000 * PATIENCE)
+
+    def stand(self, hold: Callable[[float], None], phase: float) -> None:
+        """Waits until the page stands at a phase, rad, and has the camera it was given before."""
+        hold(phase)  # goes the same way as the camera, after it
+        self._wait(STANDS_AT, phase)
+
+    def _fit(self, width: int, height: int) -> None:
+        """Gives the window such a size that its 3-D view has this one, pixels."""
+        for _ in range(3):  # panels may change their width with the window
+            now = self._page.evaluate("({w: innerWidth, canvas: __viserMutable.canvas.clientWidth})")
+            self._page.set_viewport_size(
+                {"width": max(now["w"] + width - now["canvas"], 320), "height": max(height, 240)}
+            )
+            self._page.wait_for_timeout(500)
+
+    def _note(self, said: "ConsoleMessage") -> None:
+        if said.type == "error":
+            self._reported.append(said.text)
+
+    def _find_client(self) -> viser.ClientHandle:
+        """The page as the server sees it: each page is told its number, and this one asked for its."""
+
+        def client() -> viser.ClientHandle | None:
+            clients = self._server.get_clients()
+            for number, page in clients.items():
+                source = f"window.{MARK} = {number};"
+                page._websock_connection.queue_message(_messages.RunJavascriptMessage(source))
+            return clients.get(self._page.evaluate(f"window.{MARK} ?? null"))
+
+        return self._until(client)
+
+    def _wait_drawn(self) -> None:
+        scene = self._server.scene
+        self._wait(DRAWN, sum(name.startswith(PREFIX + "/") for name in scene._handle_from_node_name))
+
+    def _wait(self, condition: str, argument: float | None = None) -> None:
+        """Waits until a JavaScript function is true."""
+        self._until(lambda: self._page.evaluate(condition, argument))
+
+    def _until(self, value: Callable[[], Any]) -> Any:
+        """Waits until something is there or true, and gives it."""
+        end = time.monotonic() + PATIENCE
+        while not (found := value()):
+            if time.monotonic() > end:
+                raise ModevizError(f"the headless Chromium did not draw within {PATIENCE:.0f} s")
+            self._tick()
+            self._page.wait_for_timeout(100)
+        return found
+
+
+@contextmanager
+def _chromium() -> "Iterator[Browser]":
+    """The system's Chromium, else Playwright's own; raises ModevizError if either is missing."""
+    if not find_spec("playwright"):
+        raise ModevizError('pictures need Playwright: pip install "modeviz[pictures]"')
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        own = playwright.chromium.executable_path
+        path = next(filter(None, map(shutil.which, BROWSERS)), own)
+        if not Path(path).exists():
+            raise ModevizError(
+                "pictures need Chromium: install your system's (apt install chromium), "
+                "or Playwright's (playwright install chromium)"
+            )
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
+@contextmanager
+def _told_simply() -> Iterator[None]:
+    """Turns what Playwright raises into ModevizError."""
+    try:
+        yield
+    except Exception as error:
+        if not type(error).__module__.startswith("playwright"):
+            raise
+        first_line = str(error).splitlines()[0]
+        raise ModevizError(f"the headless Chromium did not draw the page: {first_line}") from error

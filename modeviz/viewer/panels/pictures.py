@@ -1,0 +1,157 @@
+"""Left column: pictures to take away."""
+
+import math
+from collections.abc import Callable, Generator, Iterator
+from contextlib import closing
+from itertools import count
+
+import viser
+from PIL import Image
+
+from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
+from modeviz.vehicle.arrays import Floats
+from modeviz.viewer.doors import Server
+from modeviz.viewer.headless import Studio
+from modeviz.viewer.jobs import Tell, run
+from modeviz.viewer.pictures import (
+    CYCLE_S,
+    N_CYCLES,
+    N_FRAMES,
+    SIZES,
+    Backdrop,
+    Shot,
+    cycle,
+    picture,
+    same_field_of_view,
+)
+from modeviz.viewer.stage import Theme
+
+PRESETS = {
+    "1920 × 1080": (1920, 1080),
+    "1280 × 720": (1280, 720),
+    "3840 × 2160": (3840, 2160),
+    "1080 × 1080": (1080, 1080),
+    "640 × 360": (640, 360),
+}
+BACKDROPS: dict[str, Backdrop] = {
+    "As on screen": "scene",
+    "White": "white",
+    "Transparent": "transparent",
+}
+
+
+class PicturePanel:
+    """What is saved, how large and on which background, and a button that does it."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        server: Server,
+        theme: Theme,
+        file_name: Callable[[], str],
+        offline: Callable[[Floats, Floats], bytes],
+    ) -> None:
+        """Builds the controls.
+
+        Args:
+            gui: where.
+            server: whose pages are photographed.
+            theme: of the scene.
+            file_name: names what is saved, without its ending.
+            offline: makes the file that needs no server, for a camera's place and what it looks at.
+        """
+        self._server, self._theme = server, theme
+        self._file_name, self._offline = file_name, offline
+        self._busy: set[int] = set()
+        self._makers: dict[str, tuple[str, Callable[[viser.ClientHandle, Tell], bytes]]] = {
+            "Picture, PNG": (".png", self._picture),
+            "Loop, GIF": (".gif", self._gif),
+            "Film, MP4": (".mp4", self._mp4),
+            "Whole page, PNG": (" page.png", self._page),
+            "Offline page, HTML": (".html", self._html),
+        }
+        self._kind = gui.add_dropdown(
+            "Save",
+            tuple(self._makers),
+            hint="The 3-D view as it is; one cycle of its motion; this page with its plots; or a file "
+            "that moves without a server",
+        )
+        preset = gui.add_dropdown("Size", tuple(PRESETS), hint="Width and height, pixels")
+        first = PRESETS[preset.value]
+        self._width, self._height = (
+            gui.add_number(name, value, min=SIZES[0], max=SIZES[1], step=1, hint=f"{name}, pixels")
+            for name, value in zip(("Width", "Height"), first, strict=True)
+        )
+
+        @preset.on_update
+        def _(_: viser.GuiEvent) -> None:
+            self._width.value, self._height.value = PRESETS[preset.value]
+
+        self._backdrop = gui.add_dropdown(
+            "Background", tuple(BACKDROPS), hint="Loops and films are never transparent, but white"
+        )
+        button = gui.add_button("Save…", icon=viser.Icon.CAMERA, hint="Makes the file and downloads it")
+        button.on_click(lambda event: self._save(event.client))
+
+    def _save(self, client: viser.ClientHandle | None) -> None:
+        if client is None or client.client_id in self._busy:
+            return
+        kind = self._kind.value
+        ending, make = self._makers[kind]
+
+        def work(tell: Tell) -> None:
+            content = make(client, tell)
+            name = self._file_name() + ending.replace(" ", "-")
+            client.send_file_download(name, content, save_immediately=True)
+
+        self._busy.add(client.client_id)
+        try:
+            run(client, kind, work)
+        finally:
+            self._busy.discard(client.client_id)
+
+    def _shot(self, client: viser.ClientHandle) -> Shot:
+        width, height = round(self._width.value), round(self._height.value)
+        fov = same_field_of_view(client.camera, width, height)
+        return Shot(width, height, BACKDROPS[self._backdrop.value], self._theme, fov)
+
+    def _picture(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+        """The 3-D view at this moment."""
+        tell(0.0)
+        return png_bytes(picture(client, self._shot(client)))
+
+    def _gif(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+        """One cycle that repeats without a seam."""
+        return gif_bytes(
+            _told(cycle(client, self._shot(client).moving("gif"), N_FRAMES), tell), CYCLE_S
+        )
+
+    def _mp4(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+        """Some cycles as a film."""
+        check_films()
+        frames = _told(cycle(client, self._shot(client).moving("mp4"), N_FRAMES), tell)
+        return mp4_bytes(frames, CYCLE_S, N_CYCLES)
+
+    def _page(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+        """The page with its panels, from a browser beside: no page can photograph itself."""
+        done = count(1)
+
+        def tick() -> None:
+            tell(1 - math.exp(-next(done) / 100))  # nobody knows how long
+
+        with Studio(self._server, tick=tick) as studio:
+            return studio.page_png(like=client)
+
+    def _html(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+        """The scene with its plots in a file."""
+        tell(0.0)
+        return self._offline(client.camera.position, client.camera.look_at)
+
+
+def _told(frames: Generator[Image.Image], tell: Tell) -> Iterator[Image.Image]:
+    """The frames of a cycle, and word of how many there are."""
+    with closing(frames):  # so that the page moves on at once where this is cancelled
+        for done in range(N_FRAMES):
+            # Before each: viser's page complains of news for a bar that goes in the same breath.
+            tell(done / N_FRAMES)
+            yield next(frames)

@@ -1,0 +1,145 @@
+"""Pictures without a page: the whole app opens where nobody looks, for as long as one file takes."""
+
+import secrets
+from collections.abc import Callable, Generator, Iterator, Mapping
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from PIL import Image
+from threadpoolctl import threadpool_limits
+
+from modeviz.errors import ModevizError
+from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.app import App
+from modeviz.viewer.doors import open_server
+from modeviz.viewer.driver import held
+from modeviz.viewer.headless import Studio
+from modeviz.viewer.panels.modes import listed
+from modeviz.viewer.pictures import CYCLE_S, N_CYCLES, Shot, cycle, picture
+from modeviz.viewer.stage import box, camera
+from modeviz.viewer.state import Coloring
+
+Kind = Literal["png", "gif", "mp4", "html"]
+KINDS: Mapping[str, Kind] = {f".{kind}": kind for kind in get_args(Kind)}
+"""By the ending of a file."""
+
+OFFLINE_SIZE = (900, 800)
+"""About the shape of the scene in an offline page, pixels."""
+
+PATIENCE = 600.0
+"""s: for one answer, on a machine that has much else to do."""
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is to be seen."""
+
+    mode: str
+    """Its name; "" is the one the page would open with."""
+    view: str
+    """One of `stage.VIEWS`."""
+    coloring: Coloring
+    amplitude: float
+    """Of the motion, in parts of the usual one."""
+    phase: float
+    """θ of a still picture, rad."""
+    n_frames: int
+    """Of a cycle of a moving one."""
+
+
+def render(
+    vehicle: Vehicle,
+    rates: Rates,
+    conditions: Conditions,
+    wish: Wish,
+    shot: Shot,
+    kind: Kind,
+    tell: Callable[[str, float], None],
+) -> bytes:
+    """The content of a picture file.
+
+    Args:
+        vehicle: with the rates that all is compared with.
+        rates: to show it with.
+        conditions: of the plots in an offline page.
+        wish: what is to be seen.
+        shot: how.
+        kind: of file.
+        tell: told what is being done and the fraction of it that is done.
+
+    Raises:
+        ModevizError: there is no mode of that name, or what draws is missing or does not.
+    """
+    if kind == "mp4":
+        check_films()
+    with _app(vehicle, rates, conditions, shot.theme.is_dark, tell) as app:
+        _show(app, wish)
+        size = OFFLINE_SIZE if kind == "html" else (shot.width, shot.height)
+        seen = camera(box(vehicle), wish.view, *(100 * side for side in size))  # the card hides nothing
+        if kind == "html":
+            return app.offline(*seen)
+        tell("opening", 0.0)
+        with Studio(app.server) as studio:
+            tell("drawing", 0.0)
+            with held(studio.client) as hold:
+                studio.client.camera.position, studio.client.camera.look_at = seen
+                studio.stand(hold, wish.phase)
+                if kind == "png":
+                    return png_bytes(picture(studio.client, shot))
+            frames = _told(cycle(studio.client, shot.moving(kind), wish.n_frames), wish.n_frames, tell)
+            if kind == "gif":
+                return gif_bytes(frames, CYCLE_S)
+            return mp4_bytes(frames, CYCLE_S, N_CYCLES)
+
+
+@contextmanager
+def _app(
+    vehicle: Vehicle,
+    rates: Rates,
+    conditions: Conditions,
+    dark: bool,
+    tell: Callable[[str, float], None],
+) -> Iterator[App]:
+    """The app on a port that nobody knows, with a token; prepared."""
+    with threadpool_limits(limits=1, user_api="blas"):
+        server = open_server(port=0, token=secrets.token_urlsafe())
+        try:
+            app = App(vehicle, rates, conditions, server, dark)
+        except ModevizError:
+            server.stop()
+            raise
+        try:
+            app.start(lambda fraction: tell("preparing", fraction))
+            yield app
+        finally:
+            app.close()
+
+
+def _show(app: App, wish: Wish) -> Solved:
+    """Has the app show what is wished; raises ModevizError as `render`."""
+    app.session.change(coloring=wish.coloring)
+    if wish.mode:
+        app.session.show_mode(wish.mode)
+    app.scene.driver.drive(amplitude=wish.amplitude)
+    if not app.session.wait(PATIENCE) or app.shown is None:
+        raise ModevizError("there is no answer with these rates")
+    now = app.shown.now
+    if wish.mode and now.mode_index(wish.mode) is None:
+        names = ", ".join(name.name for name, _ in listed(now).values())
+        raise ModevizError(f"--mode: unknown mode {wish.mode!r}: there are {names}")
+    return app.shown
+
+
+def _told(
+    frames: Generator[Image.Image], n_frames: int, tell: Callable[[str, float], None]
+) -> Iterator[Image.Image]:
+    """The frames, and word of how many there are."""
+    with closing(frames):
+        for done, frame in enumerate(frames, 1):
+            tell("drawing", done / n_frames)
+            yield frame
