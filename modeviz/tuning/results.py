@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.assembly import System
 from modeviz.dynamics.band import BandModes, Method, band_modes
 from modeviz.dynamics.damped import DampedModes, damped_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
@@ -78,6 +79,11 @@ class ModalResults:
     @property
     def trust(self) -> Trust:
         return self.band.trust
+
+    @cached_property
+    def system(self) -> System:
+        """With these rates."""
+        return self.prepared.system.with_rates(self.rates)
 
     @cached_property
     def vehicle(self) -> Vehicle:

@@ -86,4 +86,4 @@ def _system(results: Results, frequency_hz: float) -> System:
             f"operating shape: found {frequency_hz:g} Hz, expected {low:g} to {high:g} Hz, where "
             "responses are given"
         )
-    return results.prepared.system.with_rates(results.rates)
+    return results.system
