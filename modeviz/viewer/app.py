@@ -29,6 +29,7 @@ from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.shape import ShapePanel
 from modeviz.viewer.panels.status import StatusPanel
+from modeviz.viewer.panels.variants import VariantsPanel
 from modeviz.viewer.panels.view import ViewPanel
 from modeviz.viewer.scene import Scene
 from modeviz.viewer.session import Session
@@ -131,6 +132,8 @@ class App:
         tabs = gui.add_tab_group()
         with tabs.add_tab("Mounts", viser.Icon.ADJUSTMENTS):
             self._mounts = MountsPanel(gui, session, self._set_rates)
+        with tabs.add_tab("Variants", viser.Icon.VERSIONS):
+            self._variants = VariantsPanel(gui, session)
         with tabs.add_tab("View", viser.Icon.EYE):
             self._view = ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
@@ -163,6 +166,7 @@ class App:
         self._hotkeys.add("Play or pause", "space", lambda _: self._animation.toggle())
         self._hotkeys.add("Next mode", "N", lambda _: self._step_mode(1))
         self._hotkeys.add("Mode before", "P", lambda _: self._step_mode(-1))
+        self._hotkeys.add("Swap with the set compared with", "B", lambda _: session.swap())
 
     def _show(self, solved: Solved) -> None:
         """Draws an answer: the panels in one batch, the scene in another, which waits for a frame.
@@ -180,6 +184,7 @@ class App:
             if solved.is_detailed:
                 self._table.show(solved)
                 self._excitation.show(solved)
+                self._variants.show(solved)
                 self._mounts.show(solved)
                 self._view.show()
                 self._modes.show(solved)

@@ -11,6 +11,8 @@ import viser
 from viser import _messages
 from viser.infra import ClientId, WebsockClientConnection
 
+from modeviz.viewer.uploads import UPLOADS, is_upload_allowed, refuse_upload
+
 if TYPE_CHECKING:
     from viser._gui_handles import _GuiInputHandle
 
@@ -21,6 +23,7 @@ ALLOWED = (
     _messages.SceneNodeClickMessage,
     _messages.CommandTriggerMessage,
     _messages.FileTransferPartAck,
+    *UPLOADS,
 )
 LONGEST_TEXT = 4000
 
@@ -39,6 +42,13 @@ def _gate(server: viser.ViserServer, handler: Any, connection: WebsockClientConn
     async def checked(client_id: ClientId, message: _messages.Message) -> None:
         if not isinstance(message, ALLOWED):
             return
+        if isinstance(message, UPLOADS):
+            if connection is None:  # only shared widgets take files
+                if is_upload_allowed(server, client_id, message):
+                    await handle(client_id, message)
+                else:
+                    refuse_upload(server, client_id, message)
+            return
         if not isinstance(message, _messages.GuiUpdateMessage):
             if _is_finite(vars(message)):
                 await handle(client_id, message)
@@ -48,7 +58,7 @@ def _gate(server: viser.ViserServer, handler: Any, connection: WebsockClientConn
             return
         if set(message.updates) == {"value"} and is_possible(widget, message.updates["value"]):
             await handle(client_id, message)
-        elif connection is not None:
+        elif connection is not None and not isinstance(widget, viser.GuiUploadButtonHandle):
             true_value = {"value": widget._impl.value}
             connection.queue_message(_messages.GuiUpdateMessage(message.uuid, true_value))
 

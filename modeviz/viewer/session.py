@@ -152,8 +152,45 @@ class Session:
             self._update(forgotten)
 
     def load(self, name: str) -> None:
-        """Takes over the rates of a set, locked ones too."""
-        self._update(lambda state: replace(state, rates=dict(rate_sets(self.vehicle, state)[name])))
+        """Takes over the rates of a set, locked ones too; as the other methods, one that there is."""
+
+        def loaded(state: State) -> State:
+            rates = rate_sets(self.vehicle, state).get(name)
+            return state if rates is None else replace(state, rates=dict(rates))
+
+        self._update(loaded)
+
+    def compare_with(self, name: str) -> None:
+        """Compares all with another set."""
+
+        def compared(state: State) -> State:
+            known = name in rate_sets(self.vehicle, state)
+            return replace(state, against=name) if known else state
+
+        self._update(compared)
+
+    def overlay(self, name: str, drawn: bool) -> None:
+        """Draws a set in the charts too, or no longer."""
+
+        def overlaid(state: State) -> State:
+            known = name in rate_sets(self.vehicle, state)
+            names = state.overlaid | {name} if known and drawn else state.overlaid - {name}
+            return replace(state, overlaid=names)
+
+        self._update(overlaid)
+
+    def rename(self, name: str, new: str) -> None:
+        """Calls a pinned set something else, unless another set is called so."""
+
+        def renamed(state: State) -> State:
+            if name not in state.variants or new in rate_sets(self.vehicle, state):
+                return state
+            variants = {new if n == name else n: rates for n, rates in state.variants.items()}
+            overlaid = frozenset(new if n == name else n for n in state.overlaid)
+            against = new if state.against == name else state.against
+            return replace(state, variants=variants, overlaid=overlaid, against=against)
+
+        self._update(renamed)
 
     def swap(self) -> None:
         """Changes places: the set compared with becomes the present one, and the other way round.

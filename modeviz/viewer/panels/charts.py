@@ -96,7 +96,7 @@ def _curve_labels(vehicle: Vehicle) -> dict[str, Curve]:
 def _legend(lines: list[Line], solved: Solved) -> str:
     """The sets with their colours, and what excites the vehicle."""
     swatches = "".join(f'<span class="key">{swatch(line)}{escape(line.label)}</span>' for line in lines)
-    return heading(f'<span class="legend">{swatches}</span>', excited_by(solved))
+    return heading(f'<span class="keyed">{swatches}</span>', excited_by(solved))
 
 
 def swatch(line: Line) -> str:

@@ -1,0 +1,201 @@
+"""Left column: all sets of rates that have a name, kept, loaded and compared."""
+
+from html import escape
+
+import viser
+
+from modeviz.export.wording import sentence_case, signed
+from modeviz.tuning.results import AXIS, Results
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.assign import assign
+from modeviz.viewer.binding import Binding, show_all
+from modeviz.viewer.html import HiddenButtons, block, row, span, table
+from modeviz.viewer.panels.exchange import ExchangePanel
+from modeviz.viewer.panels.figures import DRIVER
+from modeviz.viewer.panels.side_by_side import side_by_side
+from modeviz.viewer.plots import set_line
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import State, known_sets, next_name, rate_sets
+
+N_ROWS = 24
+"""So many sets can be clicked; more are listed only."""
+
+LOAD, OVERLAY, FORGET = "load", "overlay", "forget"
+ACTIONS = (LOAD, OVERLAY, FORGET)
+LONGEST_NAME = 40
+PIN, RENAME, SWAP = "Pin", "Rename", "A/B"
+
+
+class VariantsPanel:
+    """The table of sets, what the present rates are compared with, and their names and files."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Builds the controls; `show` fills the tables."""
+        self._session = session
+        self._names: list[str] = []
+        self._buttons = HiddenButtons(gui, N_ROWS * len(ACTIONS), self._press)
+        self._table = gui.add_html(block(span("The sets follow with the first answer.", "dim")))
+        self._against = gui.add_dropdown(
+            "Compare with",
+            tuple(rate_sets(session.vehicle, session.state)),
+            initial_value=session.state.against,
+            hint="The grey curves and all changes are against this set",
+        )
+        swap = gui.add_button_group(
+            "Switch",
+            (SWAP,),
+            hint="The set compared with becomes the present one and the other way round; key B. Rates "
+            "without a name are pinned first",
+        )
+        swap.on_click(lambda _: session.swap())
+        ghost = gui.add_checkbox(
+            "Its outlines",
+            session.state.ghost == "compared",
+            hint="Outlines that move as the vehicle does with the set compared with, in the same phase",
+        )
+        self._bindings = [
+            Binding(self._against, session, lambda state: state.against, session.compare_with),
+            Binding(
+                ghost,
+                session,
+                lambda state: state.ghost == "compared",
+                lambda on: session.change(ghost="compared" if on else "none"),
+            ),
+        ]
+        self._name = NameBox(gui, session)
+        ExchangePanel(gui, session)
+        self._side_by_side = gui.add_html("")
+
+    def show(self, solved: Solved) -> None:
+        """Lists the sets of an answer and how the present rates differ from the one compared with."""
+        self._names = list(solved.named)
+        assign(self._against, options=tuple(solved.named))
+        show_all(self._bindings)
+        self._name.show()
+        assign(self._table, content=block(self._listing(solved), _advice(solved.state)))
+        assign(self._side_by_side, content=block(side_by_side(solved)))
+
+    def _press(self, i: int) -> None:
+        number, action = divmod(i, len(ACTIONS))
+        if number >= len(self._names):  # a shorter list came between the click and here
+            return
+        name = self._names[number]
+        if ACTIONS[action] == LOAD:
+            self._session.load(name)
+        elif ACTIONS[action] == FORGET:
+            self._session.unpin(name)
+        else:
+            self._session.overlay(name, name not in self._session.state.overlaid)
+
+    def _listing(self, solved: Solved) -> str:
+        """A row for each set; the last for the present rates, if they have no name."""
+        name = sentence_case(solved.name.name)
+        header = ("", "Set", "lat. g", "vert. g", f"{escape(name)} Hz", "rating", "")
+        current = next((n for n, r in solved.named.items() if r.rates == solved.now.rates), None)
+        rows = [
+            row(self._cells(number, name, solved), chosen=name == current)
+            for number, name in enumerate(solved.named)
+        ]
+        if current is None:
+            figures = _figures(solved.now, solved)
+            rows.append(row(["", span("not pinned", "dim"), *figures, ""], chosen=True))
+        return f'<div class="sets">{table(header, rows)}</div>'
+
+    def _cells(self, number: int, name: str, solved: Solved) -> list[str]:
+        state = solved.state
+        load = f'<span title="Load {escape(name)}">{escape(name)}</span>'
+        forget = '<span title="Forget this set; undo brings it back">×</span>'
+        return [
+            self._button(number, OVERLAY, _mark(number, name, state)),
+            self._button(number, LOAD, load),
+            *_figures(solved.named[name], solved),
+            self._button(number, FORGET, forget) if name in state.variants else "",
+        ]
+
+    def _button(self, number: int, action: str, text: str) -> str:
+        i = number * len(ACTIONS) + ACTIONS.index(action)
+        return self._buttons.label(i, text) if number < N_ROWS else text
+
+
+class NameBox:
+    """A name for the present rates, and what to do with it."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Builds the box and its buttons."""
+        self._session = session
+        self._suggested = self._suggestion()
+        self._box = gui.add_text("Name", self._suggested, hint="What to call the present rates")
+        buttons = gui.add_button_group(
+            "Keep",
+            (PIN, RENAME),
+            hint="Pin keeps the present rates under this name; Rename gives it to the pinned set that "
+            "is loaded",
+        )
+        buttons.on_click(lambda event: self._press(buttons.value, event))
+
+    def show(self) -> None:
+        """Suggests a name, unless somebody has typed another."""
+        suggestion = self._suggestion()
+        if self._box.value == self._suggested:
+            assign(self._box, value=suggestion)
+        self._suggested = suggestion
+
+    def _suggestion(self) -> str:
+        state = self._session.state
+        return self._current(state) or next_name(state)
+
+    def _current(self, state: State) -> str | None:
+        """The pinned set that the present rates are, if they are one."""
+        return next((n for n, r in state.variants.items() if dict(r) == dict(state.rates)), None)
+
+    def _press(self, button: str, event: viser.GuiEvent) -> None:
+        complaint = self._keep(button, self._box.value.strip())
+        if complaint and event.client:
+            event.client.add_notification("Not kept", complaint, color="red")
+
+    def _keep(self, button: str, name: str) -> str | None:
+        """Pins or renames; says why not, if so."""
+        state, vehicle = self._session.state, self._session.vehicle
+        if not name:
+            return "The set needs a name: type one first."
+        if len(name) > LONGEST_NAME:
+            return f"The name has {len(name)} letters: at most {LONGEST_NAME} fit the table."
+        if name in known_sets(vehicle):
+            return f"{name} is one of the vehicle's own sets: choose another name."
+        if button == PIN:
+            self._session.pin(name)
+            return None
+        current = self._current(state)
+        if current is None:
+            return "The present rates are not pinned: load a pinned set to rename it."
+        if name != current and name in state.variants:
+            return f"There is a set called {name}: choose another name."
+        self._session.rename(current, name)
+        return None
+
+
+def _figures(results: Results, solved: Solved) -> list[str]:
+    """RMS at the driver's point, the shown mode's frequency, and the change of the rating."""
+    base = solved.base
+    mode = solved.mode if results is solved.now else results.mode_index(solved.name.name)
+    f = "–" if mode is None else f"{results.modes.frequency_hz[mode]:.2f}"
+    gain = results.rating.mean_personal_rating - base.rating.mean_personal_rating
+    kind = "dim" if abs(gain) < 0.005 else "good" if gain > 0 else "bad"
+    rating = span("–", "dim") if results is base else span(signed(gain, 2), kind)
+    lateral, vertical = (results.rms[DRIVER, AXIS[d]] for d in ("lateral", "vertical"))
+    return [f"{lateral:.3f}", f"{vertical:.3f}", f, rating]
+
+
+def _mark(number: int, name: str, state: State) -> str:
+    """The colour of a set's curve: filled if it is drawn."""
+    if name == state.against:
+        return '<i class="mark on base" title="Drawn grey: all is compared with this set"></i>'
+    on, what = (" on", "Drawn in the charts") if name in state.overlaid else ("", "Draw in the charts")
+    color = set_line(name, number).color
+    return f'<i class="mark{on}" style="--mark:{color}" title="{what}"></i>'
+
+
+def _advice(state: State) -> str:
+    if state.variants:
+        return ""
+    return span("No variant yet: change a rate, then pin it.", "dim")

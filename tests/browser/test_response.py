@@ -1,0 +1,154 @@
+"""The charts, peaks and figures of the right column, on the smallest vehicle."""
+
+import json
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+from pages import wait_for, wait_until
+
+from modeviz.cli import main
+from modeviz.tuning.preparation import FREQUENCY_HZ, prepare
+from modeviz.tuning.results import Conditions, solve
+from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.files import write_vehicle
+from modeviz.viewer.app import App
+from modeviz.viewer.plots import SHOWN_HZ
+from modeviz.viewer.state import Curve
+
+SOLVE_S = 60
+FLAT = Conditions("flat", 20.0)
+CURVES = Curve(0, "lateral"), Curve(0, "vertical")
+LOW, HIGH = SHOWN_HZ
+SHOWN = (FREQUENCY_HZ >= LOW) & (FREQUENCY_HZ <= HIGH)
+CHARTS = """
+  Object.values(window.__viserTestpoints?.uplots ?? {}).sort((one, other) =>
+    one.chart.root.getBoundingClientRect().top - other.chart.root.getBoundingClientRect().top)
+"""
+DRAWN = f"""
+  {CHARTS}.map(({{ chart }}) => Object.fromEntries(
+    chart.series.slice(1).map((s, i) => [s.label, Array.from(chart.data[i + 1])])))
+"""
+
+
+@pytest.fixture(scope="module")
+def app(server):
+    vehicle = mounted_cabin()
+    app = App(vehicle, vehicle.rates, FLAT, server)
+    server.scene.configure_environment_map(None)  # rendering in software takes nearly all the time
+    app._animation._run(False)
+    app.start()
+    assert app.session.wait(SOLVE_S)
+    yield app
+    app.session.close()
+
+
+@pytest.fixture(scope="module")
+def page(app, server, open_page):
+    page = open_page(server, viewport=(980, 760))
+    wait_for(page, f"{CHARTS}.length === 2")
+    return page
+
+
+@pytest.fixture(autouse=True)
+def original(app, page):
+    """Every test starts with the vehicle's rates, on the road, in decibels."""
+    page.get_by_role("tab", name="Response").click()
+    app.session.load("Original")
+    app.session.change(
+        load="", curves=CURVES, conditions=FLAT, decibels=True, log_frequency=False,
+        against="Original", overlaid=frozenset(), group="A", mode="cab yaw",
+    )  # fmt: skip
+    assert app.session.wait(SOLVE_S)
+
+
+def shown(response):
+    return np.asarray(response)[SHOWN]
+
+
+def assert_drawn(page, chart, label, expected):
+    """Waits until a chart's curve of that name is what is expected."""
+
+    def is_drawn():
+        curves = page.evaluate(DRAWN)
+        found = curves[chart].get(label) if len(curves) > chart else None
+        return found is not None and np.allclose(found, expected, rtol=1e-9, atol=0)
+
+    wait_until(page, is_drawn)
+
+
+def choose(page, label, option):
+    page.get_by_role("combobox", name=label).click()
+    page.get_by_role("option", name=option, exact=True).click()
+
+
+def test_curves_are_the_results_in_decibels_and_in_their_unit(app, page):
+    rates = {"A": MountRates(4e5, 1.5e5, 4e5)}
+    app.session.set_rates(rates)
+    prepared = prepare(mounted_cabin())
+    now, base = solve(prepared, rates, FLAT), solve(prepared, {}, FLAT)
+    for chart, curve in enumerate(CURVES):
+        psd = shown(now.response(curve.point, curve.direction))
+        assert_drawn(page, chart, "now", 10 * np.log10(psd))
+        psd = shown(base.response(curve.point, curve.direction))
+        assert_drawn(page, chart, "Original", 10 * np.log10(psd))
+    page.get_by_role("tab", name="Road").click()
+    choose(page, "Level", "Linear unit, logarithmic axis")
+    page.get_by_role("tab", name="Response").click()
+    assert_drawn(page, 0, "now", shown(now.response(0, "lateral")))
+
+
+def test_another_direction_is_drawn_where_it_is_chosen(app, page):
+    page.get_by_role("combobox", name="dB re 1 g²/Hz").first.click()
+    page.get_by_role("option", name="Seat, fore-aft").click()
+    response = app.session.wait(SOLVE_S) and app._last.now.response(0, "fore-aft")
+    assert_drawn(page, 0, "now", 10 * np.log10(shown(response)))
+
+
+def test_an_overlaid_set_is_drawn_as_a_curve_of_its_own_and_named(app, page):
+    app.session.overlay("Soft", True)
+    soft = solve(prepare(mounted_cabin()), mounted_cabin().rate_sets["soft"], FLAT)
+    assert_drawn(page, 1, "Soft", 10 * np.log10(shown(soft.response(0, "vertical"))))
+    wait_for(page, "document.querySelector('.mv .keyed')?.textContent.includes('Soft')")
+
+
+def test_a_wheel_load_is_drawn_as_the_command_line_prints_it(app, page, tmp_path, capsys):
+    page.get_by_role("tab", name="Road").click()
+    choose(page, "Excitation", "Front left radial force")
+    page.get_by_role("tab", name="Response").click()
+    write_vehicle(mounted_cabin(), tmp_path / "cabin")
+    capsys.readouterr()
+    assert main(["wheels", str(tmp_path / "cabin"), "--json"]) == 0
+    (load,) = json.loads(capsys.readouterr().out)["loads"]
+    for chart, curve in enumerate(CURVES):
+        (printed,) = [r for r in load["responses"] if r["direction"] == curve.direction]
+        assert_drawn(page, chart, "now", shown(printed["acceleration_db"]))
+        wait_for(page, "document.body.textContent.includes('dB re 1 g')")
+    wait_for(page, "document.querySelector('.mv .figures')?.textContent.includes('Mean lateral')")
+
+
+def test_the_zoom_stays_while_rates_move(app, page):
+    zoom = f"{CHARTS}.map(({{ chart }}) => [chart.scales.x.min, chart.scales.x.max])"
+    for chart, curve in enumerate(CURVES):
+        response = app._last.now.response(curve.point, curve.direction)
+        assert_drawn(page, chart, "now", 10 * np.log10(shown(response)))
+    page.evaluate(f"{CHARTS}.forEach(c => c.chart.setScale('x', {{ min: 8, max: 14 }}))")
+    for rate in (2.9e5, 2.5e5, 2e5):
+        app.session.set_rate("A", "lateral", rate)
+        assert app.session.wait(SOLVE_S)
+        response = app._last.now.response(0, "lateral")
+        assert_drawn(page, 0, "now", 10 * np.log10(shown(response)))
+    assert page.evaluate(zoom) == [[8, 14], [8, 14]]
+
+
+def test_a_click_on_a_contributor_shows_its_mode_and_selects_its_mounts(app, page):
+    pill = page.locator(".mv .pill:not(.on)").first
+    text = pill.locator("span").inner_text().removeprefix("~")
+    pill.locator("label").click()
+    wait_until(page, lambda: app.session.state.mode == text.lower())
+    assert app.session.wait(SOLVE_S)
+    solved = app._last
+    largest = max(("A", "B"), key=lambda group: solved.strain[group])
+    assert solved.state.group == largest
+    app.session.undo()
+    assert (app.session.state.mode, app.session.state.group) == ("cab yaw", "A")

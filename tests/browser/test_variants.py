@@ -1,0 +1,138 @@
+"""Sets of rates: pinned, compared, swapped, and as files."""
+
+import pytest
+from mounted_cabin import mounted_cabin
+from pages import wait_for, wait_until
+
+from modeviz.tuning.rate_files import parse_rates
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import MountRates
+from modeviz.viewer.app import App
+from modeviz.viewer.uploads import LARGEST_FILE
+
+SOLVE_S = 60
+TRIED = {"A": MountRates(4e5, 131.4e3, 4e5), "B": MountRates(8e5, 3e5, 4e5)}
+ROWS = "Array.from(document.querySelectorAll('.mv .sets tr'), r => r.textContent)"
+NOTICE = "Array.from(document.querySelectorAll('.mantine-Notification-root'), n => n.textContent)"
+
+
+@pytest.fixture(scope="module")
+def app(server):
+    vehicle = mounted_cabin()
+    app = App(vehicle, vehicle.rates, Conditions("flat", 20.0), server)
+    server.scene.configure_environment_map(None)  # rendering in software takes nearly all the time
+    app._animation._run(False)
+    app.start()
+    assert app.session.wait(SOLVE_S)
+    yield app
+    app.session.close()
+
+
+@pytest.fixture(scope="module")
+def page(app, server, open_page):
+    page = open_page(server, viewport=(980, 760))
+    page.get_by_role("tab", name="Variants").click()
+    wait_for(page, f"{ROWS}.length === 3")
+    return page
+
+
+@pytest.fixture(autouse=True)
+def original(app, page):
+    """Every test starts with the vehicle's own rates and sets."""
+    app.session.load("Original")
+    app.session.change(variants={}, against="Original", overlaid=frozenset(), ghost="none")
+    assert app.session.wait(SOLVE_S)
+    wait_for(page, f"{ROWS}.length === 3")
+
+
+def press(page, name):
+    page.get_by_role("button", name=name, exact=True).click()
+
+
+def type_name(app, page, name):
+    box = app._variants._name._box
+    page.locator(".mantine-TextInput-input:visible").fill(name)
+    wait_until(page, lambda: box.value == name)
+
+
+def test_without_a_variant_it_says_what_to_do(page):
+    wait_for(page, "document.body.textContent.includes('No variant yet: change a rate, then pin it.')")
+
+
+def test_present_rates_are_pinned_under_the_name_typed_and_loaded_again(app, page):
+    app.session.set_rates(TRIED)
+    wait_for(page, f"{ROWS}.at(-1).startsWith('not pinned')")
+    type_name(app, page, "Softer front")
+    press(page, "Pin")
+    wait_for(page, f"{ROWS}.at(-1).startsWith('Softer front')")
+    page.locator(".mv .sets label", has_text="Original").click()
+    wait_until(page, lambda: app.session.state.rates == mounted_cabin().rates)
+    page.locator(".mv .sets label", has_text="Softer front").click()
+    wait_until(page, lambda: app.session.state.rates == TRIED)
+    page.locator(".mv .sets label", has_text="×").click()
+    wait_until(page, lambda: not app.session.state.variants)
+
+
+def test_the_names_of_the_vehicles_own_sets_are_refused(app, page):
+    type_name(app, page, "Soft")
+    press(page, "Pin")
+    wait_for(page, f"{NOTICE}.some(n => n.includes('one of the vehicle'))")
+    assert not app.session.state.variants
+
+
+def test_key_b_swaps_with_the_set_compared_with_and_back(app, page):
+    app.session.load("Soft")
+    soft = app.session.state.rates
+    page.locator("canvas").first.focus()
+    page.keyboard.press("b")
+    wait_until(page, lambda: app.session.state.against == "Soft")
+    assert app.session.state.rates == mounted_cabin().rates
+    press(page, "A/B")
+    wait_until(page, lambda: app.session.state.against == "Original")
+    assert app.session.state.rates == soft
+
+
+def test_another_set_is_compared_with_and_the_differences_are_listed(app, page):
+    page.get_by_role("combobox", name="Compare with").click()
+    page.get_by_role("option", name="Soft").click()
+    wait_until(page, lambda: app.session.state.against == "Soft")
+    wait_for(
+        page, "document.querySelector('.mv .beside')?.textContent.includes('A vertical200800+300 %')"
+    )
+
+
+@pytest.mark.parametrize("file_format", ["csv", "json"])
+def test_a_set_that_is_saved_and_read_again_is_the_same(app, page, tmp_path, file_format):
+    app.session.set_rates(TRIED)
+    assert app.session.wait(SOLVE_S)
+    with page.expect_download() as download:
+        press(page, file_format.upper())
+    assert download.value.suggested_filename == f"cabin-trial-1.{file_format}"
+    text = download.value.path().read_text("utf-8")
+    assert parse_rates(text, file_format, mounted_cabin()) == TRIED
+    app.session.load("Original")
+    path = tmp_path / f"My set.{file_format}"
+    path.write_text(text, "utf-8")
+    page.locator("input[type=file]").set_input_files(path)
+    wait_until(page, lambda: app.session.state.variants.get("My set") == TRIED)
+    assert app.session.state.rates == mounted_cabin().rates
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "complaint"),
+    [
+        ("wrong.csv", b"group,units\nA,N/mm\n", "expected group,units,vertical"),
+        ("wrong.json", b"\xff\xfe", "not a text in UTF-8"),
+        ("wrong.png", b"", "expected a file of rates, .csv or .json"),
+        ("large.csv", b" " * (LARGEST_FILE + 1), "expected a file of at most 1000 kB"),
+    ],
+)
+def test_a_wrong_file_is_refused_in_one_sentence_and_changes_nothing(
+    app, page, tmp_path, name, content, complaint
+):
+    path = tmp_path / name
+    path.write_bytes(content)
+    state = app.session.state
+    page.locator("input[type=file]").set_input_files(path)
+    wait_for(page, f"{NOTICE}.some(n => n.includes(a.complaint))", complaint=complaint)
+    assert app.session.state is state
