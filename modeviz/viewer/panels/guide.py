@@ -49,8 +49,8 @@ class Guide:
         self._lock = threading.Lock()
         self._is_welcome_due = False
         self._open: dict[int, GuiModalHandle] = {}
-        button = server.gui.add_button(
-            "What can I do here?", icon=viser.Icon.HELP, hint="A short guide, and all keys"
+        button = server.gui.add_button_group(
+            "Help", ("What can I do here?",), hint="A short guide, and all keys"
         )
         button.on_click(lambda event: event.client and self.open(event.client))
         hotkeys.add("This guide", "H", lambda event: event.client and self.open(event.client))
