@@ -24,7 +24,7 @@ N_PEAKS = 2
 
 N_CONTRIBUTORS = 3
 SHORT = {"lateral": "Lat.", "vertical": "Vert.", "fore-aft": "Fore-aft"}
-HINT = "a click shows the mode and selects its mounts"
+HINT = "click: mode and its mounts"
 
 
 @dataclass(frozen=True)
