@@ -51,3 +51,13 @@ def test_every_widget_touched_is_written_back_and_later_again(page):
     write_back.touch(first)
     assert page.came.wait(5)
     assert page.written[2:] == [("a", 3.0)]
+
+
+def test_a_widget_in_which_somebody_types_is_not_written_to_but_acted_on_once(page):
+    box, write_back, acted = page.widget("a", 1.0), WriteBack(), threading.Event()
+    calls = []
+    for digit in range(3):
+        write_back.touch(box, lambda digit=digit: (calls.append(digit), acted.set()))
+    assert acted.wait(5)
+    assert calls == [2]
+    assert page.written == []

@@ -24,7 +24,9 @@ from modeviz.viewer.panels.excitation import ExcitationPanel
 from modeviz.viewer.panels.figures import TablePanel
 from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import ModesPanel, listed
-from modeviz.viewer.panels.mounts import MountsPanel
+from modeviz.viewer.panels.mounts.history_row import HistoryRow
+from modeviz.viewer.panels.mounts.opener import FolderOpener
+from modeviz.viewer.panels.mounts.panel import MountsPanel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.shape import ShapePanel
@@ -129,9 +131,11 @@ class App:
     def _lay_out(self, dark: bool) -> None:
         gui, session = self._gui, self.session
         gui.main_panel.dock_left()
+        self._history = HistoryRow(gui, session, self._hotkeys)
+        self._opener = FolderOpener(gui)
         tabs = gui.add_tab_group()
         with tabs.add_tab("Mounts", viser.Icon.ADJUSTMENTS):
-            self._mounts = MountsPanel(gui, session, self._set_rates)
+            self._mounts = MountsPanel(gui, session)
         with tabs.add_tab("Variants", viser.Icon.VERSIONS):
             self._variants = VariantsPanel(gui, session)
         with tabs.add_tab("View", viser.Icon.EYE):
@@ -181,11 +185,13 @@ class App:
             self._animation.show(solved)
             self._shape.show(solved)
             self._status.show(solved)
+            self._opener.show(solved.state.group)
+            self._mounts.show(solved)
             if solved.is_detailed:
+                self._history.show(solved.state)
                 self._table.show(solved)
                 self._excitation.show(solved)
                 self._variants.show(solved)
-                self._mounts.show(solved)
                 self._view.show()
                 self._modes.show(solved)
                 self._energy.show(solved)
@@ -199,11 +205,8 @@ class App:
         for client in self.server.get_clients().values():
             client.add_notification("Not solved", str(error), color="red")
 
-    def _set_rates(self, rates: Rates) -> None:
-        self._mounts.set_rates(rates)
-        self.session.set_rates(rates)
-
     def _select(self, group: str) -> None:
+        self._opener.ask()
         self.session.change(group=group)
 
     def _step_mode(self, step: int) -> None:

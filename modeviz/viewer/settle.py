@@ -7,12 +7,16 @@ value again sends nothing, so it is queued here by viser's private message.
 
 import threading
 import time
+from collections.abc import Callable
 
 import viser
 from viser import _messages
 
 DELAY = 0.4
-"""s: longer than the pauses within a drag."""
+"""s: longer than the pauses within a drag, and between two digits."""
+
+Touched = tuple[viser.GuiInputHandle, Callable[[], None] | None]
+"""A widget that was moved, and what to do instead of sending its value."""
 
 
 class WriteBack:
@@ -21,24 +25,32 @@ class WriteBack:
     def __init__(self) -> None:
         """Starts with nothing touched."""
         self._lock = threading.Lock()
-        self._touched: dict[str, viser.GuiInputHandle] = {}
+        self._touched: dict[str, Touched] = {}
         self._due = 0.0
 
-    def touch(self, widget: viser.GuiInputHandle) -> None:
-        """Notes that somebody moved a widget."""
+    def touch(self, widget: viser.GuiInputHandle, instead: Callable[[], None] | None = None) -> None:
+        """Notes that somebody moved a widget.
+
+        Args:
+            widget: the one moved.
+            instead: what to do once it rests, if its value is not to be sent: somebody may type on.
+        """
         with self._lock:
             is_first = not self._touched
-            self._touched[widget._impl.uuid] = widget
+            self._touched[widget._impl.uuid] = widget, instead
             self._due = time.monotonic() + DELAY
         if is_first:
             threading.Thread(target=self._send_when_due, name="write back", daemon=True).start()
 
     def _send_when_due(self) -> None:
-        for uuid, widget in self._settled().items():
+        for uuid, (widget, instead) in self._settled().items():
+            if instead:
+                instead()
+                continue
             message = _messages.GuiUpdateMessage(uuid, {"value": widget.value})
             widget._impl.gui_api._websock_interface.queue_message(message)
 
-    def _settled(self) -> dict[str, viser.GuiInputHandle]:
+    def _settled(self) -> dict[str, Touched]:
         """Waits until nothing has been touched for `DELAY`, and takes what was."""
         wait = DELAY
         while True:

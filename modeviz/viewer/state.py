@@ -134,6 +134,11 @@ def rate_sets(vehicle: Vehicle, state: State) -> dict[str, Rates]:
     return {**known_sets(vehicle), **state.variants}
 
 
+def compared_rates(vehicle: Vehicle, state: State) -> Rates:
+    """The rates that all is compared with."""
+    return rate_sets(vehicle, state)[state.against]
+
+
 def variant_name(vehicle: Vehicle, state: State) -> str:
     """What the present rates are called: a set's name, or that of the next one to be pinned."""
     for name, rates in rate_sets(vehicle, state).items():

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import viser
+from mount_controls import box, drag, open_folder, position, thumb, type_rate
 from pages import wait_for, wait_until
 from PIL import Image
 from websockets.sync.client import connect
@@ -22,7 +23,6 @@ from modeviz.viewer.app import App
 from modeviz.viewer.plots import SHOWN_HZ
 
 GROUPS = ("F", "C1", "C2", "E", "T")
-DIRECTIONS = ("vertical", "lateral", "fore-aft")
 CAB = "/vehicle/cab"
 SOLVE_S = 120
 
@@ -60,7 +60,7 @@ def app(server):
 @pytest.fixture(scope="module")
 def page(app, server, open_page):
     page = open_page(server, viewport=(980, 640))  # a narrow scene between the panels: drawn fast
-    wait_for(page, "document.querySelectorAll('.mantine-Slider-thumb').length >= 15")
+    wait_for(page, "document.querySelectorAll('.mv-rates').length === 5")
     wait_for(page, f"{CHARTS}.length === 2 && {TITLE}")
     wait_for(page, SHAPE, name=CAB)
     page.evaluate(CLOSE_NOTICES)
@@ -70,8 +70,9 @@ def page(app, server, open_page):
 @pytest.fixture(autouse=True)
 def original(app, page):
     """Every test starts with the original rates solved and shown."""
-    app._set_rates(app.session.vehicle.rates)
-    app.session.change(mode="cab yaw", conditions=Conditions("road 1", 20.0))
+    app.session.change(
+        rates=app.session.vehicle.rates, mode="cab yaw", conditions=Conditions("road 1", 20.0)
+    )
     assert app.session.wait(SOLVE_S)
     wait_for(page, f"{TITLE}?.startsWith(a.title)", title=title(app, "cab yaw"))
 
@@ -81,35 +82,6 @@ def title(app, name, rates=None):
     results = solve_modal(prepare_modes(app.session.vehicle), rates or {})
     f = results.modes.frequency_hz[results.mode_index(name)]
     return f"{name.capitalize()}  {f:.2f} Hz"
-
-
-def thumb(page, group, direction):
-    number = 3 * GROUPS.index(group) + DIRECTIONS.index(direction)
-    return page.locator(".mantine-Slider-thumb").nth(number)
-
-
-def value(slider):
-    return float(slider.get_attribute("aria-valuenow"))
-
-
-def drag(page, slider, target):
-    """Drags a slider with the mouse, then steps with the arrow keys to the exact value."""
-    low, high = (float(slider.get_attribute(f"aria-value{end}")) for end in ("min", "max"))
-    slider.scroll_into_view_if_needed()
-    box = slider.bounding_box()
-    track = slider.locator("xpath=../..").bounding_box()
-    y = box["y"] + box["height"] / 2
-    page.mouse.move(box["x"] + box["width"] / 2, y)
-    page.mouse.down()
-    page.mouse.move(track["x"] + track["width"] * (target - low) / (high - low), y, steps=10)
-    page.mouse.up()
-    slider.focus()
-    for _ in range(60):
-        off = round(target - value(slider))
-        if off == 0:
-            return
-        page.keyboard.press("ArrowRight" if off > 0 else "ArrowLeft")
-    raise AssertionError(f"the slider stays at {value(slider)}, {target} was wanted")
 
 
 def printed(capsys, *arguments):
@@ -130,11 +102,16 @@ def chart_db(record, direction):
 
 def test_dragged_rates_give_what_the_command_line_prints(app, page, capsys):
     charts, shape = page.evaluate(CURRENT), page.evaluate(f"a => {SHAPE}", {"name": CAB})
-    assert value(thumb(page, "C2", "lateral")) == 294
-    drag(page, thumb(page, "C2", "lateral"), 131)
-    drag(page, thumb(page, "F", "fore-aft"), 130)
+    assert box(page, "C2", "lateral").input_value() == "294"
+    open_folder(page, "C2")
+    drag(page, thumb(page, "C2", "lateral"), 60)
+    open_folder(page, "F")
+    type_rate(page, "F", "fore-aft", "130")
+    wait_until(page, lambda: app.session.state.rates["F"].fore_aft == 130e3)
+    dragged = app.session.state.rates["C2"].lateral
+    assert 100e3 < dragged < 150e3
 
-    settings = "--set", "C2.lateral=131 N/mm", "--set", "F.fore-aft=130 N/mm"
+    settings = "--set", f"C2.lateral={dragged} N/m", "--set", "F.fore-aft=130 N/mm"
     modes = printed(capsys, "modes", *settings)["modes"]
     (yaw,) = [m["frequency_hz"] for m in modes if m["name"] == "cab yaw"]
     wait_for(page, f"{TITLE}.startsWith(a.title)", title=f"Cab yaw  {yaw:.2f} Hz")
@@ -151,10 +128,12 @@ def test_dragged_rates_give_what_the_command_line_prints(app, page, capsys):
 
 
 def test_mode_and_spectra_follow_while_the_slider_moves(page):
+    open_folder(page, "C2")
     slider = thumb(page, "C2", "lateral")
-    box, titles = slider.bounding_box(), [page.evaluate(TITLE)]
+    slider.scroll_into_view_if_needed()
+    handle, titles = slider.bounding_box(), [page.evaluate(TITLE)]
     charts = [page.evaluate(CURRENT)]
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    x, y = handle["x"] + handle["width"] / 2, handle["y"] + handle["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()
     for step in range(1, 4):
@@ -173,10 +152,10 @@ def test_optimised_rates_come_and_go_with_a_click(app, page):
     optimised = app.session.vehicle.rate_sets["optimised"]
     page.get_by_role("button", name="Optimised", exact=True).click()
     wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "cab yaw", optimised))
-    assert value(thumb(page, "C1", "vertical")) == 2100
-    page.get_by_role("button", name="All", exact=True).click()
+    wait_until(page, lambda: box(page, "C1", "vertical").input_value() == "2100")
+    page.get_by_role("button", name="Reset all", exact=True).click()
     wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "cab yaw"))
-    assert value(thumb(page, "C1", "vertical")) == 1094
+    wait_until(page, lambda: box(page, "C1", "vertical").input_value() == "1094")
 
 
 def test_a_click_in_the_mode_table_shows_that_mode(app, page):
@@ -195,16 +174,16 @@ def test_a_click_on_a_peaks_contributor_shows_that_mode(app, page):
 
 def test_what_a_page_loses_is_put_back(app, page):
     """viser throttles all widgets with one timer; the server's value must reach the screen."""
-    slider = app._mounts._sliders["C2", "lateral"]
+    row = app._mounts._folders[GROUPS.index("C2")]._rows["lateral"]
     page.evaluate(
         """(uuid) => window.__viserMutable.sendMessage({
-            type: "GuiUpdateMessage", uuid, updates: { value: 200.0 } })""",
-        slider._impl.uuid,
+            type: "GuiUpdateMessage", uuid, updates: { value: 100 } })""",
+        row._slider._impl.uuid,
     )
     # The page itself still draws the old value, as after a lost message; then it gets the server's.
-    wait_for(page, "document.querySelectorAll('.mantine-Slider-thumb')[7].ariaValueNow === '200'")
+    wait_until(page, lambda: position(thumb(page, "C2", "lateral")) == 100)
     assert app.session.wait(SOLVE_S)
-    assert app.session.state.rates["C2"].lateral == 200e3
+    assert app.session.state.rates["C2"].lateral == row._travel.rate(100, 294e3)
 
 
 def test_a_picture_has_the_chosen_size_and_shows_the_truck(page):

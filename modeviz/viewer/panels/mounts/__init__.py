@@ -1,0 +1,1 @@
+"""Left column: the mount groups, their rates, and what changing one does."""

@@ -1,0 +1,177 @@
+"""What there is to know of the selected mount group, and to do with it beyond its rates."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from html import escape
+
+import viser
+from viser import _messages
+
+from modeviz.export.wording import signed
+from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, MountRates, Rates
+from modeviz.viewer.assign import assign
+from modeviz.viewer.binding import Binding
+from modeviz.viewer.html import HiddenButtons, block, row, span, table
+from modeviz.viewer.panels.mounts.effects import Effect, Effects
+from modeviz.viewer.panels.mounts.rows import row_label
+from modeviz.viewer.session import Session
+from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.state import State
+
+LOSS_STEP, LOSS_DECIMALS = 0.005, 3
+LARGEST_LOSS = 0.5
+"""The end of the slider, unless a group's own is larger: about that of the most damping rubbers."""
+
+PADLOCK = (
+    '<svg viewBox="0 0 12 12" width="12" height="12"><path fill="none" stroke="currentColor" '
+    'stroke-width="1.2" d="{shackle}"/><rect x="2" y="5.6" width="8" height="5.4" rx="1" '
+    'fill="currentColor"/></svg>'
+)
+OPEN = PADLOCK.format(shackle="M3.8 5.6V3.6a2.2 2.2 0 0 1 4.2-.9")
+CLOSED = PADLOCK.format(shackle="M3.8 5.6V3.6a2.2 2.2 0 0 1 4.4 0v2")
+BACK = (
+    '<svg viewBox="0 0 12 12" width="12" height="12"><path fill="none" stroke="currentColor" '
+    'stroke-width="1.3" d="M2.2 6a3.9 3.9 0 1 0 1.3-2.9"/><path fill="currentColor" '
+    'd="M1.4 1.2l.4 3.5 3.2-1.4z"/></svg>'
+)
+
+
+LOCK, RESET, RESET_GROUP = range(0, 3), range(3, 6), 6
+"""The hidden buttons of the three directions, and the one of them all."""
+
+N_BUTTONS = 7
+
+
+class Details:
+    """A table of what its rates do, locks and resets, its loss factor and whether ratios are kept."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        session: Session,
+        group: MountGroup,
+        buttons: HiddenButtons,
+        write_back: WriteBack,
+    ) -> None:
+        """Builds them, out of sight; `show` brings those of the selected group out.
+
+        Args:
+            gui: where.
+            session: what they change.
+            group: whose they are.
+            buttons: `N_BUTTONS`, which act on the selected group.
+            write_back: of the page.
+        """
+        self._session, self._group, self._buttons = session, group, buttons
+        self._part = gui.add_folder(None, visible=False)
+        with self._part:
+            self._table = gui.add_html("")
+            self._loss = gui.add_slider(
+                "Loss factor",
+                0.0,
+                max(LARGEST_LOSS, group.loss_factor, self._loss_factor(session.state)),
+                LOSS_STEP,
+                self._loss_factor(session.state),
+                marks=(),
+                hint=f"Damping of {group.name}: the part of the stiffness that loses energy",
+            )
+            assign(self._loss, precision=LOSS_DECIMALS)
+            self._linked = gui.add_checkbox(
+                "Keep ratios",
+                self._is_linked(session.state),
+                hint="When one of these rates moves, the others move by the same factor",
+            )
+        self.bindings = (
+            Binding(self._loss, session, self._loss_factor, self._damp, write_back),
+            Binding(self._linked, session, self._is_linked, self._link),
+        )
+
+    def show(self, state: State, compared: Rates, effects: Effects, mode: str, is_old: bool) -> None:
+        """Brings the table up to date if this is the selected group, else puts it away.
+
+        Args:
+            state: what is shown.
+            compared: the rates compared with.
+            effects: of all rates, or of none as yet.
+            mode: what the shown mode is called.
+            is_old: whether the effects are those of rates that were.
+        """
+        is_selected = state.group == self._group.name
+        assign(self._part, visible=is_selected)
+        if not is_selected:
+            return
+        base = compared[self._group.name]
+        old = " old" if is_old else ""
+        listing = table(self._header(state, base, mode), self._rows(state, base, effects))
+        assign(self._table, content=block(f'<div class="effects{old}">{listing}</div>'))
+        loss, its_base = self._loss_factor(state), self._group.loss_factor_with(base)
+        marks = (_messages.GuiSliderMark(its_base, None),)
+        assign(self._loss, label=row_label("loss factor", loss, its_base), _marks=marks)
+
+    def _header(self, state: State, base: MountRates, mode: str) -> Sequence[str]:
+        name = escape(mode)
+        reset = ""
+        if state.rates[self._group.name] != base:
+            reset = self._sign(RESET_GROUP, BACK, f"Group back to {state.against}")
+        return (
+            "+10 %",
+            f'<div class="mode" title="Frequency of {name}">{name}</div>',
+            '<div title="RMS acceleration of the first response point">lat. RMS</div>',
+            '<div title="RMS acceleration of the first response point">vert. RMS</div>',
+            "",
+            reset,
+        )
+
+    def _rows(self, state: State, base: MountRates, effects: Effects) -> list[str]:
+        rates = state.rates[self._group.name]
+        rows = []
+        for i, (field, direction) in enumerate(zip(RATE_FIELDS, DIRECTIONS, strict=True)):
+            key = self._group.name, field
+            is_changed = getattr(rates, field) != getattr(base, field)
+            cells = (direction, *_cells(effects.get(key)), self._lock(i, key in state.locked))
+            rows.append(row([*cells, self._reset(i, state.against) if is_changed else ""]))
+        return rows
+
+    def _lock(self, i: int, is_locked: bool) -> str:
+        if is_locked:
+            return self._sign(LOCK[i], CLOSED, "Locked: let it move again")
+        return span(self._sign(LOCK[i], OPEN, "Lock: only loading a set moves it then"), "dim")
+
+    def _reset(self, i: int, against: str) -> str:
+        return self._sign(RESET[i], BACK, f"Back to {against}")
+
+    def _sign(self, button: int, picture: str, meaning: str) -> str:
+        """A picture that presses a button."""
+        return self._buttons.label(button, f'<span title="{escape(meaning)}">{picture}</span>')
+
+    def _loss_factor(self, state: State) -> float:
+        return self._group.loss_factor_with(state.rates[self._group.name])
+
+    def _damp(self, loss_factor: float) -> None:
+        name, rates = self._group.name, self._session.state.rates
+        damped = self._group.plain(replace(rates[name], loss_factor=loss_factor))
+        kind = ("loss factor", name)
+        self._session.change(kind, rates={**rates, name: damped}, group=name)
+
+    def _is_linked(self, state: State) -> bool:
+        return self._group.name in state.linked
+
+    def _link(self, linked: bool) -> None:
+        name, others = self._group.name, self._session.state.linked - {self._group.name}
+        self._session.change(linked=others | {name} if linked else others)
+
+
+def _cells(effect: Effect | None) -> tuple[str, str, str]:
+    """What a rate does, good and bad where less is better; nothing as long as it is not known."""
+    if effect is None:
+        return "", "", ""
+    return (
+        f"{signed(effect.frequency_hz, 2)} Hz",
+        _judged(effect.lateral_percent),
+        _judged(effect.vertical_percent),
+    )
+
+
+def _judged(percent: float) -> str:
+    kind = "dim" if abs(percent) < 0.05 else "good" if percent < 0 else "bad"
+    return span(signed(percent, 1, " %"), kind)

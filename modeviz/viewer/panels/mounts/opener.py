@@ -1,0 +1,35 @@
+"""Opening the folder of the selected group in every page, and choosing which are open at the start.
+
+viser opens a folder from the server only by building it anew, and what fits is each window's own. So a
+script in the page clicks on folders, and reads from an element that is always there whose turn it is.
+Leans on viser's private `RunJavascriptMessage` and on how its page builds folders and tabs.
+"""
+
+from html import escape
+from importlib.resources import files
+
+import viser
+from viser import _messages
+
+from modeviz.viewer.assign import assign
+
+
+class FolderOpener:
+    """Tells every page which mount group's folder to open."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        """Starts the script; to be built outside of tabs, which a page builds only when they are up."""
+        self._n_asked = 0
+        self._marker = gui.add_html("")
+        script = files("modeviz.viewer.panels.mounts").joinpath("opener.js").read_text("utf-8")
+        source = f"({script.rstrip()})();"
+        gui._websock_interface.queue_message(_messages.RunJavascriptMessage(source=source))
+
+    def show(self, group: str) -> None:
+        """Opens the folder of a group that was not the selected one, or of one asked for."""
+        data = f'data-group="{escape(group)}" data-asked="{self._n_asked}"'
+        assign(self._marker, content=f'<div class="mv-selected" {data}></div>')
+
+    def ask(self) -> None:
+        """Has the folder of the next group shown opened, even if it was selected before."""
+        self._n_asked += 1

@@ -1,0 +1,73 @@
+"""The whole of the mounts: their unit, and a folder for each group."""
+
+import viser
+
+from modeviz.vehicle.connections import RATE_FIELDS
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.binding import Binding
+from modeviz.viewer.html import HiddenButtons
+from modeviz.viewer.panels.mounts.actions import reset, reset_rate, toggle_lock
+from modeviz.viewer.panels.mounts.details import LOCK, N_BUTTONS, RESET
+from modeviz.viewer.panels.mounts.effects import Effects, effects
+from modeviz.viewer.panels.mounts.folder import GroupFolder
+from modeviz.viewer.session import Session
+from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.state import compared_rates, known_sets
+
+UNITS = ("N/mm", "N/cm")
+
+
+class MountsPanel:
+    """What an engineer changes."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Builds the controls of all mount groups."""
+        self._session = session
+        self._effects: Effects = {}
+        self._unit = self._add_unit(gui)
+        if session.vehicle.mount_groups:
+            self._add_load(gui)
+        buttons, write_back = HiddenButtons(gui, N_BUTTONS, self._press), WriteBack()
+        self._folders = [
+            GroupFolder(gui, session, group, buttons, write_back)
+            for group in session.vehicle.mount_groups
+        ]
+
+    def show(self, solved: Solved) -> None:
+        """Brings controls after the state, and what is for reading after an answer."""
+        self._unit.show()
+        for folder in self._folders:
+            folder.follow()
+        if solved.is_detailed:
+            self._show_details(solved)
+
+    def _show_details(self, solved: Solved) -> None:
+        sensitivity = solved.rest.sensitivity
+        if sensitivity is not None:
+            self._effects = effects(self._session.vehicle, sensitivity, solved.mode)
+        compared = compared_rates(self._session.vehicle, solved.state)
+        for folder in self._folders:
+            folder.show(solved, compared, self._effects, is_old=sensitivity is None)
+
+    def _add_unit(self, gui: viser.GuiApi) -> Binding:
+        session = self._session
+        unit = gui.add_dropdown(
+            "Rates in", UNITS, initial_value=session.state.unit, hint="The unit of all mount rates"
+        )
+        return Binding(unit, session, lambda s: s.unit, lambda value: session.change(unit=value))
+
+    def _add_load(self, gui: viser.GuiApi) -> None:
+        load = gui.add_button_group(
+            "Load", tuple(known_sets(self._session.vehicle)), hint="Sets every rate to a known set"
+        )
+        load.on_click(lambda _: self._session.load(load.value))
+
+    def _press(self, button: int) -> None:
+        """Does what a sign in the table of the selected group says."""
+        group = self._session.state.group
+        if button in LOCK:
+            toggle_lock(self._session, group, RATE_FIELDS[button - LOCK.start])
+        elif button in RESET:
+            reset_rate(self._session, group, RATE_FIELDS[button - RESET.start])
+        else:
+            reset(self._session, group)

@@ -1,0 +1,155 @@
+"""A mount rate on the page: a slider from soft to stiff, and a box with the number."""
+
+import math
+
+import viser
+from viser import _messages
+
+from modeviz.errors import ModevizError
+from modeviz.export.wording import MINUS, sentence_case, signed
+from modeviz.units import factor
+from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, Rates
+from modeviz.vehicle.files.scaling import written
+from modeviz.viewer.assign import assign
+from modeviz.viewer.binding import Binding
+from modeviz.viewer.panels.mounts.travel import Travel, travel
+from modeviz.viewer.session import Session
+from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.state import State, compared_rates, known_sets
+
+STIFFEST = 1e9
+"""N/m: what is stiffer is rigid, or a slip of the finger."""
+
+DECIMALS = 6
+"""That a box shows at most."""
+
+MANY_TIMES = 10.0
+"""From here on a change is a factor, and no percentage."""
+
+
+class RateRow:
+    """One rate of a mount group, bound to a session's state."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        session: Session,
+        group: MountGroup,
+        field: str,
+        write_back: WriteBack,
+    ) -> None:
+        """Builds slider and box.
+
+        Args:
+            gui: where.
+            session: what they change.
+            group: whose rate.
+            field: which, one of `RATE_FIELDS`.
+            write_back: of the page.
+        """
+        self._session, self._group, self._field = session, group, field
+        self._direction = DIRECTIONS[RATE_FIELDS.index(field)]
+        self._travel = self._widest_travel()
+        self._slider = gui.add_slider(
+            sentence_case(self._direction),
+            min=0,
+            max=self._travel.length,
+            step=1,
+            initial_value=self._position(session.state),
+            marks=(),
+        )
+        self._number = gui.add_number(session.state.unit, self._in_unit(session.state), step=1.0)
+        assign(self._number, precision=DECIMALS)
+        self.bindings = (
+            Binding(self._slider, session, self._position, self._slide, write_back),
+            Binding(self._number, session, self._in_unit, self._type, write_back, typed=True),
+        )
+
+    def show(self, state: State, compared: Rates, effect: str) -> None:
+        """Marks what was changed and what is locked.
+
+        Args:
+            state: what is shown.
+            compared: the rates compared with.
+            effect: what a change of this rate does, a sentence or nothing.
+        """
+        base = self._rate_in(compared)
+        is_locked = (self._group.name, self._field) in state.locked
+        in_unit = written(base, factor(state.unit, "stiffness"))
+        about = (
+            f"{self._group.name} {self._group.label}, {self._direction} rate, {state.unit}. "
+            f"{state.against}: {in_unit:g}."
+        )
+        locked = " Locked: loading a set is all that moves it." if is_locked else ""
+        marks = (self._mark(base),) if self._travel.has(base) else ()
+        assign(
+            self._slider,
+            label=row_label(self._direction, self._rate_in(state.rates), base),
+            hint=f"{about} {effect}{locked}",
+            disabled=is_locked,
+            _marks=marks,
+        )
+        assign(
+            self._number,
+            label=state.unit,
+            hint=f"{about} Any rate from zero, which is no mount at all.{locked}",
+            disabled=is_locked,
+            step=step_of_box(in_unit),
+        )
+
+    def _widest_travel(self) -> Travel:
+        """From bound to bound, with every set the vehicle comes with and the first rate between."""
+        known = [*known_sets(self._session.vehicle).values(), self._session.state.rates]
+        softest, stiffest = (getattr(bound, self._field) for bound in self._group.bounds)
+        return travel(softest, stiffest, [self._rate_in(rates) for rates in known])
+
+    def _rate_in(self, rates: Rates) -> float:
+        return getattr(rates[self._group.name], self._field)
+
+    def _position(self, state: State) -> int:
+        return self._travel.position(self._rate_in(state.rates))
+
+    def _in_unit(self, state: State) -> float:
+        return written(self._rate_in(state.rates), factor(state.unit, "stiffness"))
+
+    def _slide(self, position: int) -> None:
+        compared = compared_rates(self._session.vehicle, self._session.state)
+        rate = self._travel.rate(position, self._rate_in(compared))
+        self._session.set_rate(self._group.name, self._field, rate)
+
+    def _type(self, value: float) -> None:
+        unit = self._session.state.unit
+        per_unit = factor(unit, "stiffness")
+        if not 0 <= value * per_unit <= STIFFEST:
+            found = f"{value:g}".replace("-", MINUS)
+            raise ModevizError(
+                f"{self._group.name} {self._direction}: found {found} {unit}, "
+                f"expected 0 to {STIFFEST / per_unit:.0f} {unit}"
+            )
+        self._session.set_rate(self._group.name, self._field, value * per_unit)
+
+    def _mark(self, base: float) -> _messages.GuiSliderMark:
+        return _messages.GuiSliderMark(self._travel.position(base), None)
+
+
+def row_label(direction: str, now: float, base: float) -> str:
+    """A direction, and the change of its rate against another where there is one."""
+    return f"{sentence_case(direction)}  {change_in_words(now, base)}".strip()
+
+
+def change_in_words(now: float, base: float) -> str:
+    """A change of a rate, as short as it is clear: "+50 %", "× 12", "added" to none; or nothing."""
+    if now == base:
+        return ""
+    if base == 0:
+        return "added"
+    ratio = now / base
+    if ratio >= MANY_TIMES:
+        return f"× {ratio:.0f}"
+    percent = 100 * (ratio - 1)
+    return signed(percent, 0 if abs(percent) >= 1 else 1, " %")
+
+
+def step_of_box(rate: float) -> float:
+    """How far an arrow key moves a number: the power of ten next below two percent of a rate."""
+    return 10.0 ** math.floor(math.log10(rate / 50)) if rate > 0 else 1.0

@@ -1,0 +1,213 @@
+"""The mounts panel, used as an engineer would, on the small cabin."""
+
+import pytest
+from mount_controls import IS_OPEN, box, drag, open_folder, position, thumb, type_rate
+from mounted_cabin import mounted_cabin
+from pages import wait_for, wait_until
+
+from modeviz.tuning.results import Conditions
+from modeviz.viewer.app import App
+
+SOLVE_S = 60
+REFUSED = "document.body.textContent.includes('expected 0 to 1000000 N/mm')"
+CLOSE_NOTICES = (
+    "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
+)
+
+
+@pytest.fixture(scope="module")
+def app(server):
+    vehicle = mounted_cabin()
+    app = App(vehicle, vehicle.rates, Conditions("flat", 20.0), server)
+    app._scene._stage._key.cast_shadow = False
+    app._animation._run(False)
+    app.start()
+    yield app
+    app.session.close()
+
+
+@pytest.fixture(scope="module")
+def page(app, server, open_page):
+    page = open_page(server, viewport=(980, 640))
+    wait_for(page, "document.querySelectorAll('.mv-rates').length === 2")
+    page.evaluate(CLOSE_NOTICES)
+    return page
+
+
+@pytest.fixture(autouse=True)
+def original(app, page):
+    """Every test starts with the original rates, nothing locked or linked, the first group selected."""
+    app.session.change(
+        rates=app.session.vehicle.rates, locked=frozenset(), linked=frozenset(), unit="N/mm", group="A"
+    )
+    assert app.session.wait(SOLVE_S)
+    wait_for(page, "document.querySelector('.mv-selected').dataset.group === 'A'")
+    for group in "AB":
+        open_folder(page, group)
+        wait_until(page, lambda g=group: box(page, g, "vertical").input_value() == "800")
+
+
+def rate(app, group, field):
+    return getattr(app.session.state.rates[group], field)
+
+
+def text(page, group):
+    """All that is written in the folder of a group."""
+    return page.locator(
+        f'.mantine-Paper-root[data-with-border]:has(.mv-rates[data-group="{group}"])'
+    ).inner_text()
+
+
+def test_a_dragged_slider_moves_rate_number_and_label(app, page):
+    slider = thumb(page, "A", "vertical")
+    start = position(slider)
+    drag(page, slider, start + 41)
+    stiffer = 1e4 * 1000 ** ((start + 41) / 695)  # from 10 to 10 000 N/mm in steps of 1 %
+    wait_until(page, lambda: rate(app, "A", "vertical") == pytest.approx(stiffer, rel=5e-4))
+    number = f"{rate(app, 'A', 'vertical') / 1e3:g}"
+    wait_until(page, lambda: box(page, "A", "vertical").input_value() == number)
+    wait_until(page, lambda: "Vertical +50 %" in text(page, "A").replace("  ", " "))
+
+
+def test_back_at_the_mark_a_slider_gives_exactly_the_original_rate(app, page):
+    slider = thumb(page, "A", "vertical")
+    start = position(slider)
+    drag(page, slider, start - 30)
+    wait_until(page, lambda: rate(app, "A", "vertical") < 7e5)
+    drag(page, slider, start)
+    wait_until(page, lambda: rate(app, "A", "vertical") == 8e5)
+
+
+def test_a_number_with_decimals_is_taken_in_full_and_undone_at_once(app, page):
+    type_rate(page, "B", "lateral", "131.4")
+    wait_until(page, lambda: rate(app, "B", "lateral") == 131.4e3)
+    assert box(page, "B", "lateral").input_value() == "131.4"
+    wait_until(page, lambda: app.session.wait(SOLVE_S) and position(thumb(page, "B", "lateral")) < 300)
+    page.get_by_role("button", name="Undo", exact=True).click()
+    wait_until(page, lambda: box(page, "B", "lateral").input_value() == "300")
+    assert rate(app, "B", "lateral") == 3e5
+    page.get_by_role("button", name="Redo", exact=True).click()
+    wait_until(page, lambda: box(page, "B", "lateral").input_value() == "131.4")
+
+
+def test_undo_and_redo_have_hot_keys(app, page):
+    type_rate(page, "A", "lateral", "250")
+    wait_until(page, lambda: rate(app, "A", "lateral") == 2.5e5)
+    page.keyboard.press("Control+z")
+    wait_until(page, lambda: rate(app, "A", "lateral") == 3e5)
+    page.keyboard.press("Control+Shift+z")
+    wait_until(page, lambda: rate(app, "A", "lateral") == 2.5e5)
+
+
+def test_a_removed_mount_and_a_rigid_one_are_taken_with_the_slider_at_its_ends(app, page):
+    slider = thumb(page, "A", "fore-aft")
+    type_rate(page, "A", "fore-aft", "0")
+    wait_until(page, lambda: rate(app, "A", "fore_aft") == 0 and position(slider) == 0)
+    type_rate(page, "A", "fore-aft", "1000000")
+    end = int(slider.get_attribute("aria-valuemax"))
+    wait_until(page, lambda: rate(app, "A", "fore_aft") == 1e9 and position(slider) == end)
+
+
+@pytest.mark.parametrize("typed", ["-50", "2000000"])
+def test_what_no_rate_can_be_is_refused_once_and_put_back(app, page, typed):
+    type_rate(page, "A", "vertical", typed)
+    wait_for(page, REFUSED)
+    wait_until(page, lambda: box(page, "A", "vertical").input_value() == "800")
+    assert rate(app, "A", "vertical") == 8e5
+    assert page.get_by_text("expected 0 to 1000000 N/mm").count() == 1
+    page.evaluate(CLOSE_NOTICES)
+    wait_for(page, f"!{REFUSED}")
+
+
+def test_a_locked_rate_stays_while_a_loaded_set_moves_it(app, page):
+    page.locator(".effects label").first.click()
+    wait_until(page, lambda: app.session.state.locked == {("A", "vertical")})
+    wait_until(page, lambda: box(page, "A", "vertical").is_disabled())
+    app.session.set_rate("A", "vertical", 1e6)
+    app.session.set_rate("A", "lateral", 1e5)
+    wait_until(page, lambda: box(page, "A", "lateral").input_value() == "100")
+    assert rate(app, "A", "vertical") == 8e5
+    app.session.load("Soft")
+    wait_until(page, lambda: box(page, "A", "vertical").input_value() == "200")
+    assert box(page, "A", "vertical").is_disabled()
+
+
+def test_linked_rates_keep_their_ratios(app, page):
+    page.get_by_label("Keep ratios").first.check()
+    wait_until(page, lambda: app.session.state.linked == {"A"})
+    type_rate(page, "A", "vertical", "400")
+    wait_until(page, lambda: box(page, "A", "lateral").input_value() == "150")
+    wait_until(page, lambda: box(page, "A", "fore-aft").input_value() == "200")
+
+
+def test_another_unit_changes_every_number_and_no_rate(app, page):
+    before = app.session.state.rates
+    page.get_by_role("combobox", name="Rates in").click()
+    page.get_by_role("option", name="N/cm").click()
+    wait_until(page, lambda: box(page, "B", "lateral").input_value() == "3000")
+    assert app.session.state.rates == before
+    type_rate(page, "B", "lateral", "1314")
+    wait_until(page, lambda: rate(app, "B", "lateral") == 131.4e3)
+
+
+def test_one_rate_a_group_and_all_go_back(app, page):
+    for group, direction in (("A", "vertical"), ("A", "lateral"), ("B", "vertical"), ("A", "fore-aft")):
+        type_rate(page, group, direction, "500")
+        field = direction.replace("-", "_")
+        wait_until(page, lambda g=group, f=field: rate(app, g, f) == 5e5)
+    page.get_by_title("Back to Original", exact=True).first.click()
+    wait_until(page, lambda: rate(app, "A", "vertical") == 8e5)
+    assert rate(app, "A", "lateral") == rate(app, "B", "vertical") == 5e5
+    page.get_by_role("button", name="Reset group", exact=True).click()
+    wait_until(page, lambda: rate(app, "A", "lateral") == 3e5)
+    assert rate(app, "B", "vertical") == 5e5
+    page.get_by_role("button", name="Reset all", exact=True).click()
+    wait_until(page, lambda: app.session.state.rates == dict(app.session.vehicle.rates))
+
+
+def test_a_click_on_a_mount_opens_its_folder(app, page):
+    for group in "AB":
+        page.evaluate(
+            """(group) => document.querySelector(`.mv-rates[data-group="${group}"]`)
+                .closest(".mantine-Paper-root").firstElementChild.click()""",
+            group,
+        )
+        wait_for(page, f"!({IS_OPEN})(a.group)", group=group)
+    app._select("B")
+    wait_for(page, f"({IS_OPEN})('B')")
+    assert app.session.state.group == "B"
+    wait_until(page, lambda: "Keep ratios" in text(page, "B"))
+    assert not page.evaluate(IS_OPEN, "A")
+
+
+def test_a_click_on_a_mount_brings_the_mounts_up_from_another_tab(app, page):
+    page.get_by_role("tab", name="View").click()
+    wait_for(page, "!document.querySelector('.mv-rates')?.offsetParent")
+    app._select("A")
+    wait_for(page, f"({IS_OPEN})('A')")
+
+
+def test_the_table_says_what_ten_percent_do_and_is_dimmed_while_that_is_old(app, page):
+    assert app.session.wait_checked(SOLVE_S)
+    wait_for(page, "document.querySelector('.effects:not(.old)')?.textContent.includes(' Hz')")
+    assert " %" in page.locator(".effects").first.inner_text()
+
+
+def test_the_loss_factor_of_a_group_is_its_own(app, page):
+    number = page.locator(".mantine-Slider-root + div input >> visible=true").nth(0)
+    wait_until(page, lambda: number.input_value() == "0.15")
+    number.fill("0.2")
+    wait_until(page, lambda: rate(app, "A", "loss_factor") == 0.2)
+    assert rate(app, "B", "loss_factor") is None
+    page.get_by_role("button", name="Reset group", exact=True).click()
+    wait_until(page, lambda: rate(app, "A", "loss_factor") is None)
+
+
+def test_controls_that_have_nothing_to_do_look_so(app, page):
+    idle = "document.querySelector('.mv-history').dataset.idle"
+    wait_for(page, f"{idle}.includes('group') && {idle}.includes('all')")
+    button = page.get_by_role("button", name="Reset all", exact=True)
+    assert float(button.evaluate("(b) => getComputedStyle(b).opacity")) < 0.5
+    app.session.set_rate("B", "lateral", 1e5)
+    wait_for(page, f"!{idle}.includes('all') && !{idle}.includes('group')")
+    wait_until(page, lambda: button.evaluate("(b) => getComputedStyle(b).opacity") == "1")

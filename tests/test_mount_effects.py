@@ -1,0 +1,40 @@
+from dataclasses import replace
+
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions, solve
+from modeviz.tuning.sensitivity import sensitivity
+from modeviz.viewer.panels.mounts.effects import Effect, effects, in_a_sentence
+
+FLAT = Conditions("flat", 20.0)
+PART = 1e-3
+"""Of a rate: small enough for first order, large enough for rounding."""
+
+
+def test_ten_percent_do_a_hundred_times_what_a_thousandth_does():
+    vehicle, mode = mounted_cabin(), 8
+    prepared = prepare(vehicle)
+    base = solve(prepared, {}, FLAT)
+    found = effects(vehicle, sensitivity(prepared, base), mode)
+    assert len(found) == 6
+    for (group, field), effect in found.items():
+        own = vehicle.rates[group]
+        softer, stiffer = (
+            solve(prepared, {group: replace(own, **{field: getattr(own, field) * factor})}, FLAT)
+            for factor in (1 - PART, 1 + PART)
+        )
+        by_ten_percent = 0.1 / (2 * PART)
+        hz = (stiffer.modes.frequency_hz - softer.modes.frequency_hz)[mode]
+        assert effect.frequency_hz == pytest.approx(by_ten_percent * hz, rel=1e-4, abs=1e-7)
+        x_y_z = 100 * by_ten_percent * (stiffer.rms - softer.rms)[0] / base.rms[0]
+        assert effect.lateral_percent == pytest.approx(x_y_z[1], rel=1e-3, abs=1e-5)
+        assert effect.vertical_percent == pytest.approx(x_y_z[2], rel=1e-3, abs=1e-5)
+
+
+def test_an_effect_is_said_with_true_signs():
+    assert (
+        in_a_sentence(Effect(0.123, -1.44, 0.0), "cab yaw")
+        == "+10 %: cab yaw +0.12 Hz, lateral RMS −1.4 %, vertical RMS 0.0 %."
+    )
