@@ -79,7 +79,7 @@ def test_the_space_bar_plays_and_stops_once_even_on_the_button_that_was_clicked(
 
 def test_keys_do_nothing_while_somebody_types(app, page):
     before = app.session.state
-    page.locator("input[inputmode=decimal]").first.focus()
+    page.locator("input[inputmode=decimal]:visible").first.focus()
     page.keyboard.press("n")
     page.keyboard.press("Space")
     page.keyboard.press("Escape")
