@@ -63,6 +63,8 @@ class Studio:
 
     client: viser.ClientHandle
     """The page as the server sees it: `pictures.picture` and `pictures.cycle` take its scene."""
+    hold: Callable[[float], None]
+    """Lets the page stand at a phase, rad; it never moves by itself."""
 
     def __init__(
         self,
@@ -99,6 +101,8 @@ class Studio:
             self._page.on("console", self._note)
             self._page.goto(f"{self._server.link}&fixedDpr=1")
             self.client = self._find_client()
+            self.hold = opening.enter_context(held(self.client))
+            self.hold(0.0)  # what moves is drawn again and again, which in software takes seconds
             self._wait_drawn()
             self._open = opening.pop_all()
         return self
@@ -125,30 +129,35 @@ class Studio:
             like: the page whose 3-D view this one's is to have, in size and camera.
             phase: θ at which the shapes stand, rad.
         """
-        with _told_simply(), held(self.client) as hold:
+        with _told_simply():
             if like is not None:
                 self._fit(like.camera.image_width, like.camera.image_height)
                 with self.client.atomic():
                     self.client.camera.position = like.camera.position
                     self.client.camera.look_at = like.camera.look_at
                     self.client.camera.fov = like.camera.fov
-            self.stand(hold, phase)
+            self.stand(phase)
             self._wait(NO_NOTICES)
             self._wait_drawn()
             return self._page.screenshot(timeout=1000 * PATIENCE)
 
-    def stand(self, hold: Callable[[float], None], phase: float) -> None:
+    def stand(self, phase: float) -> None:
         """Waits until the page stands at a phase, rad, and has the camera it was given before."""
-        hold(phase)  # goes the same way as the camera, after it
+        self.hold(phase)  # goes the same way as the camera, after it
         self._wait(STANDS_AT, phase)
 
     def _fit(self, width: int, height: int) -> None:
         """Gives the window such a size that its 3-D view has this one, pixels."""
-        for _ in range(3):  # panels may change their width with the window
-            now = self._page.evaluate("({w: innerWidth, canvas: __viserMutable.canvas.clientWidth})")
+        n_fitting = 0
+        for _ in range(20):  # the panels change their width with the window, a little later
+            window, canvas = self._page.evaluate("[innerWidth, __viserMutable.canvas.clientWidth]")
+            n_fitting = n_fitting + 1 if canvas == width else 0
+            if n_fitting == 3:
+                return
             self._page.set_viewport_size(
-                {"width": max(now["w"] + width - now["canvas"], 320), "height": max(height, 240)}
+                {"width": max(window + width - canvas, 320), "height": max(height, 240)}
             )
+            self._tick()
             self._page.wait_for_timeout(500)
 
     def _note(self, said: "ConsoleMessage") -> None:
@@ -168,8 +177,10 @@ class Studio:
         return self._until(client)
 
     def _wait_drawn(self) -> None:
-        scene = self._server.scene
-        self._wait(DRAWN, sum(name.startswith(PREFIX + "/") for name in scene._handle_from_node_name))
+        nodes = self._server.scene._handle_from_node_name.items()
+        # Their parents, which viser adds, stand at zero.
+        meshes = [node for name, node in nodes if name.startswith(PREFIX + "/") and node.position[1]]
+        self._wait(DRAWN, len(meshes))
 
     def _wait(self, condition: str, argument: float | None = None) -> None:
         """Waits until a JavaScript function is true."""

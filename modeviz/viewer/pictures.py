@@ -1,7 +1,7 @@
 """Pictures of the 3-D view, drawn by a page: one, or a cycle of the shown motion."""
 
 import math
-from collections.abc import Generator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -10,7 +10,6 @@ from PIL import Image
 
 from modeviz.errors import ModevizError
 from modeviz.export.images import on_color
-from modeviz.viewer.driver import held
 from modeviz.viewer.stage import Theme
 
 Backdrop = Literal["scene", "white", "transparent"]
@@ -92,16 +91,23 @@ def picture(client: viser.ClientHandle, shot: Shot) -> Image.Image:
     return on_color(image, shot.theme.top, shot.theme.bottom)
 
 
-def cycle(client: viser.ClientHandle, shot: Shot, n_frames: int) -> Generator[Image.Image]:
-    """Pictures of one cycle of the shown motion, at phases 2πk/n; the page then moves on as before.
+def cycle(
+    client: viser.ClientHandle, hold: Callable[[float], None], shot: Shot, n_frames: int
+) -> Iterator[Image.Image]:
+    """Pictures of one cycle of the shown motion, at phases 2πk/n.
+
+    Args:
+        client: the page.
+        hold: lets it stand at a phase, from `driver.held`.
+        shot: how they are taken.
+        n_frames: n.
 
     Raises:
         ModevizError: as `picture` does.
     """
-    with held(client) as hold:
-        for k in range(n_frames):
-            hold(2 * math.pi * k / n_frames)
-            yield picture(client, shot)
+    for k in range(n_frames):
+        hold(2 * math.pi * k / n_frames)
+        yield picture(client, shot)
 
 
 def same_field_of_view(camera: viser.CameraHandle, width: int, height: int) -> float:

@@ -1,8 +1,8 @@
 """Pictures without a page: the whole app opens where nobody looks, for as long as one file takes."""
 
 import secrets
-from collections.abc import Callable, Generator, Iterator, Mapping
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -17,7 +17,6 @@ from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.app import App
 from modeviz.viewer.doors import open_server
-from modeviz.viewer.driver import held
 from modeviz.viewer.headless import Studio
 from modeviz.viewer.panels.modes import listed
 from modeviz.viewer.pictures import CYCLE_S, N_CYCLES, Shot, cycle, picture
@@ -86,12 +85,12 @@ def render(
         tell("opening", 0.0)
         with Studio(app.server) as studio:
             tell("drawing", 0.0)
-            with held(studio.client) as hold:
-                studio.client.camera.position, studio.client.camera.look_at = seen
-                studio.stand(hold, wish.phase)
-                if kind == "png":
-                    return png_bytes(picture(studio.client, shot))
-            frames = _told(cycle(studio.client, shot.moving(kind), wish.n_frames), wish.n_frames, tell)
+            studio.client.camera.position, studio.client.camera.look_at = seen
+            studio.stand(wish.phase)
+            if kind == "png":
+                return png_bytes(picture(studio.client, shot))
+            frames = cycle(studio.client, studio.hold, shot.moving(kind), wish.n_frames)
+            frames = _told(frames, wish.n_frames, tell)
             if kind == "gif":
                 return gif_bytes(frames, CYCLE_S)
             return mp4_bytes(frames, CYCLE_S, N_CYCLES)
@@ -136,10 +135,9 @@ def _show(app: App, wish: Wish) -> Solved:
 
 
 def _told(
-    frames: Generator[Image.Image], n_frames: int, tell: Callable[[str, float], None]
+    frames: Iterator[Image.Image], n_frames: int, tell: Callable[[str, float], None]
 ) -> Iterator[Image.Image]:
     """The frames, and word of how many there are."""
-    with closing(frames):
-        for done, frame in enumerate(frames, 1):
-            tell("drawing", done / n_frames)
-            yield frame
+    for done, frame in enumerate(frames, 1):
+        tell("drawing", done / n_frames)
+        yield frame

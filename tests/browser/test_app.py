@@ -1,6 +1,5 @@
 """The whole page on the built-in pickup, used as an engineer would."""
 
-import io
 import json
 import re
 from contextlib import suppress
@@ -11,7 +10,6 @@ import pytest
 import viser
 from mount_controls import box, drag, open_folder, position, thumb, type_rate
 from pages import wait_for, wait_until
-from PIL import Image
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
@@ -184,24 +182,6 @@ def test_what_a_page_loses_is_put_back(app, page):
     wait_until(page, lambda: position(thumb(page, "C2", "lateral")) == 100)
     assert app.session.wait(SOLVE_S)
     assert app.session.state.rates["C2"].lateral == row._travel.rate(100, 294e3)
-
-
-def test_a_picture_has_the_chosen_size_and_shows_the_truck(page):
-    page.set_viewport_size({"width": 1500, "height": 500})
-    page.get_by_role("tab", name="View").click()
-    page.get_by_role("button", name="Iso", exact=True).click()
-    page.get_by_role("tab", name="Pictures").click()
-    with page.expect_download(timeout=120_000) as download:
-        page.get_by_role("button", name="Save picture").click()
-    assert download.value.suggested_filename == "pickup-cab-yaw.png"
-    picture = Image.open(io.BytesIO(download.value.path().read_bytes()))
-    assert picture.size == (1920, 1080)
-    pixels = np.asarray(picture.convert("RGB"), float)
-    assert pixels.std(axis=(0, 1)).min() > 10
-    # The front end is blue, the cab orange: both are there.
-    red, _, blue = np.moveaxis(pixels, -1, 0)
-    assert ((blue - red) > 25).mean() > 0.005
-    assert ((red - blue) > 25).mean() > 0.005
 
 
 def test_another_road_is_solved(page, capsys):

@@ -1,8 +1,7 @@
 """Left column: pictures to take away."""
 
 import math
-from collections.abc import Callable, Generator, Iterator
-from contextlib import closing
+from collections.abc import Callable, Iterator
 from itertools import count
 
 import viser
@@ -11,6 +10,7 @@ from PIL import Image
 from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.doors import Server
+from modeviz.viewer.driver import held
 from modeviz.viewer.headless import Studio
 from modeviz.viewer.jobs import Tell, run
 from modeviz.viewer.pictures import (
@@ -122,15 +122,16 @@ class PicturePanel:
 
     def _gif(self, client: viser.ClientHandle, tell: Tell) -> bytes:
         """One cycle that repeats without a seam."""
-        return gif_bytes(
-            _told(cycle(client, self._shot(client).moving("gif"), N_FRAMES), tell), CYCLE_S
-        )
+        shot = self._shot(client).moving("gif")
+        with held(client) as hold:
+            return gif_bytes(_told(cycle(client, hold, shot, N_FRAMES), tell), CYCLE_S)
 
     def _mp4(self, client: viser.ClientHandle, tell: Tell) -> bytes:
         """Some cycles as a film."""
         check_films()
-        frames = _told(cycle(client, self._shot(client).moving("mp4"), N_FRAMES), tell)
-        return mp4_bytes(frames, CYCLE_S, N_CYCLES)
+        shot = self._shot(client).moving("mp4")
+        with held(client) as hold:
+            return mp4_bytes(_told(cycle(client, hold, shot, N_FRAMES), tell), CYCLE_S, N_CYCLES)
 
     def _page(self, client: viser.ClientHandle, tell: Tell) -> bytes:
         """The page with its panels, from a browser beside: no page can photograph itself."""
@@ -148,10 +149,9 @@ class PicturePanel:
         return self._offline(client.camera.position, client.camera.look_at)
 
 
-def _told(frames: Generator[Image.Image], tell: Tell) -> Iterator[Image.Image]:
+def _told(frames: Iterator[Image.Image], tell: Tell) -> Iterator[Image.Image]:
     """The frames of a cycle, and word of how many there are."""
-    with closing(frames):  # so that the page moves on at once where this is cancelled
-        for done in range(N_FRAMES):
-            # Before each: viser's page complains of news for a bar that goes in the same breath.
-            tell(done / N_FRAMES)
-            yield next(frames)
+    for done in range(N_FRAMES):
+        # Before each: viser's page complains of news for a bar that goes in the same breath.
+        tell(done / N_FRAMES)
+        yield next(frames)
