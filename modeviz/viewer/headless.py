@@ -17,7 +17,7 @@ from viser import _messages
 
 from modeviz.errors import ModevizError
 from modeviz.viewer.doors import Server
-from modeviz.viewer.driver import PREFIX, held
+from modeviz.viewer.driver import PREFIX, ShapeDriver, held
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, ConsoleMessage, Page
@@ -69,8 +69,8 @@ class Studio:
     def __init__(
         self,
         server: Server,
-        width: int = 1280,
-        height: int = 720,
+        width: int = 900,
+        height: int = 500,
         tick: Callable[[], None] = lambda: None,
     ) -> None:
         """Nothing is started yet.
@@ -93,7 +93,7 @@ class Studio:
             ModevizError: Playwright or Chromium is missing, or the page was not drawn in time.
         """
         with ExitStack() as opening, _told_simply():
-            browser = opening.enter_context(_chromium())
+            browser = opening.enter_context(chromium())
             width, height = self._size
             self._page = browser.new_page(viewport={"width": width, "height": height})
             self._page.set_default_timeout(1000 * PATIENCE)
@@ -145,6 +145,11 @@ class Studio:
         """Waits until the page stands at a phase, rad, and has the camera it was given before."""
         self.hold(phase)  # goes the same way as the camera, after it
         self._wait(STANDS_AT, phase)
+
+    def follow(self, driver: ShapeDriver) -> None:
+        """Waits until the page, with all others, has the newest shapes."""
+        driver.seek(0.0)  # goes the same way as the shapes, after them
+        self._wait("(sought) => window.__modeviz?.sought === sought", driver.sought)
 
     def _fit(self, width: int, height: int) -> None:
         """Gives the window such a size that its 3-D view has this one, pixels."""
@@ -198,7 +203,7 @@ class Studio:
 
 
 @contextmanager
-def _chromium() -> "Iterator[Browser]":
+def chromium() -> "Iterator[Browser]":
     """The system's Chromium, else Playwright's own; raises ModevizError if either is missing."""
     if not find_spec("playwright"):
         raise ModevizError('pictures need Playwright: pip install "modeviz[pictures]"')
