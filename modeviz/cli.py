@@ -92,6 +92,12 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument(
         "--output", type=Path, default=Path("report.html"), metavar="FILE", help="default report.html"
     )
+    report.add_argument(
+        "--no-pictures",
+        action="store_false",
+        dest="pictures",
+        help="without the pictures, for which a Chromium is needed",
+    )
     return parser
 
 

@@ -25,7 +25,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def document(folder, tmp_path_factory):
     output = tmp_path_factory.mktemp("reports") / "report.html"
-    assert main(["report", folder, *CHANGED, *ROAD, "--output", str(output)]) == 0
+    assert main(["report", "--no-pictures", folder, *CHANGED, *ROAD, "--output", str(output)]) == 0
     return Document(output.read_text("utf-8"))
 
 
@@ -98,7 +98,7 @@ def test_its_wheel_responses_are_those_of_modeviz_wheels(capsys, document, folde
 
 def test_it_can_be_held_against_another_set(folder, tmp_path):
     output = tmp_path / "out.html"
-    assert main(["report", folder, "--against", "soft", "--output", str(output)]) == 0
+    assert main(["report", "--no-pictures", folder, "--against", "soft", "--output", str(output)]) == 0
     document = Document(output.read_text("utf-8"))
     assert document.headings[0] == "cabin: original against soft"
     assert document.tables["Mount rates"][2] == ["vertical", "200", "800", "+300.0 %"]
@@ -108,7 +108,7 @@ def test_a_vehicle_without_roads_and_loads_has_a_report_of_its_modes(folder, tmp
     bare = replace(mounted_cabin(), roads=(), wheel_loads=(), response_points=())
     write_vehicle(bare, tmp_path / "bare")
     output = tmp_path / "out.html"
-    assert main(["report", str(tmp_path / "bare"), "--output", str(output)]) == 0
+    assert main(["report", "--no-pictures", str(tmp_path / "bare"), "--output", str(output)]) == 0
     assert list(Document(output.read_text("utf-8")).tables) == [
         "Mount rates",
         "Natural frequencies below 25 Hz",
@@ -128,7 +128,7 @@ def test_what_is_wrong_is_said_before_anything_is_solved(
     capsys, monkeypatch, folder, tmp_path, arguments, message
 ):
     monkeypatch.setattr(options, "prepare", lambda *_, **__: pytest.fail("it was prepared"))
-    assert main(["report", folder, *(a.format(tmp=tmp_path) for a in arguments)]) == 2
+    assert main(["report", "--no-pictures", folder, *(a.format(tmp=tmp_path) for a in arguments)]) == 2
     error = capsys.readouterr().err
     assert message in error
     assert error.count("\n") == 1

@@ -58,6 +58,11 @@ def progress(what: str) -> Callable[[float], None]:
     return tell
 
 
+def tell(what: str, done: float) -> None:
+    """Tells on a terminal how far one of several things is, see `progress`."""
+    progress(what)(done)
+
+
 def _speed(text: str) -> float:
     with located("--speed"):
         speed = parse(text, "speed")

@@ -3,7 +3,7 @@
 import math
 from argparse import Namespace
 
-from modeviz.commands.options import conditions, progress, vehicle_and_rates
+from modeviz.commands.options import conditions, progress, tell, vehicle_and_rates
 from modeviz.errors import ModevizError
 from modeviz.vehicle.files.disk import check_writable, write_bytes
 
@@ -36,7 +36,7 @@ def render_file(options: Namespace) -> None:
         options.frames,
     )
     try:
-        content = render(vehicle, rates, chosen, wish, shot, kind, _tell)
+        content = render(vehicle, rates, chosen, wish, shot, kind, tell)
     finally:
         progress("")(1.0)  # leaves an empty line
     write_bytes(options.output, content)
@@ -46,7 +46,3 @@ def render_file(options: Namespace) -> None:
 def _check(option: str, value: float, low: float, high: float) -> None:
     if not low <= value <= high:
         raise ModevizError(f"{option}: found {value:g}, expected {low:g} to {high:g}")
-
-
-def _tell(what: str, done: float) -> None:
-    progress(what)(done)

@@ -1,17 +1,22 @@
 """The command that writes a comparison of two sets of rates as an HTML file."""
 
 from argparse import Namespace
+from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 
-from modeviz.commands.options import conditions, prepare_telling, progress, vehicle_and_rates
-from modeviz.export.report import report
+from modeviz.commands.options import conditions, prepare_telling, progress, tell, vehicle_and_rates
+from modeviz.errors import ModevizError
+from modeviz.export.report import Picture, report
 from modeviz.tuning.check import Check, check_exactly
 from modeviz.tuning.comparison import Comparison, RateSet, compare
 from modeviz.tuning.rates import resolve_rates
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.files.disk import check_writable, write_text
 from modeviz.vehicle.vehicle import Vehicle
+
+PICTURE_SIZE = (1280, 800)
+"""Pixels."""
 
 
 def write_report(options: Namespace) -> None:
@@ -21,8 +26,9 @@ def write_report(options: Namespace) -> None:
     now = RateSet(_name(options.rates, bool(options.settings)), rates)
     chosen = _conditions(options, vehicle)
     check_writable(options.output)
+    pictures = _pictures(vehicle, (base, now), chosen) if options.pictures else []
     comparison = compare(prepare_telling(vehicle), base, now, chosen)
-    page = report(comparison, date.today(), check=_check(comparison))
+    page = report(comparison, date.today(), pictures, _check(comparison))
     write_text(options.output, page)
     print(f"{options.output}: {now.name} against {base.name}")
 
@@ -33,6 +39,26 @@ def _conditions(options: Namespace, vehicle: Vehicle) -> Conditions | None:
     if asked or (vehicle.roads and vehicle.response_points):
         return conditions(options, vehicle)
     return None
+
+
+def _pictures(
+    vehicle: Vehicle, sets: Sequence[RateSet], conditions: Conditions | None
+) -> list[Picture]:
+    """The mode the page would open with, with both sets of rates; none of a vehicle without a road."""
+    if conditions is None:
+        return []
+    from modeviz.viewer.pictures import Shot  # viser alone takes a second to import
+    from modeviz.viewer.rendering import Wish, photographs
+    from modeviz.viewer.stage import FIELD_OF_VIEW, ISO, LIGHT
+
+    wish = Wish("", ISO, "bodies", amplitude=1.0, phase=0.0, n_frames=1)
+    shot = Shot(*PICTURE_SIZE, "white", LIGHT, FIELD_OF_VIEW)
+    try:
+        return photographs(vehicle, sets, conditions, wish, shot, tell)
+    except ModevizError as error:
+        raise ModevizError(f"{error}; or leave the pictures out with --no-pictures") from error
+    finally:
+        progress("")(1.0)  # leaves an empty line
 
 
 def _name(choice: str, is_changed: bool = False) -> str:

@@ -3,12 +3,15 @@
 import logging
 import threading
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from datetime import date
 
 import viser
 from threadpoolctl import threadpool_limits
 
 from modeviz.errors import ModevizError
+from modeviz.export.report import Picture, report
+from modeviz.tuning.comparison import RateSet, compare
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
@@ -118,10 +121,23 @@ class App:
         Raises:
             ModevizError: nothing is shown yet.
         """
-        if self._last is None:
-            raise ModevizError("nothing is solved yet: try again when the preparation is done")
-        variant = variant_name(self.session.vehicle, self._last.state)
-        return offline_page(self.server, self._last, variant, self._dark, position, look_at)
+        solved = self._solved()
+        variant = variant_name(self.session.vehicle, solved.state)
+        return offline_page(self.server, solved, variant, self._dark, position, look_at)
+
+    def report(self, pictures: Sequence[Picture]) -> bytes:
+        """The present rates against the set they are compared with, see `export.report`.
+
+        Raises:
+            ModevizError: nothing is shown yet.
+        """
+        solved = self._solved()
+        vehicle, state = self.session.vehicle, solved.state
+        name = variant_name(vehicle, state)
+        now = RateSet(name if name != state.against else f"{name}, now", state.rates)
+        base = RateSet(state.against, solved.base.rates)
+        comparison = compare(solved.now.prepared, base, now, state.conditions)
+        return report(comparison, date.today(), pictures, solved.rest.check).encode()
 
     def close(self) -> None:
         """Ends the session and the server."""
@@ -142,7 +158,9 @@ class App:
             self._view = ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             theme = DARK if dark else LIGHT
-            self._pictures = PicturePanel(gui, self.server, theme, self._file_name, self.offline)
+            self._pictures = PicturePanel(
+                gui, self.server, theme, self._file_name, self.offline, self._illustrated_report
+            )
         self._status = StatusPanel(gui)
         self.guide = Guide(self.server, self._hotkeys)
 
@@ -197,6 +215,18 @@ class App:
                 self._energy.show(solved)
         self.server.flush()
         self._scene.show(solved)
+
+    def _solved(self) -> Solved:
+        if self._last is None:
+            raise ModevizError("nothing is solved yet: try again when the preparation is done")
+        return self._last
+
+    def _illustrated_report(self, png: bytes) -> bytes:
+        """The report with a picture of the scene as it is."""
+        solved = self._solved()
+        moving, variant = solved.movement, variant_name(self.session.vehicle, solved.state)
+        caption = f"{moving.title}, {moving.frequency_hz:.2f} Hz, {variant}"
+        return self.report([Picture(caption, png)])
 
     def _tell_failure(self, error: Exception) -> None:
         """Says what went wrong; the last good answer stays on the screen."""

@@ -184,11 +184,15 @@ class ShapeDriver:
         self._n_seeks += 1
         self._send_motion()
 
-    def _send_motion(self) -> None:
+    @property
+    def sought(self) -> float:
+        """What a page that has come to the last phase sought has as `__modeviz.sought`."""
         # the page seeks when this number changes, so going to the same phase again adds a whole turn
-        sought = self._phase % (2 * np.pi) + 2 * np.pi * (self._n_seeks % 1000)
+        return self._phase % (2 * np.pi) + 2 * np.pi * (self._n_seeks % 1000)
+
+    def _send_motion(self) -> None:
         frequency_hz = self._frequency_hz if self._running else 0.0
-        self._node.position = (self._amplitude, frequency_hz, sought)
+        self._node.position = (self._amplitude, frequency_hz, self.sought)
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """Pictures without a page: the whole app opens where nobody looks, for as long as one file takes."""
 
 import secrets
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, get_args
@@ -11,6 +11,8 @@ from threadpoolctl import threadpool_limits
 
 from modeviz.errors import ModevizError
 from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
+from modeviz.export.report import Picture
+from modeviz.tuning.comparison import RateSet
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -94,6 +96,33 @@ def render(
             if kind == "gif":
                 return gif_bytes(frames, CYCLE_S)
             return mp4_bytes(frames, CYCLE_S, N_CYCLES)
+
+
+def photographs(
+    vehicle: Vehicle,
+    sets: Sequence[RateSet],
+    conditions: Conditions,
+    wish: Wish,
+    shot: Shot,
+    tell: Callable[[str, float], None],
+) -> list[Picture]:
+    """A still of a mode with each of several sets of rates; arguments and errors as `render`."""
+    with _app(vehicle, sets[0].rates, conditions, shot.theme.is_dark, tell) as app:
+        _show(app, wish)
+        tell("opening", 0.0)
+        with Studio(app.server) as studio:
+            seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)
+            studio.client.camera.position, studio.client.camera.look_at = seen
+            pictures = []
+            for done, rate_set in enumerate(sets):
+                tell("drawing", done / len(sets))
+                app.session.change(rates=vehicle.all_rates(rate_set.rates))
+                movement = _show(app, wish).movement
+                studio.follow(app.scene.driver)
+                studio.stand(wish.phase)
+                caption = f"{movement.title}, {movement.frequency_hz:.2f} Hz, {rate_set.name}"
+                pictures.append(Picture(caption, png_bytes(picture(studio.client, shot))))
+            return pictures
 
 
 @contextmanager

@@ -1,6 +1,10 @@
 """Pictures to take away, taken by real pages."""
 
+import base64
 import io
+import re
+import subprocess
+import sys
 from contextlib import suppress
 from pathlib import Path
 
@@ -252,3 +256,34 @@ def test_offline_page_is_downloaded_and_moves_with_the_network_off(app, bench, b
     assert not errors
     assert {url.split(":")[0] for url in asked} <= {"file", "data", "blob"}
     context.close()
+
+
+def test_report_is_downloaded_with_a_picture_of_what_is_seen(app, bench):
+    name, content = saved(app, bench, "Report, HTML")
+    text = content.decode()
+    assert name == "pickup-cab-yaw-report.html"
+    assert "Pickup: Optimised against Original" in text
+    (picture,) = pictures_in(text)
+    assert picture.size == (160, 120)
+    assert "Cab yaw, 9.78 Hz, Optimised" in text
+
+
+def pictures_in(document):
+    """The pictures that an HTML document carries."""
+    found = re.findall(r"data:image/png;base64,([\w+/=]+)", document)
+    return [Image.open(io.BytesIO(base64.b64decode(content))).convert("RGB") for content in found]
+
+
+def test_report_of_the_command_line_has_a_picture_of_the_mode_with_each_set(tmp_path):
+    file = tmp_path / "report.html"
+    command = [sys.executable, "-m", "modeviz", "report", "--rates", "optimised", "--output", str(file)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    text = file.read_text("utf-8")
+    original, optimised = pictures_in(text)
+    assert original.size == optimised.size == (1280, 800)
+    assert all(len(p.getcolors(maxcolors=1 << 24)) > 1000 for p in (original, optimised))
+    difference = np.abs(np.asarray(original, int) - np.asarray(optimised, int))
+    assert (difference.max(axis=2) > 30).mean() > 0.002  # the cab yaws further, about another axis
+    assert "Cab yaw, 11.69 Hz, original" in text
+    assert "Cab yaw, 9.78 Hz, optimised" in text

@@ -50,6 +50,7 @@ class PicturePanel:
         theme: Theme,
         file_name: Callable[[], str],
         offline: Callable[[Floats, Floats], bytes],
+        report: Callable[[bytes], bytes],
     ) -> None:
         """Builds the controls.
 
@@ -59,9 +60,10 @@ class PicturePanel:
             theme: of the scene.
             file_name: names what is saved, without its ending.
             offline: makes the file that needs no server, for a camera's place and what it looks at.
+            report: makes the report of the comparison, for a picture of the scene as a PNG file.
         """
         self._server, self._theme = server, theme
-        self._file_name, self._offline = file_name, offline
+        self._file_name, self._offline, self._report = file_name, offline, report
         self._busy: set[int] = set()
         self._makers: dict[str, tuple[str, Callable[[viser.ClientHandle, Tell], bytes]]] = {
             "Picture, PNG": (".png", self._picture),
@@ -69,12 +71,13 @@ class PicturePanel:
             "Film, MP4": (".mp4", self._mp4),
             "Whole page, PNG": (" page.png", self._page),
             "Offline page, HTML": (".html", self._html),
+            "Report, HTML": (" report.html", self._illustrated),
         }
         self._kind = gui.add_dropdown(
             "Save",
             tuple(self._makers),
-            hint="The 3-D view as it is; one cycle of its motion; this page with its plots; or a file "
-            "that moves without a server",
+            hint="The 3-D view as it is; one cycle of its motion; this page with its plots; a file "
+            "that moves without a server; or the present rates compared with the chosen set",
         )
         preset = gui.add_dropdown("Size", tuple(PRESETS), hint="Width and height, pixels")
         first = PRESETS[preset.value]
@@ -147,6 +150,12 @@ class PicturePanel:
         """The scene with its plots in a file."""
         tell(0.0)
         return self._offline(client.camera.position, client.camera.look_at)
+
+    def _illustrated(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+        """The comparison on paper."""
+        png = self._picture(client, tell)
+        tell(0.5)
+        return self._report(png)
 
 
 def _told(frames: Iterator[Image.Image], tell: Tell) -> Iterator[Image.Image]:
