@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from playwright.sync_api import Page
+from playwright.sync_api import ConsoleMessage, Page
 
 from benchmarks.monkey import Monkey
 from modeviz.ride.psd import power_decibels
@@ -61,6 +61,11 @@ class Soak:
     disagreements: list[str] = field(default_factory=list)
     """Where page and solver differ at the end."""
 
+    def note(self, said: ConsoleMessage) -> None:
+        """Keeps an error that the page's console shows."""
+        if said.type == "error":
+            self.failures.append(f"console: {said.text}")
+
 
 def soak(vehicle: Vehicle, n_actions: int, seconds: float, seed: int = 1) -> Soak:
     """Uses a vehicle's page at random.
@@ -80,10 +85,7 @@ def soak(vehicle: Vehicle, n_actions: int, seconds: float, seed: int = 1) -> Soa
         with redirect_stderr(printed), chromium() as browser:
             page = browser.new_page(viewport={"width": 1280, "height": 720})
             page.on("pageerror", lambda error: found.failures.append(f"page: {error}"))
-            page.on(
-                "console",
-                lambda m: m.type == "error" and found.failures.append(f"console: {m.text}"),
-            )
+            page.on("console", found.note)
             _use(page, server, found, seconds, seed)
             found.disagreements = _disagreements(page, server, app.session)
     finally:

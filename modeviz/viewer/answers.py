@@ -96,6 +96,9 @@ class Answers:
         self._vehicle = vehicle
         self._prepared: Prepared
         self._drive: Drive
+        """Near the rates of the last rest."""
+        self._home: Drive
+        """At the vehicle's own rates: what is kept for long shares its receptances."""
         self._named: dict[str, Results] = {}
         self._wheels: dict[str, tuple[Results, WheelResults]] = {}
         self._last: Solved | None = None
@@ -115,7 +118,7 @@ class Answers:
             ModevizError: there is no answer on that road at that speed.
         """
         self._prepared = prepare(self._vehicle, progress=progress)
-        self._drive = drive(self._prepared, state.conditions)
+        self._drive = self._home = drive(self._prepared, state.conditions)
         base = self._solve_named(state)[state.against]
         self._track, self._tracked = accept(base), base
 
@@ -182,10 +185,13 @@ class Answers:
             for name, results in self._named.items()
             if results.conditions == state.conditions
         }
-        on_road = self._drive_on(state.conditions)
+        if self._home.conditions != state.conditions:
+            self._home = drive(self._prepared, state.conditions)
         sets = rate_sets(self._vehicle, state)
         self._named = {
-            name: kept[name] if name in kept and kept[name].rates == rates else solve_on(on_road, rates)
+            name: kept[name]
+            if name in kept and kept[name].rates == rates
+            else solve_on(self._home, rates)
             for name, rates in sets.items()
         }
         return self._named
@@ -197,11 +203,17 @@ class Answers:
         if not state.load:
             return {}
         wanted = {name: named[name] for name in (state.against, *sorted(state.overlaid))} | {"": now}
-        for name, results in wanted.items():
-            if name not in self._wheels or self._wheels[name][0] is not results:
-                found = solve_wheels(self._drive_on(state.conditions).prepared, results.rates)
-                self._wheels[name] = results, found
-        return {name: self._wheels[name][1] for name in wanted}
+        near = self._drive_on(state.conditions).prepared
+        self._wheels = {
+            name: (results, self._kept_wheels(name, results) or solve_wheels(near, results.rates))
+            for name, results in wanted.items()
+        }
+        return {name: found for name, (_, found) in self._wheels.items()}
+
+    def _kept_wheels(self, name: str, results: Results) -> WheelResults | None:
+        """The response found before, if it is still to these results."""
+        before, found = self._wheels.get(name, (None, None))
+        return found if before is results else None
 
     def _drive_on(self, conditions: Conditions) -> Drive:
         found = self._drive  # `rebase` may put another in its place
