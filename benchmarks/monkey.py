@@ -27,8 +27,16 @@ MARK = """
 """
 """Marks one of the elements that can be seen."""
 
-MARKED = "[data-monkey]"
-PRESS = "document.querySelector('[data-monkey]')?.click()"
+MARKED = "document.querySelector('[data-monkey]')"
+TRACK = """
+() => {
+  const thumb = document.querySelector("[data-monkey]");
+  thumb?.scrollIntoView({ block: "nearest" });
+  const track = thumb?.parentElement?.parentElement?.getBoundingClientRect();
+  const box = thumb?.getBoundingClientRect();
+  return track ? [box.x + box.width / 2, box.y + box.height / 2, track.x, track.width] : null;
+}
+"""
 CLOSE = """
 document.querySelectorAll('.mantine-Notification-closeButton, .mantine-Modal-close')
   .forEach((button) => button.click())
@@ -67,38 +75,36 @@ class Monkey:
 
     def _press(self, selector: str) -> None:
         if self._mark(selector):
-            self._page.evaluate(PRESS)
+            self._page.evaluate(f"{MARKED}?.click()")
 
     def _step_slider(self) -> None:
         if self._mark(".mantine-Slider-thumb"):
-            self._page.evaluate(f"document.querySelector('{MARKED}').focus()")
+            self._page.evaluate(f"{MARKED}?.focus()")
             for _ in range(self._random.randint(1, 4)):
                 self._page.keyboard.press(self._random.choice(KEYS))
 
     def _drag_slider(self) -> None:
         if not self._mark(".mantine-Slider-thumb"):
             return
-        thumb = self._page.locator(MARKED)
-        thumb.scroll_into_view_if_needed()
-        box, track = thumb.bounding_box(), thumb.locator("xpath=../..").bounding_box()
-        if box is None or track is None:
+        found = self._page.evaluate(TRACK)
+        if found is None:  # it went with its panel
             return
-        y = box["y"] + box["height"] / 2
-        self._page.mouse.move(box["x"] + box["width"] / 2, y)
+        x, y, left, width = found
+        self._page.mouse.move(x, y)
         self._page.mouse.down()
         for _ in range(self._random.randint(2, 8)):
-            self._page.mouse.move(track["x"] + self._random.random() * track["width"], y)
+            self._page.mouse.move(left + self._random.random() * width, y)
         self._page.mouse.up()
 
     def _type(self) -> None:
         if self._mark("input.mantine-NumberInput-input, input.mantine-TextInput-input"):
-            self._page.evaluate(f"document.querySelector('{MARKED}').select()")
+            self._page.evaluate(f"{MARKED}?.select()")
             self._page.keyboard.type(self._random.choice(TYPED))
             self._page.keyboard.press("Tab")
 
     def _choose(self) -> None:
         if self._mark("input[role=combobox], input.mantine-Select-input"):
-            self._page.evaluate(PRESS)
+            self._page.evaluate(f"{MARKED}?.click()")
             self._press("[role=option]")
             self._page.keyboard.press("Escape")
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.errors import SolveError
 from modeviz.tuning.following import solve_followed
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve, solve_wheels
@@ -323,3 +324,38 @@ def test_a_mode_that_is_asked_for_moves_whatever_moved_before(session):
     session.change(motion="damped mode")
     session.show_mode("cab yaw")
     assert session.state.motion == "damped mode"
+
+
+def test_after_a_failure_and_its_undoing_the_comparison_is_right_and_checked(session):
+    session.expects_failure = True
+    session.start()
+    session.set_rate("A", "lateral", 1e5)
+    assert session.wait_checked(60)
+    good = session.answers[-1]
+    solve_flat, answers = session._answers.answer, session._answers
+
+    def failing(state, rest):
+        answers._solve_named(state)
+        raise SolveError("not on this road")
+
+    answers.answer = failing
+    session.change(conditions=Conditions("rough", 20.0))
+    assert session._worker.wait(20)
+    answers.answer = solve_flat
+    session.undo()
+    assert session.wait_checked(60)
+    last = session.answers[-1]
+    assert last.base.conditions == last.state.conditions == FLAT
+    np.testing.assert_array_equal(last.base.psd, good.base.psd)
+    assert last.rest.check.is_complete
+    assert last.rest.sensitivity is not None
+
+
+def test_an_answer_overtaken_before_its_check_is_checked_when_it_comes_back(session):
+    session.start()
+    assert session.wait(20)
+    session.set_rate("A", "lateral", 1e5)
+    assert session.wait(20)
+    session.undo()
+    assert session.wait_checked(60)
+    assert session.answers[-1].rest.check.is_complete

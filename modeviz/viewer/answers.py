@@ -25,6 +25,7 @@ from modeviz.tuning.results import (
 )
 from modeviz.tuning.sensitivity import Sensitivity
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.movement import Movement, ShownMode, asks, movement
 from modeviz.viewer.state import State, rate_sets
@@ -100,6 +101,7 @@ class Answers:
         self._home: Drive
         """At the vehicle's own rates: what is kept for long shares its receptances."""
         self._named: dict[str, Results] = {}
+        self._named_for: tuple[Mapping[str, Rates], Conditions] | None = None
         self._wheels: dict[str, tuple[Results, WheelResults]] = {}
         self._last: Solved | None = None
         self._track: Track
@@ -177,8 +179,8 @@ class Answers:
 
     def _solve_named(self, state: State) -> dict[str, Results]:
         """The results with every set that has a name, those kept that still hold."""
-        last = self._last.state if self._last else None
-        if last and last.variants is state.variants and last.conditions == state.conditions:
+        wanted = (state.variants, state.conditions)
+        if self._named_for == wanted:
             return self._named
         kept = {
             name: results
@@ -194,6 +196,7 @@ class Answers:
             else solve_on(self._home, rates)
             for name, rates in sets.items()
         }
+        self._named_for = wanted
         return self._named
 
     def _solve_wheels(

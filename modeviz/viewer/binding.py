@@ -80,7 +80,9 @@ class Binding:
         """Puts the newest state's value on the page, if the widget has another."""
         with self._lock:
             value = self._read(self._session.state)
-            if value != self._known:
+            # of a dropdown whose options change viser itself chooses another
+            is_dropdown = isinstance(self._widget, viser.GuiDropdownHandle)
+            if value != (self._widget.value if is_dropdown else self._known):
                 self._known = value
                 self._widget.value = value
 

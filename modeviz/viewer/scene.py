@@ -61,7 +61,8 @@ class Scene:
                 strain = strain_shares(solved)
                 groups = {group: strain[group] for group in state.rates}
                 what = moving.title[:1].lower() + moving.title[1:]
-                self._markers.show(state.group, state.rates, groups, what, share_colors(shares))
+                group = state.group if moving.bodies is None else ""  # else no mount is at work
+                self._markers.show(group, state.rates, groups, what, share_colors(shares))
         self.follow(state.group if state.follow else "")
 
     def _hidden(self, solved: Solved) -> Collection[str]:

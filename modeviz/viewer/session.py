@@ -249,15 +249,15 @@ class Session:
         self._last = solved
         self._show(solved)
         with self._lock:
-            is_new = self._rest is None or self._rest.now is not solved.now
-            if is_new:
+            if self._rest is None or self._rest.now is not solved.now:
                 self._rest = solved.rest
-        if is_new:
+            is_checked = _is_checked(self._rest)
+        if not is_checked:
             self._checker.submit(solved)
 
     def _settle(self, solved: Solved) -> None:
         """Once nothing changes: shows details, makes the next drag cheap, checks bit by bit."""
-        if not self._rests(solved, DETAILS_EVERY):
+        if not self._rests(solved, DETAILS_EVERY) or self._knows_all_of(solved.now):
             return
         if not solved.is_detailed:
             self._show_again(solved.now)
@@ -272,6 +272,10 @@ class Session:
             if check.is_complete or time.perf_counter() - told > TELL_EVERY:
                 told = time.perf_counter()
                 self._show_again(solved.now, check=check)
+
+    def _knows_all_of(self, now: Results) -> bool:
+        rest = self._rest
+        return rest is not None and rest.now is now and _is_checked(rest)
 
     def _is_current(self, solved: Solved) -> bool:
         """Whether an answer is still to what is asked for."""
@@ -292,3 +296,8 @@ class Session:
                 return False
             time.sleep(seconds / 10)
         return True
+
+
+def _is_checked(rest: Rest) -> bool:
+    """Whether there is no more to find out about an answer."""
+    return rest.check is not None and rest.check.is_complete

@@ -54,7 +54,7 @@ class ExcitationPanel:
             lambda state: state.conditions.road,
             lambda road: self._drive(road=road),
         )
-        self._add_speed(gui, _speed_limits(vehicle.roads))
+        self._add_speed(gui, _speed_limits(vehicle.roads, session.state.conditions.speed))
         self._about = gui.add_html("")
         self._add_choice(
             gui,
@@ -146,8 +146,14 @@ def _road_labels(roads: Sequence[Road]) -> dict[str, str]:
     }
 
 
-def _speed_limits(roads: Sequence[Road]) -> tuple[int, int]:
-    """The speeds, whole km/h within `SPEEDS`, at which every road's table holds the whole band."""
+def _speed_limits(roads: Sequence[Road], speed: float) -> tuple[int, int]:
+    """The speeds, whole km/h within `SPEEDS`, at which every road's table holds the whole band.
+
+    One more than that, where there is none but the present one, m/s: a slider needs two ends.
+    """
     slowest = max(FREQUENCY_HZ[-1] / road.frequency_hz[-1] * road.speed for road in roads)
     fastest = min(FREQUENCY_HZ[0] / road.frequency_hz[0] * road.speed for road in roads)
-    return max(math.ceil(slowest / PER_KMH), SPEEDS[0]), min(math.floor(fastest / PER_KMH), SPEEDS[1])
+    present = round(speed / PER_KMH)
+    low = min(max(math.ceil(slowest / PER_KMH), SPEEDS[0]), present)
+    high = max(min(math.floor(fastest / PER_KMH), SPEEDS[1]), present)
+    return low, max(high, low + 1)

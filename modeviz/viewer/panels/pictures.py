@@ -104,6 +104,7 @@ class PicturePanel:
 
         def work(tell: Tell) -> None:
             content = make(client, tell)
+            tell(1.0)  # the last moment to cancel
             name = self._file_name() + ending.replace(" ", "-")
             client.send_file_download(name, content, save_immediately=True)
 
