@@ -25,6 +25,7 @@ class Cameras:
         """Points the cameras of pages to come at a vehicle."""
         self._server, self._box = server, box
         self._views: dict[int, tuple[str, Floats]] = {}
+        self._lock = threading.RLock()  # pages tell of their cameras in several threads
         self._shift = np.zeros(3)
         self._n_glides = 0
         initial = server.initial_camera
@@ -42,9 +43,10 @@ class Cameras:
 
     def look(self, client: viser.ClientHandle, view: str) -> None:
         """Turns a page's camera to one of `stage.VIEWS`; what is followed is in its middle."""
-        pose = self._framed(client, view)
-        self._views[client.client_id] = view, pose[0]
-        _put(client, pose)
+        with self._lock:
+            pose = self._framed(client, view)
+            self._views[client.client_id] = view, pose[0]
+            _put(client, pose)
 
     def follow(self, point: Floats | None) -> None:
         """Glides all cameras, as far away and as turned as they are, to look at a point.
@@ -90,12 +92,13 @@ class Cameras:
 
     def _keep_framed(self, client: viser.ClientHandle) -> None:
         """Looks again when the picture's shape has changed, unless somebody has moved the camera."""
-        if client.client_id not in self._views:
-            return
-        view, put = self._views[client.client_id]
-        is_untouched = np.allclose(client.camera.position, put, atol=UNTOUCHED)
-        if is_untouched and not np.allclose(self._framed(client, view)[0], put, atol=UNTOUCHED):
-            self.look(client, view)
+        with self._lock:
+            if client.client_id not in self._views:
+                return
+            view, put = self._views[client.client_id]
+            is_untouched = np.allclose(client.camera.position, put, atol=UNTOUCHED)
+            if is_untouched and not np.allclose(self._framed(client, view)[0], put, atol=UNTOUCHED):
+                self.look(client, view)
 
 
 def _put(client: viser.ClientHandle, pose: Pose) -> None:
