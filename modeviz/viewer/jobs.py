@@ -38,7 +38,8 @@ def run(client: viser.ClientHandle, title: str, work: Callable[[Tell], None]) ->
     def tell(fraction: float) -> None:
         if is_cancelled.is_set():
             raise CancelledError
-        bar.value = 100 * fraction
+        if fraction < 1:  # else the bar goes in the same breath, and viser's page would complain
+            bar.value = 100 * fraction
 
     try:
         work(tell)
