@@ -39,7 +39,7 @@ from modeviz.viewer.panels.view import ViewPanel
 from modeviz.viewer.scene import Scene
 from modeviz.viewer.session import Session
 from modeviz.viewer.stage import DARK, LIGHT
-from modeviz.viewer.state import first_state, variant_name
+from modeviz.viewer.state import State, first_state, variant_name
 from modeviz.viewer.title import Title
 
 LEFT = {WIDE: 376, NARROW: 300}
@@ -243,9 +243,12 @@ class App:
         names = [name.name for name, _ in listed(self._last.now).values()] if self._last else []
         if not names:
             return
-        asked = self.session.state.mode  # which may not be drawn yet
-        at = names.index(asked) + step if asked in names else 0
-        self.session.show_mode(names[at % len(names)])
+
+        def stepped(state: State) -> State:
+            at = names.index(state.mode) + step if state.mode in names else 0
+            return state.with_mode(names[at % len(names)])
+
+        self.session.update(stepped)
 
     def _file_name(self) -> str:
         solved, name = self._last, self.session.vehicle.name

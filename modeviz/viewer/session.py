@@ -86,28 +86,33 @@ class Session:
 
         Args:
             kind: of a change that comes in many small steps, which are to be undone together.
-            **fields: of `State`.
+            **fields: of `State`, with values that do not depend on it; else `update` is right.
         """
-        self._update(lambda state: replace(state, **fields), kind)
+        self.update(lambda state: replace(state, **fields), kind)
+
+    def update(self, change: Callable[[State], State], kind: Hashable = None) -> None:
+        """Asks for what `change` makes of the newest state, so that no other change is lost.
+
+        Args:
+            change: gives a changed state; called while nobody else changes it.
+            kind: as of `change`.
+        """
+        with self._lock:
+            self._history.put(change(self.state), kind)
+            self._submit()
 
     def set_rates(self, rates: Rates) -> None:
         """Asks for other rates in the groups that are named; locked ones stay."""
-        self._update(lambda state: state.with_rates(rates))
+        self.update(lambda state: state.with_rates(rates))
 
     def set_rate(self, group: str, direction: str, rate: float) -> None:
         """Asks for another rate, N/m, in a field of `MountRates`, and selects its group."""
         kind = ("rate", group, direction)
-        self._update(lambda state: state.with_rate(group, direction, rate), kind)
+        self.update(lambda state: state.with_rate(group, direction, rate), kind)
 
     def show_mode(self, name: str, group: str | None = None) -> None:
         """Asks for another mode, to see it if something else moves, and for a mount group if given."""
-
-        def shown(state: State) -> State:
-            motion = state.motion if state.motion == "damped mode" else "mode"
-            selected = state.group if group is None else group
-            return replace(state, mode=name, motion=motion, group=selected)
-
-        self._update(shown)
+        self.update(lambda state: state.with_mode(name, group))
 
     def show_body(self, name: str, drawn: bool) -> None:
         """Asks to draw a body, or not to."""
@@ -116,7 +121,7 @@ class Session:
             hidden = state.hidden - {name} if drawn else state.hidden | {name}
             return replace(state, hidden=hidden)
 
-        self._update(shown)
+        self.update(shown)
 
     def undo(self) -> None:
         """Goes back to the state before the last change."""
@@ -138,7 +143,7 @@ class Session:
             its_rates = state.rates if rates is None else {**self.vehicle.rates, **rates}
             return replace(state, variants={**state.variants, name: dict(its_rates)})
 
-        self._update(pinned)
+        self.update(pinned)
 
     def unpin(self, name: str) -> None:
         """Forgets a pinned set."""
@@ -149,7 +154,7 @@ class Session:
             return replace(state, variants=left, against=against, overlaid=state.overlaid - {name})
 
         if name in self.state.variants:
-            self._update(forgotten)
+            self.update(forgotten)
 
     def load(self, name: str) -> None:
         """Takes over the rates of a set, locked ones too; as the other methods, one that there is."""
@@ -158,7 +163,7 @@ class Session:
             rates = rate_sets(self.vehicle, state).get(name)
             return state if rates is None else replace(state, rates=dict(rates))
 
-        self._update(loaded)
+        self.update(loaded)
 
     def compare_with(self, name: str) -> None:
         """Compares all with another set."""
@@ -167,7 +172,7 @@ class Session:
             known = name in rate_sets(self.vehicle, state)
             return replace(state, against=name) if known else state
 
-        self._update(compared)
+        self.update(compared)
 
     def overlay(self, name: str, drawn: bool) -> None:
         """Draws a set in the charts too, or no longer."""
@@ -177,7 +182,7 @@ class Session:
             names = state.overlaid | {name} if known and drawn else state.overlaid - {name}
             return replace(state, overlaid=names)
 
-        self._update(overlaid)
+        self.update(overlaid)
 
     def rename(self, name: str, new: str) -> None:
         """Calls a pinned set something else, unless another set is called so."""
@@ -190,7 +195,7 @@ class Session:
             against = new if state.against == name else state.against
             return replace(state, variants=variants, overlaid=overlaid, against=against)
 
-        self._update(renamed)
+        self.update(renamed)
 
     def swap(self) -> None:
         """Changes places: the set compared with becomes the present one, and the other way round.
@@ -206,7 +211,7 @@ class Session:
                 state = replace(state, variants={**state.variants, own: dict(state.rates)})
             return replace(state, rates=dict(sets[state.against]), against=own)
 
-        self._update(swapped)
+        self.update(swapped)
 
     def wait(self, timeout: float) -> bool:
         """Waits until the newest state is answered in detail; whether that came within `timeout` s."""
@@ -227,12 +232,6 @@ class Session:
         self._is_closed = True
         self._worker.close()
         self._checker.close()
-
-    def _update(self, change: Callable[[State], State], kind: Hashable = None) -> None:
-        """Keeps a changed state and has it answered."""
-        with self._lock:
-            self._history.put(change(self.state), kind)
-            self._submit()
 
     def _go(self, step: Callable[[], bool]) -> None:
         with self._lock:

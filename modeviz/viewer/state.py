@@ -107,6 +107,16 @@ class State:
         after = replace(before, **{**scaled, direction: rate})
         return replace(self.with_rates({group: after}), group=group)
 
+    def with_mode(self, name: str, group: str | None = None) -> "State":
+        """Showing another mode, to see it if something else moves, and a mount group if given."""
+        motion = self.motion if self.motion == "damped mode" else "mode"
+        return replace(self, mode=name, motion=motion, group=self.group if group is None else group)
+
+    def with_curve(self, chart: int, curve: Curve) -> "State":
+        """Drawing another response in a chart, counted from the top."""
+        curves = (*self.curves[:chart], curve, *self.curves[chart + 1 :])
+        return replace(self, curves=curves)
+
     def _unlocked(self, group: str, new: MountRates) -> MountRates:
         """New rates of a group, with its locked ones as they are."""
         kept = {d: getattr(self.rates[group], d) for g, d in self.locked if g == group}

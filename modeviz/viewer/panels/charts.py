@@ -72,9 +72,7 @@ class ChartsPanel:
             return curve_label(self._session.vehicle, state.curves[i])
 
         def write(label: str) -> None:
-            curves = list(self._session.state.curves)
-            curves[i] = self._curves[label]
-            self._session.change(curves=tuple(curves))
+            self._session.update(lambda state: state.with_curve(i, self._curves[label]))
 
         self._choices.append(choice)
         self._bindings.append(Binding(choice, self._session, read, write))

@@ -126,8 +126,10 @@ class ExcitationPanel:
         )
 
     def _drive(self, kind: str | None = None, **fields: Any) -> None:
-        conditions = replace(self._session.state.conditions, **fields)
-        self._session.change(kind, conditions=conditions)
+        def driven(state: State) -> State:
+            return replace(state, conditions=replace(state.conditions, **fields))
+
+        self._session.update(driven, kind)
 
 
 def _about(state: State) -> str:

@@ -1,7 +1,7 @@
 """What there is to know of the selected mount group, and to do with it beyond its rates."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from functools import partial
 from html import escape
 
 import viser
@@ -12,6 +12,7 @@ from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, Mou
 from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding
 from modeviz.viewer.html import HiddenButtons, block, row, span, table
+from modeviz.viewer.panels.mounts.actions import damp, link
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
 from modeviz.viewer.panels.mounts.rows import row_label
 from modeviz.viewer.session import Session
@@ -81,9 +82,10 @@ class Details:
                 self._is_linked(session.state),
                 hint="When one of these rates moves, the others move by the same factor",
             )
+        damped, linked = partial(damp, session, group.name), partial(link, session, group.name)
         self.bindings = (
-            Binding(self._loss, session, self._loss_factor, self._damp, write_back),
-            Binding(self._linked, session, self._is_linked, self._link),
+            Binding(self._loss, session, self._loss_factor, damped, write_back),
+            Binding(self._linked, session, self._is_linked, linked),
         )
 
     def show(self, state: State, compared: Rates, effects: Effects, mode: str, is_old: bool) -> None:
@@ -147,18 +149,8 @@ class Details:
     def _loss_factor(self, state: State) -> float:
         return self._group.loss_factor_with(state.rates[self._group.name])
 
-    def _damp(self, loss_factor: float) -> None:
-        name, rates = self._group.name, self._session.state.rates
-        damped = self._group.plain(replace(rates[name], loss_factor=loss_factor))
-        kind = ("loss factor", name)
-        self._session.change(kind, rates={**rates, name: damped}, group=name)
-
     def _is_linked(self, state: State) -> bool:
         return self._group.name in state.linked
-
-    def _link(self, linked: bool) -> None:
-        name, others = self._group.name, self._session.state.linked - {self._group.name}
-        self._session.change(linked=others | {name} if linked else others)
 
 
 def _cells(effect: Effect | None) -> tuple[str, str, str]:

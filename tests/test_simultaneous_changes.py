@@ -1,0 +1,90 @@
+"""Controls that two people use at once: viser calls them in threads, and neither change may be lost."""
+
+import threading
+
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import MountRates
+from modeviz.viewer.app import App
+from modeviz.viewer.doors import open_server
+from modeviz.viewer.panels.mounts.actions import damp, link, reset_rate, toggle_lock
+
+PATIENCE_S = 60
+TRIED = {"A": MountRates(4e5, 131.4e3, 4e5)}
+
+
+@pytest.fixture(scope="module")
+def app():
+    server, vehicle = open_server(port=0), mounted_cabin()
+    app = App(vehicle, {**vehicle.rates, **TRIED}, Conditions("flat", 20.0), server)
+    app.start()
+    assert app.session.wait_checked(PATIENCE_S)
+    yield app
+    app.close()
+
+
+class Meeting:
+    """A lock that some threads enter only once all of them have come to it."""
+
+    def __init__(self, threads):
+        self._threads, self._lock = threads, threading.Lock()
+        self._all_here = threading.Barrier(len(threads))
+
+    def __enter__(self):
+        if threading.current_thread() in self._threads:
+            self._all_here.wait(PATIENCE_S)
+        self._lock.acquire()
+
+    def __exit__(self, *_):
+        self._lock.release()
+
+
+def do_at_once(session, actions):
+    threads = [threading.Thread(target=action) for action in actions]
+    lock, session._lock = session._lock, Meeting(threads)
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert session.wait_checked(PATIENCE_S)
+    session._lock = lock
+
+
+def choose_curves(app):
+    """What the dropdowns of the two charts do."""
+    writes = (binding._write for binding in app._response._charts._bindings)
+    return [lambda write=write: write("Seat, fore-aft") for write in writes]
+
+
+@pytest.mark.parametrize(
+    "actions",
+    [
+        lambda app: [lambda f=f: toggle_lock(app.session, "A", f) for f in ("vertical", "lateral")],
+        lambda app: [lambda f=f: reset_rate(app.session, "A", f) for f in ("vertical", "lateral")],
+        lambda app: [lambda g=g: damp(app.session, g, 0.3) for g in "AB"],
+        lambda app: [lambda g=g: link(app.session, g, linked=True) for g in "AB"],
+        lambda app: [
+            lambda: app._excitation._drive(road="rough"),
+            lambda: app._excitation._drive(speed=25.0),
+        ],
+        choose_curves,
+        lambda app: [lambda: app._step_mode(1)] * 2,
+    ],
+    ids=["locks", "resets", "loss factors", "links", "road and speed", "curves", "modes"],
+)
+def test_both_of_two_changes_at_once_are_kept(app, actions):
+    session, start = app.session, app.session.state
+    for action in actions(app):
+        action()
+        assert session.wait_checked(PATIENCE_S)
+    one_by_one = session.state
+    session.change(**vars(start))
+    assert session.wait_checked(PATIENCE_S)
+    do_at_once(session, actions(app))
+    at_once = session.state
+    session.change(**vars(start))
+    assert session.wait_checked(PATIENCE_S)
+    # Of what is selected last either may be: the groups' own changes are what counts.
+    assert {**vars(at_once), "group": ""} == {**vars(one_by_one), "group": ""}
