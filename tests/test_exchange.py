@@ -32,11 +32,9 @@ def test_a_wrong_file_is_refused_with_what_is_wrong(name, content, complaint):
     assert complaint in str(error.value)
 
 
-def test_a_set_is_called_as_its_file_but_never_as_the_vehicles_own():
-    vehicle = mounted_cabin()
-    assert set_name("My  softer set.csv", vehicle) == "My softer set"
-    assert set_name("Original.csv", vehicle) == "Original (file)"
-    assert len(set_name("x" * 100 + ".csv", vehicle)) == 40
+def test_a_set_is_called_as_its_file():
+    assert set_name("My  softer set.csv") == "My softer set"
+    assert len(set_name("x" * 100 + ".csv")) == 40
 
 
 def test_file_names_hold_nothing_that_a_file_system_minds():

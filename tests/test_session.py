@@ -271,6 +271,28 @@ def test_the_vehicles_own_sets_cannot_be_replaced_or_forgotten(session):
     assert not session.state.variants
 
 
+def test_a_set_that_is_added_replaces_no_other(session):
+    soft, softer = ({"A": MountRates(rate, rate, rate)} for rate in (2e5, 1e5))
+    assert [session.add("Mine", soft), session.add("Mine", softer)] == ["Mine", "Mine 2"]
+    assert session.add("Original", softer) == "Original 2"
+    variants = session.state.variants
+    assert [variants[name]["A"].lateral for name in ("Mine", "Mine 2", "Original 2")] == [2e5, 1e5, 1e5]
+
+
+def test_a_set_that_is_added_again_is_the_one_there_is(session):
+    own = session.vehicle.rates["A"]
+    assert session.add("Mine", {"A": own}) == session.add("Mine", {}) == "Mine"
+    assert session.add("Original", {}) == "Original"
+    assert list(session.state.variants) == ["Mine"]
+
+
+def test_a_loss_factor_that_is_the_groups_own_makes_no_other_set(session):
+    repeated = {"A": replace(session.vehicle.rates["A"], loss_factor=0.15)}
+    session.add("Mine", repeated)
+    assert session.state.variants["Mine"] == session.vehicle.rates
+    assert first_state(session.vehicle, repeated, FLAT).rates == session.vehicle.rates
+
+
 def test_swapping_changes_places_and_keeps_what_had_no_name(session):
     session.start()
     session.set_rate("A", "lateral", 1e5)

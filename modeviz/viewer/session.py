@@ -13,7 +13,7 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import DETAILS_EVERY, Answers, Rest, Solved, asks_for_the_same
 from modeviz.viewer.history import History
-from modeviz.viewer.state import ORIGINAL, State, known_sets, next_name, rate_sets
+from modeviz.viewer.state import ORIGINAL, State, free_name, known_sets, next_name, rate_sets
 from modeviz.viewer.worker import Worker
 
 REST = 0.3
@@ -131,19 +131,41 @@ class Session:
         """Takes the last undoing back."""
         self._go(self._history.redo)
 
-    def pin(self, name: str, rates: Rates | None = None) -> None:
-        """Gives a name to the present rates, or to others, and keeps them; a known set's stays its own.
+    def pin(self, name: str) -> None:
+        """Gives a name to the present rates and keeps them; a known set's stays its own.
 
         A pinned set of that name is replaced.
         """
         if name in known_sets(self.vehicle):
             return
+        self.update(lambda state: state.with_variant(name, state.rates))
 
-        def pinned(state: State) -> State:
-            its_rates = state.rates if rates is None else {**self.vehicle.rates, **rates}
-            return replace(state, variants={**state.variants, name: dict(its_rates)})
+    def add(self, name: str, rates: Rates) -> str:
+        """Pins other rates, and replaces no set that there is.
 
-        self.update(pinned)
+        Args:
+            name: what to call them; where another set is called so, the first free of "name 2" ...
+            rates: of the groups that differ from the vehicle's own.
+
+        Returns:
+            What they are called.
+
+        Raises:
+            VehicleError: a group that the vehicle does not have.
+        """
+        every = self.vehicle.all_rates(rates)
+        chosen = name
+
+        def added(state: State) -> State:
+            nonlocal chosen
+            sets = rate_sets(self.vehicle, state)
+            if sets.get(name) == every:
+                return state
+            chosen = free_name(name, sets)
+            return state.with_variant(chosen, every)
+
+        self.update(added)
+        return chosen
 
     def unpin(self, name: str) -> None:
         """Forgets a pinned set."""
@@ -208,7 +230,7 @@ class Session:
             own = next((n for n, rates in sets.items() if rates == state.rates), None)
             if own is None:
                 own = next_name(state)
-                state = replace(state, variants={**state.variants, own: dict(state.rates)})
+                state = state.with_variant(own, state.rates)
             return replace(state, rates=dict(sets[state.against]), against=own)
 
         self.update(swapped)

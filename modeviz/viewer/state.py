@@ -1,8 +1,8 @@
 """All that can be asked of a tuning session, as one value: what is undone is a whole state."""
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
-from itertools import count
+from itertools import chain, count
 from typing import Literal
 
 from modeviz.dynamics.roles import unit_of_role
@@ -112,6 +112,10 @@ class State:
         motion = self.motion if self.motion == "damped mode" else "mode"
         return replace(self, mode=name, motion=motion, group=self.group if group is None else group)
 
+    def with_variant(self, name: str, rates: Rates) -> "State":
+        """With a pinned set."""
+        return replace(self, variants={**self.variants, name: dict(rates)})
+
     def with_curve(self, chart: int, curve: Curve) -> "State":
         """Drawing another response in a chart, counted from the top."""
         curves = (*self.curves[:chart], curve, *self.curves[chart + 1 :])
@@ -124,11 +128,16 @@ class State:
 
 
 def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State:
-    """What a session opens with: the rates given and the yaw of the cabin on its mounts."""
+    """What a session opens with: the rates given and the yaw of the cabin on its mounts.
+
+    Raises:
+        VehicleError: a group that the vehicle does not have.
+    """
     group = vehicle.mount_groups[0].name if vehicle.mount_groups else ""
     cabin = unit_of_role(vehicle, "cabin")
     mode = f"{cabin.word} yaw" if cabin else ""
-    return State(dict(rates), conditions, mode, group, component=vehicle.bodies[0].name)
+    every = vehicle.all_rates(rates)
+    return State(every, conditions, mode, group, component=vehicle.bodies[0].name)
 
 
 def known_sets(vehicle: Vehicle) -> dict[str, Rates]:
@@ -155,6 +164,12 @@ def variant_name(vehicle: Vehicle, state: State) -> str:
         if dict(rates) == dict(state.rates):
             return name
     return next_name(state)
+
+
+def free_name(name: str, taken: Container[str]) -> str:
+    """A name, or the first of "name 2", "name 3" ... that is free."""
+    numbered = (f"{name} {i}" for i in count(2))
+    return next(free for free in chain((name,), numbered) if free not in taken)
 
 
 def next_name(state: State) -> str:

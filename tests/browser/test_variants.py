@@ -4,7 +4,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
-from modeviz.tuning.rate_files import parse_rates
+from modeviz.tuning.rate_files import parse_rates, rates_text
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.app import App
@@ -116,6 +116,15 @@ def test_a_set_that_is_saved_and_read_again_is_the_same(app, page, tmp_path, fil
     page.locator("input[type=file]").set_input_files(path)
     wait_until(page, lambda: app.session.state.variants.get("My set") == TRIED)
     assert app.session.state.rates == mounted_cabin().rates
+
+
+def test_a_file_called_as_another_set_is_one_beside_it_and_says_so(app, page, tmp_path):
+    app.session.pin("My set")
+    path = tmp_path / "My set.csv"
+    path.write_text(rates_text(TRIED, "csv"), "utf-8")
+    page.locator("input[type=file]").set_input_files(path)
+    wait_for(page, f"{NOTICE}.some(n => n.includes('so this is My set 2.'))")
+    assert app.session.state.variants == {"My set": mounted_cabin().rates, "My set 2": TRIED}
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from modeviz.tuning.rate_files import RatesFormat, parse_rates, rates_text
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session import Session
-from modeviz.viewer.state import known_sets, variant_name
+from modeviz.viewer.state import variant_name
 
 FORMATS = {file_format.upper(): file_format for file_format in get_args(RatesFormat)}
 LONGEST_NAME = 40
@@ -53,9 +53,10 @@ class ExchangePanel:
         except ModevizError as error:
             event.client.add_notification("Not imported", f"{file.name}: {error}", color="red")
             return
-        name = set_name(file.name, self._session.vehicle)
-        self._session.pin(name, rates)
-        event.client.add_notification("Imported", f"{name} is pinned: click its name to load it.")
+        wanted = set_name(file.name)
+        name = self._session.add(wanted, rates)
+        other = "" if name == wanted else f"There is another set called {wanted}, so this is {name}. "
+        event.client.add_notification("Imported", f"{other}Click {name} in the table to load it.")
 
 
 def rates_in(name: str, content: bytes, vehicle: Vehicle) -> Rates:
@@ -78,10 +79,9 @@ def rates_in(name: str, content: bytes, vehicle: Vehicle) -> Rates:
     return rates
 
 
-def set_name(file: str, vehicle: Vehicle) -> str:
-    """What the rates of a file are called: as the file, but never as one of the vehicle's own sets."""
-    name = " ".join(PurePath(file).stem.split())[:LONGEST_NAME] or "Imported"
-    return f"{name} (file)" if name in known_sets(vehicle) else name
+def set_name(file: str) -> str:
+    """What the rates of a file are called: as the file, on one line and not too long."""
+    return " ".join(PurePath(file).stem.split())[:LONGEST_NAME] or "Imported"
 
 
 def file_name(name: str, ending: str) -> str:
