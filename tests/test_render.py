@@ -1,12 +1,21 @@
 """`modeviz render` without a browser: what it refuses, and the file that needs none."""
 
 import re
+from contextlib import nullcontext
+from types import SimpleNamespace
 
 import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
+from modeviz.errors import ModevizError, SolveError
+from modeviz.tuning.comparison import RateSet
+from modeviz.tuning.results import Conditions, solve_on
+from modeviz.vehicle.connections import DIRECTIONS, MountRates
 from modeviz.vehicle.files import write_vehicle
+from modeviz.viewer.pictures import Shot
+from modeviz.viewer.rendering import Wish, photographs
+from modeviz.viewer.stage import FIELD_OF_VIEW, LIGHT
 
 
 @pytest.fixture(scope="module")
@@ -85,3 +94,41 @@ def test_offline_page_names_what_it_shows_and_needs_no_network(folder, tmp_path)
     for outside in ("src=", "@import", "<link "):
         assert outside not in beside
     assert [p.name for p in tmp_path.iterdir()] == ["yaw.html"]
+
+
+@pytest.fixture
+def resonant(monkeypatch):
+    """Rates with which a solve finds an undamped resonance."""
+    rates = {"A": MountRates(1e5, 2e5, 3e5)}
+
+    def solve(drive, asked):
+        if asked["A"] == rates["A"]:
+            raise SolveError("an undamped resonance lies on 10 Hz")
+        return solve_on(drive, asked)
+
+    monkeypatch.setattr("modeviz.viewer.answers.solve_on", solve)
+    return rates
+
+
+def test_why_rates_have_no_answer_is_told(capsys, folder, tmp_path, resonant):
+    rates = zip(DIRECTIONS, resonant["A"].as_tuple(), strict=True)
+    settings = [f"A.{direction}={rate} N/m" for direction, rate in rates]
+    options = [option for setting in settings for option in ("--set", setting)]
+    assert main(["render", folder, "--output", str(tmp_path / "yaw.html"), *options]) == 2
+    assert capsys.readouterr().err.endswith("modeviz: an undamped resonance lies on 10 Hz\n")
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_set_is_shown_in_place_of_one_without_an_answer(monkeypatch, resonant):
+    camera = SimpleNamespace()
+    studio = SimpleNamespace(
+        client=SimpleNamespace(camera=camera), stand=lambda phase: None, follow=lambda driver: None
+    )
+    monkeypatch.setattr("modeviz.viewer.rendering.Studio", lambda *_, **__: nullcontext(studio))
+    monkeypatch.setattr("modeviz.viewer.rendering.picture", lambda *_: None)
+    monkeypatch.setattr("modeviz.viewer.rendering.png_bytes", lambda _: b"")
+    wish = Wish("", "Iso", "bodies", amplitude=1.0, phase=0.0, n_frames=1)
+    shot = Shot(64, 64, "white", LIGHT, FIELD_OF_VIEW)
+    sets = [RateSet("own", {}), RateSet("odd", resonant)]
+    with pytest.raises(ModevizError, match="odd: an undamped resonance lies on 10 Hz"):
+        photographs(mounted_cabin(), sets, Conditions("flat", 20.0), wish, shot, lambda *_: None)

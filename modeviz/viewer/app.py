@@ -73,6 +73,7 @@ class App:
         """
         self.server, self._gui = server, server.gui
         self._last: Solved | None = None
+        self._failure: Exception | None = None
         self._title, self._dark = Title(server), dark
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
@@ -109,6 +110,21 @@ class App:
     @property
     def shown(self) -> Solved | None:
         """The answer on the pages, once there is one."""
+        return self._last
+
+    def answer(self, timeout: float) -> Solved:
+        """Waits for the answer to what is asked for, and gives it once it is on the pages.
+
+        Args:
+            timeout: how long to wait, s.
+
+        Raises:
+            ModevizError: there is no such answer, or not in time.
+        """
+        if not self.session.wait(timeout):
+            raise ModevizError(f"there was no answer within {timeout:.0f} s")
+        if self._last is None or self._last.state is not self.session.state:
+            raise self._failure or ModevizError("there is no answer")
         return self._last
 
     def offline(self, position: Floats, look_at: Floats) -> bytes:
@@ -230,6 +246,7 @@ class App:
 
     def _tell_failure(self, error: Exception) -> None:
         """Says what went wrong; the last good answer stays on the screen."""
+        self._failure = error
         if not isinstance(error, ModevizError):
             traceback.print_exception(error)
         for client in self.server.get_clients().values():

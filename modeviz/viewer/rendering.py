@@ -9,7 +9,7 @@ from typing import Literal, get_args
 from PIL import Image
 from threadpoolctl import threadpool_limits
 
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, located
 from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.export.report import Picture
 from modeviz.tuning.comparison import RateSet
@@ -107,8 +107,10 @@ def photographs(
     tell: Callable[[str, float], None],
 ) -> list[Picture]:
     """A still of a mode with each of several sets of rates; arguments and errors as `render`."""
-    with _app(vehicle, sets[0].rates, conditions, shot.theme.is_dark, tell) as app:
-        _show(app, wish)
+    first = vehicle.all_rates(sets[0].rates)
+    with _app(vehicle, first, conditions, shot.theme.is_dark, tell) as app:
+        with located(sets[0].name):
+            _show(app, wish)
         tell("opening", 0.0)
         with Studio(app.server) as studio:
             seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)
@@ -117,7 +119,8 @@ def photographs(
             for done, rate_set in enumerate(sets):
                 tell("drawing", done / len(sets))
                 app.session.change(rates=vehicle.all_rates(rate_set.rates))
-                movement = _show(app, wish).movement
+                with located(rate_set.name):
+                    movement = _show(app, wish).movement
                 studio.follow(app.scene.driver)
                 studio.stand(wish.phase)
                 caption = f"{movement.title}, {movement.frequency_hz:.2f} Hz, {rate_set.name}"
@@ -154,13 +157,12 @@ def _show(app: App, wish: Wish) -> Solved:
     if wish.mode:
         app.session.show_mode(wish.mode)
     app.scene.driver.drive(amplitude=wish.amplitude)
-    if not app.session.wait(PATIENCE) or app.shown is None:
-        raise ModevizError("there is no answer with these rates")
-    now = app.shown.now
+    shown = app.answer(PATIENCE)
+    now = shown.now
     if wish.mode and now.mode_index(wish.mode) is None:
         names = ", ".join(name.name for name, _ in listed(now).values())
         raise ModevizError(f"--mode: unknown mode {wish.mode!r}: there are {names}")
-    return app.shown
+    return shown
 
 
 def _told(
