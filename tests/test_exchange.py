@@ -4,7 +4,7 @@ from mounted_cabin import mounted_cabin
 from modeviz.errors import VehicleError
 from modeviz.tuning.rate_files import rates_text
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.panels.exchange import file_name, rates_in, set_name
+from modeviz.viewer.panels.exchange import rates_in, set_name
 
 RATES = {"A": MountRates(4e5, 131.4e3, 4e5)}
 
@@ -35,8 +35,3 @@ def test_a_wrong_file_is_refused_with_what_is_wrong(name, content, complaint):
 def test_a_set_is_called_as_its_file():
     assert set_name("My  softer set.csv") == "My softer set"
     assert len(set_name("x" * 100 + ".csv")) == 40
-
-
-def test_file_names_hold_nothing_that_a_file_system_minds():
-    assert file_name("Cabin Trial 1/2: soft*", "csv") == "cabin-trial-1-2-soft.csv"
-    assert file_name("../..", "json") == "rates.json"

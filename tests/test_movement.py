@@ -119,6 +119,19 @@ def test_a_component_moves_alone_and_says_what_it_has_of_the_shown_mode(state, s
     assert total == pytest.approx(energy, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("asked", "subject"),
+    [
+        ({"motion": "mode"}, "cab yaw"),
+        ({"motion": "damped mode"}, "cab yaw damped"),
+        ({"motion": "operating shape", "operating_hz": 11.04}, "operating shape 11.0 Hz"),
+        ({"motion": "component", "component": "chassis", "component_mode": 3}, "Chassis roll"),
+    ],
+)
+def test_files_are_named_after_what_moves(state, shown, asked, subject):
+    assert movement(replace(state, **asked), shown).subject == subject
+
+
 def test_a_mode_number_that_a_body_does_not_have_is_its_last(state, shown):
     moving = movement(replace(state, motion="component", component="cab", component_mode=99), shown)
     assert moving.title == "Cab alone: yaw"

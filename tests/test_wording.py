@@ -1,6 +1,7 @@
 import pytest
 
 from modeviz.export.wording import (
+    file_name,
     number,
     percent_change,
     power_of_ten,
@@ -61,3 +62,8 @@ def test_a_change_is_relative_to_what_was():
     assert percent_change(2.5, 1.0) == "+150.0 %"
     assert percent_change(0.0, 0.0) == "0.0 %"
     assert percent_change(1.0, 0.0) == "–"
+
+
+def test_file_names_hold_nothing_that_a_file_system_minds():
+    assert file_name("Cabin Trial 1/2: soft*", "csv") == "cabin-trial-1-2-soft.csv"
+    assert file_name("../..", "json") == "modeviz.json"

@@ -1,6 +1,7 @@
 """Numbers and names as people write them."""
 
 import math
+import re
 
 MINUS = "\N{MINUS SIGN}"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -23,6 +24,12 @@ def sentence_case(name: str) -> str:
     """A name with a capital, for a widget, which shows it as it is; "~cab yaw" is "~Cab yaw"."""
     mark, rest = ("~", name[1:]) if name.startswith("~") else ("", name)
     return mark + rest[:1].upper() + rest[1:]
+
+
+def file_name(name: str, ending: str) -> str:
+    """A name that every file system takes."""
+    stem = re.sub(r"[^\w.-]+", "-", name.lower()).strip("-.")
+    return f"{stem or 'modeviz'}.{ending}"
 
 
 def power_of_ten(exponent: int) -> str:

@@ -175,7 +175,7 @@ class App:
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             theme = DARK if dark else LIGHT
             self._pictures = PicturePanel(
-                gui, self.server, theme, self._file_name, self.offline, self._illustrated_report
+                gui, self.server, theme, self._subject, self.offline, self._illustrated_report
             )
         self._status = StatusPanel(gui)
         self.guide = Guide(self.server, self._hotkeys)
@@ -267,10 +267,10 @@ class App:
 
         self.session.update(stepped)
 
-    def _file_name(self) -> str:
-        solved, name = self._last, self.session.vehicle.name
-        mode = f" {solved.name.name}" if solved else ""
-        return f"{name}{mode}".lower().replace(" ", "-")
+    def _subject(self) -> str:
+        """What is to be seen: "Pickup cab yaw"."""
+        moving = self._last.movement.subject if self._last else ""
+        return f"{self.session.vehicle.name} {moving}"
 
 
 def serve(

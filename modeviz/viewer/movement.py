@@ -40,6 +40,8 @@ class Movement:
 
     title: str
     """What it is called, with a capital."""
+    subject: str
+    """The same in the name of a file: "operating shape 11.0 Hz"."""
     frequency_hz: float
     about: str
     """What else to know, short."""
@@ -95,7 +97,7 @@ def _undamped(state: State, shown: ShownMode) -> Movement:
     if same is not None:
         other = _in_phase(shown.base.modes.shapes[:, same], shown)
     title = sentence_case(shown.name.spoken)
-    return Movement(title, float(modes.frequency_hz[i]), about, shown.shape, other)
+    return Movement(title, shown.name.name, float(modes.frequency_hz[i]), about, shown.shape, other)
 
 
 def _damped(state: State, shown: ShownMode) -> Movement:
@@ -105,7 +107,9 @@ def _damped(state: State, shown: ShownMode) -> Movement:
     if same is not None:
         other = _in_phase(complex_mode(shown.base, same).shape, shown)
     title = sentence_case(shown.name.spoken)
-    return Movement(title, mode.damped_frequency_hz, about, _in_phase(mode.shape, shown), other)
+    shape = _in_phase(mode.shape, shown)
+    subject = f"{shown.name.name} damped"
+    return Movement(title, subject, mode.damped_frequency_hz, about, shape, other)
 
 
 def _operating(state: State, shown: ShownMode) -> Movement:
@@ -117,7 +121,8 @@ def _operating(state: State, shown: ShownMode) -> Movement:
         point = now.vehicle.response_points[curve.point].name
         about = f"{now.conditions.road}, as at {point}, {curve.direction}"
     other = _excited(state, shown.base) if state.ghost == "compared" else None
-    return Movement("Operating shape", state.operating_hz, about, _excited(state, now), other)
+    f, shape = state.operating_hz, _excited(state, now)
+    return Movement("Operating shape", f"operating shape {f:.1f} Hz", f, about, shape, other)
 
 
 def _excited(state: State, results: Results) -> Complexes:
@@ -134,6 +139,7 @@ def _component(state: State, shown: ShownMode) -> Movement:
     label = sentence_case(system.vehicle.body(state.component).label)
     return Movement(
         f"{label} alone: {modes.names[i]}",
+        f"{label} {modes.names[i]}",
         float(modes.frequency_hz[i]),
         "free, nothing attached",
         modes.shapes[:, i],

@@ -123,7 +123,7 @@ def solved(modal, mode=6, **fields):
         mode=mode,
         name=name,
         shape=shape,
-        movement=Movement(name.name, f, "", shape, None),
+        movement=Movement(name.name, name.name, f, "", shape, None),
         wheels={},
         seconds=0.0,
         rest=None,
@@ -240,7 +240,7 @@ def test_bodies_are_left_out_one_by_one_with_what_hangs_only_on_them(scene, page
 def test_complex_shape_is_drawn_with_both_parts_and_its_outlines_with_another(scene, page, modal):
     first, second = modal.modes.shapes[:, 7], modal.modes.shapes[:, 8]
     answer = solved(modal, 7, ghost="compared")
-    movement = Movement("Damped", 1.0, "", first + 1j * second, second)
+    movement = Movement("Damped", "damped", 1.0, "", first + 1j * second, second)
     show(scene, page, replace(answer, movement=movement))
     (cab, axle), (beside, _) = displacements(modal, movement.shape), displacements(modal, second)
     factor = 0.1 / max(peak_displacement(u).max() for u in (cab, axle))

@@ -1,12 +1,12 @@
 """Left column: sets of rates as files, to and from the page's computer."""
 
-import re
 from pathlib import PurePath
 from typing import cast, get_args
 
 import viser
 
 from modeviz.errors import ModevizError, VehicleError
+from modeviz.export.wording import file_name
 from modeviz.tuning.rate_files import RatesFormat, parse_rates, rates_text
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -82,9 +82,3 @@ def rates_in(name: str, content: bytes, vehicle: Vehicle) -> Rates:
 def set_name(file: str) -> str:
     """What the rates of a file are called: as the file, on one line and not too long."""
     return " ".join(PurePath(file).stem.split())[:LONGEST_NAME] or "Imported"
-
-
-def file_name(name: str, ending: str) -> str:
-    """A name that every file system takes."""
-    stem = re.sub(r"[^\w.-]+", "-", name.lower()).strip("-.")
-    return f"{stem or 'rates'}.{ending}"

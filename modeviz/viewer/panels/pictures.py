@@ -8,6 +8,7 @@ import viser
 from PIL import Image
 
 from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
+from modeviz.export.wording import file_name
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.doors import Server
 from modeviz.viewer.driver import held
@@ -48,7 +49,7 @@ class PicturePanel:
         gui: viser.GuiApi,
         server: Server,
         theme: Theme,
-        file_name: Callable[[], str],
+        subject: Callable[[], str],
         offline: Callable[[Floats, Floats], bytes],
         report: Callable[[bytes], bytes],
     ) -> None:
@@ -58,20 +59,20 @@ class PicturePanel:
             gui: where.
             server: whose pages are photographed.
             theme: of the scene.
-            file_name: names what is saved, without its ending.
+            subject: what is to be seen, after which files are named.
             offline: makes the file that needs no server, for a camera's place and what it looks at.
             report: makes the report of the comparison, for a picture of the scene as a PNG file.
         """
         self._server, self._theme = server, theme
-        self._file_name, self._offline, self._report = file_name, offline, report
+        self._subject, self._offline, self._report = subject, offline, report
         self._busy: set[int] = set()
-        self._makers: dict[str, tuple[str, Callable[[viser.ClientHandle, Tell], bytes]]] = {
-            "Picture, PNG": (".png", self._picture),
-            "Loop, GIF": (".gif", self._gif),
-            "Film, MP4": (".mp4", self._mp4),
-            "Whole page, PNG": (" page.png", self._page),
-            "Offline page, HTML": (".html", self._html),
-            "Report, HTML": (" report.html", self._illustrated),
+        self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Tell], bytes]]] = {
+            "Picture, PNG": ("", "png", self._picture),
+            "Loop, GIF": ("", "gif", self._gif),
+            "Film, MP4": ("", "mp4", self._mp4),
+            "Whole page, PNG": ("page", "png", self._page),
+            "Offline page, HTML": ("", "html", self._html),
+            "Report, HTML": ("report", "html", self._illustrated),
         }
         self._kind = gui.add_dropdown(
             "Save",
@@ -100,12 +101,12 @@ class PicturePanel:
         if client is None or client.client_id in self._busy:
             return
         kind = self._kind.value
-        ending, make = self._makers[kind]
+        what, ending, make = self._makers[kind]
 
         def work(tell: Tell) -> None:
             content = make(client, tell)
             tell(1.0)  # the last moment to cancel
-            name = self._file_name() + ending.replace(" ", "-")
+            name = file_name(f"{self._subject()} {what}", ending)
             client.send_file_download(name, content, save_immediately=True)
 
         self._busy.add(client.client_id)
