@@ -16,6 +16,7 @@ from modeviz.tuning.results import Conditions
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer import scripts
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.doors import Server, open_server
 from modeviz.viewer.hotkeys import Hotkeys
@@ -78,6 +79,7 @@ class App:
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
+        scripts.run(self._gui, "delivery.js")
         self._gui.configure_theme(
             dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
         )

@@ -2,22 +2,20 @@
 
 The shapes of all meshes are one array, because a message costs the server more than what is in it.
 
-Leans on private parts of viser 1.1.1: `RunJavascriptMessage` here, in driver.js `__viserMutable`,
-`__viserSceneTree` and three.js' names of shader chunks. tests/browser/test_driver.py fails when they
+Leans on private parts of viser 1.1.1: in driver.js `__viserMutable`, `__viserSceneTree` and three.js'
+names of shader chunks. tests/browser/test_driver.py fails when they
 change.
 """
 
-import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from importlib.resources import files
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
-from viser import _messages
 
 from modeviz.shapes.colors import Shade, stop_colors
+from modeviz.viewer import scripts
 from modeviz.viewer.assign import assign, send
 
 PREFIX = "/_shape"
@@ -71,11 +69,8 @@ class ShapeDriver:
         )
         self._node = scene.add_frame(DRIVER, show_axes=False, visible=False)
         self._send_motion()
-        script = files("modeviz.viewer").joinpath("driver.js").read_text("utf-8")
         stops = (stop_colors() / 255).tolist()
-        arguments = ", ".join(map(json.dumps, (PREFIX, CLOUD, DRIVER, HELD, stops)))
-        source = f"({script.rstrip()})({arguments});"
-        scene._websock_interface.queue_message(_messages.RunJavascriptMessage(source=source))
+        scripts.run(scene, "driver.js", PREFIX, CLOUD, DRIVER, HELD, stops)
 
     def add(self, name: str, glb: bytes, n_vertices: int, *, cast_shadow: bool = False) -> None:
         """Adds a mesh, or replaces the one of that name, at rest and in its own colours.

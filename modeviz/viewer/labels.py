@@ -4,13 +4,11 @@ Leans on private parts of viser 1.1.1 as driver.py does; tests/browser/test_scen
 change.
 """
 
-import json
 from collections.abc import Sequence
-from importlib.resources import files
 
 import viser
-from viser import _messages
 
+from modeviz.viewer import scripts
 from modeviz.viewer.stage import Theme
 
 
@@ -28,7 +26,4 @@ def keep_apart(scene: viser.SceneApi, names: Sequence[str], card: str, line: str
         "ink": [float(c / 255) for c in theme.ink],
         "paper": [float(c / 255) for c in theme.paper],
     }
-    script = files("modeviz.viewer").joinpath("labels.js").read_text("utf-8")
-    arguments = ", ".join(map(json.dumps, (list(names), card, line, colors)))
-    source = f"({script.rstrip()})({arguments});"
-    scene._websock_interface.queue_message(_messages.RunJavascriptMessage(source=source))
+    scripts.run(scene, "labels.js", list(names), card, line, colors)

@@ -1,8 +1,8 @@
 """Putting the server's values back on the screen once a control comes to rest.
 
-viser throttles what a page sends with one timer for all widgets, so the last value of a slider can
-be lost when another moves right after it; the page then shows what nobody solved. Assigning the same
-value again sends nothing, so it is queued here by viser's private message.
+A value that the server makes of what a slider asked for can cross the slider's next on its way, and the
+page is left with what nobody solved. Assigning the same value again sends nothing, so it is queued
+here by viser's private message.
 """
 
 import threading

@@ -1,15 +1,23 @@
 """The mounts panel, used as an engineer would, on the small cabin."""
 
 import pytest
-from mount_controls import IS_OPEN, box, drag, open_folder, position, thumb, type_rate
+from mount_controls import DIRECTIONS, IS_OPEN, box, drag, open_folder, position, thumb, type_rate
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
 from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import RATE_FIELDS
 from modeviz.viewer.app import App
 
 SOLVE_S = 60
 REFUSED = "document.body.textContent.includes('expected 0 to 1000000 N/mm')"
+ALL_TO_THE_END = """(group) => {
+  const marker = document.querySelector(`.mv-rates[data-group="${group}"]`);
+  const thumbs = marker.closest(".mantine-Paper-root").querySelectorAll(".mantine-Slider-thumb");
+  for (const thumb of [...thumbs].slice(0, 3))
+    for (const key of ["ArrowLeft", "ArrowLeft", "End"])
+      thumb.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+}"""
 CLOSE_NOTICES = (
     "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
 )
@@ -76,6 +84,13 @@ def test_back_at_the_mark_a_slider_gives_exactly_the_original_rate(app, page):
     wait_until(page, lambda: rate(app, "A", "vertical") < 7e5)
     drag(page, slider, start)
     wait_until(page, lambda: rate(app, "A", "vertical") == 8e5)
+
+
+def test_sliders_that_move_at_the_same_time_are_all_heard(app, page):
+    for direction in DIRECTIONS:
+        thumb(page, "A", direction).wait_for()
+    page.evaluate(ALL_TO_THE_END, "A")
+    wait_until(page, lambda: [rate(app, "A", field) for field in RATE_FIELDS] == [1e7, 1e7, 1e7])
 
 
 def test_a_number_with_decimals_is_taken_in_full_and_undone_at_once(app, page):

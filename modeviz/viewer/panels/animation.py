@@ -13,7 +13,6 @@ from modeviz.viewer.assign import assign
 from modeviz.viewer.coloring import energy_shares, largest_share
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.html import block, heading, style_sheet, title
-from modeviz.viewer.settle import WriteBack
 
 START_SPEED_HZ = 0.5
 START_PHASE = 90.0
@@ -63,9 +62,6 @@ class AnimationCard:
         self._amplitude.on_update(lambda _: driver.drive(amplitude=self._amplitude.value))
         self._speed.on_update(lambda _: driver.drive(frequency_hz=self._speed.value))
         self._phase.on_update(lambda _: self._hold())
-        write_back = WriteBack()
-        for slider in (self._amplitude, self._speed, self._phase):
-            slider.on_update(lambda event: write_back.touch(event.target))
         self._transport.on_click(lambda _: self._press(self._transport.value))
         driver.drive(frequency_hz=START_SPEED_HZ, running=True)
         self._is_running = True

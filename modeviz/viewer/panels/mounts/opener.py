@@ -2,15 +2,14 @@
 
 viser opens a folder from the server only by building it anew, and what fits is each window's own. So a
 script in the page clicks on folders, and reads from an element that is always there whose turn it is.
-Leans on viser's private `RunJavascriptMessage` and on how its page builds folders and tabs.
+Leans on how viser's page builds folders and tabs.
 """
 
 from html import escape
-from importlib.resources import files
 
 import viser
-from viser import _messages
 
+from modeviz.viewer import scripts
 from modeviz.viewer.assign import assign
 
 
@@ -21,9 +20,7 @@ class FolderOpener:
         """Starts the script; to be built outside of tabs, which a page builds only when they are up."""
         self._n_asked = 0
         self._marker = gui.add_html("")
-        script = files("modeviz.viewer.panels.mounts").joinpath("opener.js").read_text("utf-8")
-        source = f"({script.rstrip()})();"
-        gui._websock_interface.queue_message(_messages.RunJavascriptMessage(source=source))
+        scripts.run(gui, "panels/mounts/opener.js")
 
     def show(self, group: str) -> None:
         """Opens the folder of a group that was not the selected one, or of one asked for."""
