@@ -38,8 +38,12 @@ TRACK = """
 }
 """
 CLOSE = """
-document.querySelectorAll('.mantine-Notification-closeButton, .mantine-Modal-close')
-  .forEach((button) => button.click())
+() => {
+  const said = [...document.querySelectorAll('.mantine-Notification-root')].map((x) => x.innerText);
+  document.querySelectorAll('.mantine-Notification-closeButton, .mantine-Modal-close')
+    .forEach((button) => button.click());
+  return said;
+}
 """
 
 
@@ -62,13 +66,12 @@ class Monkey:
             (4, self._hotkey),
         ]
 
-    def act(self) -> str:
-        """Does one thing, and says what."""
+    def act(self) -> list[str]:
+        """Does one thing and closes what then stands in the way: gives the notices that were there."""
         weights, ways = zip(*self._ways, strict=True)
         (way,) = self._random.choices(ways, weights)
         way()
-        self._page.evaluate(CLOSE)
-        return getattr(way, "__name__", "")
+        return self._page.evaluate(CLOSE)
 
     def _mark(self, selector: str) -> bool:
         return self._page.evaluate(MARK, [selector, LEFT_OUT, self._random.random()])

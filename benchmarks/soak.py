@@ -1,7 +1,7 @@
 """`python -m benchmarks.soak`: the truck's page used at random for minutes.
 
 Nothing may fail in server or page, the server's memory may hardly grow, and at the end the page must
-show what a fresh solve of its rates gives.
+show what a fresh solve of its rates gives: the same numbers, curves and shape.
 """
 
 import argparse
@@ -17,24 +17,36 @@ from pathlib import Path
 
 import numpy as np
 from playwright.sync_api import ConsoleMessage, Page
+from threadpoolctl import threadpool_limits
 
 from benchmarks.monkey import Monkey
 from modeviz.ride.psd import power_decibels
+from modeviz.shapes.motion import displacement, vertex_shapes
+from modeviz.shapes.surface import surface
 from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
+from modeviz.tuning.results import Conditions, Results, solve
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
 from modeviz.viewer.doors import Server, open_server
 from modeviz.viewer.headless import chromium
 from modeviz.viewer.session import Session
-from modeviz.viewer.state import Curve, State
+from modeviz.viewer.state import Curve
 
-WARM_UP = 0.1
-"""The part of the actions after which memory is first looked at."""
+WARM_UP = 200
+"""The number of actions after which memory is first looked at: until then caches fill."""
+
+MAY_GROW_MB = 50.0
 
 PATIENCE_S = 120.0
+FAILED = "Not solved"
+"""How the notice of an answer that failed begins."""
+
 AGREE_DB = 1e-6
+AGREE_MAC = 1e-6
+"""What the MAC of drawn and solved shape may miss; the shape travels in 11 bits."""
 
 WIDGETS = """
 uuids => uuids.map((uuid) => {
@@ -45,6 +57,15 @@ uuids => uuids.map((uuid) => {
   return Number(element.querySelector("[role=slider]")?.ariaValueNow ?? NaN);
 })
 """
+HALVES = """
+path => {
+  let found;
+  window.__viserMutable.nodeRefFromName[path].traverse((object) => {
+    found ??= object.geometry?.attributes?.modevizReal?.array;
+  });
+  return Array.from(found);
+}
+"""
 CHARTS = "Object.values(window.__viserTestpoints.uplots).map(c => c.chart.data.map(d => Array.from(d)))"
 
 
@@ -54,12 +75,20 @@ class Soak:
 
     n_actions: int
     seconds: float = 0.0
-    grown_mb: float = 0.0
-    """Of the process with the server."""
+    grown_mb: float | None = None
+    """Of the process with the server, after the first `WARM_UP` actions."""
     failures: list[str] = field(default_factory=list)
     """Exceptions in the server, errors in the page."""
     disagreements: list[str] = field(default_factory=list)
     """Where page and solver differ at the end."""
+
+    def judge(self, grown_mb: float) -> None:
+        """Keeps by how much the server's memory has grown, which is a failure if it is too much."""
+        self.grown_mb = grown_mb
+        if grown_mb > MAY_GROW_MB:
+            self.failures.append(
+                f"memory: grown by {grown_mb:.0f} MB, at most {MAY_GROW_MB:.0f} MB may be"
+            )
 
     def note(self, said: ConsoleMessage) -> None:
         """Keeps an error that the page's console shows."""
@@ -99,14 +128,17 @@ def _use(page: Page, server: Server, found: Soak, seconds: float, seed: int) -> 
     page.set_default_timeout(1000 * PATIENCE_S)
     page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr=1")
     page.wait_for_function("document.querySelectorAll('.mantine-Slider-thumb').length > 2")
-    monkey, memory = Monkey(page, seed), 0.0
+    monkey, memory = Monkey(page, seed), None
     begin = time.perf_counter()
     for i in range(found.n_actions):
-        monkey.act()
-        if i == round(WARM_UP * found.n_actions):
+        notices = monkey.act()
+        found.failures += [notice for notice in notices if FAILED in notice]
+        if i == WARM_UP:
             memory = _memory_mb()
         page.wait_for_timeout(max(0.0, 1000 * (seconds * (i + 1) / found.n_actions - _since(begin))))
-    found.seconds, found.grown_mb = _since(begin), _memory_mb() - memory
+    found.seconds = _since(begin)
+    if memory is not None:
+        found.judge(_memory_mb() - memory)
 
 
 def _disagreements(page: Page, server: Server, session: Session) -> list[str]:
@@ -116,7 +148,12 @@ def _disagreements(page: Page, server: Server, session: Session) -> list[str]:
     if not session.wait_checked(PATIENCE_S):
         return ["the session does not come to rest"]
     page.wait_for_timeout(2000)
-    return [*_widgets(page, server), *_spectra(page, session.vehicle, session.state)]
+    fresh = solve(prepare(session.vehicle), session.state.rates, session.state.conditions)
+    return [
+        *_widgets(page, server),
+        *_spectra(page, fresh),
+        *_shape(page, fresh, session.state.mode),
+    ]
 
 
 def _widgets(page: Page, server: Server) -> list[str]:
@@ -136,24 +173,39 @@ def _is_same(value: object, shown: object) -> bool:
     return value == shown
 
 
-def _spectra(page: Page, vehicle: Vehicle, state: State) -> list[str]:
-    results = solve(prepare(vehicle), state.rates, state.conditions)
+def _spectra(page: Page, fresh: Results) -> list[str]:
     charts = page.evaluate(CHARTS)
     wrong = []
     for direction in ("lateral", "vertical"):
-        curve = power_decibels(results.response(0, direction))
-        if not any(_is_drawn(results.frequency_hz, curve, chart) for chart in charts):
-            wrong.append(f"no chart shows the {direction} spectrum of a fresh solve")
+        curve = power_decibels(fresh.response(0, direction))
+        if not any(_is_drawn(fresh.frequency_hz, curve, chart) for chart in charts):
+            wrong.append(f"no chart shows the {direction} spectrum of a fresh solve as the present one")
     return wrong
 
 
-def _is_drawn(frequency_hz: np.ndarray, curve: np.ndarray, chart: list[list[float]]) -> bool:
-    expected = np.interp(chart[0], frequency_hz, curve)
-    return any(
-        len(series) == len(expected)
-        and np.allclose(np.array(series, float), expected, rtol=0, atol=AGREE_DB)
-        for series in chart[1:]
-    )
+def _is_drawn(frequency_hz: Floats, curve: Floats, chart: list[list[float]]) -> bool:
+    """Whether a chart, whose last two series are the present one and its peaks, shows a curve."""
+    expected, now = np.interp(chart[0], frequency_hz, curve), np.array(chart[-2], float)
+    return len(now) == len(expected) and np.allclose(now, expected, rtol=0, atol=AGREE_DB)
+
+
+def _shape(page: Page, fresh: Results, mode: str) -> list[str]:
+    """Whether flexible bodies are drawn in the mode of a fresh solve, whatever its scale and sign."""
+    index = fresh.mode_index(mode)
+    if index is None:  # another was followed
+        return []
+    q, system = fresh.modes.shapes[:, index], fresh.prepared.system
+    bodies = [b for b in fresh.prepared.vehicle.bodies if isinstance(b, FlexibleBody)]
+    halves = [page.evaluate(HALVES, f"/vehicle/{body.name}") for body in bodies]
+    drawn = [np.array(bits, np.uint16).view(np.float16).astype(float) for bits in halves]
+    shapes = [vertex_shapes(body, surface(body.mesh).vertices) for body in bodies]
+    solved = [displacement(s, q[system.dofs[b.name]]) for b, s in zip(bodies, shapes, strict=True)]
+    mac = _mac(np.concatenate(drawn), np.concatenate([each.ravel() for each in solved]))
+    return [] if mac > 1 - AGREE_MAC else [f"{mode!r} is drawn with a MAC of {mac:.7f} to fresh"]
+
+
+def _mac(one: Floats, other: Floats) -> float:
+    return float((one @ other) ** 2 / ((one @ one) * (other @ other)))
 
 
 def _memory_mb() -> float:
@@ -174,12 +226,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=1, help="default 1")
     options = parser.parse_args(arguments)
     vehicle = read_vehicle(builtin_vehicle())
-    found = soak(vehicle, options.actions, 60 * options.minutes, options.seed)
+    with threadpool_limits(limits=1, user_api="blas"):  # as `modeviz view` does
+        found = soak(vehicle, options.actions, 60 * options.minutes, options.seed)
+    grown = "not judged" if found.grown_mb is None else f"{found.grown_mb:+.1f} MB"
     print(
-        f"{found.n_actions} actions in {found.seconds / 60:.1f} min, "
-        f"{found.grown_mb:+.1f} MB, {len(found.failures)} failures"
+        f"{found.n_actions} actions in {found.seconds / 60:.1f} min, memory {grown}, "
+        f"{len(found.failures)} failures"
     )
-    wrong = [*found.failures, *found.disagreements]
+    wrong = list(dict.fromkeys([*found.failures, *found.disagreements]))
     print("\n".join(wrong) or "page and solver agree")
     return 1 if wrong else 0
 
