@@ -276,7 +276,8 @@ def test_a_set_that_is_added_replaces_no_other(session):
     assert [session.add("Mine", soft), session.add("Mine", softer)] == ["Mine", "Mine 2"]
     assert session.add("Original", softer) == "Original 2"
     variants = session.state.variants
-    assert [variants[name]["A"].lateral for name in ("Mine", "Mine 2", "Original 2")] == [2e5, 1e5, 1e5]
+    lateral = {name: variant.rates["A"].lateral for name, variant in variants.items()}
+    assert lateral == {"Mine": 2e5, "Mine 2": 1e5, "Original 2": 1e5}
 
 
 def test_a_set_that_is_added_again_is_the_one_there_is(session):
@@ -289,7 +290,7 @@ def test_a_set_that_is_added_again_is_the_one_there_is(session):
 def test_a_loss_factor_that_is_the_groups_own_makes_no_other_set(session):
     repeated = {"A": replace(session.vehicle.rates["A"], loss_factor=0.15)}
     session.add("Mine", repeated)
-    assert session.state.variants["Mine"] == session.vehicle.rates
+    assert session.state.variants["Mine"].rates == session.vehicle.rates
     assert first_state(session.vehicle, repeated, FLAT).rates == session.vehicle.rates
 
 

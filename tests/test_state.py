@@ -5,7 +5,15 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.state import first_state, known_sets, next_name, rate_sets, variant_name
+from modeviz.viewer.state import (
+    Variant,
+    first_state,
+    known_sets,
+    next_name,
+    rate_sets,
+    set_numbers,
+    variant_name,
+)
 
 RATES = MountRates(8e5, 3e5, 4e5)
 
@@ -45,7 +53,7 @@ def test_sets_are_the_vehicles_and_then_the_pinned_ones(state):
     vehicle = mounted_cabin()
     soft = {"A": MountRates(2e5, 1e5, 1e5), "B": RATES}
     assert known_sets(vehicle) == {"Original": vehicle.rates, "Soft": soft}
-    pinned = replace(state, variants={"Mine": soft})
+    pinned = replace(state, variants={"Mine": Variant(soft, 0)})
     assert list(rate_sets(vehicle, pinned)) == ["Original", "Soft", "Mine"]
 
 
@@ -55,3 +63,13 @@ def test_rates_are_called_after_the_set_they_are_of_or_the_next_trial(state):
     moved = state.with_rate("A", "lateral", 1e5)
     assert variant_name(vehicle, moved) == "Trial 1"
     assert next_name(replace(state, variants={"Trial 1": {}, "Trial 3": {}})) == "Trial 2"
+
+
+def test_a_set_keeps_its_number_whatever_is_pinned_or_forgotten_beside_it(state):
+    vehicle, rates = mounted_cabin(), state.rates
+    three = state.with_variant("a", rates).with_variant("b", rates).with_variant("c", rates)
+    assert set_numbers(vehicle, three) == {"Original": 0, "Soft": 1, "a": 2, "b": 3, "c": 4}
+    two = replace(three, variants={name: three.variants[name] for name in ("b", "c")})
+    assert set_numbers(vehicle, two) == {"Original": 0, "Soft": 1, "b": 3, "c": 4}
+    again = two.with_variant("d", rates).with_variant("b", {"A": RATES})
+    assert set_numbers(vehicle, again) == {"Original": 0, "Soft": 1, "b": 3, "c": 4, "d": 2}

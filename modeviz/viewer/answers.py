@@ -25,10 +25,9 @@ from modeviz.tuning.results import (
 )
 from modeviz.tuning.sensitivity import Sensitivity
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.movement import Movement, ShownMode, asks, movement
-from modeviz.viewer.state import State, rate_sets
+from modeviz.viewer.state import State, Variant, rate_sets
 
 FREE_HZ = 0.5
 """Below, something moves freely."""
@@ -101,7 +100,7 @@ class Answers:
         self._home: Drive
         """At the vehicle's own rates: what is kept for long shares its receptances."""
         self._named: dict[str, Results] = {}
-        self._named_for: tuple[Mapping[str, Rates], Conditions] | None = None
+        self._named_for: tuple[Mapping[str, Variant], Conditions] | None = None
         self._wheels: dict[str, tuple[Results, WheelResults]] = {}
         self._last: Solved | None = None
         self._track: Track

@@ -171,7 +171,7 @@ class Session:
         """Forgets a pinned set."""
 
         def forgotten(state: State) -> State:
-            left = {n: rates for n, rates in state.variants.items() if n != name}
+            left = {n: variant for n, variant in state.variants.items() if n != name}
             against = state.against if state.against != name else ORIGINAL
             return replace(state, variants=left, against=against, overlaid=state.overlaid - {name})
 
@@ -212,7 +212,7 @@ class Session:
         def renamed(state: State) -> State:
             if name not in state.variants or new in rate_sets(self.vehicle, state):
                 return state
-            variants = {new if n == name else n: rates for n, rates in state.variants.items()}
+            variants = {new if n == name else n: variant for n, variant in state.variants.items()}
             overlaid = frozenset(new if n == name else n for n in state.overlaid)
             against = new if state.against == name else state.against
             return replace(state, variants=variants, overlaid=overlaid, against=against)

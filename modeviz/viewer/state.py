@@ -36,6 +36,16 @@ class Curve:
 
 
 @dataclass(frozen=True)
+class Variant:
+    """A pinned set of rates."""
+
+    rates: Rates
+    """Of every mount group."""
+    number: int
+    """Its own among the pinned sets while it lives: its colour goes by it."""
+
+
+@dataclass(frozen=True)
 class State:
     """All that can be asked of a session."""
 
@@ -47,7 +57,7 @@ class State:
     group: str
     """The selected mount group, or none: ""."""
 
-    variants: Mapping[str, Rates] = field(default_factory=dict)
+    variants: Mapping[str, Variant] = field(default_factory=dict)
     """The sets that were pinned, by name; see `rate_sets` for all there are."""
     against: str = ORIGINAL
     """The name of the set that all is compared with."""
@@ -113,8 +123,11 @@ class State:
         return replace(self, mode=name, motion=motion, group=self.group if group is None else group)
 
     def with_variant(self, name: str, rates: Rates) -> "State":
-        """With a pinned set."""
-        return replace(self, variants={**self.variants, name: dict(rates)})
+        """With a pinned set; one that takes the place of another keeps its number."""
+        taken = {variant.number for variant in self.variants.values()}
+        before = self.variants.get(name)
+        number = before.number if before else next(i for i in count() if i not in taken)
+        return replace(self, variants={**self.variants, name: Variant(dict(rates), number)})
 
     def with_curve(self, chart: int, curve: Curve) -> "State":
         """Drawing another response in a chart, counted from the top."""
@@ -150,7 +163,14 @@ def known_sets(vehicle: Vehicle) -> dict[str, Rates]:
 
 def rate_sets(vehicle: Vehicle, state: State) -> dict[str, Rates]:
     """Every set of rates that has a name: the vehicle's, then the pinned ones."""
-    return {**known_sets(vehicle), **state.variants}
+    pinned = {name: variant.rates for name, variant in state.variants.items()}
+    return {**known_sets(vehicle), **pinned}
+
+
+def set_numbers(vehicle: Vehicle, state: State) -> dict[str, int]:
+    """A number for each of `rate_sets`, which stays the same whatever else is pinned or forgotten."""
+    known = {name: i for i, name in enumerate(known_sets(vehicle))}
+    return known | {name: len(known) + variant.number for name, variant in state.variants.items()}
 
 
 def compared_rates(vehicle: Vehicle, state: State) -> Rates:

@@ -114,7 +114,8 @@ def test_a_set_that_is_saved_and_read_again_is_the_same(app, page, tmp_path, fil
     path = tmp_path / f"My set.{file_format}"
     path.write_text(text, "utf-8")
     page.locator("input[type=file]").set_input_files(path)
-    wait_until(page, lambda: app.session.state.variants.get("My set") == TRIED)
+    wait_until(page, lambda: "My set" in app.session.state.variants)
+    assert app.session.state.variants["My set"].rates == TRIED
     assert app.session.state.rates == mounted_cabin().rates
 
 
@@ -124,7 +125,8 @@ def test_a_file_called_as_another_set_is_one_beside_it_and_says_so(app, page, tm
     path.write_text(rates_text(TRIED, "csv"), "utf-8")
     page.locator("input[type=file]").set_input_files(path)
     wait_for(page, f"{NOTICE}.some(n => n.includes('so this is My set 2.'))")
-    assert app.session.state.variants == {"My set": mounted_cabin().rates, "My set 2": TRIED}
+    rates = {name: variant.rates for name, variant in app.session.state.variants.items()}
+    assert rates == {"My set": mounted_cabin().rates, "My set 2": TRIED}
 
 
 @pytest.mark.parametrize(
@@ -145,3 +147,16 @@ def test_a_wrong_file_is_refused_in_one_sentence_and_changes_nothing(
     page.locator("input[type=file]").set_input_files(path)
     wait_for(page, f"{NOTICE}.some(n => n.includes(a.complaint))", complaint=complaint)
     assert app.session.state is state
+
+
+def test_the_colours_of_curves_stay_when_an_earlier_set_is_forgotten(app, page):
+    marks = """Array.from(document.querySelectorAll('.mv .sets .mark'))
+        .map(m => m.style.getPropertyValue('--mark'))"""
+    app.session.pin("First")
+    app.session.add("Second", TRIED)
+    app.session.overlay("Second", drawn=True)
+    colors = wait_for(page, f"(m => m.length === 4 && m)({marks})")
+    app.session.unpin("First")
+    wait_for(page, f"JSON.stringify({marks}) === JSON.stringify(a.left)", left=colors[:2] + colors[3:])
+    keys = "Array.from(document.querySelectorAll('.mv .keyed .key'), k => k.innerHTML)"
+    wait_for(page, f"{keys}.some(k => k.includes('Second') && k.includes(a.color))", color=colors[3])

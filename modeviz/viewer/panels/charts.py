@@ -16,7 +16,7 @@ from modeviz.viewer.html import block, heading, title
 from modeviz.viewer.plots import Line, ResponsePlot, Scale, set_line
 from modeviz.viewer.responses import NOW, Responses, curve_label
 from modeviz.viewer.session import Session
-from modeviz.viewer.state import Curve, State
+from modeviz.viewer.state import Curve, State, set_numbers
 
 
 class ChartsPanel:
@@ -80,7 +80,7 @@ class ChartsPanel:
 
     def _lines(self, solved: Solved, responses: Responses) -> list[Line]:
         base, now = self._ends
-        numbers = {name: i for i, name in enumerate(solved.named)}
+        numbers = set_numbers(self._session.vehicle, solved.state)
         overlaid = [set_line(name, numbers[name]) for name in responses.overlaid]
         return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
 

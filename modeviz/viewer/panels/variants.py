@@ -15,7 +15,7 @@ from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.side_by_side import side_by_side
 from modeviz.viewer.plots import set_line
 from modeviz.viewer.session import Session
-from modeviz.viewer.state import State, known_sets, next_name, rate_sets
+from modeviz.viewer.state import State, known_sets, next_name, rate_sets, set_numbers
 
 N_ROWS = 24
 """So many sets can be clicked; more are listed only."""
@@ -92,29 +92,32 @@ class VariantsPanel:
         name = sentence_case(solved.name.name)
         header = ("", "Set", "lat. g", "vert. g", f"{escape(name)} Hz", "rating", "")
         current = next((n for n, r in solved.named.items() if r.rates == solved.now.rates), None)
+        colors = set_numbers(self._session.vehicle, solved.state)
         rows = [
-            row(self._cells(number, name, solved), chosen=name == current)
-            for number, name in enumerate(solved.named)
+            row(self._cells(i, name, colors[name], solved), chosen=name == current)
+            for i, name in enumerate(solved.named)
         ]
         if current is None:
             figures = _figures(solved.now, solved)
             rows.append(row(["", span("not pinned", "dim"), *figures, ""], chosen=True))
         return f'<div class="sets">{table(header, rows)}</div>'
 
-    def _cells(self, number: int, name: str, solved: Solved) -> list[str]:
+    def _cells(self, i: int, name: str, color: int, solved: Solved) -> list[str]:
+        """The cells of row `i`."""
         state = solved.state
         load = f'<span title="Load {escape(name)}">{escape(name)}</span>'
         forget = '<span title="Forget this set; undo brings it back">×</span>'
         return [
-            self._button(number, OVERLAY, _mark(number, name, state)),
-            self._button(number, LOAD, load),
+            self._button(i, OVERLAY, _mark(color, name, state)),
+            self._button(i, LOAD, load),
             *_figures(solved.named[name], solved),
-            self._button(number, FORGET, forget) if name in state.variants else "",
+            self._button(i, FORGET, forget) if name in state.variants else "",
         ]
 
-    def _button(self, number: int, action: str, text: str) -> str:
-        i = number * len(ACTIONS) + ACTIONS.index(action)
-        return self._buttons.label(i, text) if number < N_ROWS else text
+    def _button(self, i: int, action: str, text: str) -> str:
+        """A text that does something with the set in row `i`."""
+        button = i * len(ACTIONS) + ACTIONS.index(action)
+        return self._buttons.label(button, text) if i < N_ROWS else text
 
 
 class NameBox:
@@ -146,7 +149,7 @@ class NameBox:
 
     def _current(self, state: State) -> str | None:
         """The pinned set that the present rates are, if they are one."""
-        return next((n for n, r in state.variants.items() if dict(r) == dict(state.rates)), None)
+        return next((n for n, v in state.variants.items() if v.rates == state.rates), None)
 
     def _press(self, button: str, event: viser.GuiEvent) -> None:
         complaint = self._keep(button, self._box.value.strip())
