@@ -307,6 +307,49 @@ def test_swapping_changes_places_and_keeps_what_had_no_name(session):
     assert list(session.state.variants) == ["Trial 1"]
 
 
+TOO_STIFF = MountRates(1e16, 1e16, 1e16)
+
+
+def test_a_set_without_an_answer_is_left_out_and_says_why(session):
+    session.start()
+    session.add("Rigid", {"A": TOO_STIFF})
+    session.change(overlaid=frozenset({"Rigid", "Soft"}), load=session.vehicle.wheel_loads[0].name)
+    assert session.wait(20)
+    solved = session.answers[-1]
+    assert list(solved.named) == ["Original", "Soft"]
+    assert set(solved.wheels) == {"Original", "Soft", ""}
+    assert "a spring is too stiff" in solved.unsolved["Rigid"]
+    assert not solved.missing
+
+
+def test_the_original_stands_for_a_compared_set_without_an_answer(session):
+    session.start()
+    session.add("Rigid", {"A": TOO_STIFF})
+    session.compare_with("Rigid")
+    assert session.wait(20)
+    solved = session.answers[-1]
+    assert (solved.state.against, solved.missing) == ("Original", "Rigid")
+    assert solved.base.rates == session.vehicle.rates
+    assert session.state.against == "Rigid"
+
+
+def test_what_cannot_be_found_out_is_tried_once(session, monkeypatch):
+    asked = []
+
+    def failing(*_):
+        asked.append(1)
+        raise SolveError("too stiff")
+
+    monkeypatch.setattr("modeviz.viewer.session.sensitivity", failing)
+    session.start()
+    assert session.wait_checked(60)
+    for coloring in ("displacement", "bodies"):
+        session.change(coloring=coloring)
+        assert session.wait_checked(60)
+    assert session.answers[-1].rest.problem == "too stiff"
+    assert len(asked) == 1
+
+
 def test_wheel_loads_are_solved_while_one_is_chosen(session):
     session.start()
     load = session.vehicle.wheel_loads[0].name

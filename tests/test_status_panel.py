@@ -11,6 +11,7 @@ from mounted_cabin import mounted_cabin
 from modeviz.tuning.check import Check, ClassicError
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve
+from modeviz.viewer.answers import Rest
 from modeviz.viewer.panels.status import StatusPanel, _rounded
 
 
@@ -30,14 +31,20 @@ def now():
     return solve(prepare(mounted_cabin(), np.array([1.0, 2.0])), {}, Conditions("flat", 20.0))
 
 
+def content(now, **changes):
+    """What the panel draws of an answer."""
+    page = Page()
+    values = {"check": None, "problem": "", "classic_error": None, "seconds": 0.0042, "missing": ""}
+    values |= changes
+    state = SimpleNamespace(classic=values["classic_error"] is not None, against="Original")
+    rest = Rest(now, check=values.pop("check"), problem=values.pop("problem"))
+    StatusPanel(page).show(SimpleNamespace(now=now, state=state, rest=rest, **values))
+    return page.content
+
+
 def shown(now, **changes):
     """The text of the panel, without its markup."""
-    page = Page()
-    values = {"check": None, "classic_error": None, "seconds": 0.0042} | changes
-    state = SimpleNamespace(classic=values["classic_error"] is not None)
-    rest = SimpleNamespace(check=values.pop("check"))
-    StatusPanel(page).show(SimpleNamespace(now=now, state=state, rest=rest, **values))
-    return re.sub("<[^>]*>", " ", page.content)
+    return re.sub("<[^>]*>", " ", content(now, **changes))
 
 
 def test_the_preparation_shows_how_far_it_is():
@@ -73,19 +80,15 @@ def test_the_largest_difference_from_the_exact_solve_is_shown(now, check, words)
 
 def test_a_large_difference_is_no_good_sign(now):
     for error, dot in ((1e-7, "--mv-good"), (1e-2, "--mv-bad")):
-        page = Page()
-        check = Check(error, 0.0, 400, 400)
-        state = SimpleNamespace(classic=False)
-        StatusPanel(page).show(
-            SimpleNamespace(
-                now=now,
-                state=state,
-                rest=SimpleNamespace(check=check),
-                classic_error=None,
-                seconds=0.004,
-            )
-        )
-        assert dot in page.content
+        assert dot in content(now, check=Check(error, 0.0, 400, 400))
+
+
+def test_what_could_not_be_found_out_is_said(now):
+    assert "not checked: too stiff" in shown(now, problem="too stiff")
+
+
+def test_it_says_which_set_stands_for_one_without_an_answer(now):
+    assert "Rigid has no answer, see Variants: compared with Original" in shown(now, missing="Rigid")
 
 
 def test_the_classic_methods_error_is_shown_on_request(now):

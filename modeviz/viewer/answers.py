@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import STEP_MAC, Track
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, SolveError
 from modeviz.tuning.check import Check, ClassicError, classic_error
 from modeviz.tuning.following import accept, follow_rates
 from modeviz.tuning.preparation import Prepared, prepare
@@ -45,6 +45,13 @@ class Rest:
     """What ten percent of each rate do, once that is known."""
     check: Check | None = None
     """How far `now` is from the exact answer, as far as that is known."""
+    problem: str = ""
+    """Why no more will be known, if so."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether there is no more to find out."""
+        return bool(self.problem) or (self.check is not None and self.check.is_complete)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +59,13 @@ class Solved:
     """The answer to a state."""
 
     state: State
+    """What was asked for, but compared with a set that has an answer."""
+    missing: str
+    """The set that was to be compared with, if it has none; else ""."""
     named: Mapping[str, Results]
-    """With every set of rates that has a name, on the same road."""
+    """With every set of rates that has a name and an answer, on the same road."""
+    unsolved: Mapping[str, str]
+    """Why the other sets have no answer, by name."""
     now: Results
     track: Track
     """Where the modes of `base` went."""
@@ -100,6 +112,7 @@ class Answers:
         self._home: Drive
         """At the vehicle's own rates: what is kept for long shares its receptances."""
         self._named: dict[str, Results] = {}
+        self._unsolved: dict[str, str] = {}
         self._named_for: tuple[Mapping[str, Variant], Conditions] | None = None
         self._wheels: dict[str, tuple[Results, WheelResults]] = {}
         self._last: Solved | None = None
@@ -120,7 +133,8 @@ class Answers:
         """
         self._prepared = prepare(self._vehicle, progress=progress)
         self._drive = self._home = drive(self._prepared, state.conditions)
-        base = self._solve_named(state)[state.against]
+        named = self._solve_named(state)
+        base = named[_answerable(state, named).against]
         self._track, self._tracked = accept(base), base
 
     def rebase(self, state: State) -> Prepared:
@@ -141,6 +155,7 @@ class Answers:
         """
         begin = time.perf_counter()
         named, last = self._solve_named(state), self._last
+        asked, state = state, _answerable(state, named)
         base = named[state.against]
         if last and asks_for_the_same(last.state, state):
             now = last.now
@@ -161,7 +176,9 @@ class Answers:
         is_known = rest is not None and rest.now is now
         self._last = Solved(
             state=state,
+            missing="" if asked.against in named else asked.against,
             named=named,
+            unsolved=self._unsolved,
             now=now,
             track=self._track,
             mode=mode,
@@ -177,7 +194,11 @@ class Answers:
         return self._last
 
     def _solve_named(self, state: State) -> dict[str, Results]:
-        """The results with every set that has a name, those kept that still hold."""
+        """The results with every set that has a name and an answer, those kept that still hold.
+
+        Raises:
+            SolveError: none has an answer.
+        """
         wanted = (state.variants, state.conditions)
         if self._named_for == wanted:
             return self._named
@@ -189,14 +210,17 @@ class Answers:
         if self._home.conditions != state.conditions:
             self._home = drive(self._prepared, state.conditions)
         sets = rate_sets(self._vehicle, state)
-        self._named = {
-            name: kept[name]
-            if name in kept and kept[name].rates == rates
-            else solve_on(self._home, rates)
-            for name, rates in sets.items()
-        }
-        self._named_for = wanted
-        return self._named
+        named, unsolved = {}, {}
+        for name, rates in sets.items():
+            try:
+                is_known = name in kept and kept[name].rates == rates
+                named[name] = kept[name] if is_known else solve_on(self._home, rates)
+            except SolveError as error:
+                unsolved[name] = str(error)
+        if not named:
+            raise SolveError("; ".join(f"{name}: {why}" for name, why in unsolved.items()))
+        self._named, self._unsolved, self._named_for = named, unsolved, wanted
+        return named
 
     def _solve_wheels(
         self, state: State, named: Mapping[str, Results], now: Results
@@ -205,9 +229,11 @@ class Answers:
         if not state.load:
             return {}
         wanted = {name: named[name] for name in (state.against, *sorted(state.overlaid))} | {"": now}
-        near = self._drive_on(state.conditions).prepared
         self._wheels = {
-            name: (results, self._kept_wheels(name, results) or solve_wheels(near, results.rates))
+            name: (
+                results,
+                self._kept_wheels(name, results) or solve_wheels(results.prepared, results.rates),
+            )
             for name, results in wanted.items()
         }
         return {name: found for name, (_, found) in self._wheels.items()}
@@ -275,6 +301,12 @@ class Answers:
         mass = self._prepared.system.mass
         turned = self._last is not None and self._last.shape @ mass @ shape < 0
         return -shape if turned else shape
+
+
+def _answerable(state: State, named: Mapping[str, Results]) -> State:
+    """A state without those sets that have no answer; the first that has one takes their place."""
+    against = state.against if state.against in named else next(iter(named))
+    return replace(state, against=against, overlaid=state.overlaid & named.keys())
 
 
 def asks_for_the_same(one: State, other: State) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import replace
 from typing import Any
 
+from modeviz.errors import ModevizError
 from modeviz.tuning.check import check_exactly
 from modeviz.tuning.results import Results
 from modeviz.tuning.sensitivity import sensitivity
@@ -272,8 +273,8 @@ class Session:
         with self._lock:
             if self._rest is None or self._rest.now is not solved.now:
                 self._rest = solved.rest
-            is_checked = _is_checked(self._rest)
-        if not is_checked:
+            is_complete = self._rest.is_complete
+        if not is_complete:
             self._checker.submit(solved)
 
     def _settle(self, solved: Solved) -> None:
@@ -284,6 +285,13 @@ class Session:
             self._show_again(solved.now)
         if not self._rests(solved, REST):
             return
+        try:
+            self._find_out(solved)
+        except ModevizError as error:
+            self._show_again(solved.now, problem=str(error))
+
+    def _find_out(self, solved: Solved) -> None:
+        """Shows what its rates do and how exact an answer is, as long as it is current."""
         near = self._answers.rebase(solved.state)
         self._show_again(solved.now, sensitivity=sensitivity(near, solved.now))
         told = 0.0
@@ -296,7 +304,7 @@ class Session:
 
     def _knows_all_of(self, now: Results) -> bool:
         rest = self._rest
-        return rest is not None and rest.now is now and _is_checked(rest)
+        return rest is not None and rest.now is now and rest.is_complete
 
     def _is_current(self, solved: Solved) -> bool:
         """Whether an answer is still to what is asked for."""
@@ -317,8 +325,3 @@ class Session:
                 return False
             time.sleep(seconds / 10)
         return True
-
-
-def _is_checked(rest: Rest) -> bool:
-    """Whether there is no more to find out about an answer."""
-    return rest.check is not None and rest.check.is_complete

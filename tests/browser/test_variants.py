@@ -160,3 +160,11 @@ def test_the_colours_of_curves_stay_when_an_earlier_set_is_forgotten(app, page):
     wait_for(page, f"JSON.stringify({marks}) === JSON.stringify(a.left)", left=colors[:2] + colors[3:])
     keys = "Array.from(document.querySelectorAll('.mv .keyed .key'), k => k.innerHTML)"
     wait_for(page, f"{keys}.some(k => k.includes('Second') && k.includes(a.color))", color=colors[3])
+
+
+def test_a_set_without_an_answer_says_why_and_leaves_the_others_theirs(app, page):
+    app.session.add("Rigid", {"A": MountRates(1e16, 1e16, 1e16)})
+    app.session.compare_with("Rigid")
+    wait_for(page, f"{ROWS}.length === 4 && {ROWS}[3].startsWith('Rigid––––')")
+    wait_for(page, "document.body.textContent.includes('Rigid has no answer: no accurate response')")
+    wait_for(page, "document.body.textContent.includes('see Variants: compared with Original')")

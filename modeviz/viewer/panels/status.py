@@ -5,9 +5,8 @@ from html import escape
 import viser
 
 from modeviz.dynamics.modes import RESOLVED_HZ
-from modeviz.tuning.check import Check
 from modeviz.tuning.results import Results
-from modeviz.viewer.answers import Solved
+from modeviz.viewer.answers import Rest, Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.html import block, heading, span, title
 
@@ -32,7 +31,9 @@ class StatusPanel:
 
     def show(self, solved: Solved) -> None:
         """Says how an answer came about and how good it is."""
-        lines = [_found(solved.now), _checked(solved.rest.check)]
+        lines = [_found(solved.now), _checked(solved.rest)]
+        if solved.missing:
+            lines.append(_compared(solved))
         if solved.state.classic:
             lines.append(_classic(solved))
         text = "<br>".join(lines)
@@ -58,8 +59,17 @@ def _found(now: Results) -> str:
     return f"{band}, none missed, each within {_rounded(worst)} Hz"
 
 
-def _checked(check: Check | None) -> str:
+def _compared(solved: Solved) -> str:
+    """That the set asked for has no answer, and which one stands in its place."""
+    text = f"{solved.missing} has no answer, see Variants: compared with {solved.state.against}"
+    return span(escape(text), "bad")
+
+
+def _checked(rest: Rest) -> str:
     """What the exact solve says."""
+    check = rest.check
+    if rest.problem:
+        return f"not checked: {escape(rest.problem)}"
     if check is None:
         return "exact solve follows"
     if check.impossible:

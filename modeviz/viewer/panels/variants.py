@@ -68,11 +68,14 @@ class VariantsPanel:
 
     def show(self, solved: Solved) -> None:
         """Lists the sets of an answer and how the present rates differ from the one compared with."""
-        self._names = list(solved.named)
-        assign(self._against, options=tuple(solved.named))
+        self._names = list(rate_sets(self._session.vehicle, solved.state))
+        assign(self._against, options=tuple(self._names))
         show_all(self._bindings)
         self._name.show()
-        assign(self._table, content=block(self._listing(solved), _advice(solved.state)))
+        assign(
+            self._table,
+            content=block(self._listing(solved), _complaints(solved), _advice(solved.state)),
+        )
         assign(self._side_by_side, content=block(side_by_side(solved)))
 
     def _press(self, i: int) -> None:
@@ -95,7 +98,7 @@ class VariantsPanel:
         colors = set_numbers(self._session.vehicle, solved.state)
         rows = [
             row(self._cells(i, name, colors[name], solved), chosen=name == current)
-            for i, name in enumerate(solved.named)
+            for i, name in enumerate(self._names)
         ]
         if current is None:
             figures = _figures(solved.now, solved)
@@ -104,13 +107,13 @@ class VariantsPanel:
 
     def _cells(self, i: int, name: str, color: int, solved: Solved) -> list[str]:
         """The cells of row `i`."""
-        state = solved.state
+        state, is_solved = solved.state, name in solved.named
         load = f'<span title="Load {escape(name)}">{escape(name)}</span>'
         forget = '<span title="Forget this set; undo brings it back">×</span>'
         return [
-            self._button(i, OVERLAY, _mark(color, name, state)),
+            self._button(i, OVERLAY, _mark(color, name, state)) if is_solved else "",
             self._button(i, LOAD, load),
-            *_figures(solved.named[name], solved),
+            *(_figures(solved.named[name], solved) if is_solved else ["–"] * 4),
             self._button(i, FORGET, forget) if name in state.variants else "",
         ]
 
@@ -196,6 +199,12 @@ def _mark(number: int, name: str, state: State) -> str:
     on, what = (" on", "Drawn in the charts") if name in state.overlaid else ("", "Draw in the charts")
     color = set_line(name, number).color
     return f'<i class="mark{on}" style="--mark:{color}" title="{what}"></i>'
+
+
+def _complaints(solved: Solved) -> str:
+    """Why sets have no figures."""
+    reasons = (f"{name} has no answer: {why}." for name, why in solved.unsolved.items())
+    return "".join(f'<div class="bad">{escape(reason)}</div>' for reason in reasons)
 
 
 def _advice(state: State) -> str:

@@ -45,6 +45,8 @@ class MountsPanel:
         sensitivity = solved.rest.sensitivity
         if sensitivity is not None:
             self._effects = effects(self._session.vehicle, sensitivity, solved.mode)
+        elif solved.rest.problem:
+            self._effects = {}
         compared = compared_rates(self._session.vehicle, solved.state)
         for folder in self._folders:
             folder.show(solved, compared, self._effects, is_old=sensitivity is None)
