@@ -73,3 +73,10 @@ def test_a_set_keeps_its_number_whatever_is_pinned_or_forgotten_beside_it(state)
     assert set_numbers(vehicle, two) == {"Original": 0, "Soft": 1, "b": 3, "c": 4}
     again = two.with_variant("d", rates).with_variant("b", {"A": RATES})
     assert set_numbers(vehicle, again) == {"Original": 0, "Soft": 1, "b": 3, "c": 4, "d": 2}
+
+
+@pytest.mark.parametrize("before", ["none", "rest"])
+def test_outlines_of_the_compared_set_give_way_to_those_before(state, before):
+    compared = replace(state, ghost=before).with_ghost("compared").with_ghost("compared")
+    assert compared.ghost == "compared"
+    assert compared.with_ghost(compared.ghost_before).ghost == before

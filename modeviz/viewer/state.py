@@ -89,6 +89,8 @@ class State:
     coloring: Coloring = "bodies"
     see_through: bool = True
     ghost: Ghost = "rest"
+    ghost_before: Ghost = "rest"
+    """What those of the set compared with took the place of."""
     hidden: frozenset[str] = frozenset()
     """Bodies that are not drawn."""
     follow: bool = False
@@ -121,6 +123,11 @@ class State:
         """Showing another mode, to see it if something else moves, and a mount group if given."""
         motion = self.motion if self.motion == "damped mode" else "mode"
         return replace(self, mode=name, motion=motion, group=self.group if group is None else group)
+
+    def with_ghost(self, ghost: Ghost) -> "State":
+        """With other outlines, and those before remembered while the compared set's are drawn."""
+        before = self.ghost_before if self.ghost == "compared" else self.ghost
+        return replace(self, ghost=ghost, ghost_before=before)
 
     def with_variant(self, name: str, rates: Rates) -> "State":
         """With a pinned set; one that takes the place of another keeps its number."""

@@ -162,6 +162,15 @@ def test_the_colours_of_curves_stay_when_an_earlier_set_is_forgotten(app, page):
     wait_for(page, f"{keys}.some(k => k.includes('Second') && k.includes(a.color))", color=colors[3])
 
 
+def test_its_outlines_give_way_to_those_before(app, page):
+    app.session.change(ghost="rest")
+    outlines = page.get_by_label("Its outlines")
+    outlines.check()
+    wait_until(page, lambda: app.session.state.ghost == "compared")
+    outlines.uncheck()
+    wait_until(page, lambda: app.session.state.ghost == "rest")
+
+
 def test_a_set_without_an_answer_says_why_and_leaves_the_others_theirs(app, page):
     app.session.add("Rigid", {"A": MountRates(1e16, 1e16, 1e16)})
     app.session.compare_with("Rigid")

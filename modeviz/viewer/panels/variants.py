@@ -59,7 +59,7 @@ class VariantsPanel:
                 ghost,
                 session,
                 lambda state: state.ghost == "compared",
-                lambda on: session.change(ghost="compared" if on else "none"),
+                self._draw_outlines,
             ),
         ]
         self._name = NameBox(gui, session)
@@ -77,6 +77,10 @@ class VariantsPanel:
             content=block(self._listing(solved), _complaints(solved), _advice(solved.state)),
         )
         assign(self._side_by_side, content=block(side_by_side(solved)))
+
+    def _draw_outlines(self, drawn: bool) -> None:
+        """Draws those of the set compared with, or again those before."""
+        self._session.update(lambda s: s.with_ghost("compared" if drawn else s.ghost_before))
 
     def _press(self, i: int) -> None:
         number, action = divmod(i, len(ACTIONS))

@@ -1,7 +1,7 @@
 """Left column: how the vehicle is looked at."""
 
 from collections.abc import Callable, Mapping
-from typing import get_args
+from typing import Any, get_args
 
 import viser
 
@@ -38,11 +38,18 @@ class ViewPanel:
                 look(event.client, views.value)
 
         self._bindings = [
-            self._choice("Colours", COLORINGS, "coloring", "What the colours of the bodies mean"),
+            self._choice(
+                "Colours",
+                COLORINGS,
+                "coloring",
+                lambda coloring: session.change(coloring=coloring),
+                "What the colours of the bodies mean",
+            ),
             self._choice(
                 "Outlines",
                 GHOSTS,
                 "ghost",
+                lambda ghost: session.update(lambda state: state.with_ghost(ghost)),
                 "Drawn beside the bodies: the vehicle at rest, or moving as with the set of rates that "
                 "all is compared with",
             ),
@@ -62,7 +69,14 @@ class ViewPanel:
         """Brings the controls after the newest state."""
         show_all(self._bindings)
 
-    def _choice(self, label: str, choices: Mapping[str, str], field: str, hint: str) -> Binding:
+    def _choice(
+        self,
+        label: str,
+        choices: Mapping[str, Any],
+        field: str,
+        write: Callable[[Any], None],
+        hint: str,
+    ) -> Binding:
         """A dropdown for one field of the state, whose values are `choices` by what they are called."""
         words = {value: word for word, value in choices.items()}
         value = getattr(self._session.state, field)
@@ -70,7 +84,7 @@ class ViewPanel:
             self._gui.add_dropdown(label, tuple(choices), initial_value=words[value], hint=hint),
             self._session,
             lambda state: words[getattr(state, field)],
-            lambda word: self._session.change(**{field: choices[word]}),
+            lambda word: write(choices[word]),
         )
 
     def _switch(self, label: str, field: str, hint: str) -> Binding:
