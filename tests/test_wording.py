@@ -1,3 +1,5 @@
+from types import SimpleNamespace
+
 import pytest
 
 from modeviz.export.wording import (
@@ -9,6 +11,7 @@ from modeviz.export.wording import (
     sentence_case,
     signed,
     significant,
+    told_apart,
 )
 
 
@@ -67,3 +70,16 @@ def test_a_change_is_relative_to_what_was():
 def test_file_names_hold_nothing_that_a_file_system_minds():
     assert file_name("Cabin Trial 1/2: soft*", "csv") == "cabin-trial-1-2-soft.csv"
     assert file_name("../..", "json") == "modeviz.json"
+
+
+def test_things_of_one_label_are_told_apart_by_their_names():
+    things = [
+        SimpleNamespace(name="road 1", label="country"),
+        SimpleNamespace(name="road 2", label="Country"),
+        SimpleNamespace(name="road 3", label="town"),
+    ]
+    assert told_apart(things) == {
+        "Country (road 1)": "road 1",
+        "Country (road 2)": "road 2",
+        "Town": "road 3",
+    }

@@ -2,6 +2,9 @@
 
 import math
 import re
+from collections import Counter
+from collections.abc import Sequence
+from typing import Protocol
 
 MINUS = "\N{MINUS SIGN}"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -24,6 +27,26 @@ def sentence_case(name: str) -> str:
     """A name with a capital, for a widget, which shows it as it is; "~cab yaw" is "~Cab yaw"."""
     mark, rest = ("~", name[1:]) if name.startswith("~") else ("", name)
     return mark + rest[:1].upper() + rest[1:]
+
+
+class Labelled(Protocol):
+    """Something that people call otherwise than files do."""
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def label(self) -> str: ...
+
+
+def told_apart(things: Sequence[Labelled]) -> dict[str, str]:
+    """The names of things by what a widget calls them, with the name too where labels are alike."""
+    labels = [sentence_case(thing.label) for thing in things]
+    count = Counter(labels)
+    return {
+        label if count[label] == 1 else f"{label} ({thing.name})": thing.name
+        for label, thing in zip(labels, things, strict=True)
+    }
 
 
 def file_name(name: str, ending: str) -> str:

@@ -175,7 +175,7 @@ def test_a_peak_is_one_click_away(app, page):
 def test_a_body_alone_is_all_that_is_seen_and_its_modes_are_a_click_away(app, page):
     open_tab(page, "What moves")
     pick(page, "Shows", "One body alone")
-    pick(page, "Body", "chassis")
+    pick(page, "Body", "Chassis")
     wait_for(page, "document.querySelector('.mv .title').textContent.startsWith('Chassis alone')")
     visible = "window.__viserMutable.nodeRefFromName[a.name].visible"
     wait_for(page, f"!{visible}", name="/vehicle/cab")
@@ -187,6 +187,15 @@ def test_a_body_alone_is_all_that_is_seen_and_its_modes_are_a_click_away(app, pa
     app.session.undo()
     app.session.show_mode("cab yaw")
     wait_for(page, visible, name="/vehicle/cab")
+
+
+def test_the_scale_of_colours_is_on_both_tabs_of_the_card(app, page):
+    app.session.change(coloring="displacement")
+    for tab in ("What moves", "Motion"):
+        open_tab(page, tab)
+        page.locator(".mv .scale >> visible=true", has_text="Displacement").wait_for()
+    app.session.change(coloring="bodies")
+    page.locator(".mv .scale >> visible=true").wait_for(state="detached")
 
 
 def test_what_cannot_move_is_said_on_the_card(app, page):

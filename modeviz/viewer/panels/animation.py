@@ -7,12 +7,11 @@ import numpy as np
 import viser
 
 from modeviz.export.wording import sentence_case
-from modeviz.shapes.colors import COLOR_STOPS
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.coloring import energy_shares, largest_share
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.html import block, heading, style_sheet, title
+from modeviz.viewer.panels.color_scale import color_scale
 
 START_SPEED_HZ = 0.5
 START_PHASE = 90.0
@@ -71,9 +70,8 @@ class AnimationCard:
         moving = solved.movement
         hertz = f"  {moving.frequency_hz:.2f} Hz" if moving.frequency_hz > 0 else ""
         name = f'<span class="title">{title(moving.title)}{hertz}</span>'
-        scale = _color_scale(solved) if solved.state.coloring != "bodies" else ""
         problem = f'<div class="bad">{_said(moving.problem)}</div>' if moving.problem else ""
-        content = block(heading(name, escape(moving.about)), scale, problem)
+        content = block(heading(name, escape(moving.about)), color_scale(solved), problem)
         assign(self._head, content=content)
 
     def toggle(self) -> None:
@@ -99,17 +97,3 @@ class AnimationCard:
 def _said(problem: str) -> str:
     """Why what was asked for does not move, and what to do."""
     return f"{escape(sentence_case(problem))}. This moved before: choose something else."
-
-
-def _color_scale(solved: Solved) -> str:
-    """What the colours of bodies mean, on one line."""
-    coloring = solved.state.coloring
-    if coloring == "displacement":
-        last, about = 1.0, "Relative to the largest on the bodies"
-    else:
-        last, about = largest_share(energy_shares(solved)), "Share of each body in the whole vehicle's"
-    return (
-        f'<div class="scale" title="{about}"><span>{sentence_case(coloring)}</span><span>0</span>'
-        f'<i style="background:linear-gradient(90deg,{",".join(COLOR_STOPS)})"></i>'
-        f"<span>{100 * last:.0f} %</span></div>"
-    )

@@ -1,14 +1,13 @@
 """Right column: what excites the vehicle, and the scales of the charts."""
 
 import math
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import viser
 
-from modeviz.export.wording import sentence_case
+from modeviz.export.wording import sentence_case, told_apart
 from modeviz.tuning.preparation import FREQUENCY_HZ
 from modeviz.units import factor
 from modeviz.vehicle.loads import Road
@@ -49,7 +48,7 @@ class ExcitationPanel:
         self._add_choice(
             gui,
             "Road",
-            _road_labels(vehicle.roads),
+            told_apart(vehicle.roads),
             "What is driven over",
             lambda state: state.conditions.road,
             lambda road: self._drive(road=road),
@@ -137,15 +136,6 @@ def _about(state: State) -> str:
     if state.load:
         return "A force of the same size at every frequency; the road is for figures of sets only."
     return "The rear wheels meet the same road later, by wheelbase and speed."
-
-
-def _road_labels(roads: Sequence[Road]) -> dict[str, str]:
-    """The roads' names by what they are called on screen, with the name too where labels are alike."""
-    count = Counter(road.label for road in roads)
-    return {
-        road.label if count[road.label] == 1 else f"{road.label} ({road.name})": road.name
-        for road in roads
-    }
 
 
 def _speed_limits(roads: Sequence[Road], speed: float) -> tuple[int, int]:

@@ -6,6 +6,7 @@ import numpy as np
 import viser
 
 from modeviz.dynamics.components import ComponentModes, ComponentShare
+from modeviz.export.wording import told_apart
 from modeviz.ride.participation import peak_lines
 from modeviz.tuning.results import AXIS
 from modeviz.vehicle.arrays import Floats
@@ -15,6 +16,7 @@ from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding, show_all
 from modeviz.viewer.html import HiddenButtons, block, heading, hinted, row, span, table, title
+from modeviz.viewer.panels.color_scale import color_scale
 from modeviz.viewer.plots import SHOWN_HZ
 from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
@@ -55,11 +57,12 @@ class ShapePanel:
         self._peaks = gui.add_button_group("Peaks", ("–",), hint="Where the first chart peaks, Hz")
         self._peaks_hz: dict[str, float] = {}
         self._peaks.on_click(lambda _: self._to_peak(self._peaks.value))
-        bodies = session.vehicle.bodies
+        bodies = told_apart(session.vehicle.bodies)
+        labels = {name: label for label, name in bodies.items()}
         self._body = gui.add_dropdown(
             "Body",
-            tuple(body.name for body in bodies),
-            initial_value=session.state.component,
+            tuple(bodies),
+            initial_value=labels[session.state.component],
             hint="Which body is seen alone, held by nothing",
         )
         self._number = gui.add_slider(
@@ -74,6 +77,7 @@ class ShapePanel:
         self._shares: tuple[ComponentShare, ...] = ()
         self._buttons = HiddenButtons(gui, N_SHARES, self._to_share)
         self._content = gui.add_html("")
+        self._scale = gui.add_html("")
         self._bindings = (
             Binding(
                 self._motion,
@@ -88,7 +92,12 @@ class ShapePanel:
                 lambda f: session.change("operating_hz", operating_hz=float(f)),
                 write_back,
             ),
-            Binding(self._body, session, lambda state: state.component, self._to_body),
+            Binding(
+                self._body,
+                session,
+                lambda state: labels[state.component],
+                lambda label: self._to_body(bodies[label]),
+            ),
             Binding(
                 self._number,
                 session,
@@ -107,6 +116,7 @@ class ShapePanel:
         assign(self._frequency, visible=is_operating)
         assign(self._body, visible=is_alone)
         assign(self._number, visible=is_alone)
+        assign(self._scale, content=block(color_scale(solved)))
         if not solved.is_detailed:
             return
         self._peaks_hz = _peaks(solved) if is_operating else {}
