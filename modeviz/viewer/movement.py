@@ -1,5 +1,6 @@
 """What moves on the screen: a mode, or whatever else was asked for, in generalised coordinates."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -93,9 +94,7 @@ def asks(state: State) -> tuple:
 def _undamped(state: State, shown: ShownMode) -> Movement:
     modes, i = shown.now.modes, shown.index
     about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
-    other, same = None, _same_mode(state, shown)
-    if same is not None:
-        other = _in_phase(shown.base.modes.shapes[:, same], shown)
+    other = _same_mode(state, shown, lambda base, same: base.modes.shapes[:, same])
     title = sentence_case(shown.name.spoken)
     return Movement(title, shown.name.name, float(modes.frequency_hz[i]), about, shown.shape, other)
 
@@ -103,9 +102,7 @@ def _undamped(state: State, shown: ShownMode) -> Movement:
 def _damped(state: State, shown: ShownMode) -> Movement:
     mode = complex_mode(shown.now, shown.index)
     about = f"damped, {100 * mode.damping_ratio:.1f} % of critical"
-    other, same = None, _same_mode(state, shown)
-    if same is not None:
-        other = _in_phase(complex_mode(shown.base, same).shape, shown)
+    other = _same_mode(state, shown, lambda base, same: complex_mode(base, same).shape)
     title = sentence_case(shown.name.spoken)
     shape = _in_phase(mode.shape, shown)
     subject = f"{shown.name.name} damped"
@@ -154,9 +151,12 @@ _free_modes = lru_cache(maxsize=1)(component_modes)
 """A body's own modes, which no rate changes."""
 
 
-def _same_mode(state: State, shown: ShownMode) -> int | None:
-    """Which mode of the base has the shown one's name, if its shape is wanted and there is one."""
-    return shown.base.mode_index(shown.name.name) if state.ghost == "compared" else None
+def _same_mode(
+    state: State, shown: ShownMode, shape: Callable[[Results, int], NDArray]
+) -> NDArray | None:
+    """The shape of the base's mode with the shown one's name, if it is wanted and there is one."""
+    same = shown.base.mode_index(shown.name.name) if state.ghost == "compared" else None
+    return None if same is None else _in_phase(shape(shown.base, same), shown)
 
 
 def _in_phase(shape: NDArray, shown: ShownMode) -> NDArray:
