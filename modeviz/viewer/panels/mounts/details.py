@@ -47,12 +47,7 @@ class Details:
     """A table of what its rates do, locks and resets, its loss factor and whether ratios are kept."""
 
     def __init__(
-        self,
-        gui: viser.GuiApi,
-        session: Session,
-        group: MountGroup,
-        buttons: HiddenButtons,
-        write_back: WriteBack,
+        self, gui: viser.GuiApi, session: Session, group: MountGroup, buttons: HiddenButtons
     ) -> None:
         """Builds them, out of sight; `show` brings those of the selected group out.
 
@@ -61,7 +56,6 @@ class Details:
             session: what they change.
             group: whose they are.
             buttons: `N_BUTTONS`, which act on the selected group.
-            write_back: of the page.
         """
         self._session, self._group, self._buttons = session, group, buttons
         self._part = gui.add_folder(None, visible=False)
@@ -84,7 +78,7 @@ class Details:
             )
         damped, linked = partial(damp, session, group.name), partial(link, session, group.name)
         self.bindings = (
-            Binding(self._loss, session, self._loss_factor, damped, write_back),
+            Binding(self._loss, session, self._loss_factor, damped, WriteBack()),
             Binding(self._linked, session, self._is_linked, linked),
         )
 

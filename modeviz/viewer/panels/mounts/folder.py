@@ -20,15 +20,10 @@ class GroupFolder:
     """The controls of one mount group."""
 
     def __init__(
-        self,
-        gui: viser.GuiApi,
-        session: Session,
-        group: MountGroup,
-        buttons: HiddenButtons,
-        write_back: WriteBack,
+        self, gui: viser.GuiApi, session: Session, group: MountGroup, buttons: HiddenButtons
     ) -> None:
         """Builds them; arguments as of `Details`."""
-        self._group = group
+        self._group, write_back = group, WriteBack()
         self._folder = gui.add_folder(f"{group.name}  {group.label}")
         with self._folder:
             # The style sheet and the script know the folder by this.
@@ -36,7 +31,7 @@ class GroupFolder:
             self._rows = {
                 field: RateRow(gui, session, group, field, write_back) for field in RATE_FIELDS
             }
-            self._details = Details(gui, session, group, buttons, write_back)
+            self._details = Details(gui, session, group, buttons)
         of_rows = [binding for row in self._rows.values() for binding in row.bindings]
         self._bindings = [*of_rows, *self._details.bindings]
 

@@ -11,7 +11,6 @@ from modeviz.viewer.panels.mounts.details import LOCK, N_BUTTONS, RESET
 from modeviz.viewer.panels.mounts.effects import Effects, effects
 from modeviz.viewer.panels.mounts.folder import GroupFolder
 from modeviz.viewer.session import Session
-from modeviz.viewer.settle import WriteBack
 from modeviz.viewer.state import compared_rates, known_sets
 
 UNITS = ("N/mm", "N/cm")
@@ -27,11 +26,9 @@ class MountsPanel:
         self._unit = self._add_unit(gui)
         if session.vehicle.mount_groups:
             self._add_load(gui)
-        buttons, write_back = HiddenButtons(gui, N_BUTTONS, self._press), WriteBack()
-        self._folders = [
-            GroupFolder(gui, session, group, buttons, write_back)
-            for group in session.vehicle.mount_groups
-        ]
+        buttons = HiddenButtons(gui, N_BUTTONS, self._press)
+        groups = session.vehicle.mount_groups
+        self._folders = [GroupFolder(gui, session, group, buttons) for group in groups]
 
     def show(self, solved: Solved) -> None:
         """Brings controls after the state, and what is for reading after an answer."""

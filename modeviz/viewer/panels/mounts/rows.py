@@ -31,12 +31,7 @@ class RateRow:
     """One rate of a mount group, bound to a session's state."""
 
     def __init__(
-        self,
-        gui: viser.GuiApi,
-        session: Session,
-        group: MountGroup,
-        field: str,
-        write_back: WriteBack,
+        self, gui: viser.GuiApi, session: Session, group: MountGroup, field: str, write_back: WriteBack
     ) -> None:
         """Builds slider and box.
 
@@ -45,7 +40,7 @@ class RateRow:
             session: what they change.
             group: whose rate.
             field: which, one of `RATE_FIELDS`.
-            write_back: of the page.
+            write_back: of all rates of the group.
         """
         self._session, self._group, self._field = session, group, field
         self._direction = DIRECTIONS[RATE_FIELDS.index(field)]
