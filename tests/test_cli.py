@@ -1,4 +1,3 @@
-import json
 import subprocess
 import sys
 from dataclasses import replace
@@ -14,18 +13,6 @@ from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import write_vehicle
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    path = tmp_path_factory.mktemp("vehicles") / "cabin"
-    write_vehicle(mounted_cabin(), path)
-    return str(path)
-
-
-def printed_json(capsys, *arguments):
-    assert main(arguments) == 0
-    return json.loads(capsys.readouterr().out)
-
-
 def test_modes_prints_a_table(capsys, folder):
     assert main(["modes", folder]) == 0
     lines = capsys.readouterr().out.splitlines()
@@ -33,8 +20,8 @@ def test_modes_prints_a_table(capsys, folder):
     assert any("cab yaw" in line for line in lines)
 
 
-def test_modes_json_has_its_documented_structure(capsys, folder):
-    record = printed_json(capsys, "modes", folder, "--json", "--below", "60")
+def test_modes_json_has_its_documented_structure(printed_json, folder):
+    record = printed_json("modes", folder, "--below", "60")
     assert set(record) == {"vehicle", "rates", "n_missed", "modes", "original"}
     assert record["n_missed"] == 0
     assert record["vehicle"] == "cabin"
@@ -51,9 +38,9 @@ def test_modes_json_has_its_documented_structure(capsys, folder):
         assert set(mode["strain_energy"]) == {"A", "B", "tyres"}
 
 
-def test_psd_json_is_the_solution_of_the_tuned_vehicle(capsys, folder):
+def test_psd_json_is_the_solution_of_the_tuned_vehicle(printed_json, folder):
     record = printed_json(
-        capsys, "psd", folder, "--json", "--rates", "soft", "--set", "B.fore-aft=131 N/mm",
+        "psd", folder, "--rates", "soft", "--set", "B.fore-aft=131 N/mm",
         "--set", "B.loss_factor=0.3", "--road", "rough", "--speed", "90 km/h",
     )  # fmt: skip
     assert set(record) == {
@@ -73,8 +60,8 @@ def test_psd_json_is_the_solution_of_the_tuned_vehicle(capsys, folder):
     )
 
 
-def test_wheels_json_has_a_response_for_every_load(capsys, folder):
-    record = printed_json(capsys, "wheels", folder, "--json")
+def test_wheels_json_has_a_response_for_every_load(printed_json, folder):
+    record = printed_json("wheels", folder)
     (load,) = record["loads"]
     assert (load["kind"], load["tyre"], load["amplitude"]) == ("radial force", "tyre 0.0 -0.7", 50.0)
     assert [r["direction"] for r in load["responses"]] == ["vertical", "lateral", "fore-aft"]

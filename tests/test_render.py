@@ -12,17 +12,9 @@ from modeviz.errors import ModevizError, SolveError
 from modeviz.tuning.comparison import RateSet
 from modeviz.tuning.results import Conditions, solve_on
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
-from modeviz.vehicle.files import write_vehicle
 from modeviz.viewer.pictures import Shot
 from modeviz.viewer.rendering import Wish, photographs
 from modeviz.viewer.stage import FIELD_OF_VIEW, LIGHT
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    path = tmp_path_factory.mktemp("vehicles") / "cabin"
-    write_vehicle(mounted_cabin(), path)
-    return str(path)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """`modeviz report` says what the other commands say."""
 
-import json
 from dataclasses import replace
 
 import pytest
@@ -16,30 +15,18 @@ ROAD = ["--road", "rough", "--speed", "90 km/h"]
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    path = tmp_path_factory.mktemp("vehicles") / "cabin"
-    write_vehicle(mounted_cabin(), path)
-    return str(path)
-
-
-@pytest.fixture(scope="module")
 def document(folder, tmp_path_factory):
     output = tmp_path_factory.mktemp("reports") / "report.html"
     assert main(["report", "--no-pictures", folder, *CHANGED, *ROAD, "--output", str(output)]) == 0
     return Document(output.read_text("utf-8"))
 
 
-def printed_json(capsys, *arguments):
-    assert main([*arguments, "--json"]) == 0
-    return json.loads(capsys.readouterr().out)
-
-
 def test_it_names_both_sets(document):
     assert document.headings[0] == "cabin: soft, changed against original"
 
 
-def test_its_modes_and_rates_are_those_of_modeviz_modes(capsys, document, folder):
-    record = printed_json(capsys, "modes", folder, *CHANGED)
+def test_its_modes_and_rates_are_those_of_modeviz_modes(printed_json, document, folder):
+    record = printed_json("modes", folder, *CHANGED)
     rates = iter(row for row in document.tables["Mount rates"][1:] if len(row) > 1)
     for group in record["rates"].values():
         for direction in ("vertical", "lateral", "fore_aft"):
@@ -54,8 +41,8 @@ def test_its_modes_and_rates_are_those_of_modeviz_modes(capsys, document, folder
     assert len(modes) > 5
 
 
-def test_shapes_went_where_modeviz_modes_says(capsys, document, folder):
-    record = printed_json(capsys, "modes", folder, *CHANGED)
+def test_shapes_went_where_modeviz_modes_says(printed_json, document, folder):
+    record = printed_json("modes", folder, *CHANGED)
     rows = {row[0].lower(): row[-1] for row in document.tables["Natural frequencies below 25 Hz"][2:]}
     parted = 0
     for origin in record["original"]:
@@ -69,8 +56,8 @@ def test_shapes_went_where_modeviz_modes_says(capsys, document, folder):
     assert parted
 
 
-def test_its_levels_and_rating_are_those_of_modeviz_psd(capsys, document, folder):
-    record = printed_json(capsys, "psd", folder, *CHANGED, *ROAD)
+def test_its_levels_and_rating_are_those_of_modeviz_psd(printed_json, document, folder):
+    record = printed_json("psd", folder, *CHANGED, *ROAD)
     (row,) = document.tables["RMS acceleration, 0 to 40 Hz, g"][2:]
     rms = {r["direction"]: r["rms_g"] for r in record["responses"]}
     for column, direction in ((2, "lateral"), (5, "vertical"), (8, "fore-aft")):
@@ -86,8 +73,8 @@ def test_its_levels_and_rating_are_those_of_modeviz_psd(capsys, document, folder
     assert [value(row[3]) for row in rows] == pytest.approx(expected, abs=0.0051)
 
 
-def test_its_wheel_responses_are_those_of_modeviz_wheels(capsys, document, folder):
-    record = printed_json(capsys, "wheels", folder, *CHANGED)
+def test_its_wheel_responses_are_those_of_modeviz_wheels(printed_json, document, folder):
+    record = printed_json("wheels", folder, *CHANGED)
     inside = [11 <= f <= 16 for f in record["frequency_hz"]]
     by_direction = {r["direction"]: r["acceleration_g"] for r in record["loads"][0]["responses"]}
     row = document.tables["Seat"][-1]

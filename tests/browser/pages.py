@@ -4,7 +4,12 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+import viser
 from playwright.sync_api import Page
+
+CLOSE_NOTICES = (
+    "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
+)
 
 
 def wait_for(page: Page, expression: str, **arguments: Any) -> Any:
@@ -19,3 +24,12 @@ def wait_until(page: Page, reached: Callable[[], Any], seconds: float = 30.0) ->
     while not reached():
         assert time.monotonic() < deadline, "the page did not get there in time"
         page.wait_for_timeout(50)
+
+
+def send(page: Page, widget: viser.GuiInputHandle, value: Any) -> None:
+    """Sends what the page would, moved to a value."""
+    page.evaluate(
+        """([uuid, value]) => window.__viserMutable.sendMessage({
+            type: "GuiUpdateMessage", uuid, updates: { value } })""",
+        [widget._impl.uuid, value],
+    )

@@ -1,23 +1,17 @@
 """The whole page on the built-in pickup, used as an engineer would."""
 
-import json
 import re
-from contextlib import suppress
 from itertools import pairwise
 
 import numpy as np
 import pytest
-import viser
+from apps import listening, n_bytes, open_app
 from mount_controls import box, drag, open_folder, position, thumb, type_rate
-from pages import wait_for, wait_until
-from websockets.sync.client import connect
-from websockets.typing import Origin, Subprotocol
+from pages import CLOSE_NOTICES, send, wait_for, wait_until
 
-from modeviz.cli import main
 from modeviz.tuning.preparation import FREQUENCY_HZ, prepare_modes
 from modeviz.tuning.results import Conditions, solve_modal
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
-from modeviz.viewer.app import App
 from modeviz.viewer.plots import SHOWN_HZ
 
 GROUPS = ("F", "C1", "C2", "E", "T")
@@ -36,23 +30,15 @@ SHAPE = """
 })()
 """
 CHANGED = f"(now => now?.length === a.before.length && now.some((x, i) => x !== a.before[i]))({SHAPE})"
-CLOSE_NOTICES = (
-    "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
-)
 TITLE = "document.querySelector('.mv .title')?.textContent"
 
 
 @pytest.fixture(scope="module")
 def app(server):
     vehicle = read_vehicle(builtin_vehicle())
-    app = App(vehicle, vehicle.rates, Conditions("road 1", vehicle.speed), server)
-    # Rendering in software would take nearly all the time of these tests.
-    server.scene.configure_environment_map(None)
-    app._scene._stage._key.cast_shadow = False
-    app._animation._run(False)
-    app.start()
-    yield app
-    app.session.close()
+    with open_app(server, vehicle, Conditions("road 1", vehicle.speed)) as app:
+        app.start()
+        yield app
 
 
 @pytest.fixture(scope="module")
@@ -82,12 +68,6 @@ def title(app, name, rates=None):
     return f"{name.capitalize()}  {f:.2f} Hz"
 
 
-def printed(capsys, *arguments):
-    capsys.readouterr()
-    assert main([*arguments, "--json"]) == 0
-    return json.loads(capsys.readouterr().out)
-
-
 def chart_db(record, direction):
     """What the chart of the driver's point should show of a printed record."""
     (response,) = [
@@ -98,7 +78,7 @@ def chart_db(record, direction):
     return 10 * np.log10(np.array(response["psd_g2_per_hz"])[inside])
 
 
-def test_dragged_rates_give_what_the_command_line_prints(app, page, capsys):
+def test_dragged_rates_give_what_the_command_line_prints(app, page, printed_json):
     charts, shape = page.evaluate(CURRENT), page.evaluate(f"a => {SHAPE}", {"name": CAB})
     assert box(page, "C2", "lateral").input_value() == "294"
     open_folder(page, "C2")
@@ -110,12 +90,12 @@ def test_dragged_rates_give_what_the_command_line_prints(app, page, capsys):
     assert 100e3 < dragged < 150e3
 
     settings = "--set", f"C2.lateral={dragged} N/m", "--set", "F.fore-aft=130 N/mm"
-    modes = printed(capsys, "modes", *settings)["modes"]
+    modes = printed_json("modes", *settings)["modes"]
     (yaw,) = [m["frequency_hz"] for m in modes if m["name"] == "cab yaw"]
     wait_for(page, f"{TITLE}.startsWith(a.title)", title=f"Cab yaw  {yaw:.2f} Hz")
     assert yaw < 11.3
 
-    record = printed(capsys, "psd", *settings)
+    record = printed_json("psd", *settings)
     for drawn, before, direction in zip(
         page.evaluate(CURRENT), charts, ("lateral", "vertical"), strict=True
     ):
@@ -173,52 +153,30 @@ def test_a_click_on_a_peaks_contributor_shows_that_mode(app, page):
 def test_what_a_page_loses_is_put_back(app, page):
     """viser throttles all widgets with one timer; the server's value must reach the screen."""
     row = app._mounts._folders[GROUPS.index("C2")]._rows["lateral"]
-    page.evaluate(
-        """(uuid) => window.__viserMutable.sendMessage({
-            type: "GuiUpdateMessage", uuid, updates: { value: 100 } })""",
-        row._slider._impl.uuid,
-    )
+    send(page, row._slider, 100)
     # The page itself still draws the old value, as after a lost message; then it gets the server's.
     wait_until(page, lambda: position(thumb(page, "C2", "lateral")) == 100)
     assert app.session.wait(SOLVE_S)
     assert app.session.state.rates["C2"].lateral == row._travel.rate(100, 294e3)
 
 
-def test_another_road_is_solved(page, capsys):
+def test_another_road_is_solved(page, printed_json):
     page.get_by_role("tab", name="Road").click()
     page.get_by_role("combobox", name="Road").click()
     page.get_by_role("option", name="Road 2").click()
     page.get_by_role("tab", name="Response").click()
     wait_for(page, "document.body.textContent.includes('Road 2, 72 km/h')")
-    record = printed(capsys, "psd", "--road", "road 2")
+    record = printed_json("psd", "--road", "road 2")
     wait_for(page, f"{CHARTS}.length === 2")
     np.testing.assert_allclose(page.evaluate(CURRENT)[0], chart_db(record, "lateral"), atol=1e-6)
 
 
-def drained(socket):
-    """What has come through a websocket until it is quiet for a second."""
-    messages = []
-    with suppress(TimeoutError):
-        while True:
-            messages.append(socket.recv(timeout=1.0))
-    return messages
-
-
 def test_a_move_of_a_slider_sends_its_shape_once_and_less_than_200_kb(app, server):
     assert app.session.wait_checked(SOLVE_S)  # else it goes on sending how far the check is
-    address = f"127.0.0.1:{server.get_port()}"
-    with connect(
-        f"ws://{address}",
-        origin=Origin(f"http://{address}"),
-        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
-        max_size=None,
-        max_queue=None,
-        ping_interval=None,
-    ) as socket:
-        drained(socket)
+    with listening(server) as socket:
         app.session.set_rate("C2", "lateral", 250e3)
         assert app.session.wait_checked(SOLVE_S)
-        sent = sum(map(len, drained(socket)))
+        sent = n_bytes(socket)
     shape = len(app._scene.driver._sent)
     assert shape < sent < min(2 * shape, 200_000)
 

@@ -1,11 +1,11 @@
 """What a page is called, the guide, and the keys, on the smallest vehicle."""
 
 import pytest
+from apps import open_app
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
 from modeviz.tuning.results import Conditions
-from modeviz.viewer.app import App
 
 SOLVE_S = 60
 GUIDE = "!!document.querySelector('.mv .keys')"
@@ -13,15 +13,11 @@ GUIDE = "!!document.querySelector('.mv .keys')"
 
 @pytest.fixture(scope="module")
 def app(server):
-    vehicle = mounted_cabin()
-    app = App(vehicle, vehicle.rates, Conditions("flat", 20.0), server)
-    server.scene.configure_environment_map(None)  # rendering in software takes nearly all the time
-    app._animation._run(False)
-    app.guide.welcome_first()
-    app.start()
-    assert app.session.wait(SOLVE_S)
-    yield app
-    app.session.close()
+    with open_app(server, mounted_cabin(), Conditions("flat", 20.0)) as app:
+        app.guide.welcome_first()
+        app.start()
+        assert app.session.wait(SOLVE_S)
+        yield app
 
 
 @pytest.fixture(scope="module")

@@ -1,20 +1,16 @@
 """Choosing what moves and how, in the page of the smallest vehicle."""
 
 import re
-from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 import pytest
-import viser
+from apps import listening, n_bytes, open_app
 from mounted_cabin import mounted_cabin
-from pages import wait_for, wait_until
-from websockets.sync.client import connect
-from websockets.typing import Origin, Subprotocol
+from pages import send, wait_for, wait_until
 
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.bodies import Material, MeshPart
-from modeviz.viewer.app import App
 from modeviz.viewer.state import first_state
 
 SOLVE_S = 60
@@ -50,15 +46,10 @@ def cabin_with_boxes():
 
 @pytest.fixture(scope="module")
 def app(server):
-    vehicle = cabin_with_boxes()
-    app = App(vehicle, vehicle.rates, Conditions("flat", 20.0), server)
-    server.scene.configure_environment_map(None)  # rendering in software takes nearly all the time
-    app._scene._stage._key.cast_shadow = False
-    app._animation._run(False)
-    app.start()
-    assert app.session.wait(SOLVE_S)
-    yield app
-    app.session.close()
+    with open_app(server, cabin_with_boxes(), Conditions("flat", 20.0)) as app:
+        app.start()
+        assert app.session.wait(SOLVE_S)
+        yield app
 
 
 @pytest.fixture(scope="module")
@@ -113,15 +104,6 @@ def pick(page, box, option):
 
 def open_tab(page, name):
     page.get_by_role("tab", name=name).click()
-
-
-def send(page, widget, value):
-    """Sends what the page would, moved to a value."""
-    page.evaluate(
-        """([uuid, value]) => window.__viserMutable.sendMessage({
-            type: "GuiUpdateMessage", uuid, updates: { value } })""",
-        [widget._impl.uuid, value],
-    )
 
 
 def test_a_mode_picked_in_the_table_is_drawn(app, page):
@@ -237,28 +219,10 @@ def test_pausing_keeps_the_phase_that_is_seen(app, page):
     assert page.evaluate(PHASE) == held
 
 
-def drained(socket):
-    """What has come through a websocket until it is quiet for a second."""
-    messages = []
-    with suppress(TimeoutError):
-        while True:
-            messages.append(socket.recv(timeout=1.0))
-    return messages
-
-
 @pytest.mark.parametrize(("slider", "value"), [("_amplitude", 1.5), ("_speed", 0.8), ("_phase", 120.0)])
 def test_moving_amplitude_speed_or_phase_sends_less_than_1_kb(app, server, page, slider, value):
     assert app.session.wait_checked(SOLVE_S)  # else it goes on sending how far the check is
-    address = f"127.0.0.1:{server.get_port()}"
-    with connect(
-        f"ws://{address}",
-        origin=Origin(f"http://{address}"),
-        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
-        max_size=None,
-        max_queue=None,
-        ping_interval=None,
-    ) as socket:
-        drained(socket)
+    with listening(server) as socket:
         send(page, getattr(app._animation, slider), value)
-        sent = sum(map(len, drained(socket)))
+        sent = n_bytes(socket)
     assert 0 < sent < 1000

@@ -1,13 +1,13 @@
 """The mounts panel, used as an engineer would, on the small cabin."""
 
 import pytest
+from apps import open_app
 from mount_controls import DIRECTIONS, IS_OPEN, box, drag, open_folder, position, thumb, type_rate
 from mounted_cabin import mounted_cabin
-from pages import wait_for, wait_until
+from pages import CLOSE_NOTICES, wait_for, wait_until
 
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import RATE_FIELDS
-from modeviz.viewer.app import App
 
 SOLVE_S = 60
 REFUSED = "document.body.textContent.includes('expected 0 to 1000000 N/mm')"
@@ -18,20 +18,13 @@ ALL_TO_THE_END = """(group) => {
     for (const key of ["ArrowLeft", "ArrowLeft", "End"])
       thumb.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
 }"""
-CLOSE_NOTICES = (
-    "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
-)
 
 
 @pytest.fixture(scope="module")
 def app(server):
-    vehicle = mounted_cabin()
-    app = App(vehicle, vehicle.rates, Conditions("flat", 20.0), server)
-    app._scene._stage._key.cast_shadow = False
-    app._animation._run(False)
-    app.start()
-    yield app
-    app.session.close()
+    with open_app(server, mounted_cabin(), Conditions("flat", 20.0)) as app:
+        app.start()
+        yield app
 
 
 @pytest.fixture(scope="module")

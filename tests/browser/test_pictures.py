@@ -11,7 +11,7 @@ from pathlib import Path
 import av
 import numpy as np
 import pytest
-from pages import wait_for, wait_until
+from pages import CLOSE_NOTICES, wait_for, wait_until
 from PIL import Image
 
 from modeviz.shapes.gltf import glb
@@ -29,9 +29,6 @@ PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
 SIDE = 160
 SOLVE_S = 120
-CLOSE_NOTICES = (
-    "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
-)
 RISE, DRIFT = 0.6, 0.3j
 """Of the panel up the picture and, a quarter of a cycle apart, across it, m."""
 

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from apps import open_app
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
@@ -12,7 +13,6 @@ from modeviz.tuning.preparation import FREQUENCY_HZ, prepare
 from modeviz.tuning.results import Conditions, solve
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import write_vehicle
-from modeviz.viewer.app import App
 from modeviz.viewer.plots import SHOWN_HZ
 from modeviz.viewer.state import Curve
 
@@ -33,14 +33,10 @@ DRAWN = f"""
 
 @pytest.fixture(scope="module")
 def app(server):
-    vehicle = mounted_cabin()
-    app = App(vehicle, vehicle.rates, FLAT, server)
-    server.scene.configure_environment_map(None)  # rendering in software takes nearly all the time
-    app._animation._run(False)
-    app.start()
-    assert app.session.wait(SOLVE_S)
-    yield app
-    app.session.close()
+    with open_app(server, mounted_cabin(), FLAT) as app:
+        app.start()
+        assert app.session.wait(SOLVE_S)
+        yield app
 
 
 @pytest.fixture(scope="module")

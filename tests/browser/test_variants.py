@@ -1,13 +1,13 @@
 """Sets of rates: pinned, compared, swapped, and as files."""
 
 import pytest
+from apps import open_app
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
 from modeviz.tuning.rate_files import parse_rates, rates_text
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.app import App
 from modeviz.viewer.uploads import LARGEST_FILE
 
 SOLVE_S = 60
@@ -18,14 +18,10 @@ NOTICE = "Array.from(document.querySelectorAll('.mantine-Notification-root'), n 
 
 @pytest.fixture(scope="module")
 def app(server):
-    vehicle = mounted_cabin()
-    app = App(vehicle, vehicle.rates, Conditions("flat", 20.0), server)
-    server.scene.configure_environment_map(None)  # rendering in software takes nearly all the time
-    app._animation._run(False)
-    app.start()
-    assert app.session.wait(SOLVE_S)
-    yield app
-    app.session.close()
+    with open_app(server, mounted_cabin(), Conditions("flat", 20.0)) as app:
+        app.start()
+        assert app.session.wait(SOLVE_S)
+        yield app
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,52 @@
+"""The whole page opened in a test, without what is slow to render in software."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+import viser
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
+from websockets.typing import Origin, Subprotocol
+
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.app import App
+from modeviz.viewer.doors import Server
+
+
+@contextmanager
+def open_app(server: Server, vehicle: Vehicle, conditions: Conditions) -> Iterator[App]:
+    """A vehicle's page that stands still and casts no shadows; nothing is solved yet."""
+    app = App(vehicle, vehicle.rates, conditions, server)
+    server.scene.configure_environment_map(None)
+    app.scene._stage._key.cast_shadow = False
+    app._animation._run(False)
+    try:
+        yield app
+    finally:
+        app.session.close()
+
+
+@contextmanager
+def listening(server: Server) -> Iterator[Connection]:
+    """A websocket of a page that is open already, and has been told all there is."""
+    address = f"127.0.0.1:{server.get_port()}"
+    with connect(
+        f"ws://{address}",
+        origin=Origin(f"http://{address}"),
+        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        max_size=None,
+        max_queue=None,
+        ping_interval=None,
+    ) as socket:
+        n_bytes(socket)
+        yield socket
+
+
+def n_bytes(socket: Connection) -> int:
+    """How much has come through a websocket until it is quiet for a second."""
+    received = 0
+    with suppress(TimeoutError):
+        while True:
+            received += len(socket.recv(timeout=1.0))
+    return received
