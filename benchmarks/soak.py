@@ -44,7 +44,8 @@ PATIENCE_S = 120.0
 FAILED = "Not solved"
 """How the notice of an answer that failed begins."""
 
-AGREE_DB = 1e-6
+AGREE_DB = 2.0**-18
+"""Spectra reach the page in single precision: how far 128 dB are rounded."""
 AGREE_MAC = 1e-6
 """What the MAC of drawn and solved shape may miss; the shape travels in 11 bits."""
 

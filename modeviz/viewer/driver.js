@@ -1,14 +1,14 @@
 // Draws x + amplitude Re(φ e^{iθ}) on the meshes of the page, every frame, from what driver.py sends.
 //
-// The shapes of all meshes are the points of one hidden point cloud, mesh after mesh; if they are complex,
-// all real parts come before all imaginary ones. A mesh that moves rigidly has two points there: the
-// displacement of its first vertex and its rotation. For each mesh there is a hidden node whose position is
-// the mesh's place in that order, the number of its points and its opacity; its orientation is the gain and
-// the power of its shade (modeviz/shapes/colors.py) and whether it has one. Amplitude, frequency and phase
-// are the position of another.
+// A hidden node carries the shapes of all meshes as points, mesh after mesh; if they are complex, all real
+// parts come before all imaginary ones. A mesh that moves rigidly has two points there: the displacement of
+// its first vertex and its rotation. For each mesh there is a hidden node whose position is the mesh's place
+// in that order, the number of its points and its opacity; its orientation is the gain and the power of its
+// shade (modeviz/shapes/colors.py) and whether it has one. Amplitude, frequency and phase are the position of
+// another.
 // A page that has a hidden node of its own for it stands at the phase in that node's position.
 // State and failure are in window.__modeviz, where the browser tests read them.
-(prefix, cloudName, driverName, heldName, stops) => {
+(prefix, carrierName, driverName, heldName, stops) => {
   const PATIENCE = 30; // s: how long a mesh or viser itself may take to appear
   const LONGEST_FRAME = 0.25; // s: a page that was in the background goes on where it was
   const RIGID = 2; // points of a mesh that moves rigidly
@@ -46,6 +46,8 @@
   const shown = new WeakMap(); // of each mesh's group, what it shows
   const waiting = {}; // s, of each shape that has no mesh to go to yet
   let before = performance.now();
+  let received = null; // the shapes as they came
+  let points = null; // and as halves
   let ratio = null; // of the page's pixels, while a picture has its own
 
   function fail(problem) {
@@ -75,6 +77,18 @@
     const changed = weights.some((weight, i) => weight !== page.weights.value[i]);
     page.weights.value = weights;
     return changed;
+  }
+
+  // The halves of points, x y z after x y z, from the bytes of `_packed` in driver.py.
+  function unpack(bytes) {
+    const n = bytes.length / 6;
+    const halves = new Uint16Array(3 * n);
+    let bits = 0;
+    for (let i = 0; i < 3 * n; i++) {
+      bits = (bits + bytes[i] + 256 * bytes[3 * n + i]) & 0xffff;
+      halves[3 * (i % n) + Math.floor(i / n)] = bits;
+    }
+    return halves;
   }
 
   // Writes into the attribute, which is made at the first time; the primitives of a mesh share it.
@@ -203,8 +217,9 @@
 
   // Gives every mesh the newest shape that was sent for it; true if one of them changed.
   function applyShapes(viewer, nodes, seconds) {
-    const { points } = nodes[cloudName]?.message.props ?? {};
-    if (!points) return false;
+    const { shapes } = nodes[carrierName]?.message.props ?? {};
+    if (!shapes) return false;
+    if (shapes !== received) points = unpack((received = shapes));
     const meshes = drivenMeshes(viewer, nodes);
     const total = meshes.reduce((sum, { count }) => sum + count, 0);
     const complex = points.length === 6 * total;

@@ -16,15 +16,15 @@ from numpy.typing import NDArray
 
 from modeviz.shapes.colors import Shade, stop_colors
 from modeviz.viewer import scripts
-from modeviz.viewer.assign import assign, send
+from modeviz.viewer.assign import assign
 
 PREFIX = "/_shape"
 """Where the hidden nodes of the meshes are; the rest of their name is their mesh's. Their position is
 the mesh's place among the shapes, the number of points of its shape and the opacity of its skin; their
 orientation is the gain and the power of its shade, 1 if it has one, and 0."""
 
-CLOUD = "/_shapes"
-"""The hidden point cloud that carries the shapes, one after the other."""
+SHAPES = "/_shapes"
+"""The hidden node that carries the shapes, see `_packed`."""
 
 DRIVER = "/_driver"
 """The hidden node whose position is amplitude, frequency and phase."""
@@ -54,23 +54,16 @@ class ShapeDriver:
         self._nodes: dict[str, viser.FrameHandle] = {}
         self._n_vertices: dict[str, int] = {}
         self._shapes: dict[str, NDArray] = {}
-        self._sent = b""
         self._n_added = 0
         self._amplitude, self._frequency_hz, self._running = 1.0, 1.0, False
         self._phase, self._n_seeks = 0.0, 0
         scene.add_frame(PREFIX, show_axes=False, visible=False)
-        self._cloud = scene.add_point_cloud(
-            CLOUD,
-            np.zeros((0, 3), np.float16),
-            np.zeros(3, np.uint8),
-            point_size=1.0,
-            precision="float16",
-            visible=False,
-        )
+        self._carrier = scene.add_frame(SHAPES, show_axes=False, visible=False)
+        self._send_shapes(b"")
         self._node = scene.add_frame(DRIVER, show_axes=False, visible=False)
         self._send_motion()
         stops = (stop_colors() / 255).tolist()
-        scripts.run(scene, "driver.js", PREFIX, CLOUD, DRIVER, HELD, stops)
+        scripts.run(scene, "driver.js", PREFIX, SHAPES, DRIVER, HELD, stops)
 
     def add(self, name: str, glb: bytes, n_vertices: int, *, cast_shadow: bool = False) -> None:
         """Adds a mesh, or replaces the one of that name, at rest and in its own colours.
@@ -124,17 +117,15 @@ class ShapeDriver:
             if shape.shape not in (expected, AT_REST.shape):
                 raise ValueError(f"{name}: found a shape of {shape.shape}, expected {expected}")
         newest = {**self._shapes, **shapes}
-        points = _halves(newest.values())
+        content = _packed(_halves(newest.values()))
         self._shapes = newest
-        content = points.tobytes()  # compared as numbers, halves would take ten times as long
         with self._scene._websock_interface.atomic():
             for name, shape in shapes.items():
                 order, n_points, opacity = self._nodes[name].position
                 if n_points != len(shape):
                     self._nodes[name].position = (order, len(shape), opacity)
             if content != self._sent:
-                self._sent = content
-                send(self._cloud, "points", points)
+                self._send_shapes(content)
 
     def shade(self, shades: Mapping[str, Shade]) -> None:
         """Colours the skins of meshes by how they move; a mesh without a shade has its own colours."""
@@ -185,6 +176,10 @@ class ShapeDriver:
         # the page seeks when this number changes, so going to the same phase again adds a whole turn
         return self._phase % (2 * np.pi) + 2 * np.pi * (self._n_seeks % 1000)
 
+    def _send_shapes(self, content: bytes) -> None:
+        self._sent = content
+        self._carrier._queue_update("shapes", content)
+
     def _send_motion(self) -> None:
         frequency_hz = self._frequency_hz if self._running else 0.0
         self._node.position = (self._amplitude, frequency_hz, self.sought)
@@ -218,3 +213,14 @@ def _halves(shapes: Iterable[NDArray]) -> NDArray[np.float16]:
     if not np.abs(parts).max(initial=0.0) <= LARGEST:
         raise ValueError(f"a displacement is not finite or beyond {LARGEST:.0f}")
     return parts.astype(np.float16)
+
+
+def _packed(points: NDArray[np.float16]) -> bytes:
+    """Halves so ordered that compression makes them small; the page undoes it.
+
+    All x come before all y and z, each number as its step from the one before, which is small between
+    neighbours; all low bytes of the steps come before all high ones, which are mostly alike. viser
+    compresses bytes but no arrays.
+    """
+    steps = np.diff(points.T.reshape(-1).view(np.uint16), prepend=np.uint16(0))
+    return steps.view(np.uint8).reshape(-1, 2).T.tobytes()

@@ -109,7 +109,8 @@ class ResponsePlot:
             axes = self._axes(scale, bottom, self._top) | {"series": self._series(lines)}
         if axes or not np.array_equal(data, self._data, equal_nan=True):
             self._data = data
-            send_together(self._chart, data=(self._f, *data), **axes)
+            drawn_from = (self._f, *data.astype(np.float32))  # a chart can only be sent as a whole
+            send_together(self._chart, data=drawn_from, **axes)
 
     def _series(self, lines: Sequence[Line]) -> tuple:
         """The curves, and the marks on the last."""

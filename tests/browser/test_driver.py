@@ -170,7 +170,7 @@ def test_real_shape_travels_in_six_bytes_a_vertex_and_an_old_one_not_at_all(serv
         first = buffer.message_counter
         driver.show({NAME: shape})
         new = [m for i, m in buffer.message_from_id.items() if i >= first]
-        return sum(array.nbytes for m in new for array in m.updates.values())
+        return sum(len(content) for m in new for content in m.updates.values())
 
     driver.show({NAME: whole(SHAPE)})
     assert bytes_of(whole(SHAPE) * 2) == 12 * 12

@@ -17,6 +17,7 @@ from modeviz.viewer.plots import SHOWN_HZ
 from modeviz.viewer.state import Curve
 
 SOLVE_S = 60
+SINGLE = 2.0**-23  # relative, between neighbours in single precision
 FLAT = Conditions("flat", 20.0)
 CURVES = Curve(0, "lateral"), Curve(0, "vertical")
 LOW, HIGH = SHOWN_HZ
@@ -68,7 +69,7 @@ def assert_drawn(page, chart, label, expected):
     def is_drawn():
         curves = page.evaluate(DRAWN)
         found = curves[chart].get(label) if len(curves) > chart else None
-        return found is not None and np.allclose(found, expected, rtol=1e-9, atol=0)
+        return found is not None and np.allclose(found, expected, rtol=SINGLE, atol=0)
 
     wait_until(page, is_drawn)
 
