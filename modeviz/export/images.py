@@ -13,6 +13,7 @@ import numpy as np
 from PIL import Image
 
 from modeviz.errors import ModevizError
+from modeviz.vehicle.arrays import Floats
 
 if TYPE_CHECKING:
     from av import VideoFrame
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 Color = tuple[int, int, int]
 
 N_COLORS = 256
+
+SPREAD = 8.0
+"""How far apart the colours of a GIF may be where a shade between them is mixed, of 255."""
 
 YUV = {"format": "yuv420p", "dst_colorspace": "ITU709"}
 H264 = {
@@ -49,8 +53,8 @@ def png_bytes(image: Image.Image) -> bytes:
 def gif_bytes(frames: Iterable[Image.Image], seconds: float) -> bytes:
     """An endless GIF of one cycle that takes `seconds`.
 
-    All frames have the colours of the first one's palette and are not dithered: nothing flickers that
-    does not move.
+    All frames have the colours of the first one's palette, which a pattern that stands still mixes:
+    shades have no steps, and nothing flickers that does not move.
 
     Args:
         frames: of one size, RGB, evenly spaced in time; two or more.
@@ -59,9 +63,7 @@ def gif_bytes(frames: Iterable[Image.Image], seconds: float) -> bytes:
     images = iter(frames)
     first = next(images)
     palette = first.quantize(N_COLORS, Image.Quantize.MEDIANCUT)
-    drawn = [
-        image.quantize(palette=palette, dither=Image.Dither.NONE) for image in chain([first], images)
-    ]
+    drawn = [_mixed(image, palette) for image in chain([first], images)]
     hundredths = max(round(100 * seconds / len(drawn)), 2)  # browsers slow down what is faster
     content = BytesIO()
     drawn[0].save(
@@ -74,6 +76,28 @@ def gif_bytes(frames: Iterable[Image.Image], seconds: float) -> bytes:
         optimize=False,
     )
     return content.getvalue()
+
+
+def _mixed(image: Image.Image, palette: Image.Image) -> Image.Image:
+    """A picture in the colours of a palette; eight by eight pixels mix a shade between two of them.
+
+    Ordered dithering (B. E. Bayer, "An optimum method for two-level rendition of continuous-tone
+    pictures", 1973).
+    """
+    across, down = -(-image.width // 8), -(-image.height // 8)
+    square = SPREAD * ((_bayer(8) + 0.5) / 64 - 0.5)
+    pattern = np.tile(square, (down, across))[: image.height, : image.width, None]
+    shifted = np.asarray(image) + pattern
+    exact = Image.fromarray(shifted.clip(0, 255).round().astype(np.uint8))
+    return exact.quantize(palette=palette, dither=Image.Dither.NONE)
+
+
+def _bayer(n: int) -> Floats:
+    """In which order pixels of a square get brighter, 0 to n² - 1, (n, n), n a power of two."""
+    if n == 1:
+        return np.zeros((1, 1))
+    quarter = 4 * _bayer(n // 2)
+    return np.block([[quarter, quarter + 2], [quarter + 3, quarter + 1]])
 
 
 def mp4_bytes(frames: Iterable[Image.Image], seconds: float, n_cycles: int) -> bytes:
