@@ -33,7 +33,7 @@ class Curve:
     """A line of a chart."""
 
     label: str
-    """What the legend calls it."""
+    """What the legend calls it; "" if it is explained elsewhere."""
     x: Floats
     """(n,), rising."""
     y: Floats
@@ -41,6 +41,8 @@ class Curve:
     color: str = NOW
     """CSS."""
     thickness: float = 2.0
+    dash: Sequence[float] = ()
+    """Lengths of dashes and gaps; none is a full line."""
     peaks: Sequence[int] = ()
     """Which points are marked; the marks say x."""
 
@@ -92,9 +94,10 @@ def _line(frame: _Frame, curve: Curve) -> str:
     # Far outside, coordinates are as good as any and may be too large for a browser.
     points = np.clip(points, -frame.width, 2 * frame.width)
     path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+    dashes = f' stroke-dasharray="{" ".join(f"{d:g}" for d in curve.dash)}"' if curve.dash else ""
     return (
         f'<polyline points="{path}" fill="none" stroke="{curve.color}" '
-        f'stroke-width="{curve.thickness:g}" stroke-linejoin="round"/>'
+        f'stroke-width="{curve.thickness:g}" stroke-linejoin="round"{dashes}/>'
     )
 
 
@@ -118,7 +121,7 @@ def _grid(frame: _Frame) -> str:
 
 def _legend(curves: Sequence[Curve]) -> str:
     parts, at = [], float(LEFT)
-    for curve in curves:
+    for curve in filter(lambda curve: curve.label, curves):
         sample = f'stroke="{curve.color}" stroke-width="{curve.thickness:g}"'
         parts.append(f'<path d="M{at:.1f} {TOP - 14}h18" {sample}/>')
         parts.append(_text(at + 24, TOP - 10, curve.label, anchor="start"))

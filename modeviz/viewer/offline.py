@@ -1,16 +1,19 @@
 """One file that still moves without a server: the scene, and beside it what there is to read of it."""
 
 import json
+from collections.abc import Sequence
+from dataclasses import replace
 from html import escape
 from importlib.resources import files
 
+import numpy as np
 import viser
 from viser import _messages
 
-from modeviz.export.axes import Axis, decibel_axis
+from modeviz.export.axes import Axis
 from modeviz.export.charts import BASE, Curve, line_chart
+from modeviz.export.charts import NOW as NOW_COLOR
 from modeviz.export.wording import signed
-from modeviz.ride.psd import power_decibels
 from modeviz.tuning.results import Results
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
@@ -19,11 +22,12 @@ from modeviz.viewer.answers import Solved
 from modeviz.viewer.driver import DRIVER
 from modeviz.viewer.handshake import named_page
 from modeviz.viewer.html import block, row, span, style_sheet, table, title
+from modeviz.viewer.panels.charts import chart_lines, legend
 from modeviz.viewer.panels.modes import listed
-from modeviz.viewer.plots import SHOWN_HZ
-
-POINT = 0
-"""The response point that is drawn: the vehicle's first."""
+from modeviz.viewer.panels.peaks import strongest
+from modeviz.viewer.plots import SHOWN_HZ, Line, Scale, level_axis, level_range
+from modeviz.viewer.responses import NOW, Responses, curve_label
+from modeviz.viewer.state import Curve as ResponseCurve
 
 
 def offline_page(
@@ -65,15 +69,11 @@ def offline_page(
 
 def _content(solved: Solved, name: str) -> str:
     vehicle, moving = solved.now.prepared.vehicle, solved.movement
-    conditions = solved.now.conditions
-    speed = conditions.speed / factor("km/h", "speed")
     return block(
         f"<h1>{title(moving.title)}  {moving.frequency_hz:.2f} Hz</h1>",
         f'<p class="dim">{escape(vehicle.name)}, {escape(name)}; {escape(moving.about)}</p>',
         MOTION,
-        *(_chart(solved, direction) for direction in DIRECTIONS),
-        f'<p class="dim">{escape(conditions.road)}, {speed:.0f} km/h; in grey '
-        f"{escape(solved.state.against)}</p>",
+        _charts(solved),
         f"<h2>Modes</h2>{_modes(solved.base, solved.now, solved.mode)}",
         f"<h2>Mount rates, N/mm</h2>{_rates(solved)}" if solved.state.rates else "",
     )
@@ -89,25 +89,37 @@ MOTION = """<form class="motion" onsubmit="return false">
 <button name="play" type="button">Pause</button></form>"""
 
 
-def _chart(solved: Solved, direction: str) -> str:
-    """The spectra at the driver's point, those compared with and the present ones."""
-    f = solved.now.frequency_hz
-    base, now = (power_decibels(r.response(POINT, direction)) for r in (solved.base, solved.now))
+def _charts(solved: Solved) -> str:
+    """The responses that the page draws, and what their colours mean."""
+    responses = Responses(solved)
+    lines = chart_lines(solved, responses, BASE, NOW_COLOR)
+    charts = (_chart(solved, responses, lines, curve) for curve in solved.state.curves)
+    return legend(lines, solved) + "".join(charts)
+
+
+def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response: ResponseCurve) -> str:
+    state, f = solved.state, solved.now.frequency_hz
+    scale = Scale(responses.quantity, state.decibels, state.log_frequency)
+    names = [state.against, *responses.overlaid, NOW]
+    levels = np.stack([responses.of(name, response) for name in names])
+    decibels = scale.quantity.decibels(levels)
+    drawn = decibels if state.decibels else levels
+    curves = [
+        Curve("", f, level, line.color, line.thickness, line.dash)
+        for line, level in zip(lines, drawn, strict=True)
+    ]
+    curves[-1] = replace(curves[-1], peaks=strongest(responses, response, solved))
     inside = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
-    point = solved.now.prepared.vehicle.response_points[POINT].name
-    heading = f"{point}, {direction}"
-    curves = [Curve("now", f, now)]
-    if solved.base.rates != solved.now.rates:
-        curves.insert(0, Curve(solved.state.against, f, base, BASE, 1.5))
+    label = curve_label(solved.now.vehicle, response)
     chart = line_chart(
         curves,
-        Axis("Frequency, Hz", *SHOWN_HZ),
-        decibel_axis("dB re 1 g²/Hz", [base[inside], now[inside]]),
-        f"Acceleration at the {heading}",
+        Axis("Frequency, Hz", *SHOWN_HZ, state.log_frequency),
+        level_axis(scale, *level_range(decibels[:, inside])),
+        f"Acceleration, {label}",
         width=420,
         height=190,
     )
-    return f"<h2>{title(heading)}</h2>{chart}"
+    return f"<h2>{escape(label)}</h2>{chart}"
 
 
 def _modes(base: Results, now: Results, shown: int) -> str:

@@ -105,7 +105,7 @@ class ResponsePlot:
         key = (subject, scale, tuple(lines))
         if key != self._subject or decibels[-1].max() > self._top:
             self._subject = key
-            bottom, self._top = _range(decibels)
+            bottom, self._top = level_range(decibels)
             axes = self._axes(scale, bottom, self._top) | {"series": self._series(lines)}
         if axes or not np.array_equal(data, self._data, equal_nan=True):
             self._data = data
@@ -130,7 +130,7 @@ class ResponsePlot:
         return ({"label": "Hz"}, *curves, {"label": "peaks", "width": 0, "points": points})
 
     def _axes(self, scale: Scale, bottom: int, top: int) -> dict:
-        y = _level_axis(scale, bottom, top)
+        y = level_axis(scale, bottom, top)
         *inner, end = LOG_TICKS_HZ if scale.log_frequency else TICKS_HZ
         x_ticks = [*((f, f"{f:g}") for f in inner), (end, f"{end:g} Hz")]
         common = {"font": FONT, "stroke": self._text_color, "ticks": NO_TICKS, "grid": GRID, "space": 1}
@@ -146,12 +146,13 @@ class ResponsePlot:
         }
 
 
-def _level_axis(scale: Scale, bottom: int, top: int) -> Axis:
+def level_axis(scale: Scale, bottom: int, top: int) -> Axis:
     """From `bottom` to `top` dB."""
+    title = scale.quantity.unit_text(scale.decibels)
     if scale.decibels:
-        return Axis("", bottom, top)
+        return Axis(title, bottom, top)
     decade = 10 * scale.quantity.bels_per_decade
-    return Axis("", 10 ** (bottom / decade), 10 ** (top / decade), is_logarithmic=True)
+    return Axis(title, 10 ** (bottom / decade), 10 ** (top / decade), is_logarithmic=True)
 
 
 def _distribution(is_logarithmic: bool) -> dict:
@@ -167,7 +168,7 @@ def _thinned(ticks: list[tuple[float, str]]) -> list[tuple[float, str]]:
     return ticks[::-1][::2][::-1] if len(ticks) > 5 else ticks
 
 
-def _range(decibels: Floats) -> tuple[int, int]:
+def level_range(decibels: Floats) -> tuple[int, int]:
     """Whole tens of dB that hold the curves, at most `DECIBELS` below the top."""
     top = 10 * math.ceil((decibels.max() + HEADROOM) / 10)
     bottom = 10 * math.floor(decibels.min() / 10)

@@ -47,10 +47,10 @@ class ChartsPanel:
         state = solved.state
         scale = Scale(responses.quantity, state.decibels, state.log_frequency)
         unit = scale.quantity.unit_text(state.decibels)
-        lines = self._lines(solved, responses)
+        lines = chart_lines(solved, responses, *self._ends)
         names = [state.against, *responses.overlaid, NOW]
         show_all(self._bindings)
-        assign(self._legend, content=block(_legend(lines, solved)))
+        assign(self._legend, content=block(legend(lines, solved)))
         for curve, choice, plot, marked in zip(
             state.curves, self._choices, self._plots, peaks, strict=True
         ):
@@ -78,11 +78,12 @@ class ChartsPanel:
         self._bindings.append(Binding(choice, self._session, read, write))
         self._plots.append(ResponsePlot(gui, FREQUENCY_HZ, dark))
 
-    def _lines(self, solved: Solved, responses: Responses) -> list[Line]:
-        base, now = self._ends
-        numbers = set_numbers(self._session.vehicle, solved.state)
-        overlaid = [set_line(name, numbers[name]) for name in responses.overlaid]
-        return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
+
+def chart_lines(solved: Solved, responses: Responses, base: str, now: str) -> list[Line]:
+    """How the curves of a chart are drawn, the compared set's and the present ones in these colours."""
+    numbers = set_numbers(solved.now.prepared.vehicle, solved.state)
+    overlaid = [set_line(name, numbers[name]) for name in responses.overlaid]
+    return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
 
 
 def _curve_labels(vehicle: Vehicle) -> dict[str, Curve]:
@@ -91,7 +92,7 @@ def _curve_labels(vehicle: Vehicle) -> dict[str, Curve]:
     return {curve_label(vehicle, curve): curve for curve in curves}
 
 
-def _legend(lines: list[Line], solved: Solved) -> str:
+def legend(lines: list[Line], solved: Solved) -> str:
     """The sets with their colours, and what excites the vehicle."""
     swatches = "".join(f'<span class="key">{swatch(line)}{escape(line.label)}</span>' for line in lines)
     return heading(f'<span class="keyed">{swatches}</span>', excited_by(solved))
