@@ -42,19 +42,28 @@ MARK = "modevizClient"
 DRAWN = """(nMeshes) => {
   const viewer = window.__viserMutable;
   viewer?.requestRender?.();
-  const isShown = window.__modeviz?.nShown === nMeshes;
+  const isShown = window.__modeviz?.nShown === nMeshes && window.__modevizLabels?.areDrawn;
   return isShown && Number(getComputedStyle(viewer.canvas).opacity) > 0.999;
 }"""
-"""Whether all meshes show their shapes, and light has faded in."""
+"""Whether all meshes show their shapes, labels are in their places, and light has faded in."""
+
+BARE = """
+[data-dock-root] > :first-child { inset: 0 !important; }
+[data-dock-root] > :not(:first-child) { display: none !important; }
+"""
+"""Leaves only the 3-D view of a page."""
 
 NO_NOTICES = """() => {
   const buttons = document.querySelectorAll(".mantine-Notification-closeButton");
   buttons.forEach((button) => button.click());
   return !buttons.length;
 }"""
-STANDS_AT = """(phase) => {
-  const nodes = window.__viserSceneTree.getState();
-  return nodes["/_held"] && window.__viserMutable.nodePoseData["/_held"]?.position[0] === phase;
+STANDS_AT = """async (phase) => {
+  const isHeld = window.__viserSceneTree.getState()["/_held"];
+  if (!isHeld || window.__viserMutable.nodePoseData["/_held"]?.position[0] !== phase) return false;
+  // Labels look for another camera once in a frame.
+  for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
+  return window.__modevizLabels.areDrawn;
 }"""
 
 
@@ -71,6 +80,7 @@ class Studio:
         server: Server,
         width: int = 900,
         height: int = 500,
+        bare: bool = False,
         tick: Callable[[], None] = lambda: None,
     ) -> None:
         """Nothing is started yet.
@@ -79,9 +89,11 @@ class Studio:
             server: an open one.
             width: of the window, pixels.
             height: of the window, pixels.
+            bare: whether the 3-D view has the window for itself.
             tick: called ten times a second while the page is waited for; what it raises ends that.
         """
         self._server, self._size, self._tick = server, (width, height), tick
+        self._is_bare = bare
         self._reported: list[str] = []
         self._page: Page
         self._open = ExitStack()
@@ -101,6 +113,9 @@ class Studio:
             self._page.on("console", self._note)
             self._page.goto(f"{self._server.link}&fixedDpr=1")
             self.client = self._find_client()
+            if self._is_bare:
+                self._page.add_style_tag(content=BARE)
+                self._until(lambda: self.client.camera.image_width == width)
             self.hold = opening.enter_context(held(self.client))
             self.hold(0.0)  # what moves is drawn again and again, which in software takes seconds
             self._wait_drawn()

@@ -4,7 +4,8 @@
 // A label belongs to its parent node, which stands at what it names. Earlier names have the first choice; a
 // label whose parent has a visible ring has it before all but the card. The card hangs on a line that is one
 // metre along x where it is made. A click on a label of a mount is one on its rubber.
-// Where the labels are is in window.__modevizLabels, where the browser tests read it.
+// Where the labels are, and whether they have been drawn so, is in window.__modevizLabels, where the browser
+// tests and whoever takes pictures read it.
 (names, cardName, lineName, colors) => {
   const FONT = '-apple-system, BlinkMacSystemFont, "Segoe UI", "Roboto", "Helvetica Neue", Arial, sans-serif';
   const EM = 12; // px, of viser's labels at a scale of one
@@ -13,7 +14,7 @@
   const MARGIN = 6; // px to the picture's borders and to the floating panel
   const STEADY = 4; // px: a pointer that moved less has clicked
 
-  const page = (window.__modevizLabels = { places: {} });
+  const page = (window.__modevizLabels = { places: {}, areDrawn: false });
   const pen = document.createElement("canvas").getContext("2d");
   let drawn = "";
   let pressed = null;
@@ -118,8 +119,17 @@
         .replace("vec4(1.0, 1.0, 1.0, 0.85", `vec4(${colors.paper.join()}, 0.85`)
         .replace("vec4(0.0, 0.0, 0.0, a)", `vec4(${colors.ink.join()}, a)`);
       material.needsUpdate = true;
-      viewer.requestRender();
+      redraw(viewer);
     });
+  }
+
+  function redraw(viewer) {
+    page.areDrawn = false;
+    viewer.scene.onAfterRender = () => {
+      // viser draws a picture before it has moved the labels
+      if (viewer.getRenderRequestState !== "capture") page.areDrawn = true;
+    };
+    viewer.requestRender();
   }
 
   function frame() {
@@ -142,7 +152,7 @@
     if (now === drawn) return;
     drawn = now;
     place(viewer, nodes, canvas);
-    viewer.requestRender();
+    redraw(viewer);
   }
 
   function at({ clientX, clientY }) {

@@ -60,8 +60,13 @@ class Shot:
         return replace(self, width=width, height=height, backdrop=backdrop)
 
 
-def picture(client: viser.ClientHandle, shot: Shot) -> Image.Image:
+def picture(client: viser.ClientHandle, shot: Shot, timeout: float = TIMEOUT) -> Image.Image:
     """The 3-D view of a page as it is, RGBA if the backdrop is transparent, else RGB.
+
+    Args:
+        client: the page.
+        shot: how it is taken.
+        timeout: how long the page may take, s.
 
     Raises:
         ModevizError: the page did not draw it, or not in time.
@@ -74,11 +79,11 @@ def picture(client: viser.ClientHandle, shot: Shot) -> Image.Image:
             position=client.camera.position,
             fov=shot.field_of_view,
             transport_format="png",
-            timeout=TIMEOUT,
+            timeout=timeout,
         )
     except TimeoutError:
         raise ModevizError(
-            f"the page did not draw it within {TIMEOUT:.0f} s: keep the page in front, "
+            f"the page did not draw it within {timeout:.0f} s: keep the page in front, "
             "or choose a smaller size"
         ) from None
     except RuntimeError as error:
@@ -92,7 +97,11 @@ def picture(client: viser.ClientHandle, shot: Shot) -> Image.Image:
 
 
 def cycle(
-    client: viser.ClientHandle, hold: Callable[[float], None], shot: Shot, n_frames: int
+    client: viser.ClientHandle,
+    hold: Callable[[float], None],
+    shot: Shot,
+    n_frames: int,
+    timeout: float = TIMEOUT,
 ) -> Iterator[Image.Image]:
     """Pictures of one cycle of the shown motion, at phases 2πk/n.
 
@@ -101,13 +110,14 @@ def cycle(
         hold: lets it stand at a phase, from `driver.held`.
         shot: how they are taken.
         n_frames: n.
+        timeout: how long the page may take for each, s.
 
     Raises:
         ModevizError: as `picture` does.
     """
     for k in range(n_frames):
         hold(2 * math.pi * k / n_frames)
-        yield picture(client, shot)
+        yield picture(client, shot, timeout)
 
 
 def same_field_of_view(camera: viser.CameraHandle, width: int, height: int) -> float:

@@ -1,5 +1,6 @@
 """Pictures without a page: the whole app opens where nobody looks, for as long as one file takes."""
 
+import math
 import secrets
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -33,7 +34,10 @@ OFFLINE_SIZE = (900, 800)
 """About the shape of the scene in an offline page, pixels."""
 
 PATIENCE = 600.0
-"""s: for one answer, on a machine that has much else to do."""
+"""s: for one answer or picture, on a machine that has much else to do."""
+
+WINDOW_PIXELS = 900 * 500
+"""Of the page that draws: labels take as much of a picture as of its window."""
 
 
 @dataclass(frozen=True)
@@ -85,13 +89,13 @@ def render(
         if kind == "html":
             return app.offline(*seen)
         tell("opening", 0.0)
-        with Studio(app.server) as studio:
+        with Studio(app.server, *_window(shot), bare=True) as studio:
             tell("drawing", 0.0)
             studio.client.camera.position, studio.client.camera.look_at = seen
             studio.stand(wish.phase)
             if kind == "png":
-                return png_bytes(picture(studio.client, shot))
-            frames = cycle(studio.client, studio.hold, shot.moving(kind), wish.n_frames)
+                return png_bytes(picture(studio.client, shot, PATIENCE))
+            frames = cycle(studio.client, studio.hold, shot.moving(kind), wish.n_frames, PATIENCE)
             frames = _told(frames, wish.n_frames, tell)
             if kind == "gif":
                 return gif_bytes(frames, CYCLE_S)
@@ -112,7 +116,7 @@ def photographs(
         with located(sets[0].name):
             _show(app, wish)
         tell("opening", 0.0)
-        with Studio(app.server) as studio:
+        with Studio(app.server, *_window(shot), bare=True) as studio:
             seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)
             studio.client.camera.position, studio.client.camera.look_at = seen
             pictures = []
@@ -124,7 +128,7 @@ def photographs(
                 studio.follow(app.scene.driver)
                 studio.stand(wish.phase)
                 caption = f"{movement.title}, {movement.frequency_hz:.2f} Hz, {rate_set.name}"
-                pictures.append(Picture(caption, png_bytes(picture(studio.client, shot))))
+                pictures.append(Picture(caption, png_bytes(picture(studio.client, shot, PATIENCE))))
             return pictures
 
 
@@ -151,9 +155,15 @@ def _app(
             app.close()
 
 
+def _window(shot: Shot) -> tuple[int, int]:
+    """A window in which labels are as far apart as in the picture: of the same proportions, pixels."""
+    scale = math.sqrt(WINDOW_PIXELS / (shot.width * shot.height))
+    return round(scale * shot.width), round(scale * shot.height)
+
+
 def _show(app: App, wish: Wish) -> Solved:
     """Has the app show what is wished; raises ModevizError as `render`."""
-    app.session.change(coloring=wish.coloring)
+    app.session.change(coloring=wish.coloring, group="")
     if wish.mode:
         app.session.show_mode(wish.mode)
     app.scene.driver.drive(amplitude=wish.amplitude)

@@ -5,6 +5,7 @@ import io
 import re
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 
@@ -22,8 +23,9 @@ from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.app import App
 from modeviz.viewer.doors import open_server
 from modeviz.viewer.driver import ShapeDriver, held
+from modeviz.viewer.headless import Studio
 from modeviz.viewer.pictures import N_CYCLES, Shot, cycle, picture
-from modeviz.viewer.stage import LIGHT
+from modeviz.viewer.stage import LIGHT, box, camera
 
 PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
@@ -225,6 +227,41 @@ def test_whole_page_is_taken_by_a_browser_beside_with_the_same_view(app, bench):
     canvas = bench.evaluate("window.__viserMutable.canvas.clientWidth")
     assert abs(image.width - 980) <= 2, canvas
     assert len(image.getcolors(maxcolors=1 << 24)) > 1000
+
+
+LABELS_OFF = """() => {
+  const { camera, canvas, nodeRefFromName, nodePoseData } = window.__viserMutable;
+  const { places } = window.__modevizLabels;
+  return Object.keys(places).map((name) => {
+    const parent = nodeRefFromName[name.slice(0, name.lastIndexOf("/"))];
+    const place = camera.position.clone().set(...nodePoseData[name].position);
+    const at = parent.localToWorld(place).project(camera);
+    const { left, right, top, bottom } = places[name];
+    const [x, y] = [(at.x + 1) * canvas.clientWidth, (1 - at.y) * canvas.clientHeight];
+    return Math.hypot(x - left - right, y - top - bottom) / 2;
+  });
+}"""
+"""How far labels are from where they have been placed for the camera, pixels."""
+
+
+def test_labels_of_a_page_beside_are_placed_for_its_camera_as_soon_as_it_stands(app):
+    def photographed():
+        with Studio(app.server, 600, 400, bare=True) as studio:
+            seen = camera(box(app.session.vehicle), "Side", 600, 400)
+            studio.client.camera.position, studio.client.camera.look_at = seen
+            studio.stand(1.0)
+            size = studio._page.evaluate(
+                "(({ width, height }) => [width, height])(__viserMutable.canvas)"
+            )
+            return size, studio._page.evaluate(LABELS_OFF)
+
+    app.scene.driver.drive(running=False)
+    with ThreadPoolExecutor(1) as beside:  # where Playwright has no other page
+        size, off = beside.submit(photographed).result()
+    app.scene.driver.drive(running=True)
+    assert size == [600, 400]
+    assert len(off) > 3
+    assert max(off) < 0.5
 
 
 def test_offline_page_is_downloaded_and_moves_with_the_network_off(app, bench, browser, tmp_path):
