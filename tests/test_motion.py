@@ -110,11 +110,26 @@ def test_mean_square_is_twice_that_of_the_cycle():
     assert mean_square(shape.real) == pytest.approx(np.linalg.norm(shape.real, axis=1) ** 2)
 
 
-def test_default_amplitude_draws_the_largest_displacement_at_a_fortieth_of_the_length():
-    shapes = [np.array([[0.0, 0.3, 0.4]]), np.array([[0.1, 0, 0]])]
-    assert default_amplitude(shapes, 5.2) * 0.5 == pytest.approx(5.2 / 40)
+def test_what_moves_alike_is_drawn_at_a_fortieth_of_the_length():
+    shapes = [np.array([[0.0, 0.3, 0.4], [0.5, 0, 0]]), np.array([[0.1, 0, 0]])]
+    areas = [np.ones(2), np.ones(1)]
+    assert default_amplitude(shapes, areas, 5.2) * 0.5 == pytest.approx(5.2 / 40)
+
+
+def test_amplitude_goes_by_what_is_large_while_something_small_moves_further():
+    panel, rod = np.full((99, 3), [0.0, 0, 0.6]), np.array([[1.0, 0, 0]])
+    areas = [np.ones(99), np.array([1.0])]
+    assert default_amplitude([panel, rod], areas, 5.2) * 0.6 == pytest.approx(5.2 / 40)
+    everything_is_large = [np.ones(99), np.array([3.0])]
+    assert default_amplitude([panel, rod], everything_is_large, 5.2) == pytest.approx(5.2 / 40)
+
+
+def test_where_only_something_small_moves_it_is_drawn_twice_as_far():
+    shapes, areas = [np.zeros((99, 3)), np.array([[1j, 0, 0]])], [np.ones(99), np.array([1.0])]
+    assert default_amplitude(shapes, areas, 5.2) == pytest.approx(2 * 5.2 / 40)
+    assert default_amplitude([np.ones((1, 3))], [np.zeros(1)], 5.2) > 0
 
 
 def test_shapes_that_do_not_move_are_drawn_undeformed():
-    assert default_amplitude([np.zeros((4, 3))], 5.0) == 0
-    assert default_amplitude([], 5.0) == 0
+    assert default_amplitude([np.zeros((4, 3))], [np.ones(4)], 5.0) == 0
+    assert default_amplitude([], [], 5.0) == 0

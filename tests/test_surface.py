@@ -1,6 +1,6 @@
 import numpy as np
 
-from modeviz.shapes.surface import outlines, surface
+from modeviz.shapes.surface import outlines, surface, vertex_areas
 from modeviz.vehicle.bodies import Material, MeshPart
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
@@ -34,6 +34,13 @@ def test_outlines_keep_only_the_vertices_of_edges_and_their_places():
     assert kept.tolist() == [4, 5, 6, 7]
     assert np.array_equal(alone.vertices, drawn.vertices[4:8])
     assert np.array_equal(kept[alone.edges], drawn.edges)
+
+
+def test_vertices_share_the_area_of_their_faces():
+    areas = vertex_areas(surface((square("panel", 1.0), square("glass", 3.0))))
+    np.testing.assert_allclose(areas[:4], np.array([2, 1, 2, 1]) / 6)
+    np.testing.assert_allclose(areas[4:], 9 * areas[:4])
+    assert vertex_areas(surface(())).shape == (0,)
 
 
 def test_body_without_a_mesh_has_nothing_to_draw():

@@ -1,6 +1,6 @@
 """How a displayed vertex moves with its body: from generalised coordinates to drawn positions."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +16,13 @@ SAME_PLACE = 1e-6
 """m: a vertex this close to a node is that node."""
 
 DRAWN_FRACTION = 0.025
-"""The largest displacement is drawn as this fraction of the vehicle's length, 0.13 m on a pickup."""
+"""A large displacement is drawn as this fraction of the vehicle's length, 0.13 m on a pickup."""
+
+SMALL_FRACTION = 0.02
+"""What has less than this of the area that is drawn may be too small, or too hidden, to go by."""
+
+FURTHEST = 2.0
+"""How many times as far as the rest something small may move: more would distort it."""
 
 
 def vertex_shapes(body: Body, vertices: Floats) -> NDArray[np.float32]:
@@ -85,16 +91,28 @@ def mean_square(shape: NDArray) -> Floats:
     return np.real(_dot(shape, np.conj(shape)))
 
 
-def default_amplitude(shapes: Iterable[NDArray], length: float) -> float:
-    """The factor that draws the largest of several displacements clearly and without distortion.
+def default_amplitude(shapes: Sequence[NDArray], areas: Sequence[Floats], length: float) -> float:
+    """The factor that draws a shape clearly and without distortion.
+
+    It goes by the displacement that only `SMALL_FRACTION` of the area exceeds, but draws nothing
+    `FURTHEST` times as far.
 
     Args:
         shapes: of every drawn body, (n_vertices, 3) each.
+        areas: that their vertices stand for, (n_vertices,) each, m².
         length: of the vehicle, m.
     """
-    everything = np.concatenate([np.zeros((0, 3), np.float32), *shapes])
-    largest = float(peak_displacement(everything).max(initial=0.0))
-    return DRAWN_FRACTION * length / largest if largest > 0 else 0.0
+    moved = np.concatenate([np.zeros(0), *map(peak_displacement, shapes)])
+    area = np.concatenate([np.zeros(0), *areas])
+    largest = float(moved.max(initial=0.0))
+    if largest == 0:
+        return 0.0
+    least = largest / FURTHEST
+    far = moved > least  # only these are worth the sorting
+    order = np.flatnonzero(far)[np.argsort(-moved[far])]
+    exceeded = area[order].cumsum() > SMALL_FRACTION * area.sum()
+    large = float(moved[order][exceeded.argmax()]) if exceeded.any() else least
+    return DRAWN_FRACTION * length / large
 
 
 def _carriers(body: FlexibleBody, vertices: Floats) -> tuple[NDArray[np.intp], Floats]:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from modeviz.shapes.edges import feature_edges
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import Material, Mesh, MeshPart
+from modeviz.vehicle.bodies import Material, Mesh
 
 SKIN_FRACTION = 0.15
 """A part with at least this share of a body's area is its skin; what is smaller dresses it."""
@@ -38,7 +38,7 @@ class Surface:
 def surface(mesh: Mesh) -> Surface:
     """The drawn surface of a display mesh; its vertices are those of the parts, one after the other."""
     starts = np.cumsum([0, *(len(part.vertices) for part in mesh)])
-    areas = np.array([_area(part) for part in mesh])
+    areas = np.array([_face_areas(part.vertices, part.faces).sum() for part in mesh])
     skin = areas >= SKIN_FRACTION * areas.sum()
     patches = [
         Patch(part.material, part.faces + np.int32(start), bool(is_skin))
@@ -63,6 +63,15 @@ def outlines(drawn: Surface) -> tuple[Surface, NDArray[np.int32]]:
     return Surface(drawn.vertices[kept], (), reduced), kept
 
 
-def _area(part: MeshPart) -> float:
-    a, b, c = np.moveaxis(part.vertices[part.faces], 1, 0)
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+def vertex_areas(drawn: Surface) -> Floats:
+    """The area that every vertex stands for, a third of that of its faces, (n_vertices,), m²."""
+    areas = np.zeros(len(drawn.vertices))
+    for patch in drawn.patches:
+        thirds = np.repeat(_face_areas(drawn.vertices, patch.faces) / 3, 3)
+        areas += np.bincount(patch.faces.ravel(), thirds, len(areas))
+    return areas
+
+
+def _face_areas(vertices: Floats, faces: NDArray[np.int32]) -> Floats:
+    a, b, c = np.moveaxis(vertices[faces], 1, 0)
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2

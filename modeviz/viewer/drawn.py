@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import displacement, vertex_shapes
-from modeviz.shapes.surface import outlines, surface
+from modeviz.shapes.surface import outlines, surface, vertex_areas
 from modeviz.vehicle.bodies import Body, RigidBody
 from modeviz.viewer.driver import AT_REST, ShapeDriver
 from modeviz.viewer.stage import Theme
@@ -31,6 +31,7 @@ class DrawnBody:
         self._is_sheet = body.role in SHEET_ROLES
         drawn = surface(body.mesh)
         self._shapes = vertex_shapes(body, drawn.vertices)
+        self.areas = vertex_areas(drawn)
         edge_color = theme.edges if self._is_sheet else None
         driver.add(self.path, glb(drawn, edge_color), len(drawn.vertices), cast_shadow=True)
         if self._is_sheet:

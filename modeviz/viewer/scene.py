@@ -52,11 +52,12 @@ class Scene:
         shares = energy_shares(solved)
         with self._server.atomic():
             moving = solved.movement
-            drawn = self.show_shape(solved.now.prepared.system, moving.shape, moving.other)
+            hidden = self._hidden(solved)
+            drawn = self.show_shape(solved.now.prepared.system, moving.shape, moving.other, hidden)
             self.show_colors(state.coloring, drawn, shares)
             see_through = state.see_through and state.coloring == "bodies"
             has_ghost = state.ghost == "rest" or moving.other is not None
-            self.show_bodies(self._hidden(solved), see_through, has_ghost)
+            self.show_bodies(hidden, see_through, has_ghost)
             if solved.is_detailed:
                 strain = strain_shares(solved)
                 groups = {group: strain[group] for group in state.rates}
@@ -73,7 +74,7 @@ class Scene:
         return {body.name for body in self._vehicle.bodies} - alone
 
     def show_shape(
-        self, system: System, shape: NDArray, other: NDArray | None
+        self, system: System, shape: NDArray, other: NDArray | None, hidden: Collection[str] = ()
     ) -> Mapping[str, NDArray]:
         """Sends the page a shape, scaled so that it is clear to see at the driver's amplitude of one.
 
@@ -81,12 +82,15 @@ class Scene:
             system: whose coordinates they are.
             shape: (n_dofs,), real or complex.
             other: the shape that outlines show, on the same scale; without it they rest.
+            hidden: names of bodies that are not drawn, which the scale does not go by.
 
         Returns:
             The displacements of bodies by name as they are drawn, (n_vertices, 3), m.
         """
         shapes = {b.name: b.displacement(shape[system.dofs[b.name]]) for b in self._bodies}
-        scale = default_amplitude(shapes.values(), self._box.length)
+        seen = [b for b in self._bodies if b.name not in hidden]
+        areas = [b.areas for b in seen]
+        scale = default_amplitude([shapes[b.name] for b in seen], areas, self._box.length)
         drawn = {name: scale * shape for name, shape in shapes.items()}
         points = {}
         for body in self._bodies:
