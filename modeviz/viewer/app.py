@@ -17,7 +17,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer import scripts
-from modeviz.viewer.answers import Solved
+from modeviz.viewer.answers import Solved, asks_for_the_same
 from modeviz.viewer.doors import Server, open_server
 from modeviz.viewer.hotkeys import Hotkeys
 from modeviz.viewer.layout import NARROW, WIDE, Layout
@@ -125,7 +125,7 @@ class App:
         """
         if not self.session.wait(timeout):
             raise ModevizError(f"there was no answer within {timeout:.0f} s")
-        if self._last is None or self._last.state is not self.session.state:
+        if self._last is None or not asks_for_the_same(self._last.state, self.session.state):
             raise self._failure or ModevizError("there is no answer")
         return self._last
 
