@@ -5,6 +5,7 @@ widget. Here a message must be of a kind we use, and its value one that its widg
 """
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import viser
@@ -26,6 +27,16 @@ ALLOWED = (
     *UPLOADS,
 )
 LONGEST_TEXT = 4000
+N_NUMBERS = {
+    "wxyz": 4,
+    "position": 3,
+    "look_at": 3,
+    "up_direction": 3,
+    "ray_origin": 3,
+    "ray_direction": 3,
+    "screen_pos": 2,
+}
+"""How many there are in every list that viser's page sends, by the field of a message."""
 
 
 def gate_messages(server: viser.ViserServer) -> None:
@@ -50,7 +61,7 @@ def _gate(server: viser.ViserServer, handler: Any, connection: WebsockClientConn
                     refuse_upload(server, client_id, message)
             return
         if not isinstance(message, _messages.GuiUpdateMessage):
-            if _is_finite(vars(message)):
+            if _is_whole(vars(message)):
                 await handle(client_id, message)
             return
         widget = _widget(server, client_id, message.uuid)
@@ -105,10 +116,24 @@ def _is_number(value: Any, low: float | None, high: float | None) -> bool:
     return (low is None or value >= low) and (high is None or value <= high)
 
 
-def _is_finite(value: Any) -> bool:
-    """Whether no number in a message is NaN or infinite, however deep."""
-    if isinstance(value, float):
-        return math.isfinite(value)
-    if isinstance(value, dict):
-        return all(map(_is_finite, value.values()))
-    return not isinstance(value, (tuple, list)) or all(map(_is_finite, value))
+def _is_whole(fields: Mapping[str, Any]) -> bool:
+    """Whether lists are those that viser's page sends, and no number is NaN or infinite."""
+    return all(
+        _is_list(value, N_NUMBERS[name]) if name in N_NUMBERS else _is_plain(value)
+        for name, value in fields.items()
+    )
+
+
+def _is_list(value: Any, n_numbers: int) -> bool:
+    return (
+        isinstance(value, (tuple, list))
+        and len(value) == n_numbers
+        and all(_is_number(number, None, None) for number in value)
+    )
+
+
+def _is_plain(value: Any) -> bool:
+    """Whether a value is a single one; a text is no longer than any of a page's."""
+    if isinstance(value, str):
+        return len(value) <= LONGEST_TEXT
+    return value is None or isinstance(value, bytes) or _is_number(value, None, None)
