@@ -129,8 +129,10 @@ def test_mode_and_spectra_follow_while_the_slider_moves(page):
 
 def test_optimised_rates_come_and_go_with_a_click(app, page):
     optimised = app.session.vehicle.rate_sets["optimised"]
-    page.get_by_role("button", name="Optimised", exact=True).click()
+    page.get_by_role("tab", name="Variants").click()
+    page.locator(".mv .sets label", has_text="Optimised").click()
     wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "cab yaw", optimised))
+    page.get_by_role("tab", name="Mounts").click()
     wait_until(page, lambda: box(page, "C1", "vertical").input_value() == "2100")
     page.get_by_role("button", name="Reset all", exact=True).click()
     wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "cab yaw"))

@@ -11,7 +11,7 @@ from modeviz.viewer.panels.mounts.details import LOCK, N_BUTTONS, RESET
 from modeviz.viewer.panels.mounts.effects import Effects, effects
 from modeviz.viewer.panels.mounts.folder import GroupFolder
 from modeviz.viewer.session import Session
-from modeviz.viewer.state import compared_rates, known_sets
+from modeviz.viewer.state import compared_rates
 
 UNITS = ("N/mm", "N/cm")
 
@@ -24,8 +24,6 @@ class MountsPanel:
         self._session = session
         self._effects: Effects = {}
         self._unit = self._add_unit(gui)
-        if session.vehicle.mount_groups:
-            self._add_load(gui)
         buttons = HiddenButtons(gui, N_BUTTONS, self._press)
         groups = session.vehicle.mount_groups
         self._folders = [GroupFolder(gui, session, group, buttons) for group in groups]
@@ -54,12 +52,6 @@ class MountsPanel:
             "Rates in", UNITS, initial_value=session.state.unit, hint="The unit of all mount rates"
         )
         return Binding(unit, session, lambda s: s.unit, lambda value: session.change(unit=value))
-
-    def _add_load(self, gui: viser.GuiApi) -> None:
-        load = gui.add_button_group(
-            "Load", tuple(known_sets(self._session.vehicle)), hint="Sets every rate to a known set"
-        )
-        load.on_click(lambda _: self._session.load(load.value))
 
     def _press(self, button: int) -> None:
         """Does what a sign in the table of the selected group says."""
