@@ -77,8 +77,9 @@ class PicturePanel:
         self._kind = gui.add_dropdown(
             "Save",
             tuple(self._makers),
-            hint="The 3-D view as it is; one cycle of its motion; this page with its plots; a file "
-            "that moves without a server; or the present rates compared with the chosen set",
+            hint="The 3-D view as it is; one cycle of its motion; the page with its plots, opened anew "
+            "with the first tab of each panel in front; a file that moves without a server; or the "
+            "present rates compared with the chosen set",
         )
         preset = gui.add_dropdown("Size", tuple(PRESETS), hint="Width and height, pixels")
         first = PRESETS[preset.value]
