@@ -65,6 +65,17 @@ def test_axes_have_titles_and_ticks_stand_at_their_values():
     assert float(minus_ten.get("y")) == pytest.approx(HEIGHT / 4 + 4, abs=0.06)
 
 
+def test_only_a_dashed_curve_has_dashes():
+    root = drawn(Curve("full", F, F - 40, peaks=(1,)), Curve("dashed", F, F - 30, dash=(7, 3)))
+    assert [e.get("stroke-dasharray") for e in root.iter(f"{SVG}polyline")] == [None, "7 3"]
+
+
+def test_curve_without_a_name_is_not_in_the_legend():
+    root = drawn(Curve("", F, F - 40), Curve("now", F, F - 30))
+    assert "now" in texts(root)
+    assert None not in texts(root)
+
+
 def test_peaks_are_marked_where_they_are_with_their_frequency():
     root = drawn(Curve("now", F, np.array([-30.0, -20.0, -30.0, -10.0]), peaks=(1, 3)))
     (dot,) = root.iter(f"{SVG}circle")  # 30 Hz is outside

@@ -132,6 +132,16 @@ def test_curves_are_the_spectra_of_both_sets(comparison, text, number, direction
         np.testing.assert_allclose(decibels[shown], level[inside][shown], atol=0.06 * 60 / 190)
 
 
+def test_curves_are_full_lines_whose_peaks_are_marked(comparison, text):
+    assert "stroke-dasharray" not in text
+    f = comparison.base.frequency_hz
+    charts = re.findall(r"<svg xmlns.*?</figure>", text)
+    for chart, direction in zip(charts, ("lateral", "vertical", "fore-aft"), strict=True):
+        found = [line for r in comparison.rides for line in r.peak_lines(0, direction)]
+        shown = [line for line in found if SHOWN_HZ[0] <= f[line] <= SHOWN_HZ[1]]
+        assert 1 <= chart.count("<circle") <= len(shown)
+
+
 def test_it_says_how_exact_it_is(comparison, document):
     assert document.words.count("none missed") == 2
     checked = report(comparison, TODAY, check=Check(2.3e-9, 4.1e-11, 10, 400))

@@ -41,10 +41,10 @@ class Curve:
     color: str = NOW
     """CSS."""
     thickness: float = 2.0
-    dash: Sequence[float] = ()
-    """Lengths of dashes and gaps; none is a full line."""
     peaks: Sequence[int] = ()
     """Which points are marked; the marks say x."""
+    dash: Sequence[float] = ()
+    """Lengths of dashes and gaps; none is a full line."""
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response
     decibels = scale.quantity.decibels(levels)
     drawn = decibels if state.decibels else levels
     curves = [
-        Curve("", f, level, line.color, line.thickness, line.dash)
+        Curve("", f, level, line.color, line.thickness, dash=line.dash)
         for line, level in zip(lines, drawn, strict=True)
     ]
     curves[-1] = replace(curves[-1], peaks=strongest(responses, response, solved))
