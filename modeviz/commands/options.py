@@ -3,6 +3,9 @@
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Sized
+from dataclasses import replace
+
+import numpy as np
 
 from modeviz.errors import ModevizError, located
 from modeviz.ride.roads import road_spectrum
@@ -12,7 +15,11 @@ from modeviz.tuning.results import Conditions
 from modeviz.units import parse
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
+
+EVEN_HZ = np.array([1e-3, 1e3])
+"""At which an even road is known: everywhere, at any speed."""
 
 
 def vehicle_and_rates(options: Namespace) -> tuple[Vehicle, Rates]:
@@ -33,6 +40,24 @@ def conditions(options: Namespace, vehicle: Vehicle) -> Conditions:
     road = vehicle.road(options.road or vehicle.roads[0].name)
     road_spectrum(road, FREQUENCY_HZ, speed)  # what is wrong there is better said before a preparation
     return Conditions(road.name, speed)
+
+
+def ride(options: Namespace, vehicle: Vehicle) -> Conditions | None:
+    """As `conditions`; None for a vehicle without road or response point, unless they are asked for."""
+    asked = options.road is not None or options.speed is not None
+    if asked or (vehicle.roads and vehicle.response_points):
+        return conditions(options, vehicle)
+    return None
+
+
+def shown(options: Namespace, vehicle: Vehicle) -> tuple[Vehicle, Conditions]:
+    """A vehicle that can be shown, and what it drives over: without a ride, an even road unfelt."""
+    chosen = ride(options, vehicle)
+    if chosen is not None:
+        return vehicle, chosen
+    even = Road("no road", "No road", vehicle.speed, EVEN_HZ, np.zeros((len(EVEN_HZ), 2, 2), complex))
+    still = replace(vehicle, roads=(even,), response_points=())
+    return still, Conditions(even.name, still.speed)
 
 
 def need(vehicle: Vehicle, what: str, found: Sized) -> None:

@@ -3,7 +3,7 @@
 import math
 from argparse import Namespace
 
-from modeviz.commands.options import conditions, progress, tell, vehicle_and_rates
+from modeviz.commands.options import progress, shown, tell, vehicle_and_rates
 from modeviz.errors import ModevizError
 from modeviz.vehicle.files.disk import check_writable, write_bytes
 
@@ -26,7 +26,7 @@ def render_file(options: Namespace) -> None:
     _check("--frames", options.frames, 2, 240)
     check_writable(options.output)
     vehicle, rates = vehicle_and_rates(options)
-    chosen = conditions(options, vehicle)
+    vehicle, chosen = shown(options, vehicle)
     wish = Wish(
         options.mode,
         options.view,

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 
-from modeviz.commands.options import conditions, prepare_telling, progress, tell, vehicle_and_rates
+from modeviz.commands.options import prepare_telling, progress, ride, tell, vehicle_and_rates
 from modeviz.errors import ModevizError
 from modeviz.export.report import Picture, report
 from modeviz.tuning.check import Check, check_exactly
@@ -24,21 +24,13 @@ def write_report(options: Namespace) -> None:
     vehicle, rates = vehicle_and_rates(options)
     base = RateSet(_name(options.against), resolve_rates(vehicle, options.against))
     now = RateSet(_name(options.rates, bool(options.settings)), rates)
-    chosen = _conditions(options, vehicle)
+    chosen = ride(options, vehicle)
     check_writable(options.output)
     pictures = _pictures(vehicle, (base, now), chosen) if options.pictures else []
     comparison = compare(prepare_telling(vehicle), base, now, chosen)
     page = report(comparison, date.today(), pictures, _check(comparison))
     write_text(options.output, page)
     print(f"{options.output}: {now.name} against {base.name}")
-
-
-def _conditions(options: Namespace, vehicle: Vehicle) -> Conditions | None:
-    """Road and speed; None for a vehicle that has neither, unless they are asked for."""
-    asked = options.road is not None or options.speed is not None
-    if asked or (vehicle.roads and vehicle.response_points):
-        return conditions(options, vehicle)
-    return None
 
 
 def _pictures(

@@ -2,7 +2,7 @@
 
 from argparse import Namespace
 
-from modeviz.commands.options import conditions, progress, vehicle_and_rates
+from modeviz.commands.options import progress, shown, vehicle_and_rates
 
 
 def view(options: Namespace) -> None:
@@ -10,10 +10,11 @@ def view(options: Namespace) -> None:
     from modeviz.viewer.app import serve  # viser alone takes a second to import
 
     vehicle, start = vehicle_and_rates(options)
+    vehicle, chosen = shown(options, vehicle)
     serve(
         vehicle,
         start,
-        conditions(options, vehicle),
+        chosen,
         options.host,
         options.port,
         options.token,

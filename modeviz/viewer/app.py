@@ -154,7 +154,8 @@ class App:
         name = variant_name(vehicle, state)
         now = RateSet(name if name != state.against else f"{name}, now", state.rates)
         base = RateSet(state.against, solved.base.rates)
-        comparison = compare(solved.now.prepared, base, now, state.conditions)
+        conditions = state.conditions if state.curves else None
+        comparison = compare(solved.now.prepared, base, now, conditions)
         return report(comparison, date.today(), pictures, solved.rest.check).encode()
 
     def close(self) -> None:

@@ -14,11 +14,12 @@ from modeviz.dynamics.components import (
     component_shares,
 )
 from modeviz.dynamics.naming import ModeName
+from modeviz.errors import SolveError
 from modeviz.export.wording import sentence_case
 from modeviz.tuning.results import Results
 from modeviz.tuning.shown import complex_mode, road_shape, wheel_shape
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.viewer.state import State
+from modeviz.viewer.state import Curve, State
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,10 +112,11 @@ def _damped(state: State, shown: ShownMode) -> Movement:
 
 def _operating(state: State, shown: ShownMode) -> Movement:
     """The shape under road or wheel load; the phase of either is that of what excites or is read."""
-    now, curve = shown.now, state.curves[0]
+    now = shown.now
     if state.load:
         about = state.load
     else:
+        curve = _reference(state)
         point = now.vehicle.response_points[curve.point].name
         about = f"{now.conditions.road}, as at {point}, {curve.direction}"
     other = _excited(state, shown.base) if state.ghost == "compared" else None
@@ -125,8 +127,15 @@ def _operating(state: State, shown: ShownMode) -> Movement:
 def _excited(state: State, results: Results) -> Complexes:
     if state.load:
         return wheel_shape(results, state.load, state.operating_hz)
-    curve = state.curves[0]
+    curve = _reference(state)
     return road_shape(results, state.operating_hz, curve.point, curve.direction)
+
+
+def _reference(state: State) -> Curve:
+    """The response in whose phase a vehicle is seen on its road."""
+    if not state.curves:
+        raise SolveError("an operating shape on a road needs a [[road]] and a [[response_point]]")
+    return state.curves[0]
 
 
 def _component(state: State, shown: ShownMode) -> Movement:

@@ -74,7 +74,7 @@ class State:
     load: str = ""
     """The wheel load whose response is drawn, or the road: ""."""
     curves: tuple[Curve, ...] = (Curve(0, "lateral"), Curve(0, "vertical"))
-    """What is drawn, top down."""
+    """What is drawn, top down; nothing where there is no response point."""
     decibels: bool = True
     log_frequency: bool = False
 
@@ -157,7 +157,9 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
     cabin = unit_of_role(vehicle, "cabin")
     mode = f"{cabin.word} yaw" if cabin else ""
     every = vehicle.all_rates(rates)
-    return State(every, conditions, mode, group, component=vehicle.bodies[0].name)
+    felt = tuple(Curve(0, direction) for direction in ("lateral", "vertical"))
+    curves = felt if vehicle.response_points else ()
+    return State(every, conditions, mode, group, curves=curves, component=vehicle.bodies[0].name)
 
 
 def known_sets(vehicle: Vehicle) -> dict[str, Rates]:

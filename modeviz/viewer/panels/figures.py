@@ -25,6 +25,12 @@ AXES = ("Fore-aft, Wd", "Lateral, Wd", "Vertical, Wk")
 """The weighted accelerations of ISO 2631-1, in the order of `Rating.weighted_rms`."""
 
 
+NOTHING_FELT = (
+    "Responses need a road and somewhere to feel it: "
+    "give vehicle.toml a [[road]] and a [[response_point]]."
+)
+
+
 class FiguresPanel:
     """Four figures at the driver's point against the compared set."""
 
@@ -34,6 +40,9 @@ class FiguresPanel:
 
     def show(self, solved: Solved, responses: Responses) -> None:
         """Draws the figures of an answer."""
+        if not solved.state.curves:
+            assign(self._content, content=block(span(NOTHING_FELT, "dim")))
+            return
         figures = _road_figures if responses.quantity is PSD else _wheel_figures
         assign(self._content, content=block(figures(solved, responses)))
 
@@ -47,6 +56,9 @@ class TablePanel:
 
     def show(self, solved: Solved) -> None:
         """Lists the figures of an answer."""
+        if not solved.state.curves:
+            assign(self._content, content=block(span(NOTHING_FELT, "dim")))
+            return
         responses = Responses(solved)
         content = [_all_points(solved, responses)]
         if responses.quantity is PSD:

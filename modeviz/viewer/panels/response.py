@@ -25,5 +25,8 @@ class ResponsePanel:
         responses = Responses(solved)
         if solved.is_detailed:
             self._figures.show(solved, responses)
+        if not solved.state.curves:
+            return
+        if solved.is_detailed:
             self._marked = self._peaks.show(solved, responses)
         self._charts.show(solved, responses, self._marked)

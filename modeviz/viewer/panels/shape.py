@@ -195,6 +195,8 @@ def _motion_label(motion: Motion) -> str:
 
 def _peaks(solved: Solved) -> dict[str, float]:
     """The highest peaks of what the first chart draws, by rising frequency: Hz by their text."""
+    if not solved.state.curves:
+        return {}
     f, level = solved.now.frequency_hz, _first_response(solved)
     inside = [i for i in peak_lines(level) if SHOWN_HZ[0] <= f[i] <= SHOWN_HZ[1]]
     highest = sorted(sorted(inside, key=lambda i: -level[i])[:N_PEAKS])

@@ -74,6 +74,8 @@ def _named(results: Results) -> dict[str, tuple[str, float]]:
 
 
 def _figures(solved: Solved) -> list[str]:
+    if not solved.state.curves:
+        return []
     responses = Responses(solved)
     scale, unit = (1, "RMS g") if not solved.state.load else (1000, "mean 10⁻³ g")
     rows = []

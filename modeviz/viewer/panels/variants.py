@@ -189,6 +189,8 @@ def _figures(results: Results, solved: Solved) -> list[str]:
     base = solved.base
     mode = solved.mode if results is solved.now else results.mode_index(solved.name.name)
     f = "–" if mode is None else f"{results.modes.frequency_hz[mode]:.2f}"
+    if not solved.state.curves:
+        return ["–", "–", f, "–"]
     gain = results.rating.mean_personal_rating - base.rating.mean_personal_rating
     kind = "dim" if abs(gain) < 0.005 else "good" if gain > 0 else "bad"
     rating = span("–", "dim") if results is base else span(signed(gain, 2), kind)

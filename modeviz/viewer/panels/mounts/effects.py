@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from modeviz.export.wording import signed
 from modeviz.tuning.results import AXIS
 from modeviz.tuning.sensitivity import Sensitivity, rate_variables
@@ -34,8 +36,9 @@ def effects(vehicle: Vehicle, sensitivity: Sensitivity, mode: int) -> Effects:
         sensitivity: of its answer.
         mode: the shown mode of that answer.
     """
-    lateral, vertical = (100 * TENTH * sensitivity.rms[0, AXIS[d]] for d in ("lateral", "vertical"))
     frequency_hz = TENTH * sensitivity.frequency_hz[mode]
+    felt = sensitivity.rms[0] if len(sensitivity.rms) else np.zeros((3, len(frequency_hz)))
+    lateral, vertical = (100 * TENTH * felt[AXIS[d]] for d in ("lateral", "vertical"))
     return {
         (v.group, v.direction): Effect(float(frequency_hz[i]), float(lateral[i]), float(vertical[i]))
         for i, v in enumerate(rate_variables(vehicle))

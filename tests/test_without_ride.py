@@ -1,0 +1,74 @@
+"""Vehicles that have no road, or nobody to feel it: their modes are shown all the same."""
+
+from argparse import Namespace
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.cli import main
+from modeviz.commands.options import shown
+from modeviz.vehicle.files import write_vehicle
+from modeviz.viewer.app import App
+from modeviz.viewer.doors import open_server
+
+LACKING = {
+    "road": {"roads": ()},
+    "response point": {"response_points": (), "wheel_loads": ()},
+    "both": {"roads": (), "response_points": (), "wheel_loads": ()},
+}
+
+
+@pytest.fixture(params=LACKING)
+def vehicle(request):
+    return replace(mounted_cabin(), **LACKING[request.param])
+
+
+def test_its_modes_are_rendered(vehicle, tmp_path, capsys):
+    write_vehicle(vehicle, tmp_path / "cabin")
+    file = tmp_path / "yaw.html"
+    assert main(["render", str(tmp_path / "cabin"), "--mode", "cab yaw", "--output", str(file)]) == 0
+    text = file.read_text("utf-8")
+    beside = text[text.index("<aside>") :]
+    assert "Cab yaw" in beside
+    assert "<svg" not in beside[: beside.index("</aside>")]
+
+
+def test_a_road_that_is_asked_for_must_be_there(vehicle, tmp_path, capsys):
+    write_vehicle(vehicle, tmp_path / "cabin")
+    options = ["--road", "flat", "--output", str(tmp_path / "yaw.html")]
+    assert main(["render", str(tmp_path / "cabin"), *options]) == 2
+    assert "give its vehicle.toml a [[" in capsys.readouterr().err
+
+
+def test_the_page_shows_everything_but_responses(vehicle, tmp_path):
+    options = Namespace(road=None, speed=None)
+    vehicle, conditions = shown(options, vehicle)
+    server = open_server(port=0, token="sesame")
+    app = App(vehicle, vehicle.rates, conditions, server)
+    failures = []
+    app.session._checker._fail = app.session._worker._fail = failures.append
+    app.start()
+    try:
+        for change in (
+            {"rates": vehicle.all_rates(vehicle.rate_sets["soft"])},
+            {"motion": "damped mode", "classic": True},
+            {"motion": "component"},
+            {"motion": "operating shape"},
+            {"against": "Soft", "overlaid": frozenset({"Original"})},
+        ):
+            app.session.change(**change)
+            solved = app.answer(30)
+            if change.get("motion") == "operating shape":
+                assert "[[response_point]]" in solved.movement.problem
+        assert app.session.wait_checked(60)
+        assert app.shown.rest.check.is_complete
+        assert app.shown.rest.check.error < 1e-6
+        assert "[[response_point]]" in app._response._figures._content.content
+        assert "[[response_point]]" in app._table._content.content
+        assert np.isfinite(app.shown.rest.sensitivity.frequency_hz).all()
+        app.report([])
+    finally:
+        app.close()
+    assert not failures
