@@ -2,6 +2,7 @@ import time
 
 import numpy as np
 import pytest
+from apps import listening, n_bytes
 from pages import wait_for
 
 from modeviz.shapes.colors import Shade
@@ -176,6 +177,18 @@ def test_real_shape_travels_in_six_bytes_a_vertex_and_an_old_one_not_at_all(serv
     assert bytes_of(whole(SHAPE) * 2) == 12 * 12
     assert bytes_of(whole(SHAPE).real * 2) == 12 * 6
     assert bytes_of(whole(SHAPE).real * 2) == 0
+
+
+def test_smooth_shape_takes_less_than_two_thirds_of_its_halves_on_the_way(server, driver):
+    n = 6000
+    x = np.linspace(0, 2 * np.pi, n)
+    wave = np.stack([np.cos(x), np.sin(x), np.sin(3 * x)], axis=1)
+    faces = np.arange(n).reshape(-1, 3)
+    driver.add("/vehicle/bed", glb(surface((MeshPart("panel", wave, faces, Material((1, 2, 3))),))), n)
+    with listening(server) as socket:
+        driver.show({"/vehicle/bed": wave})
+        assert n_bytes(socket) < 2 / 3 * 6 * n
+    driver.remove("/vehicle/bed")
 
 
 def test_rigid_motion_moves_every_vertex_with_the_first_and_turns_them_about_it(driver, page):
