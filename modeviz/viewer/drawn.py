@@ -1,4 +1,4 @@
-"""A body as it is drawn: its surface and, of sheet metal, the outlines that are its ghost."""
+"""A body as it is drawn: its surface, and the outlines that are its ghost unless it is rigid."""
 
 from collections.abc import Mapping
 
@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import displacement, vertex_shapes
 from modeviz.shapes.surface import outlines, surface, vertex_areas
-from modeviz.vehicle.bodies import Body, RigidBody
+from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.viewer.driver import AT_REST, ShapeDriver
 from modeviz.viewer.stage import Theme
 
 SHEET_ROLES = ("cabin", "bed")
-"""Bodies that hide others: they are seen through, and their outlines are drawn."""
+"""Bodies that hide others: they are seen through, and their edges are drawn."""
 
 SEE_THROUGH = 0.5
 
@@ -29,12 +29,14 @@ class DrawnBody:
         self._driver = driver
         self._is_rigid = isinstance(body, RigidBody)
         self._is_sheet = body.role in SHEET_ROLES
+        # Those of axles, wheels and engine would be many lines that tell little.
+        self._has_ghost = self._is_sheet or isinstance(body, FlexibleBody)
         drawn = surface(body.mesh)
         self._shapes = vertex_shapes(body, drawn.vertices)
         self.areas = vertex_areas(drawn)
         edge_color = theme.edges if self._is_sheet else None
         driver.add(self.path, glb(drawn, edge_color), len(drawn.vertices), cast_shadow=True)
-        if self._is_sheet:
+        if self._has_ghost:
             ghost, kept = outlines(drawn)
             self._ghost_shapes = self._shapes[:, kept]
             driver.add(self._ghost_path, glb(ghost, theme.ghost), len(ghost.vertices))
@@ -52,7 +54,7 @@ class DrawnBody:
             other: those that its outlines show; without them they rest.
         """
         points = {self.path: np.stack([shape[0], motion[3:]]) if self._is_rigid else shape}
-        if self._is_sheet:
+        if self._has_ghost:
             ghost = AT_REST if other is None else displacement(self._ghost_shapes, other)
             points[self._ghost_path] = ghost
         return points
@@ -62,4 +64,5 @@ class DrawnBody:
         self._driver.set_visible(self.path, visible)
         if self._is_sheet:
             self._driver.set_opacity(self.path, SEE_THROUGH if see_through else 1.0)
+        if self._has_ghost:
             self._driver.set_visible(self._ghost_path, visible and ghost)
