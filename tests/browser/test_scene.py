@@ -118,7 +118,9 @@ def solved(modal, mode=6, **fields):
     f = float(modal.modes.frequency_hz[mode])
     return Solved(
         state=state,
+        missing="",
         named={"Original": modal},
+        unsolved={},
         now=modal,
         track=None,
         mode=mode,
