@@ -112,9 +112,8 @@ def test_why_rates_have_no_answer_is_told(capsys, folder, tmp_path, resonant):
 
 
 def test_no_set_is_shown_in_place_of_one_without_an_answer(monkeypatch, resonant):
-    camera = SimpleNamespace()
     studio = SimpleNamespace(
-        client=SimpleNamespace(camera=camera), stand=lambda phase: None, follow=lambda driver: None
+        client=None, look=lambda *_: None, stand=lambda _: None, follow=lambda _: None
     )
     monkeypatch.setattr("modeviz.viewer.rendering.Studio", lambda *_, **__: nullcontext(studio))
     monkeypatch.setattr("modeviz.viewer.rendering.picture", lambda *_: None)

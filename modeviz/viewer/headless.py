@@ -16,8 +16,10 @@ import viser
 from viser import _messages
 
 from modeviz.errors import ModevizError
+from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.doors import Server
 from modeviz.viewer.driver import PREFIX, ShapeDriver, held
+from modeviz.viewer.pictures import Pose
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, ConsoleMessage, Page
@@ -155,6 +157,12 @@ class Studio:
             self._wait(NO_NOTICES)
             self._wait_drawn()
             return self._page.screenshot(timeout=1000 * PATIENCE)
+
+    def look(self, position: Floats, look_at: Floats) -> Pose:
+        """Places the camera, m; for pictures that are taken after `stand`."""
+        camera = self.client.camera
+        camera.position, camera.look_at = position, look_at
+        return Pose.of(camera)
 
     def stand(self, phase: float) -> None:
         """Waits until the page stands at a phase, rad, and has the camera it was given before."""

@@ -3,9 +3,11 @@
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, Self
 
+import numpy as np
 import viser
+from numpy.typing import NDArray
 from PIL import Image
 
 from modeviz.errors import ModevizError
@@ -60,12 +62,30 @@ class Shot:
         return replace(self, width=width, height=height, backdrop=backdrop)
 
 
-def picture(client: viser.ClientHandle, shot: Shot, timeout: float = TIMEOUT) -> Image.Image:
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Where a camera stands and looks, whatever its page says of it later."""
+
+    wxyz: NDArray[np.float64]
+    """(4,), its orientation."""
+    position: NDArray[np.float64]
+    """(3,), m."""
+
+    @classmethod
+    def of(cls, camera: viser.CameraHandle) -> Self:
+        """That of a page's camera now."""
+        return cls(camera.wxyz, camera.position)
+
+
+def picture(
+    client: viser.ClientHandle, shot: Shot, pose: Pose, timeout: float = TIMEOUT
+) -> Image.Image:
     """The 3-D view of a page as it is, RGBA if the backdrop is transparent, else RGB.
 
     Args:
         client: the page.
         shot: how it is taken.
+        pose: from where.
         timeout: how long the page may take, s.
 
     Raises:
@@ -75,8 +95,8 @@ def picture(client: viser.ClientHandle, shot: Shot, timeout: float = TIMEOUT) ->
         drawn = client.get_render(
             shot.height,
             shot.width,
-            wxyz=client.camera.wxyz,
-            position=client.camera.position,
+            wxyz=pose.wxyz,
+            position=pose.position,
             fov=shot.field_of_view,
             transport_format="png",
             timeout=timeout,
@@ -100,6 +120,7 @@ def cycle(
     client: viser.ClientHandle,
     hold: Callable[[float], None],
     shot: Shot,
+    pose: Pose,
     n_frames: int,
     timeout: float = TIMEOUT,
 ) -> Iterator[Image.Image]:
@@ -109,6 +130,7 @@ def cycle(
         client: the page.
         hold: lets it stand at a phase, from `driver.held`.
         shot: how they are taken.
+        pose: from where.
         n_frames: n.
         timeout: how long the page may take for each, s.
 
@@ -117,7 +139,7 @@ def cycle(
     """
     for k in range(n_frames):
         hold(2 * math.pi * k / n_frames)
-        yield picture(client, shot, timeout)
+        yield picture(client, shot, pose, timeout)
 
 
 def same_field_of_view(camera: viser.CameraHandle, width: int, height: int) -> float:

@@ -91,11 +91,11 @@ def render(
         tell("opening", 0.0)
         with Studio(app.server, *_window(shot), bare=True) as studio:
             tell("drawing", 0.0)
-            studio.client.camera.position, studio.client.camera.look_at = seen
+            pose = studio.look(*seen)
             studio.stand(wish.phase)
             if kind == "png":
-                return png_bytes(picture(studio.client, shot, PATIENCE))
-            frames = cycle(studio.client, studio.hold, shot.moving(kind), wish.n_frames, PATIENCE)
+                return png_bytes(picture(studio.client, shot, pose, PATIENCE))
+            frames = cycle(studio.client, studio.hold, shot.moving(kind), pose, wish.n_frames, PATIENCE)
             frames = _told(frames, wish.n_frames, tell)
             if kind == "gif":
                 return gif_bytes(frames, CYCLE_S)
@@ -118,7 +118,7 @@ def photographs(
         tell("opening", 0.0)
         with Studio(app.server, *_window(shot), bare=True) as studio:
             seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)
-            studio.client.camera.position, studio.client.camera.look_at = seen
+            pose = studio.look(*seen)
             pictures = []
             for done, rate_set in enumerate(sets):
                 tell("drawing", done / len(sets))
@@ -128,7 +128,9 @@ def photographs(
                 studio.follow(app.scene.driver)
                 studio.stand(wish.phase)
                 caption = f"{movement.title}, {movement.frequency_hz:.2f} Hz, {rate_set.name}"
-                pictures.append(Picture(caption, png_bytes(picture(studio.client, shot, PATIENCE))))
+                pictures.append(
+                    Picture(caption, png_bytes(picture(studio.client, shot, pose, PATIENCE)))
+                )
             return pictures
 
 

@@ -11,6 +11,8 @@ from modeviz.shapes.motion import animated
 from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart
 from modeviz.viewer.driver import ShapeDriver
+from modeviz.viewer.pictures import Pose, Shot, picture
+from modeviz.viewer.stage import LIGHT
 
 NAME = "/vehicle/cab"
 HALF = 2.0**-11  # relative rounding of half precision
@@ -110,7 +112,8 @@ def test_page_draws_the_animated_positions_of_a_complex_shape(driver, page):
 def test_shader_moves_what_is_seen(server, driver, page):
     """The panel rises on the screen by what the camera makes of its amplitude."""
     client = next(iter(server.get_clients().values()))
-    client.camera.position, client.camera.look_at, client.camera.fov = (-10.0, 0, 0), (0.0, 0, 0), 0.5
+    client.camera.position, client.camera.look_at = (-10.0, 0, 0), (0.0, 0, 0)
+    pose = Pose.of(client.camera)
     rise = np.zeros((12, 3))
     rise[:, 2] = 1
     driver.show({NAME: rise})
@@ -119,8 +122,8 @@ def test_shader_moves_what_is_seen(server, driver, page):
     for phase in (0.0, np.pi):
         driver.seek(phase)
         wait_for(page, "Math.abs(window.__modeviz.phase - a.phase) < 1e-9", phase=phase)
-        image = client.get_render(height=200, width=200)
-        heights.append(np.nonzero(image.max(axis=-1) < 200)[0].mean())
+        image = picture(client, Shot(200, 200, "white", LIGHT, 0.5), pose)
+        heights.append(np.nonzero(np.asarray(image).max(axis=-1) < 200)[0].mean())
     two_metres = 2 / (2 * 10 * np.tan(0.25)) * 200
     assert heights[1] - heights[0] == pytest.approx(two_metres, abs=1.0)
 
@@ -216,22 +219,24 @@ def test_mesh_moves_freely_again_after_a_rigid_motion(driver, page):
 )
 def test_shader_colors_by_the_measure_of_the_displacement(server, driver, page, power, gain, value):
     client = next(iter(server.get_clients().values()))
-    client.camera.position, client.camera.look_at, client.camera.fov = (-10.0, 0, 0), (0.0, 0, 0), 0.5
+    client.camera.position, client.camera.look_at = (-10.0, 0, 0), (0.0, 0, 0)
+    pose = Pose.of(client.camera)
     driver.show({NAME: np.tile([0.0, 0.3, 0.2j], (12, 1))})
     wait_for(page, f"({READ.strip()})?.imaginary[2] > 0.1", name=NAME)
     driver.drive(amplitude=0.0)
     light = server.scene.add_light_ambient("/light", intensity=2.0)
 
-    def picture(shade):
+    def drawn(shade):
         driver.shade({NAME: shade})
         coded = [shade.gain, shade.power]
         shown = "(m => m?.userData.shade?.value.join() === a.coded.join() && m.vertexColors)"
         wait_for(page, f"{shown}({MATERIAL})", name=NAME, coded=coded)
-        return client.get_render(height=100, width=100)[35:65, 35:65].reshape(-1, 3).mean(axis=0)
+        image = picture(client, Shot(100, 100, "white", LIGHT, 0.5), pose)
+        return np.asarray(image)[35:65, 35:65].reshape(-1, 3).mean(axis=0)
 
-    measured = picture(Shade(gain, power))
-    assert measured == pytest.approx(picture(Shade(value, 0)), abs=1.5)
-    assert np.abs(measured - picture(Shade(value + 0.1, 0))).max() > 5
+    measured = drawn(Shade(gain, power))
+    assert measured == pytest.approx(drawn(Shade(value, 0)), abs=1.5)
+    assert np.abs(measured - drawn(Shade(value + 0.1, 0))).max() > 5
     light.remove()
 
 

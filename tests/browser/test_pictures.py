@@ -24,7 +24,7 @@ from modeviz.viewer.app import App
 from modeviz.viewer.doors import open_server
 from modeviz.viewer.driver import ShapeDriver, held
 from modeviz.viewer.headless import Studio
-from modeviz.viewer.pictures import N_CYCLES, Shot, cycle, picture
+from modeviz.viewer.pictures import N_CYCLES, Pose, Shot, cycle, picture
 from modeviz.viewer.stage import LIGHT, box, camera
 
 PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
@@ -69,7 +69,8 @@ def center(image):
 def test_frames_of_a_cycle_are_where_their_phases_put_them(client):
     n = 8
     with held(client) as hold:
-        frames = list(cycle(client, hold, Shot(SIDE, SIDE, "white", LIGHT, 0.5), n))
+        shot = Shot(SIDE, SIDE, "white", LIGHT, 0.5)
+        frames = list(cycle(client, hold, shot, Pose.of(client.camera), n))
     angles = 2 * np.pi * np.arange(n) / n
     expected = np.stack([-(DRIFT * np.exp(1j * angles)).real, (RISE * np.exp(1j * angles)).real])
     pixel = 2 * 10 * np.tan(0.25) / SIDE
@@ -77,12 +78,12 @@ def test_frames_of_a_cycle_are_where_their_phases_put_them(client):
 
 
 def test_a_whole_turn_later_is_the_same_picture(client):
-    shot = Shot(SIDE, SIDE, "white", LIGHT, 0.5)
+    shot, pose = Shot(SIDE, SIDE, "white", LIGHT, 0.5), Pose.of(client.camera)
     with held(client) as hold:
         drawn = []
         for phase in (1.0, 4.0, 1.0 + 2 * np.pi):
             hold(phase)
-            drawn.append(np.asarray(picture(client, shot)))
+            drawn.append(np.asarray(picture(client, shot, pose)))
     np.testing.assert_array_equal(drawn[0], drawn[2])
     assert (drawn[0] != drawn[1]).any()
 
@@ -108,7 +109,7 @@ def test_picture_has_the_size_asked_for_and_its_backdrop(client):
         ("white", (255, 255, 255)),
         ("transparent", (0,) * 4),
     ):
-        image = picture(client, Shot(96, 64, backdrop, LIGHT, 0.5))
+        image = picture(client, Shot(96, 64, backdrop, LIGHT, 0.5), Pose.of(client.camera))
         assert image.size == (96, 64)
         assert image.getpixel((0, 0))[: len(corner)] == corner
     assert image.getpixel((48, 32))[3] == 255
@@ -118,7 +119,7 @@ def test_background_of_the_page_is_in_no_picture_and_stays_on_the_page(server, c
     server.scene.set_background_image(np.full((4, 4, 3), (255, 0, 0), np.uint8), format="png")
     is_drawn = "window.__viserMutable.backgroundMaterial.uniforms.enabled.value"
     wait_for(page, is_drawn)
-    image = picture(client, Shot(64, 64, "transparent", LIGHT, 0.5))
+    image = picture(client, Shot(64, 64, "transparent", LIGHT, 0.5), Pose.of(client.camera))
     assert image.getpixel((0, 0))[3] == 0
     wait_for(page, "window.__viserMutable.backgroundMaterial.visible")
     server.scene.set_background_image(None)

@@ -20,6 +20,7 @@ from modeviz.viewer.pictures import (
     N_FRAMES,
     SIZES,
     Backdrop,
+    Pose,
     Shot,
     cycle,
     picture,
@@ -124,20 +125,20 @@ class PicturePanel:
     def _picture(self, client: viser.ClientHandle, tell: Tell) -> bytes:
         """The 3-D view at this moment."""
         tell(0.0)
-        return png_bytes(picture(client, self._shot(client)))
+        return png_bytes(picture(client, self._shot(client), Pose.of(client.camera)))
 
     def _gif(self, client: viser.ClientHandle, tell: Tell) -> bytes:
         """One cycle that repeats without a seam."""
-        shot = self._shot(client).moving("gif")
+        shot, pose = self._shot(client).moving("gif"), Pose.of(client.camera)
         with held(client) as hold:
-            return gif_bytes(_told(cycle(client, hold, shot, N_FRAMES), tell), CYCLE_S)
+            return gif_bytes(_told(cycle(client, hold, shot, pose, N_FRAMES), tell), CYCLE_S)
 
     def _mp4(self, client: viser.ClientHandle, tell: Tell) -> bytes:
         """Some cycles as a film."""
         check_films()
-        shot = self._shot(client).moving("mp4")
+        shot, pose = self._shot(client).moving("mp4"), Pose.of(client.camera)
         with held(client) as hold:
-            return mp4_bytes(_told(cycle(client, hold, shot, N_FRAMES), tell), CYCLE_S, N_CYCLES)
+            return mp4_bytes(_told(cycle(client, hold, shot, pose, N_FRAMES), tell), CYCLE_S, N_CYCLES)
 
     def _page(self, client: viser.ClientHandle, tell: Tell) -> bytes:
         """The page with its panels, from a browser beside: no page can photograph itself."""
