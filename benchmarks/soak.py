@@ -113,7 +113,7 @@ def soak(vehicle: Vehicle, n_actions: int, seconds: float, seed: int = 1) -> Soa
     try:
         app.start()
         with redirect_stderr(printed), chromium() as browser:
-            page = browser.new_page(viewport={"width": 1280, "height": 720})
+            page = browser.new_page(viewport={"width": 980, "height": 640})
             page.on("pageerror", lambda error: found.failures.append(f"page: {error}"))
             page.on("console", found.note)
             _use(page, server, found, seconds, seed)
