@@ -115,8 +115,6 @@ def test_what_the_user_can_put_right_is_one_message_and_status_2(capsys, folder,
         ("psd", "response_points", "has no response point"),
         ("wheels", "response_points", "has no response point"),
         ("wheels", "wheel_loads", "has no wheel load: give its vehicle.toml a [[wheel_load]]"),
-        ("view", "roads", "has no road"),
-        ("view", "response_points", "has no response point"),
     ],
 )
 def test_a_vehicle_without_what_a_command_shows_is_refused(tmp_path, capsys, command, field, message):

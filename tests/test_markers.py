@@ -15,7 +15,7 @@ def group(*names):
 
 
 def test_card_names_the_group_its_sides_its_rates_and_its_share():
-    text = card_text(group("C1 left", "C1 right"), RATES, 0.234, "cab yaw")
+    text = card_text(group("C1 left", "C1 right"), RATES, "N/mm", 0.234, "cab yaw")
     assert text == (
         "C1  cab front, left + right\n"
         "vertical 1640  lateral 1210  fore-aft 480 N/mm\n"
@@ -23,8 +23,13 @@ def test_card_names_the_group_its_sides_its_rates_and_its_share():
     )
 
 
+def test_card_says_rates_in_the_unit_that_was_chosen():
+    text = card_text(group("C1 left"), RATES, "N/cm", 0.234, "cab yaw")
+    assert text.splitlines()[1] == "vertical 16400  lateral 12100  fore-aft 4800 N/cm"
+
+
 def test_lone_mount_has_no_side():
-    assert card_text(group("C1"), RATES, 0.0, "pitch").splitlines()[0] == "C1  cab front"
+    assert card_text(group("C1"), RATES, "N/mm", 0.0, "pitch").splitlines()[0] == "C1  cab front"
 
 
 @pytest.fixture

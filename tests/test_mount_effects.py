@@ -33,6 +33,15 @@ def test_ten_percent_do_a_hundred_times_what_a_thousandth_does():
         assert effect.vertical_percent == pytest.approx(x_y_z[2], rel=1e-3, abs=1e-5)
 
 
+def test_without_a_response_point_nothing_is_said_of_what_is_felt():
+    vehicle = replace(mounted_cabin(), response_points=())
+    prepared = prepare(vehicle)
+    found = effects(vehicle, sensitivity(prepared, solve(prepared, {}, FLAT)), 8)
+    effect = found["A", "vertical"]
+    assert (effect.lateral_percent, effect.vertical_percent) == (None, None)
+    assert in_a_sentence(replace(effect, frequency_hz=0.123), "roll") == "+10 %: roll +0.12 Hz."
+
+
 def test_an_effect_is_said_with_true_signs():
     assert (
         in_a_sentence(Effect(0.123, -1.44, 0.0), "cab yaw")

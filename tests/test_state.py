@@ -36,6 +36,11 @@ def test_linked_rates_keep_their_ratios(state):
     assert moved.rates["B"] == RATES
 
 
+def test_linked_rates_have_no_more_digits_than_a_box_shows(state):
+    moved = replace(state, linked=frozenset({"A"})).with_rate("A", "vertical", 8e5 / 7)
+    assert moved.rates["A"] == MountRates(8e5 / 7, 42857.0, 57143.0)
+
+
 def test_a_linked_rate_at_zero_has_no_ratio_and_moves_alone(state):
     gone = replace(RATES, lateral=0.0)
     linked = replace(state, linked=frozenset({"A"}), rates={"A": gone, "B": RATES})

@@ -12,6 +12,7 @@ from modeviz.export.wording import (
     signed,
     significant,
     told_apart,
+    within_sentence,
 )
 
 
@@ -38,6 +39,11 @@ def test_negative_numbers_have_a_true_minus():
 def test_names_on_widgets_are_shown_as_they_are():
     assert sentence_case("front & rear") == "Front & rear"
     assert sentence_case("~cab yaw") == "~Cab yaw"
+
+
+def test_titles_go_on_small_within_a_sentence():
+    assert within_sentence("Cab yaw") == "cab yaw"
+    assert within_sentence("~Cab yaw") == "~cab yaw"
 
 
 def test_powers_and_small_numbers_are_written_with_superscripts():

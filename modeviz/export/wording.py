@@ -23,6 +23,12 @@ def signed(value: float, decimals: int, unit: str = "") -> str:
     return f"{sign}{text}{unit}"
 
 
+def within_sentence(title: str) -> str:
+    """A title in the middle of a sentence: its first letter small, also after a "~"."""
+    at = title.startswith("~")
+    return title[:at] + title[at : at + 1].lower() + title[at + 1 :]
+
+
 def sentence_case(name: str) -> str:
     """A name with a capital, for a widget, which shows it as it is; "~cab yaw" is "~Cab yaw"."""
     mark, rest = ("~", name[1:]) if name.startswith("~") else ("", name)

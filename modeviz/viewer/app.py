@@ -80,6 +80,7 @@ class App:
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
         scripts.run(self._gui, "delivery.js")
+        scripts.run(self._gui, "numbers.js")
         self._gui.configure_theme(
             dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
         )

@@ -33,7 +33,6 @@ CARD = "/card"
 PATCH = (0.14, 0.10)
 """m, half length and half width of the ring around a tyre patch."""
 
-PER_MM = factor("N/mm", "stiffness")
 
 Marks = list[tuple[viser.SceneNodeHandle, str]]
 """What marks points of bodies, each with the name of its body."""
@@ -164,6 +163,7 @@ class Markers:
         self,
         selected: str,
         rates: Mapping[str, MountRates],
+        unit: str,
         shares: Mapping[str, float],
         mode: str,
         colors: Mapping[str, Color],
@@ -173,6 +173,7 @@ class Markers:
         Args:
             selected: name of a group, or "" for none.
             rates: what the card says.
+            unit: in which the card says them.
             shares: of the mode's strain energy, by group.
             mode: what the mode is called.
             colors: sRGB, by group, of those whose colour means something.
@@ -188,17 +189,18 @@ class Markers:
         if group is None:
             self._card.show("", np.zeros(3))
         else:
-            text = card_text(group, rates[selected], shares[selected], mode)
+            text = card_text(group, rates[selected], unit, shares[selected], mode)
             self._card.show(text, group.mounts[self._nearest[selected]].points[0])
 
 
-def card_text(group: MountGroup, rates: MountRates, share: float, mode: str) -> str:
-    """What the card of a group says: name, mounts, rates in N/mm and share of a mode's energy."""
+def card_text(group: MountGroup, rates: MountRates, unit: str, share: float, mode: str) -> str:
+    """What the card of a group says: name, mounts, rates in a unit and share of a mode's energy."""
     sides = " + ".join(mount.name.removeprefix(group.name).strip() for mount in group.mounts)
     title = f"{group.name}  {group.label}" + (f", {sides}" if sides else "")
     named = zip(DIRECTIONS, rates.as_tuple(), strict=True)
-    values = "  ".join(f"{direction} {rate / PER_MM:.0f}" for direction, rate in named)
-    return f"{title}\n{values} N/mm\n{100 * share:.0f} % of strain energy in {mode}"
+    per_unit = factor(unit, "stiffness")
+    values = "  ".join(f"{direction} {rate / per_unit:.0f}" for direction, rate in named)
+    return f"{title}\n{values} {unit}\n{100 * share:.0f} % of strain energy in {mode}"
 
 
 def _short_name(mount: Mount, group: MountGroup) -> str:

@@ -75,7 +75,7 @@ def _content(solved: Solved, name: str) -> str:
         MOTION,
         _charts(solved),
         f"<h2>Modes</h2>{_modes(solved.base, solved.now, solved.mode)}",
-        f"<h2>Mount rates, N/mm</h2>{_rates(solved)}" if solved.state.rates else "",
+        f"<h2>Mount rates, {solved.state.unit}</h2>{_rates(solved)}" if solved.state.rates else "",
     )
 
 
@@ -133,17 +133,19 @@ def _modes(base: Results, now: Results, shown: int) -> str:
 
 
 def _rates(solved: Solved) -> str:
-    base = solved.base.rates
-    rows = [row([escape(group), *_rate_cells(r, base[group])]) for group, r in solved.now.rates.items()]
+    base, per_unit = solved.base.rates, factor(solved.state.unit, "stiffness")
+    rows = [
+        row([escape(group), *_rate_cells(rates, base[group], per_unit)])
+        for group, rates in solved.now.rates.items()
+    ]
     return table(("Group", *DIRECTIONS), rows)
 
 
-def _rate_cells(now: MountRates, base: MountRates) -> list[str]:
-    per_mm = factor("N/mm", "stiffness")
+def _rate_cells(now: MountRates, base: MountRates, per_unit: float) -> list[str]:
     cells = []
     for rate, before in zip(now.as_tuple(), base.as_tuple(), strict=True):
         change = f" {span(signed(100 * (rate / before - 1), 0, ' %'), 'dim')}" if before else ""
-        cells.append(f"{rate / per_mm:.4g}" + (change if rate != before else ""))
+        cells.append(f"{rate / per_unit:.4g}" + (change if rate != before else ""))
     return cells
 
 

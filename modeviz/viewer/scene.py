@@ -7,6 +7,7 @@ import viser
 from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System
+from modeviz.export.wording import within_sentence
 from modeviz.shapes.motion import default_amplitude
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
@@ -61,9 +62,9 @@ class Scene:
             if solved.is_detailed:
                 strain = strain_shares(solved)
                 groups = {group: strain[group] for group in state.rates}
-                what = moving.title[:1].lower() + moving.title[1:]
+                what = within_sentence(moving.title)
                 group = state.group if moving.bodies is None else ""  # else no mount is at work
-                self._markers.show(group, state.rates, groups, what, share_colors(shares))
+                self._markers.show(group, state.rates, state.unit, groups, what, share_colors(shares))
         self.follow(state.group if state.follow else "")
 
     def _hidden(self, solved: Solved) -> Collection[str]:

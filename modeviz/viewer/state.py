@@ -14,6 +14,9 @@ from modeviz.vehicle.vehicle import Vehicle
 ORIGINAL = "Original"
 """The name of the vehicle's own rates among the sets."""
 
+LINKED_DIGITS = 5
+"""Of a rate that follows another: as many as a number on the page has room for."""
+
 Coloring = Literal["bodies", "displacement", "kinetic energy", "strain energy"]
 """What the colours of the bodies mean."""
 
@@ -111,7 +114,7 @@ class State:
         old = getattr(before, direction)
         if group in self.linked and old > 0:
             scaled = {
-                name: value * rate / old
+                name: float(f"{value * rate / old:.{LINKED_DIGITS}g}")
                 for name, value in zip(RATE_FIELDS, before.as_tuple(), strict=True)
             }
         else:

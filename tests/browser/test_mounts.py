@@ -116,6 +116,18 @@ def test_a_removed_mount_and_a_rigid_one_are_taken_with_the_slider_at_its_ends(a
     wait_until(page, lambda: rate(app, "A", "fore_aft") == 1e9 and position(slider) == end)
 
 
+def test_a_number_that_is_taken_out_is_said_again(app, page):
+    number = box(page, "A", "vertical")
+    number.scroll_into_view_if_needed()
+    number.click()
+    number.press("ControlOrMeta+a")
+    number.press("Delete")
+    assert not number.input_value()
+    number.blur()
+    wait_until(page, lambda: number.input_value() == "800")
+    assert rate(app, "A", "vertical") == 8e5
+
+
 @pytest.mark.parametrize("typed", ["-50", "2000000"])
 def test_what_no_rate_can_be_is_refused_once_and_put_back(app, page, typed):
     type_rate(page, "A", "vertical", typed)

@@ -158,6 +158,8 @@ def _cells(effect: Effect | None) -> tuple[str, str, str]:
     )
 
 
-def _judged(percent: float) -> str:
+def _judged(percent: float | None) -> str:
+    if percent is None:
+        return span("–", "dim")
     kind = "dim" if abs(percent) < 0.05 else "good" if percent < 0 else "bad"
     return span(signed(percent, 1, " %"), kind)

@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from modeviz.export.wording import signed
 from modeviz.tuning.results import AXIS
 from modeviz.tuning.sensitivity import Sensitivity, rate_variables
@@ -19,9 +17,9 @@ class Effect:
 
     frequency_hz: float
     """To the frequency of the shown mode."""
-    lateral_percent: float
-    """To the lateral RMS acceleration of the first response point."""
-    vertical_percent: float
+    lateral_percent: float | None
+    """To the lateral RMS acceleration of the first response point; None where there is no point."""
+    vertical_percent: float | None
 
 
 Effects = Mapping[tuple[str, str], Effect]
@@ -37,10 +35,10 @@ def effects(vehicle: Vehicle, sensitivity: Sensitivity, mode: int) -> Effects:
         mode: the shown mode of that answer.
     """
     frequency_hz = TENTH * sensitivity.frequency_hz[mode]
-    felt = sensitivity.rms[0] if len(sensitivity.rms) else np.zeros((3, len(frequency_hz)))
-    lateral, vertical = (100 * TENTH * felt[AXIS[d]] for d in ("lateral", "vertical"))
+    percent = 100 * TENTH * sensitivity.rms[:1, [AXIS["lateral"], AXIS["vertical"]]]
+    felt = percent[0].T.tolist() if len(percent) else [(None, None)] * len(frequency_hz)
     return {
-        (v.group, v.direction): Effect(float(frequency_hz[i]), float(lateral[i]), float(vertical[i]))
+        (v.group, v.direction): Effect(float(frequency_hz[i]), *felt[i])
         for i, v in enumerate(rate_variables(vehicle))
     }
 
@@ -52,8 +50,7 @@ def in_a_sentence(effect: Effect, mode: str) -> str:
         effect: of a rate.
         mode: what the shown mode is called.
     """
-    return (
-        f"+10 %: {mode} {signed(effect.frequency_hz, 2)} Hz, "
-        f"lateral RMS {signed(effect.lateral_percent, 1)} %, "
-        f"vertical RMS {signed(effect.vertical_percent, 1)} %."
-    )
+    felt = {"lateral": effect.lateral_percent, "vertical": effect.vertical_percent}
+    parts = [f"{mode} {signed(effect.frequency_hz, 2)} Hz"]
+    parts += [f"{d} RMS {signed(percent, 1)} %" for d, percent in felt.items() if percent is not None]
+    return f"+10 %: {', '.join(parts)}."
