@@ -1,6 +1,6 @@
 """Finding and moving the controls of mount rates on a page."""
 
-from pages import wait_for
+from pages import wait_until
 from playwright.sync_api import Locator, Page
 
 DIRECTIONS = ("vertical", "lateral", "fore-aft")
@@ -28,15 +28,19 @@ def position(slider: Locator) -> int:
 
 def open_folder(page: Page, group: str) -> None:
     """Opens the folder of a group, if it is closed, and waits until it is."""
-    if not is_open(page, group):
-        page.evaluate(
-            """(group) => document.querySelector(`.mv-rates[data-group="${group}"]`)
-                .closest(".mantine-Paper-root").firstElementChild.click()""",
-            group,
-        )
-    wait_for(page, f"({IS_OPEN})(a.group)", group=group)
+
+    def opened() -> bool:
+        if not is_open(page, group):
+            page.evaluate(TOGGLE, group)
+            page.wait_for_timeout(UNFOLDING_MS)  # the page's own script may have clicked as well
+        return is_open(page, group)
+
+    wait_until(page, opened)
 
 
+UNFOLDING_MS = 500
+TOGGLE = """(group) => document.querySelector(`.mv-rates[data-group="${group}"]`)
+  .closest(".mantine-Paper-root").firstElementChild.click()"""
 IS_OPEN = """(group) => {
   const marker = document.querySelector(`.mv-rates[data-group="${group}"]`);
   const folder = marker?.closest(".mantine-Paper-root");
