@@ -7,6 +7,7 @@ import numpy as np
 import viser
 
 from modeviz.vehicle.arrays import Floats
+from modeviz.viewer import scripts
 from modeviz.viewer.stage import FIELD_OF_VIEW, ISO, Box, camera
 
 UNTOUCHED = 1e-3
@@ -22,7 +23,7 @@ class Cameras:
     """Every page has its own camera; all of them follow the same point."""
 
     def __init__(self, server: viser.ViserServer, box: Box) -> None:
-        """Points the cameras of pages to come at a vehicle."""
+        """Points the cameras of pages to come at a vehicle; their pictures' sizes are in CSS pixels."""
         self._server, self._box = server, box
         self._views: dict[int, tuple[str, Floats]] = {}
         self._lock = threading.RLock()  # pages tell of their cameras in several threads
@@ -31,6 +32,7 @@ class Cameras:
         initial = server.initial_camera
         initial.position, initial.look_at = camera(box, ISO, 1000, 1000)
         initial.fov = FIELD_OF_VIEW
+        scripts.run(server.scene, "css_pixels.js")
 
         @server.on_client_connect
         def _(client: viser.ClientHandle) -> None:
@@ -76,7 +78,7 @@ class Cameras:
         """Where a glide ends: framed as before, or looking at the point if somebody moved it."""
         position, look_at = client.camera.position, client.camera.look_at
         view, put = self._views.get(client.client_id, (ISO, position))
-        if np.allclose(position, put, atol=UNTOUCHED):
+        if _is_at(position, put):
             framed = self._framed(client, view)
             self._views[client.client_id] = view, framed[0]
             return framed
@@ -91,14 +93,22 @@ class Cameras:
         return position - look_at + self._box.middle + self._shift, self._box.middle + self._shift
 
     def _keep_framed(self, client: viser.ClientHandle) -> None:
-        """Looks again when the picture's shape has changed, unless somebody has moved the camera."""
+        """Looks again when the picture's shape has changed, unless somebody has moved the camera.
+
+        viser puts the camera back where pages begin, even after it was framed if a page loads slowly.
+        """
         with self._lock:
             if client.client_id not in self._views:
                 return
             view, put = self._views[client.client_id]
-            is_untouched = np.allclose(client.camera.position, put, atol=UNTOUCHED)
-            if is_untouched and not np.allclose(self._framed(client, view)[0], put, atol=UNTOUCHED):
+            position, begin = client.camera.position, self._server.initial_camera.position
+            is_untouched = _is_at(position, put) or _is_at(position, begin)
+            if is_untouched and not _is_at(position, self._framed(client, view)[0]):
                 self.look(client, view)
+
+
+def _is_at(position: Floats, place: Floats) -> bool:
+    return np.allclose(position, place, atol=UNTOUCHED)
 
 
 def _put(client: viser.ClientHandle, pose: Pose) -> None:

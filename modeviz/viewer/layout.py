@@ -11,11 +11,11 @@ from viser import _messages
 WIDE, NARROW = "wide", "narrow"
 
 NARROW_BELOW, WIDE_ABOVE = 640, 900
-"""Pixels between wide panels below which they are made narrow, and between narrow ones above which they
-are wide again."""
+"""CSS pixels between wide panels below which they are made narrow, and between narrow ones above which
+they are wide again."""
 
 Widths = Mapping[str, int]
-"""Pixels, `WIDE` and `NARROW`."""
+"""CSS pixels, `WIDE` and `NARROW`."""
 
 
 class Layout:

@@ -118,8 +118,8 @@ def camera(box: Box, view: str, width: int, height: int) -> tuple[Floats, Floats
     Args:
         box: what to show.
         view: one of `VIEWS`.
-        width: of the picture, pixels.
-        height: of the picture, pixels.
+        width: of the picture, CSS pixels.
+        height: of the picture, CSS pixels.
     """
     backward = np.array(VIEWS[view]) / np.linalg.norm(VIEWS[view])
     right = np.cross([0, 0, 1.0], backward)

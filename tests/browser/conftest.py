@@ -44,9 +44,9 @@ def opened_pages(browser: Browser):
 def open_page(browser: Browser, opened_pages):
     """Opens a page on a server and waits for its scene."""
 
-    def open_page(server, viewport=(480, 360), query="?fixedDpr=1") -> Page:
+    def open_page(server, viewport=(480, 360), query="?fixedDpr=1", scale=1) -> Page:
         size = {"width": viewport[0], "height": viewport[1]}
-        page = browser.new_context(viewport=size).new_page()
+        page = browser.new_context(viewport=size, device_scale_factor=scale).new_page()
         errors = opened_pages[page] = []
         page.set_default_timeout(TIMEOUT_MS)
         page.on("pageerror", lambda error: errors.append(f"page error: {error}"))

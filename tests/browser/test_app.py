@@ -12,6 +12,7 @@ from pages import CLOSE_NOTICES, send, wait_for, wait_until
 from modeviz.tuning.preparation import FREQUENCY_HZ, prepare_modes
 from modeviz.tuning.results import Conditions, solve_modal
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.viewer import stage
 from modeviz.viewer.plots import SHOWN_HZ
 
 GROUPS = ("F", "C1", "C2", "E", "T")
@@ -31,6 +32,12 @@ SHAPE = """
 })()
 """
 CHANGED = f"(now => now?.length === a.before.length && now.some((x, i) => x !== a.before[i]))({SHAPE})"
+IN_PICTURE = """a.corners.every((corner) => {
+  const { camera, nodeRefFromName } = window.__viserMutable;
+  const place = nodeRefFromName["/vehicle"].localToWorld(camera.position.clone().set(...corner));
+  const { x, y } = place.project(camera);
+  return Math.abs(x) < 1 && Math.abs(y) < 1;
+})"""
 TITLE = "document.querySelector('.mv .title')?.textContent"
 
 
@@ -212,15 +219,28 @@ def test_the_motion_plays_and_stops_with_a_click(app, page):
     app._animation._run(False)
 
 
-def test_panels_are_narrower_on_a_small_page_and_on_that_alone(app, server, page, open_page):
-    def has_beside(of, width):
-        """Whether that much is left for the vehicle, but for the panels' borders."""
-        canvas = of.evaluate("window.__viserMutable.canvas.clientWidth")
-        return width - 20 < canvas <= width
+def has_beside(page, width):
+    """Whether that much is left for the vehicle, but for the panels' borders."""
+    canvas = page.evaluate("window.__viserMutable.canvas.clientWidth")
+    return width - 20 < canvas <= width
 
+
+def test_panels_are_narrower_on_a_small_page_and_on_that_alone(app, server, page, open_page):
     small = open_page(server, viewport=(1280, 500))
     wait_until(small, lambda: has_beside(small, 1280 - 300 - 380))
     page.set_viewport_size({"width": 1600, "height": 500})
     wait_until(page, lambda: has_beside(page, 1600 - 376 - 484))
     assert has_beside(small, 1280 - 300 - 380)
     small.context.close()
+
+
+def test_a_fine_screen_is_as_large_as_a_coarse_one(app, server, open_page):
+    known = set(server.get_clients())
+    fine = open_page(server, viewport=(1280, 720), query="", scale=2)
+    wait_until(fine, lambda: has_beside(fine, 1280 - 300 - 380))
+    (number,) = set(server.get_clients()) - known
+    camera = server.get_clients()[number].camera
+    size = fine.evaluate("(({ clientWidth: w, clientHeight: h }) => [w, h])(__viserMutable.canvas)")
+    wait_until(fine, lambda: [camera.image_width, camera.image_height] == size)
+    wait_for(fine, IN_PICTURE, corners=stage.box(app.session.vehicle).corners.tolist())
+    fine.context.close()

@@ -69,6 +69,10 @@ PLACES = """
 })()
 """
 
+PUT_BACK = "__viserMutable.resetCameraPose(false); __viserMutable.cameraControl.update(0)"
+SEEN_FROM = """(({ camera, nodeRefFromName }) =>
+  nodeRefFromName["/vehicle"].worldToLocal(camera.position.clone()).toArray()
+)(__viserMutable)"""
 RUBBER = "window.__viserSceneTree.getState()['/mounts/C left/rubber'].message.props.color"
 
 
@@ -329,6 +333,16 @@ def test_view_stays_framed_when_the_page_narrows_until_somebody_moves_the_camera
         assert distance() == pytest.approx(moved, rel=1e-3)
     finally:
         resize(900)
+
+
+def test_view_is_framed_again_when_viser_has_put_the_camera_where_pages_begin(server, scene, page):
+    client = next(iter(server.get_clients().values()))
+    scene.look(client, "Side")
+    framed = client.camera.position
+    wait_until(page, lambda: page.evaluate(SEEN_FROM) == pytest.approx(framed, abs=1e-3))
+    begin = page.evaluate(f"() => {{ {PUT_BACK}; return {SEEN_FROM}; }}")
+    assert begin == pytest.approx(server.initial_camera.position, abs=1e-3)
+    wait_until(page, lambda: page.evaluate(SEEN_FROM) == pytest.approx(framed, abs=1e-3))
 
 
 def test_camera_glides_to_the_mounts_that_are_followed_and_back(server, scene, page, modal):
