@@ -236,7 +236,7 @@ def test_panels_are_narrower_on_a_small_page_and_on_that_alone(app, server, page
 
 def test_a_fine_screen_is_as_large_as_a_coarse_one(app, server, open_page):
     known = set(server.get_clients())
-    fine = open_page(server, viewport=(1280, 720), query="", scale=2)
+    fine = open_page(server, viewport=(1280, 400), query="", scale=2)
     wait_until(fine, lambda: has_beside(fine, 1280 - 300 - 380))
     (number,) = set(server.get_clients()) - known
     camera = server.get_clients()[number].camera
