@@ -11,8 +11,10 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.panels.energy import MOVES_FREELY, EnergyPanel
 from modeviz.viewer.panels.modes import NONE_LISTED, ModesPanel, scale
+from modeviz.viewer.panels.side_by_side import side_by_side
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import first_state
 
@@ -88,6 +90,36 @@ def test_everything_is_against_the_set_compared_with(gui, answer):
     assert f"Cab yaw {soft:.2f} → {own:.2f} Hz" in html
     assert "Soft" in html
     assert "riginal" not in html
+
+
+@pytest.fixture
+def stiffer(answer):
+    """The built-in truck with C1 at 1900 N/mm vertical and 1905 N/mm lateral."""
+    truck = read_vehicle(builtin_vehicle())
+    rates = {"C1": replace(truck.rates["C1"], vertical=1.9e6, lateral=1.905e6)}
+    return answer(rates, truck, conditions=Conditions("road 1", truck.speed))
+
+
+def test_namesakes_are_compared_by_shape_and_what_has_no_partner_says_what_it_was(gui, stiffer):
+    """From the shapes alone: see the MACs of `test_pairing`."""
+    html = modes_table(gui, *stiffer)
+    changes = {(cells[0], cells[1]): cells[2] for cells in rows(html, "modes")}
+    assert changes["Rear axle fore-aft", "17.88"].strip("+−") == "0.00"
+    assert changes["~Front wheels yaw 2", "20.26"] == "~+0.42"
+    assert changes["~Front wheels yaw", "18.98"] == changes["~Cab fore-aft", "15.19"] == "–"
+    assert changes["~Cab yaw", "12.17"] == "+0.48"
+    assert "its shape was the cab roll of Original, 17.34 Hz" in html
+    assert "its shape was the rear axle fore-aft of Original, 15.12 Hz" in html
+    assert "new" not in changes.values()
+
+
+def test_side_by_side_compares_the_same_modes_as_the_table(stiffer):
+    html = side_by_side(stiffer[1])
+    found = rows(html, "")
+    assert ["~Front wheels yaw", "–", "18.98", "–"] in found
+    assert ["~Front wheels yaw 2", "19.84", "20.26", "~+0.42"] in found
+    assert ["~Rear axle fore-aft", "15.12", "–", ""] in found
+    assert not any("17.88" in cells for cells in found)
 
 
 def test_the_ladder_spans_what_the_mounts_hold(answer):

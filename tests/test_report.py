@@ -261,5 +261,9 @@ def test_where_name_and_shape_part_the_shape_is_followed():
     (yaw,) = [row for row in rows if row[0] == "Cab yaw"]
     assert yaw[1:4] == ["11.69", "9.78", "−1.91"]
     assert yaw[-1] == "~engine lateral, 11.88 Hz (MAC 0.43)"
+    assert [row[1:4] for row in rows if row[0].startswith("Rear axle fore-aft")] == [
+        ["~15.12", "–", "–"],
+        ["17.88", "17.63", "−0.25"],
+    ]
     (new,) = [row for row in rows if row[0] == "Cab fore-aft"]
     assert new[1:4] == ["–", "~10.89", "–"]

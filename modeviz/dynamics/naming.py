@@ -5,6 +5,7 @@ assignment, solved as a whole, hands the names out. What is left is called after
 most and how they do.
 """
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -43,6 +44,11 @@ class ModeName:
     name: str
     score: float
     """Share of that motion in the mode, 0 to 1."""
+
+    @property
+    def motion(self) -> str:
+        """What moves: "box flexing" of "box flexing 2"."""
+        return re.sub(r" \d+$", "", self.name)
 
     @property
     def is_weak(self) -> bool:

@@ -80,6 +80,11 @@ class Track:
         """Whose identity is uncertain, by a step or because its shape has changed, (n_start,) bool."""
         return (self.step_mac < STEP_MAC) | (self.mac < WEAK_MAC)
 
+    def origin(self, mode: int) -> int | None:
+        """Which mode of the start has become this present one; None if none has."""
+        before = np.flatnonzero(self.index == mode)
+        return int(before[0]) if before.size else None
+
     def split(self, mode: int, count: int = 3) -> list[tuple[int, float]]:
         """The present modes that have most of a start's shape, and how much."""
         largest = np.argsort(-self.shares[mode])[:count]

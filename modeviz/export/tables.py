@@ -54,7 +54,7 @@ def modes_table(followed: Followed, below_hz: float) -> str:
 
 def _came_from(followed: Followed, mode: int) -> str:
     """Name and frequency of the mode with the vehicle's own rates that has become this one."""
-    origin = followed.origin(mode)
+    origin = followed.track.origin(mode)
     if origin is None:
         return "-"
     mark = "~" if followed.track.weak[origin] else ""

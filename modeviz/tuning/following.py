@@ -25,11 +25,6 @@ class Followed:
     track: Track
     """From the modes of `base` to those of `now`."""
 
-    def origin(self, mode: int) -> int | None:
-        """Which mode of `base` has become this one of `now`; None if none has."""
-        before = np.flatnonzero(self.track.index == mode)
-        return int(before[0]) if before.size else None
-
 
 def solve_followed(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> Followed:
     """The modes with other mount rates, and how they came from those with the vehicle's own.

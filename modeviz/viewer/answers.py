@@ -13,6 +13,7 @@ from modeviz.dynamics.tracking import STEP_MAC, Track
 from modeviz.errors import ModevizError, SolveError
 from modeviz.tuning.check import Check, ClassicError, classic_error
 from modeviz.tuning.following import accept, follow_rates
+from modeviz.tuning.pairing import Pair, pair_modes
 from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import (
     Conditions,
@@ -93,6 +94,15 @@ class Solved:
     def base(self) -> Results:
         """With the set of rates that all is compared with."""
         return self.named[self.state.against]
+
+    @cached_property
+    def pairs(self) -> tuple[Pair, ...]:
+        """The modes of `base` and of `now`, as they are compared."""
+        return pair_modes(self.base, self.now, self.track)
+
+    def counterpart(self, mode: int) -> int | None:
+        """The mode of `base` that one of `now` is compared with; None if there is none."""
+        return next(p.before for p in self.pairs if p.after == mode)
 
     @cached_property
     def strain(self) -> Mapping[str, float]:

@@ -14,7 +14,6 @@ from modeviz.export.axes import Axis
 from modeviz.export.charts import BASE, Curve, line_chart
 from modeviz.export.charts import NOW as NOW_COLOR
 from modeviz.export.wording import signed
-from modeviz.tuning.results import Results
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
@@ -23,7 +22,7 @@ from modeviz.viewer.driver import DRIVER
 from modeviz.viewer.handshake import named_page
 from modeviz.viewer.html import block, row, span, style_sheet, table, title
 from modeviz.viewer.panels.charts import chart_lines, legend
-from modeviz.viewer.panels.modes import listed
+from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.panels.peaks import strongest
 from modeviz.viewer.plots import SHOWN_HZ, Line, Scale, level_axis, level_range
 from modeviz.viewer.responses import NOW, Responses, curve_label
@@ -74,7 +73,7 @@ def _content(solved: Solved, name: str) -> str:
         f'<p class="dim">{escape(vehicle.name)}, {escape(name)}; {escape(moving.about)}</p>',
         MOTION,
         _charts(solved),
-        f"<h2>Modes</h2>{_modes(solved.base, solved.now, solved.mode)}",
+        f"<h2>Modes</h2>{_modes(solved)}",
         f"<h2>Mount rates, {solved.state.unit}</h2>{_rates(solved)}" if solved.state.rates else "",
     )
 
@@ -122,13 +121,12 @@ def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response
     return f"<h2>{escape(label)}</h2>{chart}"
 
 
-def _modes(base: Results, now: Results, shown: int) -> str:
-    before = {name.name: f for name, f in listed(base).values()}
+def _modes(solved: Solved) -> str:
     rows = []
-    for mode, (name, f) in listed(now).items():
-        moved = signed(f - before[name.name], 2) if name.name in before else "new"
-        zeta = f"{100 * now.modes.damping_ratio[mode]:.1f}"
-        rows.append(row([title(name.spoken), f"{f:.2f}", span(moved, "dim"), zeta], mode == shown))
+    for mode, (name, f) in listed(solved.now).items():
+        moved = span(moved_by(solved, mode), "dim")
+        zeta = f"{100 * solved.now.modes.damping_ratio[mode]:.1f}"
+        rows.append(row([title(name.spoken), f"{f:.2f}", moved, zeta], mode == solved.mode))
     return table(("Mode", "Hz", "Δ Hz", "ζ %"), rows)
 
 

@@ -1,6 +1,6 @@
 """What a report says of mounts and modes; a section that has nothing to say is empty."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 
 import numpy as np
@@ -12,6 +12,7 @@ from modeviz.export.wording import number, percent_change, signed, significant
 from modeviz.ride.psd import power_decibels
 from modeviz.tuning.comparison import Comparison
 from modeviz.tuning.following import FOLLOWED_HZ
+from modeviz.tuning.pairing import Pair, pair_modes
 from modeviz.tuning.results import ModalResults, Results
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup
@@ -40,7 +41,7 @@ def _group_rows(before: MountGroup, after: MountGroup) -> Iterator[list[str]]:
 
 def frequencies(comparison: Comparison) -> str:
     """Natural frequencies by name, as the paper's Table 1, and where the shapes went."""
-    rows = [_mode_row(comparison, before, after) for before, after in _pairs(comparison)]
+    rows = [_mode_row(comparison, pair) for pair in _pairs(comparison)]
     first, second = map(escape, comparison.names)
     groups = [("", 1), ("Frequency, Hz", 2), ("Change", 2), ("Damping, %", 2), ("", 1)]
     header = ["Mode", first, second, "Hz", "%", first, second, "The shape went to"]
@@ -55,38 +56,43 @@ def frequencies(comparison: Comparison) -> str:
     )
 
 
-def _pairs(comparison: Comparison) -> list[tuple[int | None, int | None]]:
-    """The modes of each name with both sets of rates, by rising frequency."""
+def _pairs(comparison: Comparison) -> list[Pair]:
+    """What is compared and with either set of rates is listed, by rising frequency."""
     base, now = comparison.base, comparison.now
-    pairs = [(i, now.mode_index(base.names[i].name)) for i in _below(base)]
-    both = {after for _, after in pairs}
-    pairs += [(base.mode_index(now.names[i].name), i) for i in _below(now) if i not in both]
+    before, after = set(_below(base)), set(_below(now))
 
-    def frequency(pair: tuple[int | None, int | None]) -> float:
-        before, after = pair
-        if before is not None:
-            return float(base.modes.frequency_hz[before])
-        return float(now.modes.frequency_hz[after])
+    def frequency(pair: Pair) -> float:
+        if pair.before is not None:
+            return float(base.modes.frequency_hz[pair.before])
+        return float(now.modes.frequency_hz[pair.after])
 
-    return sorted(pairs, key=frequency)
+    pairs = pair_modes(base, now, comparison.track)
+    return sorted((p for p in pairs if p.before in before or p.after in after), key=frequency)
 
 
-def _mode_row(comparison: Comparison, before: int | None, after: int | None) -> list[str]:
-    """A name's modes with both sets of rates; with one of them there may be none of that name."""
+def _mode_row(comparison: Comparison, pair: Pair) -> list[str]:
+    """A mode with both sets of rates; with one of them there may be none to compare with."""
+    before, after = pair.before, pair.after
     sides = ((comparison.base, before), (comparison.now, after))
     found = [(r, i) for r, i in sides if i is not None]
-    results, mode = found[0]
     changes = [NONE, NONE]
     if len(found) == 2:
         f, f_now = (float(r.modes.frequency_hz[i]) for r, i in found)
-        changes = [signed(f_now - f, 2), signed(100 * (f_now / f - 1), 1)]
+        mark = "~" if pair.is_weak else ""
+        changes = [mark + signed(f_now - f, 2), signed(100 * (f_now / f - 1), 1)]
     return [
-        title(results.names[mode].name),
+        _name(found),
         *(_frequency(r, i) for r, i in sides),
         *changes,
         *(NONE if i is None else f"{100 * r.modes.damping_ratio[i]:.1f}" for r, i in sides),
         NONE if before is None else _went_to(comparison, before, after),
     ]
+
+
+def _name(found: Sequence[tuple[ModalResults, int]]) -> str:
+    """What a mode is called, and what it was if a namesake came or went."""
+    *was, now = (results.names[mode].name for results, mode in found)
+    return title(now) + (f" <small>was {escape(was[0])}</small>" if was not in ([], [now]) else "")
 
 
 def _frequency(results: ModalResults, mode: int | None) -> str:

@@ -59,10 +59,9 @@ class ModesPanel:
     def _table(self, solved: Solved, modes: list[int]) -> str:
         if not modes:
             return span(NONE_LISTED, "dim")
-        before = {name.name: f for name, f in listed(solved.base).values()}
         moved = _moves_most(solved.now, self._labels)
         rows = [
-            row(self._cells(i, mode, solved.now, before, moved[mode]), chosen=mode == solved.mode)
+            row(self._cells(i, mode, solved, moved[mode]), chosen=mode == solved.mode)
             for i, mode in enumerate(modes[:N_ROWS])
         ]
         header = (
@@ -74,15 +73,13 @@ class ModesPanel:
         )
         return table(header, rows, "modes")
 
-    def _cells(
-        self, i: int, mode: int, now: Results, before: dict[str, float], moved: str
-    ) -> list[str]:
+    def _cells(self, i: int, mode: int, solved: Solved, moved: str) -> list[str]:
+        now = solved.now
         name, f = now.names[mode], float(now.modes.frequency_hz[mode])
-        change = f - before[name.name] if name.name in before else None
         return [
             self._buttons.label(i, hinted(title(name.spoken), title(name.spoken))),
             f"{f:.2f}",
-            span("new" if change is None else signed(change, 2), "dim" if not change else ""),
+            moved_by(solved, mode),
             f"{100 * now.modes.damping_ratio[mode]:.1f}",
             span(moved, "dim"),
         ]
@@ -95,6 +92,25 @@ def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
         for i, f in enumerate(results.modes.frequency_hz.tolist())
         if LISTED_HZ[0] < f < LISTED_HZ[1]
     }
+
+
+def moved_by(solved: Solved, mode: int) -> str:
+    """How far a mode moved; where there is none to compare it with, what its shape was, as a hint."""
+    base, now, track = solved.base, solved.now, solved.track
+    pair = next(p for p in solved.pairs if p.after == mode)
+    before = track.origin(mode) if pair.before is None else pair.before
+    if before is None:
+        return span("new", "dim")
+    name, old = base.names[before].name, float(base.modes.frequency_hz[before])
+    was = f"the {escape(name)} of {escape(solved.state.against)}, {old:.2f} Hz"
+    if pair.before is None:
+        part = " in part" if track.weak[before] else ""
+        return hinted(span("–", "dim"), f"Nothing there moves like this; its shape was{part} {was}")
+    change = float(now.modes.frequency_hz[mode]) - old
+    text = span(("~" if pair.is_weak else "") + signed(change, 2), "" if change else "dim")
+    if pair.is_weak:
+        return hinted(text, f"Against {was}, which is alike only in part")
+    return text if name == now.names[mode].name else hinted(text, f"Against {was}")
 
 
 def scale(base: Results) -> Scale | None:
@@ -117,7 +133,7 @@ def _ladder(solved: Solved) -> str:
     drawn = scale(base)
     if drawn is None:
         return ""
-    old = base.mode_index(solved.name.name)
+    old = solved.counterpart(solved.mode)
     before, weak = base.modes.frequency_hz.tolist(), track.weak.tolist()
     rails = [
         Rail(before[i], after, weak[i], strong=i == old)
@@ -143,9 +159,8 @@ def _by_name(results: Results) -> dict[str, float]:
 
 
 def _old_shape(solved: Solved) -> str:
-    """What became of the shape that had the shown mode's name, where it is no longer that mode."""
-    name = solved.name.name
-    old = solved.base.mode_index(name)
+    """What became of the shape that the shown mode is compared with, where it is not that mode."""
+    old = solved.counterpart(solved.mode)
     if old is None or solved.track.shares[old, solved.mode] > SAME_SHAPE:
         return ""
     modes, names = solved.now.modes, solved.now.names
@@ -154,8 +169,8 @@ def _old_shape(solved: Solved) -> str:
         for i, share in solved.track.split(old, N_PARTS)
         if share > LEAST_PART
     ]
-    shape = f"The {escape(name)} of {escape(solved.state.against)} is now {', '.join(parts)}"
-    return f'<div class="dim">{shape}</div>'
+    shape = f"The {escape(solved.base.names[old].name)} of {escape(solved.state.against)}"
+    return f'<div class="dim">{shape} is now {", ".join(parts)}</div>'
 
 
 def _moves_most(results: Results, labels: Mapping[str, str]) -> list[str]:

@@ -1,8 +1,8 @@
 """The set compared with and the present rates, side by side, as page text."""
 
+import math
 from html import escape
 
-from modeviz.dynamics.naming import ModeName
 from modeviz.export.wording import number, sentence_case, signed
 from modeviz.tuning.results import Results
 from modeviz.units import factor
@@ -10,7 +10,7 @@ from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.html import change, heading, row, span, table, title
 from modeviz.viewer.panels.figures import DRIVER
-from modeviz.viewer.panels.modes import listed
+from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.responses import NOW, Responses
 from modeviz.viewer.state import Curve, variant_name
 
@@ -26,7 +26,7 @@ def side_by_side(solved: Solved) -> str:
     if not rates:
         same = f"The present rates are those of {names[0]}: change one, or compare with another set."
         return heading("Side by side") + span(same, "dim")
-    sections = [(f"Rates, {state.unit}", rates), ("Modes, Hz", _modes(base, now))]
+    sections = [(f"Rates, {state.unit}", rates), ("Modes, Hz", _modes(solved))]
     sections.append(("Driver", _figures(solved)))
     tables = "".join(table((what, *names, "change"), rows) for what, rows in sections if rows)
     return heading("Side by side") + f'<div class="beside">{tables}</div>'
@@ -52,25 +52,28 @@ def _losses(base: Results, now: Results, group: str) -> tuple[str, str, str]:
     return f"{before:.3g}", f"{after:.3g}", signed(after - before, 3)
 
 
-def _modes(base: Results, now: Results) -> list[str]:
+def _modes(solved: Solved) -> list[str]:
     """The modes that both have and that moved, and those that only one has."""
-    before, after = _named(base), _named(now)
+    base, now = solved.base, solved.now
+    before, after = listed(base), listed(now)
     rows = []
-    for name in sorted({*before, *after}, key=lambda n: (after.get(n) or before[n])[1]):
-        old, new = before.get(name), after.get(name)
-        if old and new and abs(new[1] - old[1]) < LEAST_HZ:
+    for pair in solved.pairs:
+        old, new = _frequency(base, pair.before), _frequency(now, pair.after)
+        is_listed = pair.before in before or pair.after in after
+        if not is_listed or abs(new - old) < LEAST_HZ:
             continue
-        spoken = (new or old or (name, 0.0))[0]
-        frequencies = [f"{f[1]:.2f}" if f else "–" for f in (old, new)]
-        delta = signed(new[1] - old[1], 2) if old and new else ""
-        rows.append(row([title(spoken), *frequencies, delta]))
-    return rows
+        texts = ["–" if math.isnan(f) else f"{f:.2f}" for f in (old, new)]
+        if pair.after is not None:
+            cells = [title(now.names[pair.after].spoken), *texts, moved_by(solved, pair.after)]
+            rows.append((new, row(cells)))
+        elif pair.before is not None:
+            rows.append((old, row([title(base.names[pair.before].spoken), *texts, ""])))
+    return [cells for _, cells in sorted(rows)]
 
 
-def _named(results: Results) -> dict[str, tuple[str, float]]:
-    """The modes of the ride band by name: what they are called on the page, and frequency."""
-    modes: list[tuple[ModeName, float]] = list(listed(results).values())
-    return {name.name: (name.spoken, f) for name, f in modes}
+def _frequency(results: Results, mode: int | None) -> float:
+    """Not a number if there is no mode."""
+    return math.nan if mode is None else float(results.modes.frequency_hz[mode])
 
 
 def _figures(solved: Solved) -> list[str]:
