@@ -17,7 +17,7 @@ from modeviz.viewer.plots import SHOWN_HZ
 
 GROUPS = ("F", "C1", "C2", "E", "T")
 CAB = "/vehicle/cab"
-SOLVE_S = 120
+SOLVE_S = 300
 SINGLE_DB = 2.0**-18  # how far 128 dB are rounded in single precision
 
 CHARTS = "Object.values(window.__viserTestpoints?.uplots ?? {})"
