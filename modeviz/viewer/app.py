@@ -20,6 +20,7 @@ from modeviz.viewer import scripts
 from modeviz.viewer.answers import Solved, asks_for_the_same
 from modeviz.viewer.doors import Server, open_server
 from modeviz.viewer.hotkeys import Hotkeys
+from modeviz.viewer.html import style_sheet
 from modeviz.viewer.layout import NARROW, WIDE, Layout
 from modeviz.viewer.offline import offline_page
 from modeviz.viewer.panels.animation import AnimationCard
@@ -79,6 +80,7 @@ class App:
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
+        scripts.run(self._gui, "style.js", style_sheet())
         scripts.run(self._gui, "delivery.js")
         scripts.run(self._gui, "numbers.js")
         self._gui.configure_theme(

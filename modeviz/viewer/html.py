@@ -11,8 +11,8 @@ from modeviz.export.markup import title as title
 
 
 def style_sheet() -> str:
-    """The page's one style sheet, to be put into an element that is always there."""
-    return f"<style>{files('modeviz.viewer').joinpath('style.css').read_text('utf-8')}</style>"
+    """The rules of the page's one style sheet."""
+    return files("modeviz.viewer").joinpath("style.css").read_text("utf-8")
 
 
 def block(*content: str) -> str:

@@ -58,9 +58,8 @@ def offline_page(
     vehicle = solved.now.prepared.vehicle
     page = named_page(recording.as_html(dark).encode(), f"{vehicle.name}: {solved.movement.title}")
     beside = (
-        style_sheet()
-        + f"<style>{_file('offline.css')}</style><aside>{_content(solved, name)}</aside>"
-        + f"<script>({_file('offline.js').rstrip().rstrip(';')})({json.dumps(DRIVER)});</script>"
+        f"<style>{style_sheet()}{_file('offline.css')}</style><aside>{_content(solved, name)}</aside>"
+        f"<script>({_file('offline.js').rstrip().rstrip(';')})({json.dumps(DRIVER)});</script>"
     )
     before, end, after = page.rpartition(b"</body>")
     return before + beside.encode() + end + after

@@ -231,3 +231,12 @@ def test_controls_that_have_nothing_to_do_look_so(app, page):
     app.session.set_rate("B", "lateral", 1e5)
     wait_for(page, f"!{idle}.includes('all') && !{idle}.includes('group')")
     wait_until(page, lambda: button.evaluate("(b) => getComputedStyle(b).opacity") == "1")
+
+
+def test_the_page_keeps_its_looks_when_the_card_is_put_away(app, page):
+    mark = "getComputedStyle(document.documentElement).getPropertyValue('--mv-good')"
+    page.get_by_label("Minimize panel", exact=True).click()
+    wait_for(page, "!document.querySelector('.mv .title')?.offsetParent")
+    assert page.evaluate(mark)
+    page.get_by_label("Expand panel", exact=True).click()
+    wait_for(page, "document.querySelector('.mv .title')?.offsetParent")

@@ -10,7 +10,7 @@ from modeviz.export.wording import sentence_case
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.driver import ShapeDriver
-from modeviz.viewer.html import block, heading, style_sheet, title
+from modeviz.viewer.html import block, heading, title
 from modeviz.viewer.panels.color_scale import color_scale
 
 START_SPEED_HZ = 0.5
@@ -32,7 +32,6 @@ class AnimationCard:
             step_mode: shows the next mode (+1) or the one before (-1).
         """
         self._driver, self._step_mode = driver, step_mode
-        gui.add_html(style_sheet())  # for the whole page; this card is always there
         self._head = gui.add_html("")
         self._amplitude = gui.add_slider(
             "Amplitude", 0.0, 3.0, 0.05, 1.0, marks=(1.0,), hint="How far the shape is drawn"
