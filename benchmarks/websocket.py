@@ -127,18 +127,25 @@ def _page(port: int) -> Iterator[Page]:
         yield page
 
 
+def open_websocket(port: int) -> Page:
+    """Connects to a page's server as a browser here does, for messages of any size and number."""
+    return connect(
+        f"ws://127.0.0.1:{port}",
+        origin=Origin(f"http://127.0.0.1:{port}"),
+        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        compression=None,
+        max_size=None,
+        max_queue=None,
+        ping_interval=None,
+    )
+
+
 def _connect(port: int) -> Page:
     """Knocks until the server has started."""
     deadline = time.monotonic() + PATIENCE_S
     while True:
         try:
-            return connect(
-                f"ws://127.0.0.1:{port}",
-                origin=Origin(f"http://127.0.0.1:{port}"),
-                subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
-                compression=None,
-                max_size=None,
-            )
+            return open_websocket(port)
         except (ConnectionRefusedError, InvalidStatus):
             if time.monotonic() > deadline:
                 raise

@@ -3,8 +3,7 @@
 The shapes of all meshes are one array, because a message costs the server more than what is in it.
 
 Leans on private parts of viser 1.1.1: in driver.js `__viserMutable`, `__viserSceneTree` and three.js'
-names of shader chunks. tests/browser/test_driver.py fails when they
-change.
+names of shader chunks. tests/browser/test_driver.py fails when they change.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping

@@ -3,11 +3,9 @@
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
-import viser
-from websockets.sync.client import connect
 from websockets.sync.connection import Connection
-from websockets.typing import Origin, Subprotocol
 
+from benchmarks.websocket import open_websocket
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
@@ -30,15 +28,7 @@ def open_app(server: Server, vehicle: Vehicle, conditions: Conditions) -> Iterat
 @contextmanager
 def listening(server: Server) -> Iterator[Connection]:
     """A websocket of a page that is open already, and has been told all there is."""
-    address = f"127.0.0.1:{server.get_port()}"
-    with connect(
-        f"ws://{address}",
-        origin=Origin(f"http://{address}"),
-        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
-        max_size=None,
-        max_queue=None,
-        ping_interval=None,
-    ) as socket:
+    with open_websocket(server.get_port()) as socket:
         n_bytes(socket)
         yield socket
 
