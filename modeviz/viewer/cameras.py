@@ -1,7 +1,8 @@
-"""The cameras of all pages: framed on the vehicle, kept so, and turned to what is followed."""
+"""The cameras of all pages: framed on the vehicle or a part of it, and kept so."""
 
 import threading
 import time
+from collections import Counter
 
 import numpy as np
 import viser
@@ -20,15 +21,16 @@ Pose = tuple[Floats, Floats]
 
 
 class Cameras:
-    """Every page has its own camera; all of them follow the same point."""
+    """Every page has its own camera; all of them look at the same."""
 
     def __init__(self, server: viser.ViserServer, box: Box) -> None:
         """Points the cameras of pages to come at a vehicle; their pictures' sizes are in CSS pixels."""
         self._server, self._box = server, box
+        self._before = box
         self._views: dict[int, tuple[str, Floats]] = {}
         self._lock = threading.RLock()  # pages tell of their cameras in several threads
-        self._shift = np.zeros(3)
-        self._n_glides = 0
+        self._moves: Counter[int] = Counter()
+        """How often each page's camera was sent somewhere; only the last counts."""
         initial = server.initial_camera
         initial.position, initial.look_at = camera(box, ISO, 1000, 1000)
         initial.fov = FIELD_OF_VIEW
@@ -42,55 +44,55 @@ class Cameras:
         @server.on_client_disconnect
         def _(client: viser.ClientHandle) -> None:
             self._views.pop(client.client_id, None)
+            del self._moves[client.client_id]
 
     def look(self, client: viser.ClientHandle, view: str) -> None:
-        """Turns a page's camera to one of `stage.VIEWS`; what is followed is in its middle."""
+        """Turns a page's camera to one of `stage.VIEWS` of what is framed."""
         with self._lock:
+            self._next_move(client)
             pose = self._framed(client, view)
             self._views[client.client_id] = view, pose[0]
             _put(client, pose)
 
-    def follow(self, point: Floats | None) -> None:
-        """Glides all cameras, as far away and as turned as they are, to look at a point.
-
-        Args:
-            point: (3,), m; None goes back to the whole vehicle.
-        """
-        self._n_glides += 1
-        self._shift = np.zeros(3) if point is None else point - self._box.middle
+    def frame(self, box: Box) -> None:
+        """Glides all cameras, as turned as they are, to a space that fills their pictures."""
+        if box == self._box:
+            return
+        self._before, self._box = self._box, box
         for client in self._server.get_clients().values():
-            threading.Thread(
-                target=self._glide, args=(client, self._n_glides), name="glide", daemon=True
-            ).start()
+            move = self._next_move(client)
+            threading.Thread(target=self._glide, args=(client, move), name="glide", daemon=True).start()
 
-    def _glide(self, client: viser.ClientHandle, number: int) -> None:
-        """Moves one camera until it is there or another glide begins."""
+    def _next_move(self, client: viser.ClientHandle) -> int:
+        """The number of a move that ends the glide before it."""
+        self._moves[client.client_id] += 1
+        return self._moves[client.client_id]
+
+    def _glide(self, client: viser.ClientHandle, move: int) -> None:
+        """Moves one camera until it is there or sent elsewhere."""
         begin = client.camera.position, client.camera.look_at
         end = self._target(client)
         for fraction in np.linspace(0, 1, GLIDE_STEPS + 1)[1:]:
-            if number != self._n_glides:
-                return
             eased = fraction**2 * (3 - 2 * fraction)
-            _put(client, tuple(a + eased * (b - a) for a, b in zip(begin, end, strict=True)))
+            with self._lock:
+                if move != self._moves[client.client_id]:
+                    return
+                _put(client, tuple(a + eased * (b - a) for a, b in zip(begin, end, strict=True)))
             time.sleep(STEP_SECONDS)
 
     def _target(self, client: viser.ClientHandle) -> Pose:
-        """Where a glide ends: framed as before, or looking at the point if somebody moved it."""
+        """Where a glide ends: framed as before, or looking at the middle if somebody moved it."""
         position, look_at = client.camera.position, client.camera.look_at
         view, put = self._views.get(client.client_id, (ISO, position))
         if _is_at(position, put):
             framed = self._framed(client, view)
             self._views[client.client_id] = view, framed[0]
             return framed
-        target = self._box.middle + self._shift
-        return position + target - look_at, target
+        closer = self._box.length / self._before.length
+        return self._box.middle + closer * (position - look_at), self._box.middle
 
     def _framed(self, client: viser.ClientHandle, view: str) -> Pose:
-        size = client.camera.image_width, client.camera.image_height
-        position, look_at = camera(self._box, view, *size)
-        if not self._shift.any():
-            return position, look_at
-        return position - look_at + self._box.middle + self._shift, self._box.middle + self._shift
+        return camera(self._box, view, client.camera.image_width, client.camera.image_height)
 
     def _keep_framed(self, client: viser.ClientHandle) -> None:
         """Looks again when the picture's shape has changed, unless somebody has moved the camera.

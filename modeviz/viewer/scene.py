@@ -16,7 +16,7 @@ from modeviz.viewer.coloring import Coloring, Shares, energy_shares, shades, sha
 from modeviz.viewer.drawn import DrawnBody
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.markers import Markers
-from modeviz.viewer.stage import DARK, LIGHT, Stage, box
+from modeviz.viewer.stage import DARK, LIGHT, Box, Stage, bodies_box, box
 
 
 class Scene:
@@ -45,7 +45,6 @@ class Scene:
         self._bodies = [DrawnBody(self.driver, body, theme) for body in vehicle.bodies if body.mesh]
         self._markers = Markers(server.scene, vehicle, theme, on_select)
         self._cameras = Cameras(server, self._box)
-        self._followed = ""
 
     def show(self, solved: Solved) -> None:
         """Draws the answer of a session: what moves in it, and how it wants to be seen."""
@@ -65,7 +64,18 @@ class Scene:
                 what = within_sentence(moving.title)
                 group = state.group if moving.bodies is None else ""  # else no mount is at work
                 self._markers.show(group, state.rates, state.unit, groups, what, share_colors(shares))
-        self.follow(state.group if state.follow else "")
+        self._cameras.frame(self._framed(solved))
+
+    def _framed(self, solved: Solved) -> Box:
+        """What cameras look at: the body that moves alone, what is followed, or the vehicle."""
+        state, alone = solved.state, solved.movement.bodies
+        drawn = [b for b in self._vehicle.bodies if b.mesh and alone is not None and b.name in alone]
+        if drawn:
+            return bodies_box(drawn)
+        groups = {group.name: group for group in self._vehicle.mount_groups}
+        if not state.follow or state.group not in groups:
+            return self._box
+        return self._box.around(np.mean([m.points[0] for m in groups[state.group].mounts], axis=0))
 
     def _hidden(self, solved: Solved) -> Collection[str]:
         """The bodies that are not drawn: all but the one that moves alone, or those chosen."""
@@ -118,16 +128,6 @@ class Scene:
         for body in self._bodies:
             body.show(body.name not in hidden, see_through, ghost)
         self._markers.hide(hidden)
-
-    def follow(self, group: str) -> None:
-        """Turns the cameras of all pages to the mounts of a group; none, "", is the whole vehicle."""
-        if group == self._followed:
-            return
-        self._followed = group
-        mounts = [
-            mount.points[0] for g in self._vehicle.mount_groups if g.name == group for mount in g.mounts
-        ]
-        self._cameras.follow(np.mean(mounts, axis=0) if mounts else None)
 
     def look(self, client: viser.ClientHandle, view: str) -> None:
         """Turns a page's camera to one of `stage.VIEWS`."""

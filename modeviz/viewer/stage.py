@@ -1,12 +1,13 @@
 """The stage: light, background, ground and camera, all placed by the size of the vehicle."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import viser
 
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
 
 Color = tuple[int, int, int]
@@ -95,6 +96,11 @@ class Box:
         low, high = np.array(self.low), np.array(self.high)
         return low + (high - low) * (0.5, 0.5, 0.4)
 
+    def around(self, point: Floats) -> "Box":
+        """As large a space with its middle at a point, (3,), m."""
+        step = point - self.middle
+        return Box(tuple((self.low + step).tolist()), tuple((self.high + step).tolist()))
+
     @property
     def corners(self) -> Floats:
         """(8, 3), m."""
@@ -106,7 +112,16 @@ def box(vehicle: Vehicle) -> Box:
     """The space a vehicle takes: its meshes, or its connections if nothing is drawn."""
     points = [part.vertices for body in vehicle.bodies for part in body.mesh]
     points += [connection.points for connection in vehicle.all_connections]
-    everything = np.concatenate([*points, np.zeros((1, 3))])
+    return _box([*points, np.zeros((1, 3))])
+
+
+def bodies_box(bodies: Iterable[Body]) -> Box:
+    """The space that the meshes of bodies take."""
+    return _box([part.vertices for body in bodies for part in body.mesh])
+
+
+def _box(points: Sequence[Floats]) -> Box:
+    everything = np.concatenate(points)
     return Box(tuple(everything.min(axis=0).tolist()), tuple(everything.max(axis=0).tolist()))
 
 

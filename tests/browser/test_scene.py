@@ -13,6 +13,7 @@ from modeviz.vehicle.bodies import Attachment, FlexibleBody, Material, MeshPart,
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer import stage
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.coloring import energy_shares, largest_share
 from modeviz.viewer.movement import Movement
@@ -127,7 +128,9 @@ def solved(modal, mode=6, **fields):
         unsolved={},
         now=modal,
         track=None,
+        pairs=(),
         mode=mode,
+        same=mode,
         name=name,
         shape=shape,
         movement=Movement(name.name, name.name, f, "", shape, None),
@@ -345,16 +348,44 @@ def test_view_is_framed_again_when_viser_has_put_the_camera_where_pages_begin(se
     wait_until(page, lambda: page.evaluate(SEEN_FROM) == pytest.approx(framed, abs=1e-3))
 
 
-def test_camera_glides_to_the_mounts_that_are_followed_and_back(server, scene, page, modal):
+def test_camera_glides_to_the_mounts_that_are_followed_and_back(server, scene, page, modal, vehicle):
     camera = next(iter(server.get_clients().values())).camera
     scene.look(next(iter(server.get_clients().values())), "Side")
     framed, offset = camera.look_at, camera.position - camera.look_at
     scene.show(solved(modal, follow=True))
-    wait_until(page, lambda: np.allclose(camera.look_at, [0, 0, 0.6], atol=1e-3))
+    step = np.array([0, 0, 0.6]) - stage.box(vehicle).middle
+    wait_until(page, lambda: np.allclose(camera.look_at, framed + step, atol=1e-3))
     assert camera.position - camera.look_at == pytest.approx(offset, abs=1e-3)
     scene.show(solved(modal, follow=False))
     wait_until(page, lambda: np.allclose(camera.look_at, framed, atol=1e-3))
     assert camera.position - camera.look_at == pytest.approx(offset, abs=1e-3)
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_a_body_alone_fills_the_picture(server, scene, page, modal, vehicle, moved):
+    client = next(iter(server.get_clients().values()))
+    camera = client.camera
+    scene.show(solved(modal))
+    scene.look(client, "Side")
+    whole, framed = stage.box(vehicle), camera.position
+    if moved:
+        camera.position = away = framed + np.array([0.2, -0.3, 0.1])
+        wait_until(page, lambda: page.evaluate(SEEN_FROM) == pytest.approx(away, abs=1e-3))
+        wait_until(page, lambda: camera.position == pytest.approx(away, abs=1e-3))
+    distance = np.linalg.norm(camera.position - camera.look_at)
+    shown = solved(modal)
+    scene.show(replace(shown, movement=replace(shown.movement, bodies=frozenset({"cab"}))))
+    cab = stage.bodies_box([vehicle.body("cab")])
+    if moved:
+        wait_until(page, lambda: np.allclose(camera.look_at, cab.middle, atol=1e-3))
+        left = np.linalg.norm(camera.position - camera.look_at)
+        assert left == pytest.approx(distance * cab.length / whole.length, rel=1e-3)
+    else:
+        seen = stage.camera(cab, "Side", camera.image_width, camera.image_height)
+        wait_until(page, lambda: np.allclose(camera.position, seen[0], atol=1e-3))
+    scene.show(shown)
+    scene.look(client, "Side")
+    wait_until(page, lambda: np.allclose(camera.position, framed, atol=1e-3))
 
 
 @pytest.mark.parametrize("view", VIEWS)
@@ -376,6 +407,18 @@ def test_labels_are_apart_from_each_other_in_every_view(server, scene, page, mod
     wait_until(page, are_apart)
 
 
+def test_clicking_a_mount_selects_its_group(server, scene, page, chosen):
+    client = next(iter(server.get_clients().values()))
+    scene.look(client, "Side")
+    there = client.camera.position
+    wait_until(page, lambda: page.evaluate(SEEN_FROM) == pytest.approx(there, abs=1e-3))
+    seen = wait_for(page, PLACES, names=["/mounts/C left/rubber", "/mounts/C right/rubber"])
+    page.mouse.move(*seen)
+    page.mouse.click(*seen)
+    wait_until(page, lambda: chosen)
+    assert chosen == ["C"]
+
+
 def test_clicking_a_label_selects_the_group_of_its_mount(server, scene, page, modal, chosen):
     scene.show(solved(modal, group=""))
     scene.look(next(iter(server.get_clients().values())), "Iso")
@@ -391,13 +434,3 @@ def test_clicking_a_label_selects_the_group_of_its_mount(server, scene, page, mo
     wait_until(page, is_chosen)
     assert set(chosen) == {"C"}
     chosen.clear()
-
-
-def test_clicking_a_mount_selects_its_group(server, scene, page, chosen):
-    client = next(iter(server.get_clients().values()))
-    scene.look(client, "Side")
-    seen = wait_for(page, PLACES, names=["/mounts/C left/rubber", "/mounts/C right/rubber"])
-    page.mouse.move(*seen)
-    page.mouse.click(*seen)
-    wait_until(page, lambda: chosen)
-    assert chosen == ["C"]

@@ -53,7 +53,9 @@ class ViewPanel:
                 "Drawn beside the bodies: the vehicle at rest, or moving as with the set of rates that "
                 "all is compared with",
             ),
-            self._switch("See through", "see_through", "Shows what is behind the sheet metal"),
+            self._switch(
+                "See through", "see_through", "Shows what is behind sheet metal in its own colours"
+            ),
             self._switch("Follow", "follow", "The camera looks at the selected mounts"),
             self._switch(
                 "Classic error",
