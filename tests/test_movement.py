@@ -30,12 +30,19 @@ def shown(vehicle):
     prepared = prepare(vehicle)
     now, base = solve(prepared, SOFT, FLAT), solve(prepared, {}, FLAT)
     i = now.mode_index("cab yaw")
-    return ShownMode(now, i, now.names[i], -now.modes.shapes[:, i], base)
+    return ShownMode(now, i, now.names[i], -now.modes.shapes[:, i], base, base.mode_index("cab yaw"))
 
 
 @pytest.fixture
 def state(vehicle):
     return first_state(vehicle, vehicle.rates, FLAT)
+
+
+def test_outlines_are_of_the_mode_that_is_compared_whatever_it_is_called(state, shown):
+    state = replace(state, ghost="compared")
+    moving = movement(state, replace(shown, same=3))
+    same_up_to_phase(moving.other, shown.base.modes.shapes[:, 3])
+    assert movement(state, replace(shown, same=None)).other is None
 
 
 def phase(shape, reference, shown):

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import modeviz as mv
+from modeviz.dynamics.naming import ModeName
 from modeviz.tuning.following import accept, follow_rates
-from modeviz.tuning.pairing import Pair, pair_modes
+from modeviz.tuning.pairing import Pair, pair_modes, same_mode
 
 
 @pytest.fixture(scope="module")
@@ -96,6 +97,18 @@ def test_namesakes_of_unclear_shape_are_compared_by_rising_frequency(prepared):
     clear = unknown(track, (one, two), 1.0, other)
     found = set(pair_modes(base, base, clear))
     assert {Pair(one, None), Pair(None, one), Pair(two, None), Pair(None, two)} <= found
+
+
+def test_a_mode_of_another_set_is_found_by_name_and_namesakes_by_shape(prepared):
+    base, now = mv.solve_modal(prepared, {}), mv.solve_modal(prepared, optimised(prepared))
+    for name, found in (
+        ("cab yaw", "cab yaw"),
+        ("rear axle fore-aft", "rear axle fore-aft"),
+        ("rear axle fore-aft 2", "rear axle fore-aft"),
+    ):
+        i = base.mode_index(name)
+        assert same_mode(now, base.names[i], base.modes.shapes[:, i]) == now.mode_index(found)
+    assert same_mode(now, ModeName("nothing", 1.0), base.modes.shapes[:, 0]) is None
 
 
 def start_of(prepared):

@@ -14,6 +14,7 @@ from scipy.optimize import linear_sum_assignment
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import WEAK_MAC, Track
 from modeviz.tuning.results import ModalResults
+from modeviz.vehicle.arrays import Floats
 
 TRACKED = 2.0
 """More than what two namesakes can be alike otherwise, so that none outvotes the track."""
@@ -49,6 +50,19 @@ def pair_modes(base: ModalResults, now: ModalResults, track: Track) -> tuple[Pai
         for motion in old | new
         for pair in _pair_namesakes(old.get(motion, []), new.get(motion, []), track)
     )
+
+
+def same_mode(results: ModalResults, name: ModeName, shape: Floats) -> int | None:
+    """The mode of a set of rates that another set's is: that of its name, of namesakes the most alike.
+
+    Args:
+        results: with the set of rates in which to look.
+        name: of the other set's mode.
+        shape: of the other set's mode, (n_dofs,).
+    """
+    namesakes = _by_motion(results.names).get(name.motion, [])
+    momentum = results.prepared.system.mass @ shape
+    return max(namesakes, key=lambda i: abs(results.modes.shapes[:, i] @ momentum), default=None)
 
 
 def _by_motion(names: Iterable[ModeName]) -> dict[str, list[int]]:

@@ -70,8 +70,12 @@ class Solved:
     now: Results
     track: Track
     """Where the modes of `base` went."""
+    pairs: tuple[Pair, ...]
+    """The modes of `base` and of `now`, as they are compared."""
     mode: int
     """The shown mode, an index of `now.modes`."""
+    same: int | None
+    """The mode of `base` that it is compared with; None if there is none."""
     name: ModeName
     """What it is called, or was when what is for reading was drawn last."""
     shape: Floats
@@ -88,21 +92,13 @@ class Solved:
     classic_error: ClassicError | None
     """How far the classic method is off, if that is asked for."""
     is_detailed: bool
-    """Whether what is for reading is to be drawn too; else `track` is that of the last such answer."""
+    """Whether what is for reading is to be drawn too; else `track` and `pairs` are of the last such
+    answer."""
 
     @property
     def base(self) -> Results:
         """With the set of rates that all is compared with."""
         return self.named[self.state.against]
-
-    @cached_property
-    def pairs(self) -> tuple[Pair, ...]:
-        """The modes of `base` and of `now`, as they are compared."""
-        return pair_modes(self.base, self.now, self.track)
-
-    def counterpart(self, mode: int) -> int | None:
-        """The mode of `base` that one of `now` is compared with; None if there is none."""
-        return next(p.before for p in self.pairs if p.after == mode)
 
     @cached_property
     def strain(self) -> Mapping[str, float]:
@@ -179,10 +175,14 @@ class Answers:
         if is_detailed:
             mode = self._follow(now, state.mode)
             self._lead_track_to(base, now)
-        name = now.names[mode] if is_detailed or last is None else last.name
+        if is_detailed or last is None:
+            name, pairs = now.names[mode], pair_modes(base, now, self._track)
+            same = next(pair.before for pair in pairs if pair.after == mode)
+        else:
+            name, pairs, same = last.name, last.pairs, last.same
         shape = self._in_phase(now.modes.shapes[:, mode])
         wheels = self._solve_wheels(state, named, now)
-        moving = self._move(state, ShownMode(now, mode, name, shape, base))
+        moving = self._move(state, ShownMode(now, mode, name, shape, base, same))
         is_known = rest is not None and rest.now is now
         self._last = Solved(
             state=state,
@@ -191,7 +191,9 @@ class Answers:
             unsolved=self._unsolved,
             now=now,
             track=self._track,
+            pairs=pairs,
             mode=mode,
+            same=same,
             name=name,
             shape=shape,
             movement=moving,
@@ -298,8 +300,8 @@ class Answers:
         last = self._last
         if last is None:
             return movement(state, shown)
-        is_same_mode = last.now is shown.now and last.mode == shown.index and last.base is shown.base
-        if is_same_mode and asks(last.state) == asks(state):
+        followed = shown.now, shown.index, shown.base, shown.same
+        if followed == (last.now, last.mode, last.base, last.same) and asks(last.state) == asks(state):
             return last.movement
         try:
             return movement(state, shown)

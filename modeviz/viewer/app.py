@@ -217,7 +217,7 @@ class App:
 
         While rates move, what has to be read is drawn only now and then.
         """
-        self._last = solved
+        self._last, self._failure = solved, None
         with self.server.atomic():
             vehicle = self.session.vehicle
             self._title.show(vehicle.name, variant_name(vehicle, solved.state))

@@ -34,6 +34,8 @@ class ShownMode:
     """(n_dofs,), in the phase that it is shown in."""
     base: Results
     """What all is compared with."""
+    same: int | None
+    """The mode of `base` that it is compared with; None if there is none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,9 +165,10 @@ _free_modes = lru_cache(maxsize=1)(component_modes)
 def _same_mode(
     state: State, shown: ShownMode, shape: Callable[[Results, int], NDArray]
 ) -> NDArray | None:
-    """The shape of the base's mode with the shown one's name, if it is wanted and there is one."""
-    same = shown.base.mode_index(shown.name.name) if state.ghost == "compared" else None
-    return None if same is None else _in_phase(shape(shown.base, same), shown)
+    """The shape of the base's mode that is compared with the shown one, if it is wanted."""
+    if state.ghost != "compared" or shown.same is None:
+        return None
+    return _in_phase(shape(shown.base, shown.same), shown)
 
 
 def _in_phase(shape: NDArray, shown: ShownMode) -> NDArray:

@@ -34,7 +34,7 @@ class EnergyPanel:
 
     def show(self, solved: Solved) -> None:
         """Draws the shares of an answer's shown mode."""
-        before = solved.counterpart(solved.mode)
+        before = solved.same
         colors = legend((("--mv-base", escape(solved.state.against)), ("--mv-now", "now")))
         kinetic = {name: float(e[solved.mode]) for name, e in solved.now.kinetic_energy.items()}
         content = block(

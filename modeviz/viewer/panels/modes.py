@@ -133,7 +133,7 @@ def _ladder(solved: Solved) -> str:
     drawn = scale(base)
     if drawn is None:
         return ""
-    old = solved.counterpart(solved.mode)
+    old = solved.same
     before, weak = base.modes.frequency_hz.tolist(), track.weak.tolist()
     rails = [
         Rail(before[i], after, weak[i], strong=i == old)
@@ -160,7 +160,7 @@ def _by_name(results: Results) -> dict[str, float]:
 
 def _old_shape(solved: Solved) -> str:
     """What became of the shape that the shown mode is compared with, where it is not that mode."""
-    old = solved.counterpart(solved.mode)
+    old = solved.same
     if old is None or solved.track.shares[old, solved.mode] > SAME_SHAPE:
         return ""
     modes, names = solved.now.modes, solved.now.names

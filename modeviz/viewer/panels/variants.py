@@ -5,6 +5,7 @@ from html import escape
 import viser
 
 from modeviz.export.wording import sentence_case, signed
+from modeviz.tuning.pairing import same_mode
 from modeviz.tuning.results import AXIS, Results
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
@@ -187,7 +188,7 @@ class NameBox:
 def _figures(results: Results, solved: Solved) -> list[str]:
     """RMS at the driver's point, the shown mode's frequency, and the change of the rating."""
     base = solved.base
-    mode = solved.mode if results is solved.now else results.mode_index(solved.name.name)
+    mode = _shown_mode(results, solved)
     f = "–" if mode is None else f"{results.modes.frequency_hz[mode]:.2f}"
     if not solved.state.curves:
         return ["–", "–", f, "–"]
@@ -196,6 +197,13 @@ def _figures(results: Results, solved: Solved) -> list[str]:
     rating = span("–", "dim") if results is base else span(signed(gain, 2), kind)
     lateral, vertical = (results.rms[DRIVER, AXIS[d]] for d in ("lateral", "vertical"))
     return [f"{lateral:.3f}", f"{vertical:.3f}", f, rating]
+
+
+def _shown_mode(results: Results, solved: Solved) -> int | None:
+    """Which mode of a set of rates the shown one is."""
+    if results is solved.now:
+        return solved.mode
+    return solved.same if results is solved.base else same_mode(results, solved.name, solved.shape)
 
 
 def _mark(number: int, name: str, state: State) -> str:
