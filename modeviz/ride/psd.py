@@ -65,11 +65,12 @@ def mean_square(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = R
     Returns:
         (...), unit².
     """
-    return np.tensordot(_weights(np.asarray(frequency_hz), band), psd, 1)
+    return np.tensordot(integration_weights(np.asarray(frequency_hz), band), psd, 1)
 
 
-def _weights(f: Floats, band: tuple[float, float]) -> Floats:
-    """What each value of a polygon on f counts in its integral over a band, (n_freqs,)."""
+def integration_weights(frequency_hz: Floats, band: tuple[float, float]) -> Floats:
+    """What each value of a polygon counts in its integral over a band, (n_freqs,); as `mean_square`."""
+    f = frequency_hz
     start, end = np.clip(f[:-1], *band), np.clip(f[1:], *band)
     length, middle = end - start, (start + end) / 2
     of_right = length * (middle - f[:-1]) / np.diff(f)

@@ -76,15 +76,20 @@ def weighted_rms(frequency_hz: Floats, acceleration_psd: Floats) -> tuple[float,
 
     a_w = √∫ W² S df over the frequencies given; ISO 2631-1 looks at 0.5 to 80 Hz.
     """
-    squares = _squared_weights(np.asarray(frequency_hz, np.float64).tobytes())
+    squares = squared_weights(frequency_hz)
     band = (frequency_hz[0], frequency_hz[-1])
     x, y, z = rms(frequency_hz, squares * acceleration_psd, band) * STANDARD_GRAVITY
     return float(x), float(y), float(z)
 
 
+def squared_weights(frequency_hz: Floats) -> Floats:
+    """W² of ISO 2631-1 for x, y and z, (n_freqs, 3): Wd horizontally, Wk vertically."""
+    return _squared_weights(np.asarray(frequency_hz, np.float64).tobytes())
+
+
 @lru_cache(maxsize=8)
 def _squared_weights(frequency_hz: bytes) -> Floats:
-    """W² of x, y and z, (n_freqs, 3), kept for the next rating at the same frequencies."""
+    """The same, kept for the next rating at the same frequencies."""
     f = np.frombuffer(frequency_hz)
     horizontal, vertical = weight_d(f) ** 2, weight_k(f) ** 2
     return np.column_stack([horizontal, horizontal, vertical])

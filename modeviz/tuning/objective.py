@@ -1,4 +1,4 @@
-"""What the optimiser is to make small: the paper's weighted sum of squared accelerations."""
+"""What the optimiser is to make small: weighted sums of squared accelerations, as the paper's."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -41,14 +41,21 @@ class LoadCase:
     frequency_hz: Sequence[float]
     """Rising, above zero."""
     weight: float = 1.0
-    """Of every acceleration squared."""
+    """Of every squared difference from the target."""
+    pattern: Floats | None = None
+    """(n_freqs, n_points, 3): factors of the weight for x, y, z of each response point; None is one for
+    lateral and vertical."""
+    target: float = 0.0
+    """The desired acceleration: g under a wheel load, g/√Hz on a road."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Term:
     """A case among the frequencies and inputs of all cases."""
 
-    weight: float
+    weights: Floats
+    """(n_lines, n_outputs)."""
+    target: float
     lines: NDArray[np.intp]
     inputs: slice
     input_psd: Complexes
@@ -58,10 +65,23 @@ class _Term:
         """The case's part of an array whose first axis is frequency and whose last is input."""
         return of_all[self.lines, ..., self.inputs]
 
+    def value(self, power: Floats) -> float:
+        """Σ w (a - target)², from a² (n_lines, n_outputs)."""
+        return float((self.weights * (np.sqrt(power) - self.target) ** 2).sum())
+
+    def slope(self, power: Floats) -> Floats:
+        """∂value/∂a², (n_lines, n_outputs): where nothing moves towards a target it has none, and is
+        0.
+        """
+        if not self.target:
+            return self.weights
+        a = np.sqrt(power)
+        return self.weights * (1 - np.divide(self.target, a, out=np.ones_like(a), where=a > 0))
+
 
 @dataclass(frozen=True, eq=False)
 class Objective:
-    """F = Σ w a² over load cases, frequencies, response points, and lateral and vertical.
+    """F = Σ w (a - target)² over load cases, frequencies, response points and directions.
 
     a is the peak acceleration, g, under a wheel load and the root of the PSD, g/√Hz, on a road (Duncan,
     "Optimization": all targets zero, all weights one, so that the two units add up as they are).
@@ -70,33 +90,43 @@ class Objective:
     prepared: Prepared
     """At the frequencies of all cases together."""
     driven: Receptances
-    """With the inputs of all cases, one case after the other, and outputs in `DIRECTIONS` only."""
+    """With the inputs of all cases, one case after the other, and those outputs that have a weight."""
     terms: tuple[_Term, ...]
     """One for each case."""
 
     def value(self, rates: Rates) -> float:
         """F at rates of the groups that differ from the vehicle's own; raises as `solve`."""
+        return float(self.values(rates).sum())
+
+    def values(self, rates: Rates) -> Floats:
+        """What each case adds to F, (n_cases,); raises as `solve`."""
         H = self.driven.response(self.prepared.mount_stiffness(rates))
-        return self._value(H)
+        return np.array([term.value(self._power(term, H)) for term in self.terms])
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         """F and ∂F/∂k, (n_variables,) in the order of `rate_variables`; raises as `solve`."""
         H, a, b = self.driven.response_gradient(self.prepared.mount_stiffness(rates))
         shares = spring_shares(self.prepared, rates)
-        gradient = np.zeros(shares.shape[1])
+        value, gradient = 0.0, np.zeros(shares.shape[1])
         for term in self.terms:
-            f, S = self.driven.frequency_hz[term.lines], term.input_psd
-            change = psd_gradient(f, term.own(H), a[term.lines], term.own(b), S, shares)
-            gradient += term.weight * change.sum(axis=(0, 1))
-        return self._value(H), gradient
+            f, power = self.driven.frequency_hz[term.lines], self._power(term, H)
+            change = psd_gradient(f, term.own(H), a[term.lines], term.own(b), term.input_psd, shares)
+            value += term.value(power)
+            gradient += np.tensordot(term.slope(power), change, 2)
+        return value, gradient
 
-    def _value(self, response: Complexes) -> float:
-        """F, from the response of all outputs to all inputs."""
-        value = 0.0
-        for term in self.terms:
-            f = self.driven.frequency_hz[term.lines]
-            value += term.weight * acceleration_psd(f, term.own(response), term.input_psd).sum()
-        return float(value)
+    def scaled(self, factors: Floats) -> "Objective":
+        """The same with other weights: each case's times a factor, (n_cases,)."""
+        terms = tuple(
+            replace(term, weights=factor * term.weights)
+            for term, factor in zip(self.terms, factors, strict=True)
+        )
+        return replace(self, terms=terms)
+
+    def _power(self, term: _Term, response: Complexes) -> Floats:
+        """a² of a case, from the response of all outputs to all inputs."""
+        f = self.driven.frequency_hz[term.lines]
+        return acceleration_psd(f, term.own(response), term.input_psd)
 
 
 def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
@@ -114,10 +144,13 @@ def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
     prepared = prepare(vehicle, every[np.diff(every, prepend=0.0) > SAME_HZ])
     amplitudes = [_amplitudes(prepared, case.load) for case in cases]
     ends = np.cumsum([0] + [a.shape[2] for a in amplitudes])
+    weights = [_weights(vehicle, case) for case in cases]
+    outputs = np.flatnonzero(sum(w.sum(axis=0) for w in weights))
     terms = tuple(
-        _term(prepared, case, slice(*own)) for case, own in zip(cases, pairwise(ends), strict=True)
+        _term(prepared, case, its[:, outputs], slice(*own))
+        for case, its, own in zip(cases, weights, pairwise(ends), strict=True)
     )
-    driven = _along_directions(prepared.receptances).driven(np.concatenate(amplitudes, axis=2))
+    driven = _with_outputs(prepared.receptances, outputs).driven(np.concatenate(amplitudes, axis=2))
     return Objective(prepared, driven, terms)
 
 
@@ -129,17 +162,26 @@ def paper_cases(vehicle: Vehicle) -> tuple[LoadCase, ...]:
     )
 
 
-def _term(prepared: Prepared, case: LoadCase, inputs: slice) -> _Term:
+def _weights(vehicle: Vehicle, case: LoadCase) -> Floats:
+    """What each acceleration squared of a case counts, (n_freqs, 3 n_points)."""
+    shape = (len(case.frequency_hz), len(vehicle.response_points), 3)
+    pattern = case.pattern
+    if pattern is None:
+        pattern = np.zeros(shape)
+        pattern[..., [AXIS[d] for d in DIRECTIONS]] = 1.0
+    return case.weight * np.broadcast_to(pattern, shape).reshape(len(case.frequency_hz), -1)
+
+
+def _term(prepared: Prepared, case: LoadCase, weights: Floats, inputs: slice) -> _Term:
     """A case among the frequencies of all cases, given which of all inputs it has."""
     lines = np.searchsorted(prepared.frequency_hz, np.subtract(case.frequency_hz, SAME_HZ))
     f = prepared.frequency_hz[lines]
-    return _Term(case.weight, lines, inputs, _spectrum(prepared.vehicle, case.load, f))
+    spectrum = _spectrum(prepared.vehicle, case.load, f)
+    return _Term(weights, case.target, lines, inputs, spectrum)
 
 
-def _along_directions(receptances: Receptances) -> Receptances:
-    """The same for outputs in `DIRECTIONS` only."""
-    n_outputs = receptances.outputs.shape[2]
-    kept = np.concatenate([np.arange(AXIS[d], n_outputs, 3) for d in DIRECTIONS])
+def _with_outputs(receptances: Receptances, kept: NDArray[np.intp]) -> Receptances:
+    """The same for some of the outputs only."""
     return replace(
         receptances, outputs=receptances.outputs[:, :, kept], direct=receptances.direct[:, kept]
     )

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from modeviz.errors import VehicleError, check_unique, unknown
+from modeviz.errors import VehicleError, check_unique, located, unknown
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, Body, FlexibleBody
 from modeviz.vehicle.connections import (
@@ -22,6 +22,7 @@ from modeviz.vehicle.connections import (
     Tyre,
 )
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad
+from modeviz.vehicle.problem import Problem
 
 REACH = 0.10
 """m: how far from an attachment of a flexible body a connection may hold on to it."""
@@ -45,6 +46,8 @@ class Vehicle:
     """Named sets of rates besides the vehicle's own."""
     speed: float = 20.0
     """m/s."""
+    problems: tuple[Problem, ...] = ()
+    """What the mounts are to be optimised for; the first is the usual one."""
 
     def __post_init__(self) -> None:
         if not self.bodies:
@@ -110,6 +113,10 @@ class Vehicle:
         """The mount group of that name; raises VehicleError as `body` does."""
         return _named("mount group", name, self.mount_groups)
 
+    def problem(self, name: str) -> Problem:
+        """The problem of that name; raises VehicleError as `body` does."""
+        return _named("problem", name, self.problems)
+
     def with_rates(self, rates: Rates) -> "Vehicle":
         """The same vehicle with other rates and loss factors in the groups that are named.
 
@@ -121,6 +128,22 @@ class Vehicle:
         groups = tuple(g.with_rates(rates[g.name]) if g.name in rates else g for g in self.mount_groups)
         return replace(self, mount_groups=groups)
 
+    def check_problem(self, problem: Problem) -> None:
+        """Raises VehicleError unless all that a problem names is there."""
+        for group in problem.groups:
+            self.mount_group(group.group)
+        points = [point.name for point in self.response_points]
+        for performance in problem.performance:
+            for road in performance.roads:
+                self.road(road)
+            for load in performance.wheel_loads:
+                self.wheel_load(load)
+            for point in performance.points:
+                if point not in points:
+                    raise VehicleError(unknown("response point", point, points))
+        if problem.reference and problem.reference not in self.rate_sets:
+            raise VehicleError(unknown("set of rates", problem.reference, self.rate_sets))
+
     def _check_names(self) -> None:
         for kind, items in (
             ("body", self.bodies),
@@ -130,6 +153,7 @@ class Vehicle:
             ("response point", self.response_points),
             ("road", self.roads),
             ("wheel load", self.wheel_loads),
+            ("problem", self.problems),
         ):
             check_unique(kind, (item.name for item in items))
         if GROUND in (body.name for body in self.bodies):
@@ -151,6 +175,10 @@ class Vehicle:
             for group in rates:
                 if group not in self.rates:
                     raise VehicleError(f"rates {name!r}: " + unknown("mount group", group, self.rates))
+
+        for problem in self.problems:
+            with located(f"problem {problem.name!r}"):
+                self.check_problem(problem)
 
     def _check_ends(self, connection: Connection) -> None:
         where = f"connection {connection.name!r}"

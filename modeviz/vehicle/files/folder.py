@@ -6,10 +6,8 @@ flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a ro
 """
 
 import tomllib
-from collections.abc import Callable, Iterable
 from itertools import chain
 from pathlib import Path
-from typing import TypeVar
 
 import msgspec
 
@@ -20,6 +18,8 @@ from modeviz.vehicle.files.decoding import decode
 from modeviz.vehicle.files.disk import file_stems, read_text, replace_folder, write_text
 from modeviz.vehicle.files.meshes import write_mesh
 from modeviz.vehicle.files.modal import write_flexible_body
+from modeviz.vehicle.files.problems import ProblemRecord
+from modeviz.vehicle.files.record import built
 from modeviz.vehicle.files.records import (
     AddedMassRecord,
     ConnectionRecord,
@@ -50,9 +50,6 @@ CONNECTION_KINDS: dict[str, type[Connection]] = {
     "tyre": Tyre,
 }
 """The kind of connection in each of the file's tables."""
-
-R = TypeVar("R")
-P = TypeVar("P")
 
 
 def builtin_vehicle() -> Path:
@@ -123,36 +120,28 @@ def _read_record(path: Path) -> VehicleRecord:
 
 
 def _build(record: VehicleRecord, folder: Path) -> Vehicle:
-    flexible = _built(record.flexible_body, "flexible_body", lambda r: r.build(folder))
-    rigid = _built(record.rigid_body, "rigid_body", lambda r: r.build(folder))
+    flexible = built(record.flexible_body, "flexible_body", lambda r: r.build(folder))
+    rigid = built(record.rigid_body, "rigid_body", lambda r: r.build(folder))
     connections = [
-        _built(getattr(record, key), key, lambda r, kind=kind: kind(**r.arguments()))
+        built(getattr(record, key), key, lambda r, kind=kind: kind(**r.arguments()))
         for key, kind in CONNECTION_KINDS.items()
     ]
     return Vehicle(
         name=record.name,
         bodies=(*flexible, *rigid),
         connections=tuple(chain(*connections)),
-        mount_groups=_built(record.mount_group, "mount_group", MountGroupRecord.build),
-        added_masses=_built(record.added_mass, "added_mass", AddedMassRecord.build),
-        response_points=_built(record.response_point, "response_point", ResponsePointRecord.build),
-        roads=_built(record.road, "road", lambda r: r.build(folder)),
-        wheel_loads=_built(record.wheel_load, "wheel_load", WheelLoadRecord.build),
+        mount_groups=built(record.mount_group, "mount_group", MountGroupRecord.build),
+        added_masses=built(record.added_mass, "added_mass", AddedMassRecord.build),
+        response_points=built(record.response_point, "response_point", ResponsePointRecord.build),
+        roads=built(record.road, "road", lambda r: r.build(folder)),
+        wheel_loads=built(record.wheel_load, "wheel_load", WheelLoadRecord.build),
         rate_sets={
             name: {group: rates.build() for group, rates in groups.items()}
             for name, groups in record.rates.items()
         },
+        problems=built(record.problem, "problem", ProblemRecord.build),
         speed=record.speed,
     )
-
-
-def _built(records: Iterable[R], key: str, build: Callable[[R], P]) -> tuple[P, ...]:
-    """What each record builds; an error names the record."""
-    parts = []
-    for index, record in enumerate(records):
-        with located(f"{key}[{index}]"):
-            parts.append(build(record))
-    return tuple(parts)
 
 
 def _write_content(vehicle: Vehicle, folder: Path) -> None:
@@ -186,6 +175,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
             name: {group: RateSetRecord.of(r) for group, r in rates.items()}
             for name, rates in vehicle.rate_sets.items()
         },
+        problem=[ProblemRecord.of(problem) for problem in vehicle.problems],
     )
 
 

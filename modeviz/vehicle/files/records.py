@@ -19,12 +19,11 @@ from modeviz.vehicle.connections import Connection, Mount, MountGroup, MountRate
 from modeviz.vehicle.files.disk import inside
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.files.modal import read_flexible_body
+from modeviz.vehicle.files.problems import ProblemRecord
+from modeviz.vehicle.files.record import Name, NonNegative, Positive, RatesRecord, Record
 from modeviz.vehicle.files.roads import read_road
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad, WheelLoadKind
 
-Name = Annotated[str, Meta(min_length=1)]
-Positive = Annotated[float, Meta(gt=0)]
-NonNegative = Annotated[float, Meta(ge=0)]
 Vector = tuple[float, float, float]
 Axes = tuple[Vector, Vector, Vector]
 Place = Annotated[tuple[float | Vector, ...], Meta(min_length=2, max_length=3)]
@@ -32,10 +31,6 @@ Place = Annotated[tuple[float | Vector, ...], Meta(min_length=2, max_length=3)]
 
 NO_RATES = (0.0, 0.0, 0.0)
 VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-
-
-class Record(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
-    """A table of the file."""
 
 
 class BodyRecord(Record, kw_only=True):
@@ -139,21 +134,6 @@ class AddedMassRecord(Record, kw_only=True):
 
     def build(self) -> AddedMass:
         return AddedMass(self.name, self.body, np.array(self.at), self.mass)
-
-
-class RatesRecord(Record, kw_only=True):
-    """The rates of a mount."""
-
-    vertical: NonNegative
-    lateral: NonNegative
-    fore_aft: NonNegative
-
-    @classmethod
-    def of(cls, rates: MountRates) -> Self:
-        return cls(vertical=rates.vertical, lateral=rates.lateral, fore_aft=rates.fore_aft)
-
-    def build(self) -> MountRates:
-        return MountRates(self.vertical, self.lateral, self.fore_aft)
 
 
 class RateSetRecord(RatesRecord, kw_only=True):
@@ -310,19 +290,20 @@ class VehicleRecord(Record, kw_only=True):
 
     name: Name
     speed: Positive
-    flexible_body: list[FlexibleBodyRecord] = []
-    rigid_body: list[RigidBodyRecord] = []
-    added_mass: list[AddedMassRecord] = []
-    mount_group: list[MountGroupRecord] = []
-    spring: list[ConnectionRecord] = []
-    bolt: list[ConnectionRecord] = []
-    damper: list[ConnectionRecord] = []
-    tyre: list[TyreRecord] = []
-    response_point: list[ResponsePointRecord] = []
-    road: list[RoadRecord] = []
-    wheel_load: list[WheelLoadRecord] = []
-    rates: dict[str, dict[str, RateSetRecord]] = {}
+    flexible_body: list[FlexibleBodyRecord] = msgspec.field(default_factory=list)
+    rigid_body: list[RigidBodyRecord] = msgspec.field(default_factory=list)
+    added_mass: list[AddedMassRecord] = msgspec.field(default_factory=list)
+    mount_group: list[MountGroupRecord] = msgspec.field(default_factory=list)
+    spring: list[ConnectionRecord] = msgspec.field(default_factory=list)
+    bolt: list[ConnectionRecord] = msgspec.field(default_factory=list)
+    damper: list[ConnectionRecord] = msgspec.field(default_factory=list)
+    tyre: list[TyreRecord] = msgspec.field(default_factory=list)
+    response_point: list[ResponsePointRecord] = msgspec.field(default_factory=list)
+    road: list[RoadRecord] = msgspec.field(default_factory=list)
+    wheel_load: list[WheelLoadRecord] = msgspec.field(default_factory=list)
+    rates: dict[str, dict[str, RateSetRecord]] = msgspec.field(default_factory=dict)
     """[rates.SET.GROUP]."""
+    problem: list[ProblemRecord] = msgspec.field(default_factory=list)
 
 
 def _tuples(value: Any) -> Any:

@@ -1,0 +1,138 @@
+"""What a problem wants small, as one number of the rates, with its derivatives."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from modeviz.errors import VehicleError
+from modeviz.ride.psd import RIDE_BAND, integration_weights
+from modeviz.ride.rating import COMFORT_FACTORS, squared_weights
+from modeviz.tuning.objective import LoadCase, prepare_objective
+from modeviz.tuning.preparation import FREQUENCY_HZ
+from modeviz.tuning.results import AXIS, Conditions
+from modeviz.tuning.sensitivity import rate_variables
+from modeviz.units import STANDARD_GRAVITY
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import Performance, Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+DRIVER = 0
+"""The response point that is rated."""
+
+
+class Goal(Protocol):
+    """One number that is to become small."""
+
+    def value(self, rates: Rates) -> float:
+        """At rates of the groups that differ from the vehicle's own; raises as `solve`."""
+        ...
+
+    def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
+        """That, and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class LeastChange:
+    """The mean of ln(k/k₀)² over the rates that differ from zero."""
+
+    vehicle: Vehicle
+    base: Rates
+    """k₀, of every group."""
+
+    def value(self, rates: Rates) -> float:
+        return self.value_and_gradient(rates)[0]
+
+    def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
+        variables = rate_variables(self.vehicle)
+        k, k0 = (
+            np.array([getattr(every[v.group], v.direction) for v in variables])
+            for every in (self.vehicle.all_rates(rates), self.base)
+        )
+        factor = np.divide(k, k0, out=np.ones_like(k), where=(k > 0) & (k0 > 0))
+        log = np.log(factor)
+        slope = np.divide(2 * log, k, out=np.zeros_like(k), where=k > 0)
+        return float(np.mean(log**2)), slope / len(k)
+
+
+def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) -> Goal:
+    """The goal of a problem; normalised, it is 1 with the vehicle's own rates.
+
+    Args:
+        vehicle: with the rates that it is normalised with.
+        problem: whose goal.
+        base: rates of every group, from which a change is measured.
+        speed: on the roads, m/s.
+
+    Raises:
+        VehicleError: a name that the vehicle does not have, or no road for a goal that needs one.
+        SolveError: frequencies on which an undamped resonance lies.
+    """
+    vehicle.check_problem(problem)
+    if problem.goal == "change":
+        return LeastChange(vehicle, base)
+    cases = load_cases(vehicle, problem, speed)
+    objective = prepare_objective(vehicle, [replace(case, weight=1.0) for case in cases])
+    weights = np.array([case.weight for case in cases])
+    if not problem.is_normalised:
+        return objective.scaled(weights)
+    own = objective.values({})
+    shares = weights / (weights.sum() or 1.0)
+    return objective.scaled(np.divide(shares, own, out=shares.copy(), where=own > 0))
+
+
+def load_cases(vehicle: Vehicle, problem: Problem, speed: float) -> list[LoadCase]:
+    """The load cases of a goal that is made of accelerations; raises as `prepare_goal`."""
+    if problem.goal == "accelerations":
+        return [case for p in problem.performance for case in _cases(vehicle, p, speed)]
+    road = Conditions(_road(vehicle, problem), speed)
+    pattern = np.zeros((len(FREQUENCY_HZ), len(vehicle.response_points), 3))
+    match problem.goal:
+        case "rms":
+            for performance in problem.performance or (_everything(road.road),):
+                pattern = np.maximum(pattern, _selected(vehicle, performance))
+        case "rating":
+            pattern[:, DRIVER, [AXIS["lateral"], AXIS["vertical"]]] = 1.0
+        case "iso 2631":
+            factors = np.square(COMFORT_FACTORS) * STANDARD_GRAVITY**2
+            pattern[:, DRIVER] = factors * squared_weights(FREQUENCY_HZ)
+    pattern = pattern * integration_weights(FREQUENCY_HZ, RIDE_BAND)[:, None, None]
+    return [LoadCase(road, tuple(FREQUENCY_HZ), pattern=pattern)]
+
+
+def _cases(vehicle: Vehicle, performance: Performance, speed: float) -> list[LoadCase]:
+    """One for each of its loads."""
+    roads = [Conditions(road, speed) for road in performance.roads]
+    wheels = [vehicle.wheel_load(load) for load in performance.wheel_loads]
+    f = tuple(performance.frequency_hz.tolist())
+    pattern = np.broadcast_to(
+        _selected(vehicle, performance), (len(f), len(vehicle.response_points), 3)
+    )
+    return [
+        LoadCase(load, f, performance.weight, pattern, performance.target) for load in [*roads, *wheels]
+    ]
+
+
+def _selected(vehicle: Vehicle, performance: Performance) -> Floats:
+    """(n_points, 3): one for the points and directions of the performance variables."""
+    names = [point.name for point in vehicle.response_points]
+    points = [names.index(name) for name in performance.points or names]
+    selected = np.zeros((len(names), 3))
+    selected[np.ix_(points, [AXIS[d] for d in performance.directions])] = 1.0
+    return selected
+
+
+def _everything(road: str) -> Performance:
+    return Performance(FREQUENCY_HZ, (road,))
+
+
+def _road(vehicle: Vehicle, problem: Problem) -> str:
+    """The first road that the problem names, else the vehicle's first."""
+    named: Sequence[str] = [road for p in problem.performance for road in p.roads]
+    every = [*named, *(road.name for road in vehicle.roads)]
+    if not every:
+        raise VehicleError(f"problem {problem.name!r}: goal {problem.goal!r} needs a [[road]]")
+    return every[0]

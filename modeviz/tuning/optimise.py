@@ -1,0 +1,133 @@
+"""Better mount rates for a problem: many starts or a global search, and why it ended."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from modeviz.errors import SolveError
+from modeviz.tuning.active import ActiveConstraint, active_constraints
+from modeviz.tuning.control import Control
+from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent, Search, Step, descend
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Rates
+
+BUDGET = 5_000
+"""Evaluations that a search may take, all starts together."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """Where an optimisation is."""
+
+    evaluations: int
+    rates: Rates
+    """Of every group: the best design so far."""
+    value: float
+    """Of that."""
+    start: int
+    """The number of the start that is searched from, from one."""
+    n_starts: int
+
+
+@dataclass(frozen=True, eq=False)
+class Optimum:
+    """The best design that was found, and how the search ended."""
+
+    x: Floats
+    rates: Rates
+    """Of every group."""
+    value: float
+    """Of the goal."""
+    reason: str
+    """Why it ended: "converged", "cancelled", "out of budget", or the solver's own word."""
+    evaluations: int
+    active: tuple[ActiveConstraint, ...]
+    descents: tuple[Descent, ...]
+    """The end of the search from each start that was come to."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether every search came to its end."""
+        return self.reason == CONVERGED
+
+
+def start_points(search: Search, rates: Rates, n_starts: int, seed: int = 0) -> list[Floats]:
+    """Where to search from: some rates, and designs spread evenly over the space.
+
+    Args:
+        search: among whose designs.
+        rates: the first start.
+        n_starts: how many in all.
+        seed: of the others; the same gives the same.
+    """
+    return [search.space.to_x(rates), *search.space.samples(n_starts - 1, seed)]
+
+
+def optimise(
+    search: Search,
+    starts: Sequence[Floats],
+    budget: int = BUDGET,
+    control: Control | None = None,
+    tell: Callable[[Progress], None] = lambda _: None,
+) -> Optimum:
+    """The best of the designs down from each start.
+
+    Args:
+        search: what is sought.
+        starts: (n_variables,) each, see `start_points`.
+        budget: the most evaluations, all starts together.
+        control: lets somebody hold or end it; the best design so far is kept.
+        tell: told every evaluation, once there is a feasible design.
+
+    Raises:
+        SolveError: a design that cannot be solved, or none that keeps a mode where it has to be.
+    """
+    descents: list[Descent] = []
+    for i, start in enumerate(starts, 1):
+        used = sum(d.evaluations for d in descents)
+        if descents and (used >= budget or descents[-1].reason == CANCELLED):
+            break
+        teller = _teller(search, descents, used, i, len(starts), tell)
+        descents.append(descend(search, start, budget - used, control, teller))
+    return best_of(search, descents)
+
+
+def best_of(search: Search, descents: Sequence[Descent]) -> Optimum:
+    """The optimum of several searches; raises as `optimise`."""
+    best = min(descents, key=lambda d: d.value)
+    if best.x is None:
+        raise SolveError(
+            "no design was found that keeps the modes where they have to be: widen the frequency "
+            "window, free more rates or take more starts"
+        )
+    ended = next((d.reason for d in descents if d.reason in (CANCELLED, OUT_OF_BUDGET)), best.reason)
+    return Optimum(
+        x=best.x,
+        rates=search.space.rates(best.x),
+        value=best.value,
+        reason=ended,
+        evaluations=sum(d.evaluations for d in descents),
+        active=active_constraints(search, best.x),
+        descents=tuple(descents),
+    )
+
+
+def _teller(
+    search: Search,
+    before: Sequence[Descent],
+    used: int,
+    number: int,
+    n_starts: int,
+    tell: Callable[[Progress], None],
+) -> Callable[[Step], None]:
+    """What tells the best so far, of this search and those before."""
+    best = min(before, key=lambda d: d.value, default=None)
+
+    def told(step: Step) -> None:
+        x, value = step.x, step.value
+        if best is not None and best.value <= value:
+            x, value = best.x, best.value
+        if x is not None:
+            rates = search.space.rates(x)
+            tell(Progress(used + step.evaluations, rates, value, number, n_starts))
+
+    return told

@@ -1,0 +1,182 @@
+"""The search from one start: scipy's SLSQP with analytic derivatives, feasible at every step."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize
+
+from modeviz.errors import SolveError
+from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.design import DesignSpace
+from modeviz.tuning.goals import Goal
+from modeviz.tuning.sensitivity import rate_variables
+from modeviz.tuning.windows import Windows
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Rates
+
+TOLERANCE = 1e-8
+"""A search has converged when a step gains less of the goal."""
+
+MOST_STEPS = 500
+"""Of one search; the budget of evaluations ends it before."""
+
+CONVERGED, CANCELLED, OUT_OF_BUDGET = "converged", "cancelled", "out of budget"
+"""Why a search ends; else it is the solver's own word."""
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """A goal, and the designs among which it is to become small."""
+
+    space: DesignSpace
+    goal: Goal
+    windows: Windows | None = None
+
+    def evaluate(self, x: Floats) -> tuple[float, Floats]:
+        """The goal of a design, and its derivatives, (n_variables,).
+
+        Raises:
+            SolveError: it has none, with the rates.
+        """
+        rates = self.space.rates(x)
+        value, by_rate = self.goal.value_and_gradient(rates)
+        gradient = self._by_x(rates, by_rate)
+        if not (np.isfinite(value) and np.isfinite(gradient).all()):
+            raise SolveError(f"the goal is {value} with {self.space.spoken(x)}")
+        return value, gradient
+
+    def margins(self, x: Floats) -> tuple[Floats, Floats]:
+        """What is left to the ends of windows, (n_ends,), and derivatives, (n_ends, n_variables)."""
+        if self.windows is None:
+            return np.zeros(0), np.zeros((0, self.space.n_variables))
+        rates = self.space.rates(x)
+        values, by_rate = self.windows.margins(rates)
+        return values, self._by_x(rates, by_rate)
+
+    def allows(self, x: Floats) -> bool:
+        """Whether all modes of a design are where the windows want them."""
+        return self.windows is None or bool((self.margins(x)[0] >= 0).all())
+
+    def _by_x(self, rates: Rates, by_rate: Floats) -> Floats:
+        """Derivatives to x of what has derivatives to rates, (..., n_rates): dk = k dx."""
+        k = [getattr(rates[v.group], v.direction) for v in rate_variables(self.space.vehicle)]
+        return (by_rate * k) @ self.space.members
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """An evaluation of a search."""
+
+    evaluations: int
+    """So many by now."""
+    x: Floats | None
+    """The best design so far; None while none is within the windows."""
+    value: float
+    """Of that; infinite while there is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Descent:
+    """The end of the search from one start."""
+
+    x: Floats | None
+    """The best feasible design it met; None if it met none."""
+    value: float
+    """Its goal; infinite if there is none."""
+    reason: str
+    """`CONVERGED`, `CANCELLED`, `OUT_OF_BUDGET`, or why the solver stopped."""
+    evaluations: int
+
+    @property
+    def converged(self) -> bool:
+        return self.reason == CONVERGED
+
+
+def descend(
+    search: Search,
+    start: Floats,
+    budget: int,
+    control: Control | None = None,
+    tell: Callable[[Step], None] = lambda _: None,
+) -> Descent:
+    """The best design down from a start.
+
+    Bounds and ratio limits are linear, so that SLSQP (D. Kraft, "A software package for sequential
+    quadratic programming", DFVLR-FB 88-28, 1988) keeps to them at every step; what it evaluates is put
+    within them to the last bit. Of modes' windows only designs that keep to them count.
+
+    Args:
+        search: what is sought.
+        start: (n_variables,), put within the limits.
+        budget: the most evaluations it may take.
+        control: lets somebody hold or end it.
+        tell: told every evaluation.
+
+    Raises:
+        SolveError: a design that cannot be solved, with its rates.
+    """
+    evaluator = _Evaluator(search, budget, control or Control(), tell)
+    try:
+        result = minimize(
+            evaluator,
+            search.space.admitted(start),
+            jac=True,
+            method="SLSQP",
+            bounds=list(zip(search.space.lower, search.space.upper, strict=True)),
+            constraints=_constraints(search),
+            options={"ftol": TOLERANCE, "maxiter": MOST_STEPS},
+        )
+        reason = CONVERGED if result.success else result.message.lower()
+    except CancelledError:
+        reason = CANCELLED
+    except _OutOfBudgetError:
+        reason = OUT_OF_BUDGET
+    return Descent(evaluator.x, evaluator.value, reason, evaluator.n_evaluations)
+
+
+class _OutOfBudgetError(Exception):
+    """A search has evaluated as much as it may."""
+
+
+class _Evaluator:
+    """Evaluates designs for a solver, counts, and remembers the best feasible one."""
+
+    def __init__(
+        self, search: Search, budget: int, control: Control, tell: Callable[[Step], None]
+    ) -> None:
+        self._search, self._budget, self._control, self._tell = search, budget, control, tell
+        self.n_evaluations = 0
+        self.x: Floats | None = None
+        self.value = np.inf
+
+    def __call__(self, x: Floats) -> tuple[float, Floats]:
+        self._control.check()
+        if self.n_evaluations >= self._budget:
+            raise _OutOfBudgetError
+        self.n_evaluations += 1
+        x = self._search.space.admitted(x)
+        value, gradient = self._search.evaluate(x)
+        if value < self.value and self._search.allows(x):
+            self.x, self.value = x, value
+        self._tell(Step(self.n_evaluations, self.x, self.value))
+        return value, gradient
+
+
+def _constraints(search: Search) -> list[dict[str, Any]]:
+    """Ratio limits and windows as scipy takes them, c(x) >= 0."""
+    space = search.space
+    rows, values = space.rows[space.ratios], space.values[space.ratios]
+    constraints = []
+    if len(rows):
+        constraints.append({"type": "ineq", "fun": lambda x: values - rows @ x, "jac": lambda _: -rows})
+    if search.windows is not None:
+        constraints.append(
+            {
+                "type": "ineq",
+                "fun": lambda x: search.margins(x)[0],
+                "jac": lambda x: search.margins(x)[1],
+            }
+        )
+    return constraints

@@ -1,0 +1,99 @@
+"""Frequency windows of modes as constraints c >= 0 of a search, with their derivatives."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeviz.errors import VehicleError, unknown
+from modeviz.tuning.preparation import PreparedModes
+from modeviz.tuning.results import ModalResults, solve_modal
+from modeviz.tuning.sensitivity import frequency_sensitivity
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import FrequencyWindow
+
+MARGIN = 1e-6
+"""How far within a window a search aims, relative to its ends, so that rounding does not leave it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Windows:
+    """The frequency windows of a problem for a vehicle."""
+
+    prepared: PreparedModes
+    windows: tuple[FrequencyWindow, ...]
+    shapes: tuple[Floats, ...]
+    """(n_dofs,), of each window's mode at the vehicle's own rates: what it is where no mode has its
+    name."""
+
+    @property
+    def spoken(self) -> list[str]:
+        """What a person calls the end that each of `margins` is to: "cab yaw: at most 10 Hz"."""
+        return [f"{window.mode}: {end}" for window in self.windows for end in _ends(window)]
+
+    def margins(self, rates: Rates) -> tuple[Floats, Floats]:
+        """What is left to every end of every window, and its derivatives.
+
+        Returns:
+            (n_limits,), relative to the frequency, below zero where a window is left; and
+            (n_limits, n_rates), per N/m, in the order of `rate_variables`.
+        """
+        results = solve_modal(self.prepared, rates)
+        slopes = frequency_sensitivity(results)
+        values, gradients = [], []
+        for window, shape in zip(self.windows, self.shapes, strict=True):
+            mode = _mode(results, window.mode, shape)
+            f = float(results.modes.frequency_hz[mode])
+            for value, slope in _margins(window, f):
+                values.append(value)
+                gradients.append(slope * slopes[mode])
+        return np.array(values), np.array(gradients).reshape(len(values), slopes.shape[1])
+
+
+def prepare_windows(prepared: PreparedModes, windows: Sequence[FrequencyWindow]) -> Windows:
+    """Windows for a vehicle.
+
+    Raises:
+        VehicleError: a mode that the vehicle does not have with its own rates.
+    """
+    results = solve_modal(prepared, {})
+    shapes = []
+    for window in windows:
+        mode = results.mode_index(window.mode)
+        if mode is None:
+            names = [name.name for name in results.names]
+            raise VehicleError("window: " + unknown("mode", window.mode, names))
+        shapes.append(results.modes.shapes[:, mode])
+    return Windows(prepared, tuple(windows), tuple(shapes))
+
+
+def _mode(results: ModalResults, name: str, shape: Floats) -> int:
+    """The mode of that name, else the one most like a shape."""
+    named = results.mode_index(name)
+    if named is not None:
+        return named
+    return int(np.abs(results.modes.shapes.T @ results.prepared.system.mass @ shape).argmax())
+
+
+def _ends(window: FrequencyWindow) -> list[str]:
+    low, high = f"{window.low_hz:g} Hz", f"{window.high_hz:g} Hz"
+    if not window.is_inside:
+        return [f"not {low} to {high}"]
+    ends = [f"at least {low}"] if window.low_hz > 0 else []
+    return [*ends, f"at most {high}"] if np.isfinite(window.high_hz) else ends
+
+
+def _margins(window: FrequencyWindow, f: float) -> list[tuple[float, float]]:
+    """Of each end of a window what is left to it, relative, and the derivative of that to f, 1/Hz."""
+    low, high = window.low_hz, window.high_hz
+    if not window.is_inside:
+        middle, half = (low + high) / 2, (high - low) / 2 * (1 + MARGIN)
+        side = 1.0 if f >= middle else -1.0
+        return [((side * (f - middle) - half) / middle, side / middle)]
+    ends = []
+    if low > 0:
+        ends.append((f / low - 1 - MARGIN, 1 / low))
+    if np.isfinite(high):
+        ends.append((1 - f / high - MARGIN, -1 / high))
+    return ends

@@ -1,0 +1,145 @@
+"""A mount optimisation as data: which rates may change, within what, and what is to become small."""
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+
+from modeviz.errors import VehicleError, check_unique, unknown
+from modeviz.vehicle.arrays import Floats, frozen
+from modeviz.vehicle.connections import DIRECTIONS, MountRates
+
+Goal = Literal["accelerations", "rms", "rating", "iso 2631", "change"]
+"""What is to become small.
+
+accelerations: the performance variables. rms: the mean squares, on the road, at the points and along
+the directions of these. rating: the combined RMS that the mean personal rating falls with, at the
+driver's point. iso 2631: the vibration total value there. change: the mean square of ln(k/k₀) of the
+rates that may change.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class DesignGroup:
+    """A mount group whose rates may change, the same on the left and the right."""
+
+    group: str
+    directions: tuple[str, ...] = DIRECTIONS
+    """Which of its rates, of `DIRECTIONS`."""
+    bounds: tuple[MountRates, MountRates] | None = None
+    """The softest and the stiffest; None: the mount group's."""
+    ratio_limits: tuple[float, float] | None = None
+    """The least and the most that lateral and fore-aft may be of vertical; None: the mount group's."""
+    fixed_ratios: bool = False
+    """Whether all its rates keep their ratios to each other, whatever the limits."""
+
+    def __post_init__(self) -> None:
+        where = f"design group {self.group!r}"
+        check_directions(where, self.directions)
+        if self.fixed_ratios and len(self.directions) < len(DIRECTIONS):
+            raise VehicleError(
+                f"{where}: directions: found {', '.join(self.directions)} with fixed_ratios, which "
+                "change all rates together; expected all directions or no fixed ratios"
+            )
+        limits = self.ratio_limits
+        if limits is not None and not 0 <= limits[0] <= limits[1]:
+            raise VehicleError(
+                f"{where}: ratio_limits: found {limits[0]:g} to {limits[1]:g}, expected zero or more "
+                "and the lower one first"
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Performance:
+    """Performance variables: accelerations at points, under loads, at frequencies.
+
+    Under a wheel load they are peak values, g; on a road the roots of PSDs, g/√Hz. Every load is a load
+    case of its own.
+    """
+
+    frequency_hz: Floats
+    """(n_freqs,), rising, above zero."""
+    roads: tuple[str, ...] = ()
+    """Names, at the speed of the search."""
+    wheel_loads: tuple[str, ...] = ()
+    points: tuple[str, ...] = ()
+    """Names of response points; none is all."""
+    directions: tuple[str, ...] = ("lateral", "vertical")
+    target: float = 0.0
+    """The desired value of each."""
+    weight: float = 1.0
+    """Of each squared difference from the target."""
+
+    def __post_init__(self) -> None:
+        frozen(self, "frequency_hz", self.frequency_hz, (None,))
+        check_directions("performance", self.directions)
+        f = self.frequency_hz
+        if not len(f) or f[0] <= 0 or (np.diff(f) <= 0).any():
+            raise VehicleError("performance: frequency_hz: expected rising values above zero")
+        if not self.roads and not self.wheel_loads:
+            raise VehicleError("performance: found neither roads nor wheel_loads, expected one or more")
+        for name in ("target", "weight"):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value >= 0):
+                raise VehicleError(f"performance: {name}: found {value}, expected zero or more")
+
+
+@dataclass(frozen=True, eq=False)
+class FrequencyWindow:
+    """A band in which the frequency of a mode has to be, or out of which it has to stay."""
+
+    mode: str
+    """Its name."""
+    low_hz: float = 0.0
+    high_hz: float = np.inf
+    is_inside: bool = True
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.low_hz < self.high_hz:
+            raise VehicleError(
+                f"window of {self.mode!r}: found {self.low_hz:g} to {self.high_hz:g} Hz, expected "
+                "zero or more and the lower one first"
+            )
+        if not self.is_inside and (self.low_hz == 0 or np.isinf(self.high_hz)):
+            raise VehicleError(
+                f"window of {self.mode!r}: to stay out of a band it needs low_hz and high_hz; "
+                "what lies above or below one frequency is a window to be in"
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A mount optimisation."""
+
+    name: str
+    groups: tuple[DesignGroup, ...]
+    performance: tuple[Performance, ...] = ()
+    goal: Goal = "accelerations"
+    is_normalised: bool = True
+    """Whether each load case is divided by what it is with the vehicle's own rates, so that units do
+    not decide; the paper adds them up as they are."""
+    windows: tuple[FrequencyWindow, ...] = ()
+    reference: str = ""
+    """A set of rates of the vehicle that designs are compared with, or none."""
+
+    def __post_init__(self) -> None:
+        where = f"problem {self.name!r}"
+        if self.goal not in get_args(Goal):
+            raise VehicleError(f"{where}: " + unknown("goal", self.goal, get_args(Goal)))
+        if not self.groups:
+            raise VehicleError(f"{where}: has no groups, so nothing may change; expected one or more")
+        check_unique(f"{where}: design group", (g.group for g in self.groups))
+        if self.goal == "accelerations" and not self.performance:
+            raise VehicleError(f"{where}: performance: missing, expected one or more")
+
+
+def check_directions(where: str, directions: tuple[str, ...]) -> None:
+    """Raises VehicleError unless these are some of `DIRECTIONS`, each once."""
+    for direction in directions:
+        if direction not in DIRECTIONS:
+            raise VehicleError(f"{where}: " + unknown("direction", direction, DIRECTIONS))
+    if not directions or len(set(directions)) < len(directions):
+        raise VehicleError(
+            f"{where}: directions: found {list(directions)}, expected some of "
+            f"{', '.join(DIRECTIONS)}, each once"
+        )
