@@ -32,10 +32,15 @@ from modeviz.ride.wheels import wheel_forces as wheel_forces
 from modeviz.tuning.batch import solve_many as solve_many
 from modeviz.tuning.check import check_exactly as check_exactly
 from modeviz.tuning.check import classic_error as classic_error
+from modeviz.tuning.design import DesignSpace as DesignSpace
+from modeviz.tuning.design import design_space as design_space
 from modeviz.tuning.following import solve_followed as solve_followed
+from modeviz.tuning.goals import prepare_goal as prepare_goal
 from modeviz.tuning.objective import LoadCase as LoadCase
-from modeviz.tuning.objective import paper_cases as paper_cases
 from modeviz.tuning.objective import prepare_objective as prepare_objective
+from modeviz.tuning.optimise import Optimum as Optimum
+from modeviz.tuning.optimise import optimise as optimise
+from modeviz.tuning.optimise import start_points as start_points
 from modeviz.tuning.preparation import Prepared as Prepared
 from modeviz.tuning.preparation import PreparedModes as PreparedModes
 from modeviz.tuning.preparation import prepare as prepare
@@ -50,6 +55,7 @@ from modeviz.tuning.results import Results as Results
 from modeviz.tuning.results import solve as solve
 from modeviz.tuning.results import solve_modal as solve_modal
 from modeviz.tuning.results import solve_wheels as solve_wheels
+from modeviz.tuning.search import Search as Search
 from modeviz.tuning.sensitivity import RateVariable as RateVariable
 from modeviz.tuning.sensitivity import frequency_sensitivity as frequency_sensitivity
 from modeviz.tuning.sensitivity import rate_variables as rate_variables
@@ -76,4 +82,8 @@ from modeviz.vehicle.files import write_vehicle as write_vehicle
 from modeviz.vehicle.loads import ResponsePoint as ResponsePoint
 from modeviz.vehicle.loads import Road as Road
 from modeviz.vehicle.loads import WheelLoad as WheelLoad
+from modeviz.vehicle.problem import DesignGroup as DesignGroup
+from modeviz.vehicle.problem import FrequencyWindow as FrequencyWindow
+from modeviz.vehicle.problem import Performance as Performance
+from modeviz.vehicle.problem import Problem as Problem
 from modeviz.vehicle.vehicle import Vehicle as Vehicle

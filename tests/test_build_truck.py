@@ -11,6 +11,7 @@ from pickup.half_mesh import MIRROR
 from pickup.lattice import Lattice
 from pickup.mounts import OPTIMISED, ORIGINAL
 from pickup.parameters import Parameters
+from pickup.problem import paper_problem
 from pickup.sections import box_member, steel_sheet
 from pickup.stiffness import StaticStiffness, static_stiffness
 from pickup.vehicle import components, pickup
@@ -20,6 +21,7 @@ from modeviz.fem.matrices import assemble
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.vehicle.files.problems import ProblemRecord
 
 COUNTS = {
     "front end": (869, 832, 154),
@@ -169,6 +171,20 @@ def test_mount_rates_are_those_of_table_4():
     for group in truck().mount_groups:
         softest, stiffest = group.bounds
         assert stiffest.lateral / softest.lateral == pytest.approx(12)
+
+
+def test_the_paper_optimises_for_its_rough_road_and_every_wheel_load():
+    problem = truck().problem("paper")
+    built = paper_problem(truck().road("road 1"), truck().wheel_loads)
+    assert ProblemRecord.of(problem) == ProblemRecord.of(built)
+    on_road, on_wheels = problem.performance
+    assert on_road.roads == ("road 1",)
+    np.testing.assert_allclose(on_road.frequency_hz, np.arange(18, 43) / 3, rtol=1e-15)
+    assert on_wheels.wheel_loads == tuple(load.name for load in truck().wheel_loads)
+    assert on_wheels.frequency_hz.tolist() == [11.0, 13.25, 15.75]
+    assert {g.group: g.fixed_ratios for g in problem.groups} == {
+        "F": False, "C1": False, "C2": False, "E": True, "T": True,
+    }  # fmt: skip
 
 
 def test_every_wheel_has_three_loads_that_are_alike_left_and_right():

@@ -19,7 +19,8 @@ from modeviz.ride.roads import road_spectrum, track_amplitudes, track_forces
 from modeviz.ride.wheels import wheel_forces
 from modeviz.tuning.batch import solve_many
 from modeviz.tuning.check import check_exactly, classic_error
-from modeviz.tuning.objective import paper_cases, prepare_objective
+from modeviz.tuning.goals import load_cases
+from modeviz.tuning.objective import prepare_objective
 from modeviz.tuning.results import Conditions, solve, solve_modal
 from modeviz.tuning.sensitivity import frequency_sensitivity, rate_variables, ride_sensitivity
 from modeviz.vehicle.connections import MountRates
@@ -340,7 +341,8 @@ def test_derivatives_of_the_ride_are_central_differences(prepared, optimised, ro
 
 @pytest.fixture(scope="module")
 def objective(prepared):
-    return prepare_objective(prepared.vehicle, paper_cases(prepared.vehicle))
+    vehicle = prepared.vehicle
+    return prepare_objective(vehicle, load_cases(vehicle, vehicle.problem("paper"), vehicle.speed))
 
 
 def test_the_papers_objective_is_the_direct_solution_squared_and_summed(objective, road, optimised):

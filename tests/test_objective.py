@@ -6,7 +6,7 @@ from differences import central_difference, relative_to_largest
 from mounted_cabin import mounted_cabin
 
 from modeviz.errors import SolveError, VehicleError
-from modeviz.tuning.objective import LoadCase, paper_cases, prepare_objective
+from modeviz.tuning.objective import LoadCase, prepare_objective
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve, solve_wheels
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
@@ -63,19 +63,6 @@ def test_the_gradient_is_central_differences(objective):
 
 def test_frequencies_that_cases_share_are_solved_once(objective):
     np.testing.assert_allclose(objective.prepared.frequency_hz, [1.0, 2.0, 7.0, 11.0, 13.25])
-
-
-def test_the_papers_cases_are_a_road_and_every_wheel_load():
-    vehicle = mounted_cabin()
-    on_road, on_wheel = paper_cases(vehicle)
-    assert on_road.load == Conditions("flat", vehicle.speed)
-    np.testing.assert_allclose(on_road.frequency_hz, np.linspace(6, 14, 25))
-    assert on_wheel.load is vehicle.wheel_loads[0]
-    assert on_wheel.frequency_hz == (11.0, 13.25, 15.75)
-
-
-def test_without_roads_the_papers_cases_are_the_wheel_loads():
-    assert len(paper_cases(replace(mounted_cabin(), roads=()))) == 1
 
 
 def test_without_cases_there_is_no_objective():

@@ -21,6 +21,7 @@ from pickup.half_mesh import Structure
 from pickup.loads import FOOTPRINTS, added_masses, response_points, wheel_loads
 from pickup.mounts import OPTIMISED, ORIGINAL, mount_groups
 from pickup.parameters import Parameters
+from pickup.problem import paper_problem
 from pickup.rigid_bodies import rigid_bodies
 from pickup.roads import SPEED, roads
 
@@ -65,6 +66,7 @@ def pickup(p: Parameters, solve: Callable[..., FlexibleBody] = flexible_body) ->
     masses, points = added_masses(p), response_points(p)
     parts = components(p)
     meshes = display_meshes({part.name: part.structure for part in parts}, p)
+    tracks, loads = roads(), wheel_loads()
 
     def solved(part: Component) -> FlexibleBody:
         return solve(
@@ -87,10 +89,11 @@ def pickup(p: Parameters, solve: Callable[..., FlexibleBody] = flexible_body) ->
         mount_groups=groups,
         added_masses=masses,
         response_points=points,
-        roads=roads(),
-        wheel_loads=wheel_loads(),
+        roads=tracks,
+        wheel_loads=loads,
         rate_sets={"original": ORIGINAL, "optimised": OPTIMISED},
         speed=SPEED,
+        problems=(paper_problem(tracks[0], loads),),
     )
 
 

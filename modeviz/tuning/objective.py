@@ -21,12 +21,6 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.loads import WheelLoad
 from modeviz.vehicle.vehicle import Vehicle
 
-ROAD_HZ = tuple(np.arange(18, 43) / 3)
-"""The paper's frequencies on a road: 6 to 14 Hz in steps of 1/3 Hz."""
-
-WHEEL_HZ = (11.0, 13.25, 15.75)
-"""The paper's frequencies for wheel loads."""
-
 DIRECTIONS = ("lateral", "vertical")
 
 SAME_HZ = 1e-9
@@ -152,14 +146,6 @@ def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
     )
     driven = _with_outputs(prepared.receptances, outputs).driven(np.concatenate(amplitudes, axis=2))
     return Objective(prepared, driven, terms)
-
-
-def paper_cases(vehicle: Vehicle) -> tuple[LoadCase, ...]:
-    """The paper's load cases: the first road at the vehicle's speed, and every wheel load."""
-    return (
-        *(LoadCase(Conditions(road.name, vehicle.speed), ROAD_HZ) for road in vehicle.roads[:1]),
-        *(LoadCase(load, WHEEL_HZ) for load in vehicle.wheel_loads),
-    )
 
 
 def _weights(vehicle: Vehicle, case: LoadCase) -> Floats:
