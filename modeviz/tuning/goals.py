@@ -30,6 +30,10 @@ class Goal(Protocol):
         """At rates of the groups that differ from the vehicle's own; raises as `solve`."""
         ...
 
+    def exact_value(self, rates: Rates) -> float:
+        """The same, from the equations of motion of the full model."""
+        ...
+
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         """That, and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
         ...
@@ -45,6 +49,9 @@ class LeastChange:
 
     def value(self, rates: Rates) -> float:
         return self.value_and_gradient(rates)[0]
+
+    def exact_value(self, rates: Rates) -> float:
+        return self.value(rates)
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         variables = rate_variables(self.vehicle)

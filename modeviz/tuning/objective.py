@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.dynamics.reanalysis import Receptances
-from modeviz.dynamics.response import check_frequencies
+from modeviz.dynamics.response import check_frequencies, direct_response
 from modeviz.errors import SolveError
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_amplitudes
@@ -85,6 +85,10 @@ class Objective:
     """At the frequencies of all cases together."""
     driven: Receptances
     """With the inputs of all cases, one case after the other, and those outputs that have a weight."""
+    amplitudes: Complexes
+    """(n_freqs, n_directions, n_inputs): of these inputs along `prepared.input_directions`."""
+    outputs: NDArray[np.intp]
+    """Which rows of `prepared.outputs` have a weight."""
     terms: tuple[_Term, ...]
     """One for each case."""
 
@@ -94,8 +98,20 @@ class Objective:
 
     def values(self, rates: Rates) -> Floats:
         """What each case adds to F, (n_cases,); raises as `solve`."""
-        H = self.driven.response(self.prepared.mount_stiffness(rates))
-        return np.array([term.value(self._power(term, H)) for term in self.terms])
+        return self._values(self.driven.response(self.prepared.mount_stiffness(rates)))
+
+    def exact_value(self, rates: Rates) -> float:
+        """F from the equations of motion of the full model, frequency by frequency.
+
+        Raises:
+            VehicleError: a group that the vehicle does not have.
+            SolveError: as `direct_response`.
+        """
+        prepared = self.prepared
+        forces = prepared.input_directions.T @ self.amplitudes
+        system = prepared.system.with_rates(rates)
+        H = direct_response(system, prepared.frequency_hz, forces, prepared.outputs[self.outputs])
+        return float(self._values(H).sum())
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         """F and ∂F/∂k, (n_variables,) in the order of `rate_variables`; raises as `solve`."""
@@ -117,6 +133,10 @@ class Objective:
         )
         return replace(self, terms=terms)
 
+    def _values(self, response: Complexes) -> Floats:
+        """What each case adds to F, from the response of all outputs to all inputs."""
+        return np.array([term.value(self._power(term, response)) for term in self.terms])
+
     def _power(self, term: _Term, response: Complexes) -> Floats:
         """a² of a case, from the response of all outputs to all inputs."""
         f = self.driven.frequency_hz[term.lines]
@@ -136,16 +156,17 @@ def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
         check_frequencies(np.asarray(case.frequency_hz, float))
     every = np.sort(np.concatenate([np.asarray(c.frequency_hz, float) for c in cases]))
     prepared = prepare(vehicle, every[np.diff(every, prepend=0.0) > SAME_HZ])
-    amplitudes = [_amplitudes(prepared, case.load) for case in cases]
-    ends = np.cumsum([0] + [a.shape[2] for a in amplitudes])
+    by_case = [_amplitudes(prepared, case.load) for case in cases]
+    ends = np.cumsum([0] + [a.shape[2] for a in by_case])
     weights = [_weights(vehicle, case) for case in cases]
     outputs = np.flatnonzero(sum(w.sum(axis=0) for w in weights))
     terms = tuple(
         _term(prepared, case, its[:, outputs], slice(*own))
         for case, its, own in zip(cases, weights, pairwise(ends), strict=True)
     )
-    driven = _with_outputs(prepared.receptances, outputs).driven(np.concatenate(amplitudes, axis=2))
-    return Objective(prepared, driven, terms)
+    amplitudes = np.concatenate(by_case, axis=2)
+    driven = _with_outputs(prepared.receptances, outputs).driven(amplitudes)
+    return Objective(prepared, driven, amplitudes, outputs, terms)
 
 
 def _weights(vehicle: Vehicle, case: LoadCase) -> Floats:

@@ -7,6 +7,7 @@ from modeviz.errors import SolveError
 from modeviz.tuning.active import ActiveConstraint, active_constraints
 from modeviz.tuning.control import Control
 from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent, Search, Step, descend
+from modeviz.tuning.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 
@@ -41,6 +42,8 @@ class Optimum:
     """Why it ended: "converged", "cancelled", "out of budget", or the solver's own word."""
     evaluations: int
     active: tuple[ActiveConstraint, ...]
+    verification: Verification
+    """What the full model says of it."""
     descents: tuple[Descent, ...]
     """The end of the search from each start that was come to."""
 
@@ -92,8 +95,10 @@ def optimise(
 
 
 def best_of(search: Search, descents: Sequence[Descent]) -> Optimum:
-    """The optimum of several searches; raises as `optimise`."""
+    """The optimum of several searches, held against the full model; raises as `optimise`."""
     best = min(descents, key=lambda d: d.value)
+    if best.x is None and best.reason == CANCELLED:
+        raise SolveError("cancelled before a design was found that keeps all limits")
     if best.x is None:
         raise SolveError(
             "no design was found that keeps the modes where they have to be: widen the frequency "
@@ -107,6 +112,7 @@ def best_of(search: Search, descents: Sequence[Descent]) -> Optimum:
         reason=ended,
         evaluations=sum(d.evaluations for d in descents),
         active=active_constraints(search, best.x),
+        verification=verify(search, best.x, best.value),
         descents=tuple(descents),
     )
 

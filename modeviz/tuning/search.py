@@ -9,12 +9,15 @@ from scipy.optimize import minimize
 
 from modeviz.errors import SolveError
 from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.design import DesignSpace
-from modeviz.tuning.goals import Goal
+from modeviz.tuning.design import DesignSpace, design_space
+from modeviz.tuning.goals import Goal, prepare_goal
+from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.sensitivity import rate_variables
-from modeviz.tuning.windows import Windows
+from modeviz.tuning.windows import Windows, prepare_windows
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
 
 TOLERANCE = 1e-8
 """A search has converged when a step gains less of the goal."""
@@ -63,6 +66,33 @@ class Search:
         """Derivatives to x of what has derivatives to rates, (..., n_rates): dk = k dx."""
         k = [getattr(rates[v.group], v.direction) for v in rate_variables(self.space.vehicle)]
         return (by_rate * k) @ self.space.members
+
+
+def prepare_search(
+    vehicle: Vehicle,
+    problem: Problem,
+    rates: Rates,
+    speed: float,
+    locked: frozenset[tuple[str, str]] = frozenset(),
+) -> Search:
+    """The search for better rates that a problem asks for.
+
+    Args:
+        vehicle: with the rates that the goal is normalised with.
+        problem: which rates may change, within what, and what is to become small.
+        rates: of every group: what others keep, what fixed ratios are of, and from which a change is
+            measured.
+        speed: on the roads, m/s.
+        locked: rates, (group, field of `MountRates`), that may not change.
+
+    Raises:
+        VehicleError: as `prepare_goal`, `design_space` and `prepare_windows`.
+        SolveError: as `prepare_goal`.
+    """
+    space = design_space(vehicle, problem.groups, rates, locked)
+    goal = prepare_goal(vehicle, problem, rates, speed)
+    windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None
+    return Search(space, goal, windows)
 
 
 @dataclass(frozen=True, eq=False)

@@ -42,13 +42,23 @@ class Windows:
         results = solve_modal(self.prepared, rates)
         slopes = frequency_sensitivity(results)
         values, gradients = [], []
-        for window, shape in zip(self.windows, self.shapes, strict=True):
-            mode = _mode(results, window.mode, shape)
-            f = float(results.modes.frequency_hz[mode])
-            for value, slope in _margins(window, f):
+        for window, mode in zip(self.windows, self._modes(results), strict=True):
+            for value, slope in _margins(window, float(results.modes.frequency_hz[mode])):
                 values.append(value)
                 gradients.append(slope * slopes[mode])
         return np.array(values), np.array(gradients).reshape(len(values), slopes.shape[1])
+
+    def exact_frequencies(self, rates: Rates) -> Floats:
+        """Where the mode of each window is in the full eigenproblem, (n_windows,), Hz."""
+        results = solve_modal(self.prepared, rates, "exact")
+        return results.modes.frequency_hz[self._modes(results)]
+
+    def _modes(self, results: ModalResults) -> list[int]:
+        """The mode of each window."""
+        return [
+            _mode(results, window.mode, shape)
+            for window, shape in zip(self.windows, self.shapes, strict=True)
+        ]
 
 
 def prepare_windows(prepared: PreparedModes, windows: Sequence[FrequencyWindow]) -> Windows:

@@ -106,6 +106,10 @@ class FrequencyWindow:
                 "what lies above or below one frequency is a window to be in"
             )
 
+    def allows(self, frequency_hz: float) -> bool:
+        """Whether the mode may be there."""
+        return (self.low_hz <= frequency_hz <= self.high_hz) == self.is_inside
+
 
 @dataclass(frozen=True, eq=False)
 class Problem:
