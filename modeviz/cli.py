@@ -1,4 +1,4 @@
-"""The command line: `modeviz [view|modes|psd|wheels|render|report] [VEHICLE]`."""
+"""The command line: `modeviz [view|modes|psd|wheels|render|report|optimise] [VEHICLE]`."""
 
 import argparse
 import os
@@ -9,15 +9,18 @@ from pathlib import Path
 from typing import get_args
 
 from modeviz.commands import tables
+from modeviz.commands.optimise import optimise_rates
 from modeviz.commands.render import render_file
 from modeviz.commands.report import write_report
 from modeviz.commands.view import view as open_view
 from modeviz.dynamics.band import Method
 from modeviz.errors import ModevizError
+from modeviz.tuning.optimise import BUDGET
 from modeviz.tuning.rates import ORIGINAL
+from modeviz.vehicle.problem import Goal
 
 DEFAULT_PORT = 8080
-COMMANDS = ("view", "modes", "psd", "wheels", "render", "report")
+COMMANDS = ("view", "modes", "psd", "wheels", "render", "report", "optimise")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -98,6 +101,7 @@ def _parser() -> argparse.ArgumentParser:
         dest="pictures",
         help="without the pictures, for which a Chromium is needed",
     )
+    _add_search(_command(commands, "optimise", optimise_rates, "search for better mount rates"))
     return parser
 
 
@@ -127,11 +131,45 @@ def _command(commands, name: str, run, help_text: str) -> argparse.ArgumentParse
 
 def _add_road(command: argparse.ArgumentParser) -> None:
     command.add_argument("--road", help="default: the vehicle's first")
+    _add_speed(command)
+
+
+def _add_speed(command: argparse.ArgumentParser) -> None:
     command.add_argument("--speed", metavar="SPEED", help='such as "88 km/h" (default: the vehicle\'s)')
 
 
 def _add_json(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="print JSON instead of a table")
+
+
+def _add_search(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--output", type=Path, metavar="FILE", help="where to write the rates found: .json or .csv"
+    )
+    command.add_argument("--problem", metavar="NAME", help="default: the vehicle's first")
+    command.add_argument(
+        "--goal", metavar="NAME", help="instead of the problem's: " + ", ".join(get_args(Goal))
+    )
+    command.add_argument(
+        "--plain",
+        action="store_true",
+        help="add load cases up as they are, as the paper does, not relative to the original",
+    )
+    command.add_argument(
+        "--starts", type=int, default=20, metavar="N", help="the first from --rates; default 20"
+    )
+    command.add_argument(
+        "--global",
+        action="store_true",
+        dest="everywhere",
+        help="search everywhere at once instead: slower, and finds what starts may miss",
+    )
+    command.add_argument("--seed", type=int, default=0, metavar="N", help="of what is random")
+    command.add_argument(
+        "--budget", type=int, default=BUDGET, metavar="N", help=f"evaluations, default {BUDGET}"
+    )
+    _add_speed(command)
+    _add_json(command)
 
 
 def _add_picture(command: argparse.ArgumentParser) -> None:

@@ -1,5 +1,6 @@
 """What commands share: the vehicle, rates, road and speed that were asked for, and word of progress."""
 
+import json
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Sized
@@ -8,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from modeviz.errors import ModevizError, located
+from modeviz.export.records import Record
 from modeviz.ride.roads import road_spectrum
 from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
 from modeviz.tuning.rates import resolve_rates
@@ -36,10 +38,25 @@ def conditions(options: Namespace, vehicle: Vehicle) -> Conditions:
     """
     need(vehicle, "road", vehicle.roads)
     need(vehicle, "response point", vehicle.response_points)
-    speed = vehicle.speed if options.speed is None else _speed(options.speed)
+    speed = chosen_speed(options, vehicle)
     road = vehicle.road(options.road or vehicle.roads[0].name)
     road_spectrum(road, FREQUENCY_HZ, speed)  # what is wrong there is better said before a preparation
     return Conditions(road.name, speed)
+
+
+def chosen_speed(options: Namespace, vehicle: Vehicle) -> float:
+    """The speed chosen, or the vehicle's, m/s.
+
+    Raises:
+        ModevizError: it is not a speed above zero.
+    """
+    if options.speed is None:
+        return vehicle.speed
+    with located("--speed"):
+        speed = parse(options.speed, "speed")
+        if speed <= 0:
+            raise ModevizError(f"found {options.speed!r}, expected more than zero")
+    return speed
 
 
 def ride(options: Namespace, vehicle: Vehicle) -> Conditions | None:
@@ -83,14 +100,11 @@ def progress(what: str) -> Callable[[float], None]:
     return tell
 
 
+def print_json(record: Record) -> None:
+    """Prints what `--json` asks for."""
+    print(json.dumps(record, indent=1, ensure_ascii=False))
+
+
 def tell(what: str, done: float) -> None:
     """Tells on a terminal how far one of several things is, see `progress`."""
     progress(what)(done)
-
-
-def _speed(text: str) -> float:
-    with located("--speed"):
-        speed = parse(text, "speed")
-        if speed <= 0:
-            raise ModevizError(f"found {text!r}, expected more than zero")
-    return speed

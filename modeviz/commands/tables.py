@@ -1,13 +1,18 @@
 """The commands that print: `modes`, `psd` and `wheels`, as tables or JSON."""
 
-import json
 import math
 from argparse import Namespace
 
-from modeviz.commands.options import conditions, need, prepare_telling, vehicle_and_rates
+from modeviz.commands.options import (
+    conditions,
+    need,
+    prepare_telling,
+    print_json,
+    vehicle_and_rates,
+)
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import ModevizError
-from modeviz.export.records import Record, modes_record, psd_record, wheels_record
+from modeviz.export.records import modes_record, psd_record, wheels_record
 from modeviz.export.tables import modes_table, psd_table, wheels_table
 from modeviz.tuning.following import solve_followed
 from modeviz.tuning.preparation import prepare_modes
@@ -22,7 +27,7 @@ def modes(options: Namespace) -> None:
     prepared = prepare_modes(vehicle, max(options.below, TOP_HZ))
     followed = solve_followed(prepared, rates, options.method)
     if options.json:
-        _print_json(modes_record(followed, options.below))
+        print_json(modes_record(followed, options.below))
     else:
         print(modes_table(followed, options.below))
 
@@ -33,7 +38,7 @@ def psd(options: Namespace) -> None:
     chosen = conditions(options, vehicle)
     results = solve(prepare_telling(vehicle), rates, chosen)
     if options.json:
-        _print_json(psd_record(results))
+        print_json(psd_record(results))
     else:
         print(psd_table(results))
 
@@ -46,10 +51,6 @@ def wheels(options: Namespace) -> None:
     results = solve_wheels(prepare_telling(vehicle), rates)
     tuned = vehicle.with_rates(rates)
     if options.json:
-        _print_json(wheels_record(tuned, results))
+        print_json(wheels_record(tuned, results))
     else:
         print(wheels_table(tuned, results))
-
-
-def _print_json(record: Record) -> None:
-    print(json.dumps(record, indent=1, ensure_ascii=False))

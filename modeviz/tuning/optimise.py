@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from modeviz.errors import SolveError
 from modeviz.tuning.active import ActiveConstraint, active_constraints
 from modeviz.tuning.control import Control
+from modeviz.tuning.evolution import evolve
 from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent, Search, Step, descend
 from modeviz.tuning.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats
@@ -13,6 +14,9 @@ from modeviz.vehicle.connections import Rates
 
 BUDGET = 5_000
 """Evaluations that a search may take, all starts together."""
+
+EVOLVING = 0.8
+"""The part of them that a global search has before its best design is improved."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +29,7 @@ class Progress:
     value: float
     """Of that."""
     start: int
-    """The number of the start that is searched from, from one."""
+    """The number of the start that is searched from, from one; of a global search the part, of two."""
     n_starts: int
 
 
@@ -92,6 +96,34 @@ def optimise(
         teller = _teller(search, descents, used, i, len(starts), tell)
         descents.append(descend(search, start, budget - used, control, teller))
     return best_of(search, descents)
+
+
+def search_globally(
+    search: Search,
+    seed: int = 0,
+    budget: int = BUDGET,
+    control: Control | None = None,
+    tell: Callable[[Progress], None] = lambda _: None,
+) -> Optimum:
+    """The best design of an evolution, and down from there.
+
+    Args:
+        search: what is sought.
+        seed: of the evolution; the same finds the same.
+        budget: the most evaluations.
+        control: lets somebody hold or end it; the best design so far is kept.
+        tell: told every evaluation, once there is a feasible design.
+
+    Raises:
+        SolveError: as `optimise`.
+    """
+    teller = _teller(search, [], 0, 1, 2, tell)
+    evolved = evolve(search, seed, max(1, int(EVOLVING * budget)), control, teller)
+    rest = budget - evolved.evaluations
+    if evolved.x is None or evolved.reason == CANCELLED or not rest:
+        return best_of(search, [evolved])
+    teller = _teller(search, [evolved], evolved.evaluations, 2, 2, tell)
+    return best_of(search, [evolved, descend(search, evolved.x, rest, control, teller)])
 
 
 def best_of(search: Search, descents: Sequence[Descent]) -> Optimum:

@@ -62,7 +62,7 @@ def read_rates(path: Path, vehicle: Vehicle) -> Rates:
     Raises:
         VehicleError: no such file, a damaged one, or a group or unit that does not exist.
     """
-    file_format = _format(path)
+    file_format = rates_format(path)
     text = read_text(path)
     with located(path):
         return parse_rates(text, file_format, vehicle)
@@ -74,10 +74,11 @@ def write_rates(path: Path, rates: Rates) -> None:
     Raises:
         VehicleError: the name ends otherwise, or it cannot be written.
     """
-    write_text(path, rates_text(rates, _format(path)))
+    write_text(path, rates_text(rates, rates_format(path)))
 
 
-def _format(path: Path) -> RatesFormat:
+def rates_format(path: Path) -> RatesFormat:
+    """The format that a file's name says; raises VehicleError for any other ending."""
     for known in get_args(RatesFormat):
         if path.suffix.lower() == f".{known}":
             return known

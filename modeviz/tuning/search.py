@@ -25,6 +25,9 @@ TOLERANCE = 1e-8
 MOST_STEPS = 500
 """Of one search; the budget of evaluations ends it before."""
 
+FORBIDDEN = 1e12
+"""Stands for the goal of a design that leaves a window, where there must be a number."""
+
 CONVERGED, CANCELLED, OUT_OF_BUDGET = "converged", "cancelled", "out of budget"
 """Why a search ends; else it is the solver's own word."""
 
@@ -49,6 +52,13 @@ class Search:
         if not (np.isfinite(value) and np.isfinite(gradient).all()):
             raise SolveError(f"the goal is {value} with {self.space.spoken(x)}")
         return value, gradient
+
+    def value(self, x: Floats) -> float:
+        """The goal of a design; raises as `evaluate`."""
+        value = self.goal.value(self.space.rates(x))
+        if not np.isfinite(value):
+            raise SolveError(f"the goal is {value} with {self.space.spoken(x)}")
+        return value
 
     def margins(self, x: Floats) -> tuple[Floats, Floats]:
         """What is left to the ends of windows, (n_ends,), and derivatives, (n_ends, n_variables)."""
@@ -147,10 +157,10 @@ def descend(
     Raises:
         SolveError: a design that cannot be solved, with its rates.
     """
-    evaluator = _Evaluator(search, budget, control or Control(), tell)
+    evaluator = Evaluator(search, budget, control or Control(), tell)
     try:
         result = minimize(
-            evaluator,
+            evaluator.value_and_gradient,
             search.space.admitted(start),
             jac=True,
             method="SLSQP",
@@ -161,37 +171,67 @@ def descend(
         reason = CONVERGED if result.success else result.message.lower()
     except CancelledError:
         reason = CANCELLED
-    except _OutOfBudgetError:
+    except OutOfBudgetError:
         reason = OUT_OF_BUDGET
-    return Descent(evaluator.x, evaluator.value, reason, evaluator.n_evaluations)
+    return evaluator.end(reason)
 
 
-class _OutOfBudgetError(Exception):
+class OutOfBudgetError(Exception):
     """A search has evaluated as much as it may."""
 
 
-class _Evaluator:
+class Evaluator:
     """Evaluates designs for a solver, counts, and remembers the best feasible one."""
 
     def __init__(
         self, search: Search, budget: int, control: Control, tell: Callable[[Step], None]
     ) -> None:
         self._search, self._budget, self._control, self._tell = search, budget, control, tell
-        self.n_evaluations = 0
-        self.x: Floats | None = None
-        self.value = np.inf
+        self._n_evaluations = 0
+        self._x: Floats | None = None
+        self._value = np.inf
 
-    def __call__(self, x: Floats) -> tuple[float, Floats]:
-        self._control.check()
-        if self.n_evaluations >= self._budget:
-            raise _OutOfBudgetError
-        self.n_evaluations += 1
+    def value_and_gradient(self, x: Floats) -> tuple[float, Floats]:
+        """The goal of the design nearest to one, and its derivatives.
+
+        Raises:
+            CancelledError: it is to end.
+            OutOfBudgetError: it has evaluated as much as it may.
+            SolveError: as `Search.evaluate`.
+        """
+        self._count()
         x = self._search.space.admitted(x)
         value, gradient = self._search.evaluate(x)
-        if value < self.value and self._search.allows(x):
-            self.x, self.value = x, value
-        self._tell(Step(self.n_evaluations, self.x, self.value))
+        self._remember(x, value, value < self._value and self._search.allows(x))
         return value, gradient
+
+    def value(self, x: Floats) -> float:
+        """The goal of a design; of one that leaves a window `FORBIDDEN` and more, the farther it is.
+
+        Any that keeps to the windows is then better than any that does not (K. Deb, "An efficient
+        constraint handling method for genetic algorithms", Comput. Methods Appl. Mech. Engrg. 186,
+        2000). Raises as `value_and_gradient`.
+        """
+        self._count()
+        excess = -self._search.margins(x)[0].clip(max=0).sum()
+        value = FORBIDDEN * (1 + excess) if excess > 0 else self._search.value(x)
+        self._remember(x, value, excess == 0 and value < self._value)
+        return value
+
+    def end(self, reason: str) -> Descent:
+        """What it found, and why it ended."""
+        return Descent(self._x, self._value, reason, self._n_evaluations)
+
+    def _count(self) -> None:
+        self._control.check()
+        if self._n_evaluations >= self._budget:
+            raise OutOfBudgetError
+        self._n_evaluations += 1
+
+    def _remember(self, x: Floats, value: float, is_best: bool) -> None:
+        if is_best:
+            self._x, self._value = x, value
+        self._tell(Step(self._n_evaluations, self._x, self._value))
 
 
 def _constraints(search: Search) -> list[dict[str, Any]]:

@@ -1,0 +1,74 @@
+"""The command that searches for better mount rates."""
+
+from argparse import Namespace
+from dataclasses import replace
+from math import inf
+
+from modeviz.commands.interrupt import cancelled_by_interrupt
+from modeviz.commands.options import chosen_speed, need, print_json, progress, vehicle_and_rates
+from modeviz.errors import ModevizError
+from modeviz.export.optimum import optimum_record, optimum_table
+from modeviz.export.wording import significant
+from modeviz.tuning.optimise import Optimum, Progress, optimise, search_globally, start_points
+from modeviz.tuning.rate_files import rates_format, write_rates
+from modeviz.tuning.search import Search, prepare_search
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.files.disk import check_writable
+from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+MOST_STARTS = 10_000
+
+
+def optimise_rates(options: Namespace) -> None:
+    """Searches, writes the rates that were found and prints what they are worth."""
+    _check("--starts", options.starts, 1, MOST_STARTS)
+    _check("--budget", options.budget, 1, inf)
+    _check("--seed", options.seed, 0, inf)
+    vehicle, rates = vehicle_and_rates(options)
+    problem = _problem(options, vehicle)
+    speed = chosen_speed(options, vehicle)
+    if options.output:
+        rates_format(options.output)
+        check_writable(options.output)
+    search = prepare_search(vehicle, problem, rates, speed)
+    optimum = _search(options, search, rates)
+    if options.output:
+        write_rates(options.output, optimum.rates)
+    if options.json:
+        print_json(optimum_record(problem, search, optimum))
+    else:
+        print(optimum_table(problem, search, optimum))
+
+
+def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
+    """The problem that was asked for, as the vehicle has it but for what was changed."""
+    need(vehicle, "problem", vehicle.problems)
+    name = vehicle.problems[0].name if options.problem is None else options.problem
+    problem = vehicle.problem(name)
+    if options.goal:
+        problem = replace(problem, goal=options.goal)
+    return replace(problem, is_normalised=problem.is_normalised and not options.plain)
+
+
+def _search(options: Namespace, search: Search, rates: Rates) -> Optimum:
+    """The best that is found until the end, or until Ctrl+C."""
+    try:
+        with cancelled_by_interrupt() as control:
+            if options.everywhere:
+                return search_globally(search, options.seed, options.budget, control, _tell)
+            starts = start_points(search, rates, options.starts, options.seed)
+            return optimise(search, starts, options.budget, control, _tell)
+    finally:
+        progress("")(1.0)  # leaves an empty line
+
+
+def _tell(where: Progress) -> None:
+    text = f"search {where.start:3d} of {where.n_starts}, objective {significant(where.value):>9}"
+    progress(text)((where.start - 1) / where.n_starts)
+
+
+def _check(option: str, value: int, low: int, high: float) -> None:
+    if not low <= value <= high:
+        expected = f"{low} or more" if high == inf else f"{low} to {high:.0f}"
+        raise ModevizError(f"{option}: found {value}, expected {expected}")

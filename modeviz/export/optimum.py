@@ -1,0 +1,135 @@
+"""What an optimisation found, as plain values for JSON and as a text table."""
+
+import math
+
+from modeviz.export.records import Record, rates_record
+from modeviz.export.tables import table
+from modeviz.export.wording import percent_change, scientific, significant
+from modeviz.tuning.active import RELAXED
+from modeviz.tuning.optimise import Optimum
+from modeviz.tuning.search import Search
+from modeviz.units import factor
+from modeviz.vehicle.connections import DIRECTIONS, Rates
+from modeviz.vehicle.problem import Goal, Problem
+
+SMALL: dict[Goal, str] = {
+    "accelerations": "squared accelerations",
+    "rms": "mean squares on the road",
+    "rating": "combined mean square at the driver's point",
+    "iso 2631": "square of the ISO 2631-1 total at the driver's point",
+    "change": "mean square of ln(k/k₀)",
+}
+"""What becomes small, in people's words."""
+
+
+def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record:
+    """What an optimisation found.
+
+    `{"goal", "normalised", "objective": {"original", "found", "paper": of the problem's reference or
+    null}, "rates": see rates_record, "converged", "reason", "evaluations", "active_constraints":
+    [{"name", "multiplier", "gain"}], "exact_difference": or null where the full model cannot be solved
+    exactly enough}`; a gain is a part of what was found, from relaxing the limit by 10 %.
+    """
+    vehicle = search.space.vehicle
+    difference = optimum.verification.difference
+    return {
+        "goal": problem.goal,
+        "normalised": problem.is_normalised,
+        "objective": _objective(problem, search, optimum),
+        "rates": rates_record(vehicle.with_rates(optimum.rates)),
+        "converged": optimum.converged,
+        "reason": optimum.reason,
+        "evaluations": optimum.evaluations,
+        "active_constraints": [
+            {"name": c.name, "multiplier": c.multiplier, "gain": c.gain} for c in optimum.active
+        ],
+        "exact_difference": difference if math.isfinite(difference) else None,
+    }
+
+
+def optimum_table(problem: Problem, search: Search, optimum: Optimum) -> str:
+    """Rates and objective, original, found and of the reference; why it ended; limits it sits on."""
+    parts = [
+        _rates_table(problem, search, optimum),
+        _ending(problem, optimum),
+        _exactness(search, optimum),
+        _limits(optimum),
+    ]
+    return "\n\n".join(part for part in parts if part)
+
+
+def objective_words(problem: Problem) -> str:
+    """What becomes small and how it is added up: nobody has to guess which sum a number is."""
+    what = SMALL[problem.goal]
+    if problem.goal == "change":
+        return what
+    how = "each load case relative to the original" if problem.is_normalised else "plain sum"
+    return f"{what}, {how}"
+
+
+def _objective(problem: Problem, search: Search, optimum: Optimum) -> dict[str, float | None]:
+    goal, sets = search.goal, search.space.vehicle.rate_sets
+    reference = goal.value(sets[problem.reference]) if problem.reference else None
+    return {"original": goal.value({}), "found": optimum.value, "paper": reference}
+
+
+def _rates_table(problem: Problem, search: Search, optimum: Optimum) -> str:
+    """A row for each rate of the problem's groups, and one for the objective."""
+    vehicle = search.space.vehicle
+    own = vehicle.rates
+    others: dict[str, Rates] = {"found": optimum.rates}
+    if problem.reference:
+        others[problem.reference] = vehicle.all_rates(vehicle.rate_sets[problem.reference])
+    per_mm = factor("N/mm", "stiffness")
+    rows = []
+    for group in problem.groups:
+        columns = [rates[group.group].as_tuple() for rates in (own, *others.values())]
+        for direction, (original, *changed) in zip(DIRECTIONS, zip(*columns, strict=True), strict=True):
+            values = [original / per_mm, *(rate / per_mm for rate in changed)]
+            rows.append([f"{group.group} {direction}", *_row(values)])
+    values = [v for v in _objective(problem, search, optimum).values() if v is not None]
+    rows.append(["objective", *_row(values)])
+    return table(["rates, N/mm", "original", *(c for name in others for c in (name, ""))], rows)
+
+
+def _row(values: list[float]) -> list[str]:
+    """The first value, and each other with how much more or less it is."""
+    first, *others = values
+    return [
+        significant(first),
+        *(text for v in others for text in (significant(v), percent_change(v, first))),
+    ]
+
+
+def _ending(problem: Problem, optimum: Optimum) -> str:
+    n = len(optimum.descents)
+    starts = "1 search" if n == 1 else f"{n} searches"
+    return (
+        f"objective: {objective_words(problem)}\n"
+        f"{optimum.reason} after {optimum.evaluations} evaluations in {starts}"
+    )
+
+
+def _exactness(search: Search, optimum: Optimum) -> str:
+    """The found design in the full model."""
+    check = optimum.verification
+    if check.impossible:
+        lines = [f"the full model cannot confirm it: {check.impossible}"]
+    else:
+        lines = [f"the full model's objective differs by a part of {scientific(check.difference)}"]
+    if search.windows is not None:
+        pairs = zip(search.windows.windows, check.frequency_hz.tolist(), strict=True)
+        lines += [
+            f"{window.mode} at {f:.3f} Hz in the full model"
+            + ("" if window.allows(f) else ", where it may not be")
+            for window, f in pairs
+        ]
+    return "\n".join(lines)
+
+
+def _limits(optimum: Optimum) -> str:
+    if not optimum.active:
+        return ""
+    header = ["limits it sits on", f"relaxing it by {100 * RELAXED:.0f} % would gain", "multiplier"]
+    rows = [[c.name, f"{100 * c.gain:.1f} %", f"{c.multiplier:.3g}"] for c in optimum.active]
+    return table(header, rows)

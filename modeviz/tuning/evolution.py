@@ -1,0 +1,56 @@
+"""The search everywhere at once: scipy's differential evolution among feasible designs."""
+
+from collections.abc import Callable
+
+from scipy.optimize import differential_evolution
+
+from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.search import (
+    CANCELLED,
+    CONVERGED,
+    OUT_OF_BUDGET,
+    Descent,
+    Evaluator,
+    OutOfBudgetError,
+    Search,
+    Step,
+)
+
+
+def evolve(
+    search: Search,
+    seed: int,
+    budget: int,
+    control: Control | None = None,
+    tell: Callable[[Step], None] = lambda _: None,
+) -> Descent:
+    """The best design that a population comes to.
+
+    It lives in the unit cube of `DesignSpace.sampled`, where every point meets bounds and ratio limits
+    (R. Storn and K. Price, "Differential evolution", J. Global Optimization 11, 1997).
+
+    Args:
+        search: what is sought.
+        seed: of the population; the same finds the same.
+        budget: the most evaluations it may take.
+        control: lets somebody hold or end it.
+        tell: told every evaluation.
+
+    Raises:
+        SolveError: a design that cannot be solved, with its rates.
+    """
+    evaluator = Evaluator(search, budget, control or Control(), tell)
+    try:
+        result = differential_evolution(
+            lambda fractions: evaluator.value(search.space.sampled(fractions)),
+            [(0.0, 1.0)] * search.space.n_variables,
+            maxiter=budget,
+            rng=seed,
+            polish=False,
+        )
+        reason = CONVERGED if result.success else str(result.message).lower()
+    except CancelledError:
+        reason = CANCELLED
+    except OutOfBudgetError:
+        reason = OUT_OF_BUDGET
+    return evaluator.end(reason)

@@ -1,0 +1,221 @@
+"""`modeviz optimise` finds what the same search finds in Python, and keeps what it has."""
+
+import json
+import signal
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cabin_problem import PROBLEM, cabin_search
+from mounted_cabin import mounted_cabin
+
+from modeviz.cli import main
+from modeviz.commands import optimise as command
+from modeviz.tuning.optimise import optimise, search_globally, start_points
+from modeviz.tuning.rate_files import read_rates
+from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.files import write_vehicle
+from modeviz.vehicle.problem import DesignGroup, FrequencyWindow
+
+KEYS = {
+    "goal", "normalised", "objective", "rates", "converged", "reason", "evaluations",
+    "active_constraints", "exact_difference",
+}  # fmt: skip
+
+
+def written(path, *problems):
+    write_vehicle(replace(mounted_cabin(), problems=problems), path)
+    return str(path)
+
+
+@pytest.fixture(scope="module")
+def cabin(tmp_path_factory):
+    second = replace(PROBLEM, name="gentle", goal="change", reference="")
+    return written(tmp_path_factory.mktemp("vehicles") / "cabin", PROBLEM, second)
+
+
+@pytest.fixture
+def refused(capsys, tmp_path):
+    """The sentence with which a search is refused; nothing is written."""
+
+    def refused(*arguments):
+        capsys.readouterr()
+        assert main(["optimise", *arguments, "--output", str(tmp_path / "rates.json")]) == 2
+        out, err = capsys.readouterr()
+        assert not out
+        assert not list(tmp_path.iterdir())
+        return err.removeprefix("modeviz: ").strip()
+
+    return refused
+
+
+def found(search, n_starts=3, seed=0):
+    return optimise(search, start_points(search, {}, n_starts, seed))
+
+
+def test_it_finds_what_python_finds(printed_json, cabin):
+    record = printed_json("optimise", cabin, "--starts", "3", "--seed", "7")
+    search = cabin_search()
+    best = found(search, seed=7)
+    assert set(record) == KEYS
+    assert record["goal"] == "accelerations"
+    assert record["normalised"] is True
+    soft = search.space.vehicle.rate_sets["soft"]
+    expected = {"original": 1.0, "found": best.value, "paper": search.goal.value(soft)}
+    assert record["objective"] == pytest.approx(expected, rel=1e-9)
+    assert record["converged"] is best.converged is True
+    assert record["reason"] == "converged"
+    assert record["evaluations"] == best.evaluations
+    assert 0 <= record["exact_difference"] < 1e-9
+    named = [(c["name"], c["multiplier"], c["gain"]) for c in record["active_constraints"]]
+    assert named == [(c.name, c.multiplier, c.gain) for c in best.active]
+    assert named
+    vertical = record["rates"]["A"]["vertical"]
+    assert vertical == pytest.approx(best.rates["A"].vertical / 1e3, rel=1e-9)
+
+
+def test_the_rates_it_writes_are_those_it_prints(printed_json, cabin, tmp_path):
+    path = tmp_path / "rates.json"
+    record = printed_json("optimise", cabin, "--starts", "1", "--output", str(path))
+    rates = read_rates(path, mounted_cabin())
+    for group, values in record["rates"].items():
+        assert rates[group].lateral == pytest.approx(1e3 * values["lateral"], rel=1e-12)
+    assert cabin_search().goal.value(rates) == pytest.approx(record["objective"]["found"], rel=1e-9)
+
+
+def test_the_global_search_is_that_of_python(printed_json, cabin):
+    record = printed_json("optimise", cabin, "--global", "--seed", "3", "--budget", "600")
+    best = search_globally(cabin_search(), seed=3, budget=600)
+    assert record["objective"]["found"] == best.value
+    assert record["evaluations"] == best.evaluations
+
+
+def test_it_starts_at_the_rates_that_are_chosen(printed_json, cabin):
+    record = printed_json(
+        "optimise", cabin, "--goal", "change", "--set", "B.loss_factor=0.4", "--starts", "1"
+    )
+    assert record["rates"]["B"]["loss_factor"] == 0.4
+    assert record["evaluations"] == 1
+    assert record["objective"]["found"] == pytest.approx(0, abs=1e-12)
+
+
+def test_the_papers_sum_adds_up_what_the_other_normalises(printed_json, cabin):
+    record = printed_json("optimise", cabin, "--plain", "--starts", "1")
+    assert record["normalised"] is False
+    plain = cabin_search(is_normalised=False)
+    assert record["objective"]["original"] == pytest.approx(plain.goal.value({}), rel=1e-12)
+
+
+def test_another_problem_and_speed_are_taken(printed_json, cabin):
+    gentle = printed_json("optimise", cabin, "--problem", "gentle", "--starts", "1")
+    assert gentle["goal"] == "change"
+    assert gentle["objective"]["paper"] is None
+    slow = printed_json("optimise", cabin, "--plain", "--speed", "36 km/h", "--starts", "1")
+    fast = printed_json("optimise", cabin, "--plain", "--starts", "1")
+    assert slow["objective"]["original"] < fast["objective"]["original"]
+
+
+def test_the_table_says_what_was_found_and_which_sum_it_is(capsys, cabin):
+    assert main(["optimise", cabin, "--starts", "3"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    best = found(cabin_search())
+    assert lines[0].split() == ["rates,", "N/mm", "original", "found", "soft"]
+    vertical = next(line for line in lines if line.startswith("A vertical"))
+    assert float(vertical.split()[3]) == pytest.approx(best.rates["A"].vertical / 1e3, rel=1e-3)
+    assert "objective: squared accelerations, each load case relative to the original" in lines
+    assert f"converged after {best.evaluations} evaluations in 3 searches" in lines
+    limit = next(line for line in lines if line.startswith(best.active[0].name))
+    assert f"{100 * best.active[0].gain:.1f} %" in limit
+    assert any(line.startswith("the full model's objective differs by") for line in lines)
+
+
+def test_the_table_names_the_plain_sum(capsys, cabin):
+    assert main(["optimise", cabin, "--starts", "1", "--plain"]) == 0
+    assert "objective: squared accelerations, plain sum\n" in capsys.readouterr().out
+
+
+def test_the_table_says_where_the_mode_of_a_window_is(capsys, tmp_path):
+    window = FrequencyWindow("cab yaw", high_hz=10.0)
+    folder = written(tmp_path / "cabin", replace(PROBLEM, windows=(window,)))
+    assert main(["optimise", folder, "--starts", "1"]) == 0
+    said = next(line for line in capsys.readouterr().out.splitlines() if "cab yaw at" in line)
+    assert float(said.split()[3]) <= 10.0
+    assert said.endswith("Hz in the full model")
+
+
+def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path):
+    told = []
+
+    def interrupt(progress):
+        told.append(progress)
+        if len(told) == 5:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(command, "_tell", interrupt)
+    before = signal.getsignal(signal.SIGINT)
+    path = tmp_path / "rates.csv"
+    assert main(["optimise", cabin, "--output", str(path), "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["reason"] == "cancelled"
+    assert record["converged"] is False
+    assert record["evaluations"] == 5
+    assert record["objective"]["found"] == told[-1].value < 1
+    assert read_rates(path, mounted_cabin())["A"].vertical == told[-1].rates["A"].vertical
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_second_interrupt_ends_the_program(monkeypatch, cabin, tmp_path):
+    def interrupt(_):
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(command, "_tell", interrupt)
+    path = tmp_path / "rates.json"
+    assert main(["optimise", cabin, "--output", str(path)]) == 130
+    assert not path.exists()
+
+
+def test_what_cannot_be_is_refused_in_a_sentence(refused, cabin):
+    assert refused(cabin, "--problem", "cabim") == (
+        "unknown problem 'cabim': did you mean 'cabin'? there are cabin, gentle"
+    )
+    assert "unknown goal 'speed': there are accelerations" in refused(cabin, "--goal", "speed")
+    assert refused(cabin, "--starts", "0") == "--starts: found 0, expected 1 to 10000"
+    assert refused(cabin, "--budget", "0") == "--budget: found 0, expected 1 or more"
+    assert refused(cabin, "--seed", "-1") == "--seed: found -1, expected 0 or more"
+    assert refused(cabin, "--speed", "0 km/h").startswith("--speed: found '0 km/h'")
+
+
+def test_a_vehicle_without_a_problem_says_what_its_file_needs(refused, folder):
+    assert refused(folder) == ("vehicle 'cabin' has no problem: give its vehicle.toml a [[problem]]")
+
+
+def test_limits_that_contradict_each_other_name_the_rate(refused, tmp_path):
+    narrow = DesignGroup(
+        "A", bounds=(MountRates(1e6, 1e5, 1e5), MountRates(2e6, 2e5, 2e6)), ratio_limits=(0.5, 0.8)
+    )
+    folder = written(tmp_path.parent / f"{tmp_path.name}-cabin", replace(PROBLEM, groups=(narrow,)))
+    assert refused(folder).startswith("A vertical: bounds and ratio limits of A contradict each other")
+
+
+def test_a_window_that_no_design_keeps_is_an_error(refused, tmp_path):
+    window = FrequencyWindow("cab yaw", high_hz=1.0)
+    folder = written(tmp_path.parent / f"{tmp_path.name}-cabin", replace(PROBLEM, windows=(window,)))
+    assert refused(folder, "--starts", "2").startswith("no design was found that keeps the modes")
+
+
+@pytest.mark.parametrize("name", ["rates.txt", "missing/rates.json"])
+def test_a_file_that_cannot_be_written_is_refused_before_the_search(
+    monkeypatch, capsys, cabin, tmp_path, name
+):
+    monkeypatch.setattr(command, "prepare_search", None)
+    assert main(["optimise", cabin, "--output", str(tmp_path / name)]) == 2
+    assert name in capsys.readouterr().err
+
+
+def test_the_same_seed_finds_the_same(printed_json, cabin):
+    first, again = (printed_json("optimise", cabin, "--starts", "2", "--seed", "5") for _ in range(2))
+    assert first == again
+    other = printed_json("optimise", cabin, "--starts", "2", "--seed", "6")
+    assert np.isfinite(other["objective"]["found"])
+    assert other["evaluations"] != first["evaluations"]
