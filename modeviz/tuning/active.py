@@ -53,8 +53,7 @@ def _met(search: Search, x: Floats) -> tuple[list[str], list[Floats]]:
     """The limits that a design sits on, and the row of each."""
     space = search.space
     on = np.flatnonzero(space.rows @ x - space.values > -ACTIVE)
-    limits = [space.limits[i] for i in on]
-    names = [f"{space.variables[limit.variable].spoken}: {limit.spoken}" for limit in limits]
+    names = [space.limits[i].spoken for i in on]
     rows = list(space.rows[on])
     if search.windows is not None:
         margins, slopes = search.margins(x)

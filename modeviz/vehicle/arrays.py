@@ -26,7 +26,8 @@ def frozen(
     Raises:
         VehicleError: wrong number of dimensions or length, or a value that is not finite.
     """
-    what = f"{type(owner).__name__} {getattr(owner, 'name', '')!r}: {field}"
+    name = getattr(owner, "name", None)
+    what = f"{type(owner).__name__}{'' if name is None else f' {name!r}'}: {field}"
     try:
         array = np.array(value, dtype)
     except (TypeError, ValueError):

@@ -126,6 +126,16 @@ class MountRates:
         return self.fore_aft, self.lateral, self.vertical
 
 
+def check_bounds(where: str, bounds: tuple[MountRates, MountRates]) -> None:
+    """Raises VehicleError unless the softest rates are below the stiffest."""
+    softest, stiffest = (rates.as_tuple() for rates in bounds)
+    for direction, low, high in zip(DIRECTIONS, softest, stiffest, strict=True):
+        if not low < high:
+            raise VehicleError(
+                f"{where}: bounds: {direction}: found {low} to {high} N/m, expected the lower one first"
+            )
+
+
 Rates = Mapping[str, MountRates]
 """The rates of mount groups, by the group's name."""
 
@@ -155,14 +165,7 @@ class MountGroup:
                 f"mount group {self.name!r}: found a loss factor in its rates or bounds, expected it "
                 "as the group's own"
             )
-        for low, high, direction in zip(
-            self.bounds[0].as_tuple(), self.bounds[1].as_tuple(), DIRECTIONS, strict=True
-        ):
-            if not low < high:
-                raise VehicleError(
-                    f"mount group {self.name!r}: bounds: {direction}: found {low} to {high} N/m, "
-                    "expected the lower one first"
-                )
+        check_bounds(f"mount group {self.name!r}", self.bounds)
         if self.ratio_limits is not None and not 0 <= self.ratio_limits[0] < self.ratio_limits[1]:
             raise VehicleError(
                 f"mount group {self.name!r}: ratio_limits: found {self.ratio_limits}, expected the "

@@ -7,7 +7,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
-from modeviz.vehicle.connections import DIRECTIONS, MountRates
+from modeviz.vehicle.connections import DIRECTIONS, MountRates, check_bounds
 
 Goal = Literal["accelerations", "rms", "rating", "iso 2631", "change"]
 """What is to become small.
@@ -41,11 +41,13 @@ class DesignGroup:
                 f"{where}: directions: found {', '.join(self.directions)} with fixed_ratios, which "
                 "change all rates together; expected all directions or no fixed ratios"
             )
-        limits = self.ratio_limits
-        if limits is not None and not 0 <= limits[0] <= limits[1]:
+        if self.bounds is not None:
+            check_bounds(where, self.bounds)
+        low, high = self.ratio_limits or (0.0, 1.0)
+        if not (0 <= low <= high < np.inf and high > 0):
             raise VehicleError(
-                f"{where}: ratio_limits: found {limits[0]:g} to {limits[1]:g}, expected zero or more "
-                "and the lower one first"
+                f"{where}: ratio_limits: found {low:g} to {high:g}, expected finite numbers from zero, "
+                "the lower one first"
             )
 
 
@@ -75,9 +77,18 @@ class Performance:
         check_directions("performance", self.directions)
         f = self.frequency_hz
         if not len(f) or f[0] <= 0 or (np.diff(f) <= 0).any():
-            raise VehicleError("performance: frequency_hz: expected rising values above zero")
+            found = ", ".join(f"{value:g}" for value in f[:9]) or "none"
+            raise VehicleError(
+                f"performance: frequency_hz: found {found}, expected rising values above zero"
+            )
         if not self.roads and not self.wheel_loads:
             raise VehicleError("performance: found neither roads nor wheel_loads, expected one or more")
+        for kind in ("roads", "wheel_loads", "points"):
+            names = getattr(self, kind)
+            if len(set(names)) < len(names):
+                raise VehicleError(
+                    f"performance: {kind}: found {', '.join(names)}, expected each of them once"
+                )
         for name in ("target", "weight"):
             value = getattr(self, name)
             if not (np.isfinite(value) and value >= 0):
@@ -100,7 +111,12 @@ class FrequencyWindow:
                 f"window of {self.mode!r}: found {self.low_hz:g} to {self.high_hz:g} Hz, expected "
                 "zero or more and the lower one first"
             )
-        if not self.is_inside and (self.low_hz == 0 or np.isinf(self.high_hz)):
+        is_open = self.low_hz == 0, np.isinf(self.high_hz)
+        if self.is_inside and all(is_open):
+            raise VehicleError(
+                f"window of {self.mode!r}: found neither low_hz nor high_hz, expected one or both"
+            )
+        if not self.is_inside and any(is_open):
             raise VehicleError(
                 f"window of {self.mode!r}: to stay out of a band it needs low_hz and high_hz; "
                 "what lies above or below one frequency is a window to be in"
@@ -133,8 +149,10 @@ class Problem:
         if not self.groups:
             raise VehicleError(f"{where}: has no groups, so nothing may change; expected one or more")
         check_unique(f"{where}: design group", (g.group for g in self.groups))
-        if self.goal == "accelerations" and not self.performance:
-            raise VehicleError(f"{where}: performance: missing, expected one or more")
+        if self.goal == "accelerations" and not any(p.weight for p in self.performance):
+            raise VehicleError(
+                f"{where}: performance: found none with a weight above zero, expected one or more"
+            )
 
 
 def check_directions(where: str, directions: tuple[str, ...]) -> None:

@@ -133,6 +133,8 @@ class Vehicle:
         for group in problem.groups:
             self.mount_group(group.group)
         points = [point.name for point in self.response_points]
+        if problem.goal != "change" and not points:
+            raise VehicleError(f"goal {problem.goal!r} needs a [[response_point]]")
         for performance in problem.performance:
             for road in performance.roads:
                 self.road(road)
@@ -175,7 +177,6 @@ class Vehicle:
             for group in rates:
                 if group not in self.rates:
                     raise VehicleError(f"rates {name!r}: " + unknown("mount group", group, self.rates))
-
         for problem in self.problems:
             with located(f"problem {problem.name!r}"):
                 self.check_problem(problem)

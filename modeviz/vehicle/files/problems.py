@@ -44,17 +44,21 @@ class DesignGroupRecord(Record, kw_only=True):
         return DesignGroup(self.group, self.directions, bounds, self.ratio_limits, self.fixed_ratios)
 
 
+MOST_FREQUENCIES = 10_000
+"""Of those that a few bytes of a file can ask for."""
+
+
 class SpacedRecord(Record, kw_only=True):
     """Evenly spaced frequencies, both ends included."""
 
     first: Positive
     last: Positive
-    count: Annotated[int, Meta(ge=2, le=10_000)]
+    count: Annotated[int, Meta(ge=2, le=MOST_FREQUENCIES)]
 
     @classmethod
     def of(cls, frequency_hz: Floats) -> Self | None:
         """None if these are not evenly spaced, bit by bit."""
-        if len(frequency_hz) < 3:
+        if not 3 <= len(frequency_hz) <= MOST_FREQUENCIES:
             return None
         record = cls(
             first=float(frequency_hz[0]), last=float(frequency_hz[-1]), count=len(frequency_hz)
