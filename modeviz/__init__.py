@@ -32,6 +32,7 @@ from modeviz.ride.wheels import wheel_forces as wheel_forces
 from modeviz.tuning.batch import solve_many as solve_many
 from modeviz.tuning.check import check_exactly as check_exactly
 from modeviz.tuning.check import classic_error as classic_error
+from modeviz.tuning.corner import worst_corner as worst_corner
 from modeviz.tuning.design import DesignSpace as DesignSpace
 from modeviz.tuning.design import design_space as design_space
 from modeviz.tuning.following import solve_followed as solve_followed
@@ -41,6 +42,8 @@ from modeviz.tuning.objective import prepare_objective as prepare_objective
 from modeviz.tuning.optimise import Optimum as Optimum
 from modeviz.tuning.optimise import optimise as optimise
 from modeviz.tuning.optimise import start_points as start_points
+from modeviz.tuning.parts import Tolerance as Tolerance
+from modeviz.tuning.parts import scattered_parts as scattered_parts
 from modeviz.tuning.preparation import Prepared as Prepared
 from modeviz.tuning.preparation import PreparedModes as PreparedModes
 from modeviz.tuning.preparation import prepare as prepare
@@ -55,6 +58,8 @@ from modeviz.tuning.results import Results as Results
 from modeviz.tuning.results import solve as solve
 from modeviz.tuning.results import solve_modal as solve_modal
 from modeviz.tuning.results import solve_wheels as solve_wheels
+from modeviz.tuning.scatter import Scatter as Scatter
+from modeviz.tuning.scatter import scatter as scatter
 from modeviz.tuning.search import Search as Search
 from modeviz.tuning.sensitivity import RateVariable as RateVariable
 from modeviz.tuning.sensitivity import frequency_sensitivity as frequency_sensitivity
@@ -63,6 +68,7 @@ from modeviz.tuning.sensitivity import ride_sensitivity as ride_sensitivity
 from modeviz.tuning.shown import complex_mode as complex_mode
 from modeviz.tuning.shown import road_shape as road_shape
 from modeviz.tuning.shown import wheel_shape as wheel_shape
+from modeviz.tuning.spread import spread as spread
 from modeviz.vehicle.bodies import AddedMass as AddedMass
 from modeviz.vehicle.bodies import Attachment as Attachment
 from modeviz.vehicle.bodies import FlexibleBody as FlexibleBody

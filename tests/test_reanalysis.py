@@ -69,6 +69,28 @@ def test_response_is_the_direct_solution_at_any_rates(system, receptances, kind)
     assert error(receptances.response(stiffness), expected) < TOLERANCE.get(kind, 1e-10)
 
 
+def test_many_responses_are_the_same_as_one_by_one(system, receptances):
+    stiffness = np.array([rates(system, kind) for kind in KINDS])
+    found = receptances.responses(stiffness)
+    for kind, own, response in zip(KINDS, stiffness, found, strict=True):
+        assert error(response, receptances.response(own)) < TOLERANCE.get(kind, 1e-10)
+
+
+def test_many_responses_do_not_depend_on_how_many_are_solved_at_once(system, receptances):
+    n_sets = BLOCK // (16 * 12**2) + 2
+    stiffness = np.tile([rates(system, kind) for kind in ("softer", "any")], (n_sets // 2, 1))
+    H = receptances.responses(stiffness)
+    np.testing.assert_array_equal(H[2:], np.tile(H[:2], (len(H) // 2 - 1, 1, 1, 1)))
+
+
+def test_receptances_can_be_asked_at_some_frequencies_and_outputs_only(system, receptances):
+    lines, outputs = np.array([1, 3]), np.array([2, 0])
+    stiffness = rates(system, "any")
+    found = receptances.at(lines).with_outputs(outputs).response(stiffness)
+    expected = receptances.response(stiffness)[np.ix_(lines, outputs)]
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_all_receptances_can_be_moved_to_other_rates(system, receptances, kind):
     stiffness = rates(system, kind)

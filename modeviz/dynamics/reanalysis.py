@@ -15,7 +15,7 @@ with 204. Where more springs change than there are coordinates, `tuning.results`
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -105,6 +105,47 @@ class Receptances:
         """
         changed, forces = self._forces(stiffness, self.inputs)
         return self.direct - _transposed(self.outputs[:, changed]) @ forces
+
+    def responses(self, stiffness: Complexes) -> Complexes:
+        """The responses at many sets of mount rates: `response` of each, but for rounding.
+
+        The equations of many sets are solved at once, frequency by frequency.
+
+        Args:
+            stiffness: (n_sets, n_springs), complex rates, N/m.
+
+        Returns:
+            (n_sets, n_freqs, n_outputs, n_inputs).
+
+        Raises:
+            SolveError: with rates of a set an undamped resonance lies on a frequency.
+        """
+        u = self._sizes
+        change = (stiffness - self.mount_stiffness) * u**2
+        weight = 1 / (1 + np.abs(change))
+        scale = change * weight
+        n_springs = len(u)
+        H = np.empty((len(stiffness), *self.direct.shape), complex)
+        for sets in _blocks(len(stiffness), 16 * n_springs**2):
+            for i, f in enumerate(self.frequency_hz):
+                A = self.springs[i] / np.multiply.outer(u, u) * scale[sets, None]
+                A[:, range(n_springs), range(n_springs)] += weight[sets]
+                b = np.broadcast_to(self.inputs[i] / u[:, None], (len(A), *self.inputs.shape[1:]))
+                forces = (scale[sets] / u)[:, :, None] * _solve(A, b, np.full(len(A), f))
+                H[sets, i] = self.direct[i] - _transposed(np.tensordot(forces, self.outputs[i], (1, 0)))
+        return H
+
+    def at(self, lines: NDArray[np.intp]) -> "Receptances":
+        """The same at some of the frequencies only."""
+        return Receptances(
+            self.frequency_hz[lines],
+            self.mount_stiffness,
+            *(a[lines] for a in (self.springs, self.outputs, self.inputs, self.direct)),
+        )
+
+    def with_outputs(self, outputs: NDArray[np.intp]) -> "Receptances":
+        """The same for some of the outputs only."""
+        return replace(self, outputs=self.outputs[:, :, outputs], direct=self.direct[:, outputs])
 
     def response_gradient(self, stiffness: Complexes) -> tuple[Complexes, Complexes, Complexes]:
         """The response at other mount rates, and what its derivatives are made of.

@@ -29,14 +29,15 @@ def response_psd(frequency_response: Complexes, input_psd: Complexes) -> Complex
 def acceleration_psd(
     frequency_hz: Floats, frequency_response: Complexes, input_psd: Complexes
 ) -> Floats:
-    """Acceleration PSD of each output, (n_freqs, n_outputs), g²/Hz: ω⁴ times that of displacement.
+    """Acceleration PSD of each output, (..., n_freqs, n_outputs), g²/Hz: ω⁴ times that of displacement.
 
     Args:
         frequency_hz: (n_freqs,).
-        frequency_response: displacements per input, (n_freqs, n_outputs, n_inputs).
+        frequency_response: displacements per input, (..., n_freqs, n_outputs, n_inputs).
         input_psd: (n_freqs, n_inputs, n_inputs).
     """
-    S_xx = np.diagonal(response_psd(frequency_response, input_psd), axis1=1, axis2=2).real
+    H = frequency_response
+    S_xx = (H @ input_psd * H.conj()).real.sum(axis=-1)
     # Where coherent tracks cancel, rounding can leave a power just below zero.
     S_xx = np.maximum(S_xx, 0.0)
     omega = 2 * np.pi * np.asarray(frequency_hz)[:, None]

@@ -56,12 +56,12 @@ class _Term:
     """Of the case's inputs at its lines."""
 
     def own(self, of_all: Complexes) -> Complexes:
-        """The case's part of an array whose first axis is frequency and whose last is input."""
-        return of_all[self.lines, ..., self.inputs]
+        """The case's part of an array whose last axes are frequency, another one and input."""
+        return of_all[..., self.lines, :, self.inputs]
 
-    def value(self, power: Floats) -> float:
-        """Σ w (a - target)², from a² (n_lines, n_outputs)."""
-        return float((self.weights * (np.sqrt(power) - self.target) ** 2).sum())
+    def value(self, power: Floats) -> Floats:
+        """Σ w (a - target)², from a² (..., n_lines, n_outputs)."""
+        return (self.weights * (np.sqrt(power) - self.target) ** 2).sum(axis=(-2, -1))
 
     def slope(self, power: Floats) -> Floats:
         """∂value/∂a², (n_lines, n_outputs): where nothing moves towards a target it has none, and is
@@ -71,6 +71,28 @@ class _Term:
             return self.weights
         a = np.sqrt(power)
         return self.weights * (1 - np.divide(self.target, a, out=np.ones_like(a), where=a > 0))
+
+
+@dataclass(frozen=True, eq=False)
+class Criterion:
+    """What responses cost, whatever they come from."""
+
+    frequency_hz: Floats
+    """(n_freqs,): of all cases together."""
+    terms: tuple[_Term, ...]
+    """One for each case."""
+
+    def values(self, response: Complexes) -> Floats:
+        """What each case adds to F, (..., n_cases).
+
+        Args:
+            response: (..., n_freqs, n_outputs, n_inputs), as of `Objective.driven`.
+        """
+        return np.stack([term.value(self.power(term, response)) for term in self.terms], axis=-1)
+
+    def power(self, term: _Term, response: Complexes) -> Floats:
+        """a² of a case, (..., n_lines, n_outputs), from the response of all outputs to all inputs."""
+        return acceleration_psd(self.frequency_hz[term.lines], term.own(response), term.input_psd)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +120,7 @@ class Objective:
 
     def values(self, rates: Rates) -> Floats:
         """What each case adds to F, (n_cases,); raises as `solve`."""
-        return self._values(self.driven.response(self.prepared.mount_stiffness(rates)))
+        return self.criterion.values(self.driven.response(self.prepared.mount_stiffness(rates)))
 
     def exact_value(self, rates: Rates) -> float:
         """F from the equations of motion of the full model, frequency by frequency.
@@ -111,19 +133,36 @@ class Objective:
         forces = prepared.input_directions.T @ self.amplitudes
         system = prepared.system.with_rates(rates)
         H = direct_response(system, prepared.frequency_hz, forces, prepared.outputs[self.outputs])
-        return float(self._values(H).sum())
+        return float(self.criterion.values(H).sum())
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         """F and ∂F/∂k, (n_variables,) in the order of `rate_variables`; raises as `solve`."""
-        H, a, b = self.driven.response_gradient(self.prepared.mount_stiffness(rates))
-        shares = spring_shares(self.prepared, rates)
+        stiffness = self.prepared.mount_stiffness(rates)
+        return self.of_springs(stiffness, spring_shares(self.prepared, rates))
+
+    def of_springs(self, stiffness: Complexes, shares: Complexes) -> tuple[float, Floats]:
+        """F and its derivatives to whatever the springs depend on, (n_variables,).
+
+        Args:
+            stiffness: (n_springs,), complex rates, N/m.
+            shares: (n_springs, n_variables), the derivatives of these.
+
+        Raises:
+            SolveError: with these rates an undamped resonance lies on a frequency.
+        """
+        H, a, b = self.driven.response_gradient(stiffness)
         value, gradient = 0.0, np.zeros(shares.shape[1])
         for term in self.terms:
-            f, power = self.driven.frequency_hz[term.lines], self._power(term, H)
+            f, power = self.driven.frequency_hz[term.lines], self.criterion.power(term, H)
             change = psd_gradient(f, term.own(H), a[term.lines], term.own(b), term.input_psd, shares)
-            value += term.value(power)
+            value += float(term.value(power))
             gradient += np.tensordot(term.slope(power), change, 2)
         return value, gradient
+
+    @property
+    def criterion(self) -> "Criterion":
+        """What makes F of responses."""
+        return Criterion(self.driven.frequency_hz, self.terms)
 
     def scaled(self, factors: Floats) -> "Objective":
         """The same with other weights: each case's times a factor, (n_cases,)."""
@@ -132,15 +171,6 @@ class Objective:
             for term, factor in zip(self.terms, factors, strict=True)
         )
         return replace(self, terms=terms)
-
-    def _values(self, response: Complexes) -> Floats:
-        """What each case adds to F, from the response of all outputs to all inputs."""
-        return np.array([term.value(self._power(term, response)) for term in self.terms])
-
-    def _power(self, term: _Term, response: Complexes) -> Floats:
-        """a² of a case, from the response of all outputs to all inputs."""
-        f = self.driven.frequency_hz[term.lines]
-        return acceleration_psd(f, term.own(response), term.input_psd)
 
 
 def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
@@ -165,7 +195,7 @@ def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
         for case, its, own in zip(cases, weights, pairwise(ends), strict=True)
     )
     amplitudes = np.concatenate(by_case, axis=2)
-    driven = _with_outputs(prepared.receptances, outputs).driven(amplitudes)
+    driven = prepared.receptances.with_outputs(outputs).driven(amplitudes)
     return Objective(prepared, driven, amplitudes, outputs, terms)
 
 
@@ -185,13 +215,6 @@ def _term(prepared: Prepared, case: LoadCase, weights: Floats, inputs: slice) ->
     f = prepared.frequency_hz[lines]
     spectrum = _spectrum(prepared.vehicle, case.load, f)
     return _Term(weights, case.target, lines, inputs, spectrum)
-
-
-def _with_outputs(receptances: Receptances, kept: NDArray[np.intp]) -> Receptances:
-    """The same for some of the outputs only."""
-    return replace(
-        receptances, outputs=receptances.outputs[:, :, kept], direct=receptances.direct[:, kept]
-    )
 
 
 def _amplitudes(prepared: Prepared, load: Conditions | WheelLoad) -> Complexes:

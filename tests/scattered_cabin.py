@@ -1,0 +1,29 @@
+"""The mounted cabin with a goal, ready to have its mounts scattered."""
+
+from dataclasses import replace
+
+import numpy as np
+from mounted_cabin import mounted_cabin
+
+from modeviz.tuning.objective import LoadCase, Objective, prepare_objective
+from modeviz.tuning.preparation import Prepared, prepare
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.loads import ResponsePoint
+
+FLAT = Conditions("flat", 20.0)
+
+
+def prepared_cabin() -> Prepared:
+    """At 80 frequencies, with a second response point."""
+    vehicle = mounted_cabin()
+    rear = ResponsePoint("rear", "cab", np.array([2.2, 0.4, 0.9]))
+    points = (*vehicle.response_points, rear)
+    return prepare(replace(vehicle, response_points=points), np.linspace(0.5, 40, 80))
+
+
+def cabin_objective() -> Objective:
+    """On a road at three frequencies and under a wheel load at another."""
+    vehicle = mounted_cabin()
+    (load,) = vehicle.wheel_loads
+    cases = [LoadCase(FLAT, (6.0, 8.0, 12.0)), LoadCase(load, (11.0,), weight=1e-3)]
+    return prepare_objective(vehicle, cases)

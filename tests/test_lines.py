@@ -1,0 +1,62 @@
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+from test_reanalysis import resonant_rate, two_masses
+
+from modeviz.dynamics.lines import few_lines
+from modeviz.dynamics.reanalysis import prepare_receptances
+from modeviz.errors import SolveError
+from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions, drive
+
+FREQUENCY_HZ = np.arange(1, 201) / 5
+
+
+@pytest.fixture(scope="module")
+def receptances():
+    return drive(prepare(mounted_cabin(), FREQUENCY_HZ), Conditions("flat", 20.0)).receptances
+
+
+@pytest.fixture(scope="module")
+def parts():
+    return scattered_parts(prepare(mounted_cabin(), FREQUENCY_HZ[:1]), {}, Tolerance())
+
+
+@pytest.fixture(scope="module")
+def few(receptances, parts):
+    return few_lines(receptances, parts.stiffness(np.vstack([np.zeros(8), parts.samples(64, 0)])))
+
+
+def test_few_frequencies_are_enough(few):
+    assert few.matrix.shape[0] == len(FREQUENCY_HZ)
+    assert few.matrix.shape[1] == len(few.receptances.frequency_hz) < 50
+
+
+def test_parts_that_were_not_learned_from_are_answered(few, receptances, parts):
+    stiffness = parts.stiffness(parts.samples(40, 1))
+    expected = receptances.responses(stiffness)
+    off = np.abs(few.responses(stiffness) - expected).max(axis=(0, 2, 3))
+    assert (off / np.abs(expected).max(axis=(0, 2, 3))).max() < 1e-3
+
+
+def test_the_few_frequencies_themselves_are_exact(few, receptances, parts):
+    stiffness = parts.stiffness(parts.samples(5, 2))
+    own = np.isin(FREQUENCY_HZ, few.receptances.frequency_hz)
+    np.testing.assert_allclose(
+        few.responses(stiffness)[:, own], receptances.responses(stiffness)[:, own], rtol=1e-9
+    )
+
+
+def test_a_vehicle_that_never_changes_needs_no_frequency(receptances, parts):
+    same = parts.stiffness(np.zeros((5, 8)))
+    few = few_lines(receptances, same)
+    assert few.matrix.shape[1] == 0
+    np.testing.assert_array_equal(few.responses(same), receptances.responses(same))
+
+
+def test_an_undamped_resonance_is_an_error():
+    z = np.eye(12)[[2, 8]]
+    receptances = prepare_receptances(two_masses(1.0), np.array([1.0, 4.0]), z, z)
+    with pytest.raises(SolveError, match=r"no accurate response at 4\.0 Hz"):
+        few_lines(receptances, np.array([[50.0], [resonant_rate(4.0)]], complex))

@@ -1,0 +1,77 @@
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin, twisted_cabin
+
+from modeviz.errors import VehicleError
+from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.preparation import prepare_modes
+from modeviz.vehicle.connections import MountRates
+
+RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4)}
+TOLERANCE = Tolerance(0.1, 0.5)
+
+
+@pytest.fixture(scope="module")
+def prepared():
+    return prepare_modes(mounted_cabin())
+
+
+@pytest.fixture(scope="module")
+def parts(prepared):
+    return scattered_parts(prepared, RATES, TOLERANCE)
+
+
+def test_parts_as_drawn_have_the_rates_of_their_groups(prepared, parts):
+    np.testing.assert_array_equal(parts.stiffness(np.zeros(8)), prepared.mount_stiffness(RATES))
+
+
+def test_a_harder_mount_has_all_its_rates_higher_and_no_other_mount_changes(parts):
+    drawn = parts.stiffness(np.zeros(8))
+    ratio = parts.stiffness(np.eye(8)[1]) / drawn
+    assert parts.names[1] == "A 0.5"
+    np.testing.assert_allclose(ratio[3:6], 1.1, rtol=1e-12)
+    np.testing.assert_allclose(np.delete(ratio, [3, 4, 5]), 1, rtol=1e-12)
+
+
+def test_a_mount_of_more_loss_is_as_stiff(parts):
+    drawn = parts.stiffness(np.zeros(8))
+    changed = parts.stiffness(np.eye(8)[4])
+    np.testing.assert_array_equal(changed.real, drawn.real)
+    np.testing.assert_allclose(changed[:3].imag, 1.5 * 0.4 * drawn[:3].real, rtol=1e-12)
+    np.testing.assert_array_equal(changed[3:], drawn[3:])
+
+
+def test_springs_about_an_axis_go_with_their_mount():
+    parts = scattered_parts(prepare_modes(twisted_cabin()), RATES, TOLERANCE)
+    ratio = parts.stiffness(np.eye(8)[1]) / parts.stiffness(np.zeros(8))
+    assert len(ratio) == 16
+    np.testing.assert_allclose(ratio[[3, 4, 5, 14, 15]], 1.1, rtol=1e-12)
+    np.testing.assert_allclose(np.delete(ratio, [3, 4, 5, 14, 15]), 1, rtol=1e-12)
+
+
+def test_slopes_are_differences(parts):
+    at = parts.samples(1, 3)[0]
+    differences = [
+        (parts.stiffness(at + 1e-4 * unit) - parts.stiffness(at - 1e-4 * unit)) / 2e-4
+        for unit in np.eye(8)
+    ]
+    np.testing.assert_allclose(parts.slopes(at), np.transpose(differences), rtol=1e-9, atol=1e-3)
+
+
+def test_samples_fill_every_slice_of_every_deviation_once(parts):
+    samples = parts.samples(50, 1)
+    assert samples.shape == (50, 8)
+    slices = np.sort(np.floor((samples + 1) * 25), axis=0)
+    np.testing.assert_array_equal(slices, np.tile(np.arange(50.0)[:, None], 8))
+
+
+def test_a_seed_repeats_its_samples(parts):
+    np.testing.assert_array_equal(parts.samples(9, 4), parts.samples(9, 4))
+    assert not np.array_equal(parts.samples(9, 4), parts.samples(9, 5))
+
+
+@pytest.mark.parametrize("value", [0.0, 1.0, -0.1, np.nan])
+@pytest.mark.parametrize("name", ["rates", "loss_factor"])
+def test_a_tolerance_that_is_no_fraction_is_an_error(name, value):
+    with pytest.raises(VehicleError, match=rf"tolerance of {name.replace('_', ' ')}: found {value:g}"):
+        Tolerance(**{name: value})
