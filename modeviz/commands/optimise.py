@@ -57,7 +57,7 @@ def _search(options: Namespace, search: Search, rates: Rates) -> Optimum:
         with cancelled_by_interrupt() as control:
             if options.everywhere:
                 return search_globally(search, options.seed, options.budget, control, _tell)
-            starts = start_points(search, rates, options.starts, options.seed)
+            starts = start_points(search, rates, options.starts, options.seed, control)
             return optimise(search, starts, options.budget, control, _tell)
     finally:
         progress("")(1.0)  # leaves an empty line

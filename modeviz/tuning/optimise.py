@@ -3,9 +3,11 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from modeviz.errors import SolveError
 from modeviz.tuning.active import ActiveConstraint, active_constraints
-from modeviz.tuning.control import Control
+from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.evolution import evolve
 from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent, Search, Step, descend
 from modeviz.tuning.verification import Verification, verify
@@ -14,6 +16,9 @@ from modeviz.vehicle.connections import Rates
 
 BUDGET = 5_000
 """Evaluations that a search may take, all starts together."""
+
+SCREENED = 20
+"""Designs of which the best is one to start from."""
 
 EVOLVING = 0.8
 """The part of them that a global search has before its best design is improved."""
@@ -45,6 +50,7 @@ class Optimum:
     reason: str
     """Why it ended: "converged", "cancelled", "out of budget", or the solver's own word."""
     evaluations: int
+    """By all searches, besides those that chose where to start."""
     active: tuple[ActiveConstraint, ...]
     verification: Verification
     """What the full model says of it."""
@@ -57,16 +63,36 @@ class Optimum:
         return self.reason == CONVERGED
 
 
-def start_points(search: Search, rates: Rates, n_starts: int, seed: int = 0) -> list[Floats]:
-    """Where to search from: some rates, and designs spread evenly over the space.
+def start_points(
+    search: Search, rates: Rates, n_starts: int, seed: int = 0, control: Control | None = None
+) -> list[Floats]:
+    """Where to search from: some rates, and the best of `SCREENED` times as many spread designs.
+
+    The paper's problem on the built-in truck has some 20 minima, from 0.334 to 0.55 of the original's
+    objective. From 20 starts taken as they come the best is found with three of the seeds 0 to 4, and
+    0.340 and 0.345 with the others; from the best of 380 designs with all five, by 3 to 7 of the
+    starts, for a fifth more time.
 
     Args:
         search: among whose designs.
         rates: the first start.
         n_starts: how many in all.
         seed: of the others; the same gives the same.
+        control: lets somebody hold it, or end it with those that it has.
+
+    Raises:
+        SolveError: a design that cannot be solved, with its rates.
     """
-    return [search.space.to_x(rates), *search.space.samples(n_starts - 1, seed)]
+    samples = search.space.samples(SCREENED * (n_starts - 1), seed)
+    values = []
+    try:
+        for x in samples:
+            (control or Control()).check()
+            values.append(search.value(x))
+    except CancelledError:
+        pass
+    best = np.argsort(values, kind="stable")[: n_starts - 1]
+    return [search.space.to_x(rates), *samples[best]]
 
 
 def optimise(
@@ -130,7 +156,7 @@ def best_of(search: Search, descents: Sequence[Descent]) -> Optimum:
     """The optimum of several searches, held against the full model; raises as `optimise`."""
     best = min(descents, key=lambda d: d.value)
     if best.x is None and best.reason == CANCELLED:
-        raise SolveError("cancelled before a design was found that keeps all limits")
+        raise SolveError("cancelled before a design was found that keeps the frequency windows")
     if best.x is None:
         raise SolveError(
             "no design was found that keeps the modes where they have to be: widen the frequency "

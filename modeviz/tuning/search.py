@@ -1,6 +1,7 @@
 """The search from one start: scipy's SLSQP with analytic derivatives, feasible at every step."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,8 +20,9 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
-TOLERANCE = 1e-8
-"""A search has converged when a step gains less of the goal."""
+TOLERANCE = 1e-12
+"""A search has converged when a step gains less of the goal that it started with: then the derivatives
+along what is free are some 1e-7 of the rest, with 1e-8 they are 1e-4, for a tenth less evaluations."""
 
 MOST_STEPS = 500
 """Of one search; the budget of evaluations ends it before."""
@@ -47,17 +49,17 @@ class Search:
             SolveError: it has none, with the rates.
         """
         rates = self.space.rates(x)
-        value, by_rate = self.goal.value_and_gradient(rates)
-        gradient = self._by_x(rates, by_rate)
-        if not (np.isfinite(value) and np.isfinite(gradient).all()):
-            raise SolveError(f"the goal is {value} with {self.space.spoken(x)}")
+        with self._naming(x):
+            value, by_rate = self.goal.value_and_gradient(rates)
+            gradient = self._by_x(rates, by_rate)
+            _check_finite(value, gradient)
         return value, gradient
 
     def value(self, x: Floats) -> float:
         """The goal of a design; raises as `evaluate`."""
-        value = self.goal.value(self.space.rates(x))
-        if not np.isfinite(value):
-            raise SolveError(f"the goal is {value} with {self.space.spoken(x)}")
+        with self._naming(x):
+            value = self.goal.value(self.space.rates(x))
+            _check_finite(value)
         return value
 
     def margins(self, x: Floats) -> tuple[Floats, Floats]:
@@ -72,10 +74,23 @@ class Search:
         """Whether all modes of a design are where the windows want them."""
         return self.windows is None or bool((self.margins(x)[0] >= 0).all())
 
+    @contextmanager
+    def _naming(self, x: Floats) -> Iterator[None]:
+        """Says with which rates something cannot be solved."""
+        try:
+            yield
+        except SolveError as error:
+            raise SolveError(f"{error}; with {self.space.spoken(x)}") from None
+
     def _by_x(self, rates: Rates, by_rate: Floats) -> Floats:
         """Derivatives to x of what has derivatives to rates, (..., n_rates): dk = k dx."""
         k = [getattr(rates[v.group], v.direction) for v in rate_variables(self.space.vehicle)]
         return (by_rate * k) @ self.space.members
+
+
+def _check_finite(value: float, gradient: Floats | float = 0.0) -> None:
+    if not (np.isfinite(value) and np.isfinite(gradient).all()):
+        raise SolveError(f"the goal is {value} and its derivatives are {gradient}")
 
 
 def prepare_search(
@@ -190,9 +205,10 @@ class Evaluator:
         self._n_evaluations = 0
         self._x: Floats | None = None
         self._value = np.inf
+        self._unit = 0.0
 
     def value_and_gradient(self, x: Floats) -> tuple[float, Floats]:
-        """The goal of the design nearest to one, and its derivatives.
+        """The goal of the design nearest to one, and its derivatives, relative to the first one's goal.
 
         Raises:
             CancelledError: it is to end.
@@ -203,7 +219,8 @@ class Evaluator:
         x = self._search.space.admitted(x)
         value, gradient = self._search.evaluate(x)
         self._remember(x, value, value < self._value and self._search.allows(x))
-        return value, gradient
+        self._unit = self._unit or abs(value) or 1.0
+        return value / self._unit, gradient / self._unit
 
     def value(self, x: Floats) -> float:
         """The goal of a design; of one that leaves a window `FORBIDDEN` and more, the farther it is.
@@ -223,7 +240,9 @@ class Evaluator:
         return Descent(self._x, self._value, reason, self._n_evaluations)
 
     def _count(self) -> None:
-        self._control.check()
+        # The first design is always evaluated, so that whoever ends a search has one to keep.
+        if self._n_evaluations:
+            self._control.check()
         if self._n_evaluations >= self._budget:
             raise OutOfBudgetError
         self._n_evaluations += 1

@@ -98,9 +98,7 @@ def _margins(window: FrequencyWindow, f: float) -> list[tuple[float, float]]:
     """Of each end of a window what is left to it, relative, and the derivative of that to f, 1/Hz."""
     low, high = window.low_hz, window.high_hz
     if not window.is_inside:
-        middle, half = (low + high) / 2, (high - low) / 2 * (1 + MARGIN)
-        side = 1.0 if f >= middle else -1.0
-        return [((side * (f - middle) - half) / middle, side / middle)]
+        return [max((f / high - 1 - MARGIN, 1 / high), (1 - f / low - MARGIN, -1 / low))]
     ends = []
     if low > 0:
         ends.append((f / low - 1 - MARGIN, 1 / low))
