@@ -15,8 +15,10 @@ from modeviz.tuning.search import (
     Search,
     Step,
 )
+from modeviz.tuning.threads import one_thread
 
 
+@one_thread
 def evolve(
     search: Search,
     seed: int,

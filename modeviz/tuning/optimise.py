@@ -10,6 +10,7 @@ from modeviz.tuning.active import ActiveConstraint, active_constraints
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.evolution import evolve
 from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent, Search, Step, descend
+from modeviz.tuning.threads import one_thread
 from modeviz.tuning.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
@@ -63,6 +64,7 @@ class Optimum:
         return self.reason == CONVERGED
 
 
+@one_thread
 def start_points(
     search: Search, rates: Rates, n_starts: int, seed: int = 0, control: Control | None = None
 ) -> list[Floats]:
@@ -152,6 +154,7 @@ def search_globally(
     return best_of(search, [evolved, descend(search, evolved.x, rest, control, teller)])
 
 
+@one_thread
 def best_of(search: Search, descents: Sequence[Descent]) -> Optimum:
     """The optimum of several searches, held against the full model; raises as `optimise`."""
     best = min(descents, key=lambda d: d.value)

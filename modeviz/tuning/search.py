@@ -14,6 +14,7 @@ from modeviz.tuning.design import DesignSpace, design_space
 from modeviz.tuning.goals import Goal, prepare_goal
 from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.sensitivity import rate_variables
+from modeviz.tuning.threads import one_thread
 from modeviz.tuning.windows import Windows, prepare_windows
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
@@ -93,6 +94,7 @@ def _check_finite(value: float, gradient: Floats | float = 0.0) -> None:
         raise SolveError(f"the goal is {value} and its derivatives are {gradient}")
 
 
+@one_thread
 def prepare_search(
     vehicle: Vehicle,
     problem: Problem,
@@ -149,6 +151,7 @@ class Descent:
         return self.reason == CONVERGED
 
 
+@one_thread
 def descend(
     search: Search,
     start: Floats,
