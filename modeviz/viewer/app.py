@@ -23,6 +23,7 @@ from modeviz.viewer.hotkeys import Hotkeys
 from modeviz.viewer.html import style_sheet
 from modeviz.viewer.layout import NARROW, WIDE, Layout
 from modeviz.viewer.offline import offline_page
+from modeviz.viewer.optimiser import Optimiser
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.excitation import ExcitationPanel
@@ -32,6 +33,7 @@ from modeviz.viewer.panels.modes import ModesPanel, listed
 from modeviz.viewer.panels.mounts.history_row import HistoryRow
 from modeviz.viewer.panels.mounts.opener import FolderOpener
 from modeviz.viewer.panels.mounts.panel import MountsPanel
+from modeviz.viewer.panels.optimise.panel import OptimisePanel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.shape import ShapePanel
@@ -80,6 +82,7 @@ class App:
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
+        self.optimiser = Optimiser(self.session, lambda: self._optimise.follow())
         scripts.run(self._gui, "style.js", style_sheet())
         scripts.run(self._gui, "delivery.js")
         scripts.run(self._gui, "numbers.js")
@@ -161,9 +164,14 @@ class App:
         comparison = compare(solved.now.prepared, base, now, conditions)
         return report(comparison, date.today(), pictures, solved.rest.check).encode()
 
+    def end(self) -> None:
+        """Ends the session, and the search that may be running in it."""
+        self.optimiser.close()
+        self.session.close()
+
     def close(self) -> None:
         """Ends the session and the server."""
-        self.session.close()
+        self.end()
         self.server.stop()
 
     def _lay_out(self, dark: bool) -> None:
@@ -176,6 +184,8 @@ class App:
             self._mounts = MountsPanel(gui, session)
         with tabs.add_tab("Variants", viser.Icon.VERSIONS):
             self._variants = VariantsPanel(gui, session)
+        with tabs.add_tab("Optimise", viser.Icon.TARGET_ARROW):
+            self._optimise = OptimisePanel(gui, session, self.optimiser, dark)
         with tabs.add_tab("View", viser.Icon.EYE):
             self._view = ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
@@ -232,6 +242,7 @@ class App:
                 self._table.show(solved)
                 self._excitation.show(solved)
                 self._variants.show(solved)
+                self._optimise.show(solved)
                 self._view.show()
                 self._modes.show(solved)
                 self._energy.show(solved)

@@ -23,23 +23,27 @@ class History(Generic[Value]):
         self._kind: Hashable = None
         self._changed_at = 0.0
 
-    def put(self, value: Value, kind: Hashable = None) -> None:
+    def put(self, value: Value, kind: Hashable = None, within: float = MERGE_WITHIN) -> None:
         """Goes on to a value; what was undone is gone.
 
         Args:
             value: the new one.
             kind: what was changed, if many such changes are to be one; None if not.
+            within: s, how closely they have to follow.
         """
         if value == self.value:
             return
         now = time.monotonic()
         is_more_of_the_same = (
-            kind is not None and kind == self._kind and now - self._changed_at < MERGE_WITHIN
+            kind is not None and kind == self._kind and now - self._changed_at < within
         )
         if not is_more_of_the_same or not self._past:
             self._past = [*self._past[1 - LONGEST :], self.value]
         self._future.clear()
         self.value, self._kind, self._changed_at = value, kind, now
+        if self._past[-1] == value:  # all the way back is no step
+            self._past.pop()
+            self._kind = None
 
     @property
     def can_undo(self) -> bool:

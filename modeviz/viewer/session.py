@@ -8,12 +8,13 @@ from typing import Any
 
 from modeviz.errors import ModevizError
 from modeviz.tuning.check import check_exactly
+from modeviz.tuning.preparation import Prepared
 from modeviz.tuning.results import Results
 from modeviz.tuning.sensitivity import sensitivity
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import DETAILS_EVERY, Answers, Rest, Solved, asks_for_the_same
-from modeviz.viewer.history import History
+from modeviz.viewer.history import MERGE_WITHIN, History
 from modeviz.viewer.state import ORIGINAL, State, free_name, known_sets, next_name, rate_sets
 from modeviz.viewer.worker import Worker
 
@@ -61,6 +62,11 @@ class Session:
         return self._history.value
 
     @property
+    def prepared(self) -> Prepared:
+        """The vehicle made ready; there is none before `start`."""
+        return self._answers.prepared
+
+    @property
     def can_undo(self) -> bool:
         return self._history.can_undo
 
@@ -91,15 +97,21 @@ class Session:
         """
         self.update(lambda state: replace(state, **fields), kind)
 
-    def update(self, change: Callable[[State], State], kind: Hashable = None) -> None:
+    def update(
+        self,
+        change: Callable[[State], State],
+        kind: Hashable = None,
+        within: float = MERGE_WITHIN,
+    ) -> None:
         """Asks for what `change` makes of the newest state, so that no other change is lost.
 
         Args:
             change: gives a changed state; called while nobody else changes it.
             kind: as of `change`.
+            within: s, how closely changes of that kind have to follow to be undone together.
         """
         with self._lock:
-            self._history.put(change(self.state), kind)
+            self._history.put(change(self.state), kind, within)
             self._submit()
 
     def set_rates(self, rates: Rates) -> None:

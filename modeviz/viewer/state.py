@@ -10,6 +10,7 @@ from modeviz.export.wording import sentence_case
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.plan import Plan, first_plan
 
 ORIGINAL = "Original"
 """The name of the vehicle's own rates among the sets."""
@@ -73,6 +74,8 @@ class State:
     """Groups whose rates keep their ratios when one of them moves."""
     unit: str = "N/mm"
     """In which rates are shown."""
+    plan: Plan | None = None
+    """What a search is to look for; None where there is nothing to optimise for."""
 
     load: str = ""
     """The wheel load whose response is drawn, or the road: ""."""
@@ -162,7 +165,15 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
     every = vehicle.all_rates(rates)
     felt = tuple(Curve(0, direction) for direction in ("lateral", "vertical"))
     curves = felt if vehicle.response_points else ()
-    return State(every, conditions, mode, group, curves=curves, component=vehicle.bodies[0].name)
+    return State(
+        every,
+        conditions,
+        mode,
+        group,
+        plan=first_plan(vehicle),
+        curves=curves,
+        component=vehicle.bodies[0].name,
+    )
 
 
 def known_sets(vehicle: Vehicle) -> dict[str, Rates]:

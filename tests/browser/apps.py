@@ -22,7 +22,7 @@ def open_app(server: Server, vehicle: Vehicle, conditions: Conditions) -> Iterat
     try:
         yield app
     finally:
-        app.session.close()
+        app.end()
 
 
 @contextmanager

@@ -1,0 +1,67 @@
+"""The mount optimisation of a vehicle whose file has none."""
+
+import numpy as np
+
+from modeviz.errors import VehicleError
+from modeviz.tuning.objective import ROAD_HZ, WHEEL_HZ
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS, MountGroup
+from modeviz.vehicle.loads import Road
+from modeviz.vehicle.problem import DesignGroup, Performance, Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+NAME = "ride"
+
+
+def default_problem(vehicle: Vehicle) -> Problem:
+    """Every rate that can change, for the first road and all wheel loads at every response point.
+
+    At the paper's frequencies, as far as the road's table holds them at the vehicle's speed.
+
+    Raises:
+        VehicleError: the vehicle lacks what such a problem is made of.
+    """
+    groups = tuple(filter(None, map(_design_group, vehicle.mount_groups)))
+    performance = _performance(vehicle)
+    lacking = {
+        "a [[mount_group]] with rates above zero": groups,
+        "a [[response_point]]": vehicle.response_points,
+        "a [[road]] or a [[wheel_load]]": performance,
+    }
+    missing = [what for what, found in lacking.items() if not found]
+    if missing:
+        raise VehicleError(
+            f"nothing to optimise for: vehicle {vehicle.name!r} lacks {' and '.join(missing)}; give "
+            "its vehicle.toml what is missing"
+        )
+    return Problem(NAME, groups, performance, reference=_reference(vehicle))
+
+
+def _design_group(group: MountGroup) -> DesignGroup | None:
+    """The rates of a group by which a search can go, in factors; None if there is none."""
+    own, softest = group.rates.as_tuple(), group.bounds[0].as_tuple()
+    free = [d for d, k, low in zip(DIRECTIONS, own, softest, strict=True) if k > 0 and low > 0]
+    return DesignGroup(group.name, tuple(free)) if free else None
+
+
+def _reference(vehicle: Vehicle) -> str:
+    """The first set of rates that is not the vehicle's own, if there is one."""
+    sets = vehicle.rate_sets.items()
+    return next((name for name, rates in sets if vehicle.all_rates(rates) != vehicle.rates), "")
+
+
+def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
+    loads = tuple(load.name for load in vehicle.wheel_loads)
+    shaken = [Performance(np.array(WHEEL_HZ), wheel_loads=loads)] if loads else []
+    for road in vehicle.roads[:1]:
+        f = _held(road, vehicle.speed)
+        if len(f):
+            shaken.insert(0, Performance(f, roads=(road.name,)))
+    return tuple(shaken)
+
+
+def _held(road: Road, speed: float) -> Floats:
+    """Those of the paper's frequencies that a road's table holds at a speed."""
+    low, high = road.frequency_hz[[0, -1]] * speed / road.speed
+    f = np.array(ROAD_HZ)
+    return f[(f >= low) & (f <= high)]

@@ -1,0 +1,259 @@
+"""A search for better rates in a tuning session: its thread, what it tells, and what comes of it."""
+
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import count
+from typing import Literal
+
+import numpy as np
+
+from modeviz.errors import ModevizError
+from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.design import design_space
+from modeviz.tuning.goals import prepare_goal
+from modeviz.tuning.optimise import Optimum, Progress, optimise, start_points
+from modeviz.tuning.search import Search
+from modeviz.tuning.windows import prepare_windows
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import Problem
+from modeviz.viewer.plan import planned
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import State, rate_sets
+
+TELL_EVERY = 0.25
+"""s between two words on how far a search is, and two designs that the session is brought to."""
+
+YIELD = 5e-4
+"""s that a search rests after each evaluation, so that a slider gets its turn."""
+
+Phase = Literal["preparing", "searching", "paused", "ended", "failed"]
+RUNNING: tuple[Phase, ...] = ("preparing", "searching", "paused")
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """What there is to know of a search at some moment."""
+
+    problem: Problem
+    before: Rates
+    """The rates that it began with."""
+    phase: Phase = "preparing"
+    original: float = np.nan
+    """The goal with the vehicle's own rates."""
+    reference: float = np.nan
+    """With the problem's set to compare with; NaN if it has none."""
+    progress: Progress | None = None
+    """The best design so far; None while there is none."""
+    falls: tuple[tuple[int, float], ...] = ()
+    """Every better design: the number of the evaluation, and its goal."""
+    optimum: Optimum | None = None
+    """What was found, once it has ended."""
+    failure: str = ""
+    """Why it failed, if so."""
+
+    @property
+    def is_running(self) -> bool:
+        return self.phase in RUNNING
+
+
+class Pursuit:
+    """One search in a thread of its own, which the session's rates follow.
+
+    They follow as long as nobody else changes them: no slider is taken out of anybody's hand.
+    """
+
+    def __init__(self, session: Session, changed: Callable[[], None]) -> None:
+        """Starts it.
+
+        Args:
+            session: whose state says what is sought, and from where.
+            changed: told that there is something new to look at.
+
+        Raises:
+            VehicleError: the state's plan asks for what cannot be.
+        """
+        state, vehicle = session.state, session.vehicle
+        assert state.plan is not None
+        self.look = Look(planned(vehicle, state.plan), state.rates)
+        self._session, self._changed, self._state, self._plan = session, changed, state, state.plan
+        self._control, self._lock = Control(), threading.Lock()
+        self._followed: Rates = state.rates
+        self._told = 0.0
+        self._thread = threading.Thread(target=self._run, name="optimiser", daemon=True)
+        self._thread.start()
+
+    def pause(self) -> None:
+        """Holds it, with the session at the best design so far."""
+        if self._turn("searching", "paused"):
+            self._control.pause()
+            self._follow()
+
+    def resume(self) -> None:
+        """Lets it go on."""
+        if self._turn("paused", "searching"):
+            self._control.resume()
+
+    def cancel(self) -> None:
+        """Ends it; the best design so far is kept. While it prepares it is over at once."""
+        self._control.cancel()
+        self._turn("preparing", "ended")
+
+    def join(self) -> None:
+        """Waits for the end of the thread."""
+        self._thread.join()
+
+    def change(self, change: Callable[[State], State]) -> None:
+        """Changes the session's state as a part of the search, which is undone as a whole."""
+        self._session.update(change, kind=self, within=np.inf)
+
+    def _run(self) -> None:
+        try:
+            search = self._prepare()
+            starts = start_points(search, self.look.before, self._plan.n_starts)
+            optimum = optimise(search, starts, control=self._control, tell=self._note)
+        except CancelledError:
+            return
+        except ModevizError as error:
+            self._fail(str(error))
+        except Exception as error:
+            traceback.print_exception(error)
+            self._fail("This is our mistake: the terminal says more.")
+        else:
+            self._end(optimum)
+
+    def _prepare(self) -> Search:
+        """Raises CancelledError if it is over before it began."""
+        vehicle, state, problem = self._session.vehicle, self._state, self.look.problem
+        space = design_space(vehicle, problem.groups, state.rates, state.locked)
+        goal = prepare_goal(vehicle, problem, state.rates, state.conditions.speed)
+        windows = None
+        if problem.windows:
+            windows = prepare_windows(self._session.prepared, problem.windows)
+        reference = np.nan
+        if problem.reference:
+            reference = goal.value(vehicle.rate_sets[problem.reference])
+        original = goal.value({})
+        self._control.check()
+        self._put(phase="searching", original=original, reference=reference)
+        return Search(space, goal, windows)
+
+    def _note(self, progress: Progress) -> None:
+        """Takes down an evaluation, and now and then tells and brings the session after it."""
+        falls = self.look.falls
+        if not falls or progress.value < falls[-1][1]:
+            falls = (*falls, (progress.evaluations, progress.value))
+        with self._lock:
+            self.look = replace(self.look, progress=progress, falls=falls)
+        if time.monotonic() - self._told > TELL_EVERY:
+            self._follow()
+            self._changed()
+            self._told = time.monotonic()
+        time.sleep(YIELD)
+
+    def _end(self, optimum: Optimum) -> None:
+        self._follow()
+        self._put(phase="ended", optimum=optimum)
+
+    def _fail(self, failure: str) -> None:
+        """Says why there is no result; the session goes back to the rates before."""
+        if self._control.is_cancelled:
+            self._put(phase="ended")
+            return
+        self._go_to(self.look.before)
+        self._put(phase="failed", failure=failure)
+
+    def _follow(self) -> None:
+        """Brings the session to the best design so far."""
+        if self.look.progress is not None:
+            self._go_to(self.look.progress.rates)
+
+    def _go_to(self, rates: Rates) -> None:
+        def followed(state: State) -> State:
+            if state.rates != self._followed:
+                return state
+            self._followed = rates
+            return replace(state, rates=rates)
+
+        self.change(followed)
+
+    def _turn(self, before: Phase, after: Phase) -> bool:
+        """Goes from one phase to another; whether it still was in the first."""
+        with self._lock:
+            if self.look.phase != before:
+                return False
+            self.look = replace(self.look, phase=after)
+        self._changed()
+        return True
+
+    def _put(self, **news) -> None:
+        with self._lock:
+            self.look = replace(self.look, **news)
+        self._changed()
+
+
+class Optimiser:
+    """The searches of a session, one at a time."""
+
+    def __init__(self, session: Session, changed: Callable[[], None]) -> None:
+        """Starts nothing; arguments as of `Pursuit`."""
+        self._session, self._changed = session, changed
+        self._lock = threading.Lock()
+        self._pursuit: Pursuit | None = None
+
+    @property
+    def look(self) -> Look | None:
+        """The newest search; None before the first."""
+        return None if self._pursuit is None else self._pursuit.look
+
+    def start(self) -> None:
+        """Begins a search from the present rates.
+
+        Raises:
+            ModevizError: one is running, or as `Pursuit`.
+        """
+        with self._lock:
+            if self.look is not None and self.look.is_running:
+                raise ModevizError("a search is running: cancel it first")
+            self._pursuit = Pursuit(self._session, self._changed)
+        self._changed()
+
+    def pause(self) -> None:
+        """Holds the search that is running."""
+        if self._pursuit:
+            self._pursuit.pause()
+
+    def resume(self) -> None:
+        """Lets it go on."""
+        if self._pursuit:
+            self._pursuit.resume()
+
+    def cancel(self) -> None:
+        """Ends it; the best design so far is kept."""
+        if self._pursuit:
+            self._pursuit.cancel()
+
+    def accept(self) -> None:
+        """Takes over the design that was found, and pins it as the first free of "Optimised 1" ..."""
+        if (pursuit := self._pursuit) is None or (optimum := pursuit.look.optimum) is None:
+            return
+
+        def accepted(state: State) -> State:
+            taken = rate_sets(self._session.vehicle, state)
+            name = next(n for n in (f"Optimised {i}" for i in count(1)) if n not in taken)
+            return replace(state.with_variant(name, optimum.rates), rates=dict(optimum.rates))
+
+        pursuit.change(accepted)
+
+    def go_back(self) -> None:
+        """Takes over the rates before the search again."""
+        if look := self.look:
+            self._session.change(rates=dict(look.before))
+
+    def close(self) -> None:
+        """Ends the search that is running, and waits for it."""
+        if self._pursuit:
+            self._pursuit.cancel()
+            self._pursuit.join()

@@ -1,0 +1,1 @@
+"""The tab in which mount rates are optimised."""

@@ -1,0 +1,76 @@
+"""Where a search is and what came of it, as page text."""
+
+from html import escape
+
+import numpy as np
+
+from modeviz.export.wording import sentence_case, signed
+from modeviz.tuning.active import ActiveConstraint
+from modeviz.tuning.optimise import Optimum
+from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET
+from modeviz.viewer.html import change, heading, row, span, table
+from modeviz.viewer.optimiser import Look
+
+LEAST_GAIN = 5e-4
+"""Of the goal: what gains less is not worth a word."""
+
+ENDINGS = {
+    CONVERGED: "Converged",
+    CANCELLED: "Cancelled",
+    OUT_OF_BUDGET: "Out of budget",
+}
+
+
+def where(look: Look) -> str:
+    """A line on how far it is."""
+    if look.phase == "preparing":
+        return heading("Preparing")
+    if look.phase == "failed":
+        return heading("Failed") + span(escape(look.failure), "bad")
+    if look.progress is None:
+        return heading(_word(look), "no design yet")
+    progress = look.progress
+    n = f"{progress.evaluations:,}".replace(",", "\N{THIN SPACE}")
+    return heading(_word(look), f"start {progress.start} of {progress.n_starts}, {n} evaluations")
+
+
+def figures(look: Look) -> str:
+    """The goal of the best design, and of those it is compared with."""
+    if look.progress is None:
+        return ""
+    best = look.progress.value
+    cells = [("Best", best, change(best, look.original)), ("Original", look.original, "")]
+    if np.isfinite(look.reference):
+        name, value = look.problem.reference, look.reference
+        cells.append((sentence_case(name), value, change(value, look.original)))
+    parts = (
+        f"<div><span>{escape(label)}</span><b>{_value(value)}</b>{delta}</div>"
+        for label, value, delta in cells
+    )
+    return f'<div class="figures goals">{"".join(parts)}</div>'
+
+
+def limits(optimum: Optimum) -> str:
+    """The limits that the design sits on, and what they cost."""
+    worth = [c for c in optimum.active if c.gain >= LEAST_GAIN]
+    if not worth:
+        return span("No limit holds it back.", "dim")
+    rows = [row([escape(c.name), _gain(c)]) for c in worth]
+    quiet = len(optimum.active) - len(worth)
+    more = span(f"{quiet} more limits are met and cost nothing.", "dim") if quiet else ""
+    return f'<div class="limits">{table(("Held back by", "10 % wider gains"), rows)}</div>{more}'
+
+
+def _word(look: Look) -> str:
+    if look.optimum is not None:
+        reason = look.optimum.reason
+        return ENDINGS.get(reason, escape(sentence_case(reason)))
+    return {"searching": "Searching", "paused": "Paused"}.get(look.phase, "Cancelled")
+
+
+def _value(value: float) -> str:
+    return f"{value:.3f}" if 0.1 <= abs(value) < 1000 else f"{value:.3g}"
+
+
+def _gain(constraint: ActiveConstraint) -> str:
+    return signed(-100 * constraint.gain, 1, " %")

@@ -1,0 +1,123 @@
+"""Left column: mount rates optimised while one watches."""
+
+import threading
+from collections.abc import Callable
+from html import escape
+
+import viser
+
+from modeviz.errors import ModevizError, VehicleError
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.assign import assign
+from modeviz.viewer.html import block, span
+from modeviz.viewer.optimiser import Look, Optimiser
+from modeviz.viewer.panels.optimise.editor import ProblemEditor
+from modeviz.viewer.panels.optimise.fall import FallChart
+from modeviz.viewer.panels.optimise.outcome import figures, limits, where
+from modeviz.viewer.plan import problems
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import State
+
+START, PAUSE, RESUME, CANCEL = "Start", "Pause", "Resume", "Cancel"
+ACCEPT, GO_BACK = "Accept", "Go back"
+OFFERED = {
+    "preparing": (CANCEL,),
+    "searching": (PAUSE, CANCEL),
+    "paused": (RESUME, CANCEL),
+}
+
+
+class OptimisePanel:
+    """The problem, the search for better rates, and what came of it."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session, optimiser: Optimiser, dark: bool) -> None:
+        """Builds the controls; of a vehicle without a problem it says what is missing.
+
+        Args:
+            gui: where.
+            session: whose plan is carried out.
+            optimiser: of that session.
+            dark: whether the page is dark.
+        """
+        self._session, self._optimiser = session, optimiser
+        self._lock = threading.Lock()
+        self._editor: ProblemEditor | None = None
+        plan = session.state.plan
+        if plan is None:
+            gui.add_html(block(span(escape(_missing(session)), "dim")))
+            return
+        with gui.add_folder("Problem"):
+            self._editor = ProblemEditor(gui, session, plan)
+        self._buttons = gui.add_button_group(
+            "Search",
+            (START,),
+            hint="Start from the present rates, hold, or end; the truck follows the best design so far "
+            "until somebody moves a rate. Accept pins the result, Go back takes the rates before",
+        )
+        self._buttons.on_click(lambda event: self._press(self._buttons.value, event))
+        self._where = gui.add_html("")
+        self._fall = FallChart(gui, dark)
+        self._result = gui.add_html("")
+        self._presses: dict[str, Callable[[], None]] = {
+            START: optimiser.start,
+            PAUSE: optimiser.pause,
+            RESUME: optimiser.resume,
+            CANCEL: optimiser.cancel,
+            ACCEPT: optimiser.accept,
+            GO_BACK: optimiser.go_back,
+        }
+
+    def show(self, solved: Solved) -> None:
+        """Brings the controls after the state."""
+        if self._editor is not None:
+            self._editor.show(solved)
+            self._offer()
+
+    def follow(self) -> None:
+        """Draws where the search is; may be called in any thread."""
+        look = self._optimiser.look
+        if look is None:
+            return
+        with self._lock:
+            self._offer()
+            assign(self._where, content=block(where(look), figures(look)))
+            if look.falls:
+                self._fall.show(look)
+            else:
+                self._fall.hide()
+            assign(self._result, content=self._outcome(look))
+
+    def _outcome(self, look: Look) -> str:
+        return block(limits(look.optimum)) if look.optimum else ""
+
+    def _offer(self) -> None:
+        """Offers what can be done now."""
+        assign(self._buttons, options=offered(self._optimiser.look, self._session.state))
+
+    def _press(self, button: str, event: viser.GuiEvent) -> None:
+        try:
+            self._presses[button]()
+        except ModevizError as error:
+            if event.client:
+                event.client.add_notification("Not possible", str(error), color="red")
+
+
+def offered(look: Look | None, state: State) -> tuple[str, ...]:
+    """The buttons that have something to do."""
+    if look is None or look.optimum is None:
+        return OFFERED.get(look.phase, (START,)) if look else (START,)
+    found = look.optimum.rates
+    is_pinned = any(variant.rates == found for variant in state.variants.values())
+    is_present = state.rates == found
+    accept = () if is_pinned and is_present else (ACCEPT,)
+    go_back = (GO_BACK,) if is_present and not is_pinned else ()
+    return (START, *accept, *go_back)
+
+
+def _missing(session: Session) -> str:
+    """Why there is nothing to optimise for."""
+    try:
+        problems(session.vehicle)
+    except VehicleError as error:
+        return str(error)
+    return ""

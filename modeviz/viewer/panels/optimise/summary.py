@@ -1,0 +1,86 @@
+"""An optimisation problem at a glance, as page text."""
+
+from collections.abc import Sequence
+from html import escape
+
+import numpy as np
+
+from modeviz.ride.psd import RIDE_BAND
+from modeviz.tuning.design import DesignSpace
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.problem import FrequencyWindow, Performance, Problem
+
+FEW = 4
+"""So many frequencies are written out."""
+
+OVERALL = {
+    "rms": "mean squares of acceleration on the road, {band} Hz",
+    "rating": "combined RMS of the ride rating at the driver, {band} Hz",
+    "iso 2631": "weighted vibration total value at the driver, {band} Hz",
+    "change": "mean square of ln(k/k₀), k₀ the present rates",
+}
+
+
+def summary(problem: Problem, space: DesignSpace) -> str:
+    """What is to become small, and what may change for it."""
+    first, *others = _small(problem)
+    rows = [("Reduce", first), *(("", text) for text in others)]
+    if problem.goal == "accelerations":
+        rows.append(("Sum", _sum(problem)))
+    rows.append(("Free", _free(problem, space)))
+    rows += [("Held", _held(window)) for window in problem.windows]
+    lines = "".join(f'<span class="dim">{key}</span><span>{text}</span>' for key, text in rows)
+    return f'<div class="glance">{lines}</div>'
+
+
+def _small(problem: Problem) -> list[str]:
+    if problem.goal != "accelerations":
+        band = f"{RIDE_BAND[0]:g} to {RIDE_BAND[1]:g}"
+        return [OVERALL[problem.goal].format(band=band)]
+    return [escape(_accelerations(p)) for p in problem.performance]
+
+
+def _accelerations(performance: Performance) -> str:
+    """As in "road 1 at 6 to 14 Hz: all points, lateral and vertical"."""
+    loads = [*performance.roads, *_counted(performance.wheel_loads, "wheel loads")]
+    points = _counted(performance.points, "points") or ["all points"]
+    goal = f", to {performance.target:g}" if performance.target else ""
+    weight = f", weight {performance.weight:g}" if performance.weight != 1 else ""
+    return (
+        f"{' and '.join(loads)} at {_frequencies(performance.frequency_hz)}: {', '.join(points)}, "
+        f"{' and '.join(performance.directions)}{goal}{weight}"
+    )
+
+
+def _counted(names: Sequence[str], what: str) -> list[str]:
+    return list(names) if len(names) < 2 else [f"{len(names)} {what}"]
+
+
+def _frequencies(frequency_hz: Floats) -> str:
+    if len(frequency_hz) <= FEW:
+        return f"{', '.join(f'{f:.4g}' for f in frequency_hz)} Hz"
+    return f"{np.min(frequency_hz):g} to {np.max(frequency_hz):g} Hz"
+
+
+def _sum(problem: Problem) -> str:
+    if problem.is_normalised:
+        return "normalised: each load case relative to the original"
+    return "plain: g²/Hz on roads and g² under wheel loads added as they are"
+
+
+def _free(problem: Problem, space: DesignSpace) -> str:
+    fixed = [g.group for g in problem.groups if g.fixed_ratios]
+    n = space.n_variables
+    text = f"{n} number{'s' if n > 1 else ''} within bounds and ratio limits"
+    return escape(f"{text}; {', '.join(fixed)} keep their ratios" if fixed else text)
+
+
+def _held(window: FrequencyWindow) -> str:
+    where = "within" if window.is_inside else "out of"
+    if np.isinf(window.high_hz):
+        band = f"above {window.low_hz:g} Hz"
+    elif window.low_hz == 0:
+        band = f"below {window.high_hz:g} Hz"
+    else:
+        band = f"{where} {window.low_hz:g} to {window.high_hz:g} Hz"
+    return f"{escape(window.mode)} {band}"

@@ -1,0 +1,289 @@
+"""A search in a session: its thread, what the session makes of it, and how it ends."""
+
+import threading
+import time
+from dataclasses import replace
+
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.errors import ModevizError, SolveError
+from modeviz.tuning.goals import prepare_goal
+from modeviz.tuning.optimise import Progress
+from modeviz.tuning.results import Conditions
+from modeviz.vehicle.connections import MountRates
+from modeviz.viewer import optimiser as module
+from modeviz.viewer.optimiser import Optimiser
+from modeviz.viewer.plan import planned
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import first_state
+
+SOON = 20
+ANSWERS_WITHIN = 0.5
+"""s, of the issue."""
+
+
+class Watcher:
+    """Waits for what a search tells."""
+
+    def __init__(self):
+        self._told = threading.Condition()
+
+    def tell(self):
+        with self._told:
+            self._told.notify_all()
+
+    def wait(self, reached, timeout=SOON):
+        with self._told:
+            assert self._told.wait_for(reached, timeout)
+
+
+@pytest.fixture
+def session():
+    vehicle = mounted_cabin()
+    failures = []
+    state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
+    session = Session(vehicle, state, lambda _: None, failures.append)
+    session.start()
+    assert session.wait(SOON)
+    yield session
+    session.close()
+    assert not failures
+
+
+@pytest.fixture
+def optimiser(session):
+    watcher = Watcher()
+    optimiser = Optimiser(session, watcher.tell)
+    optimiser.wait = watcher.wait
+    yield optimiser
+    optimiser.close()
+
+
+@pytest.fixture
+def gate(monkeypatch):
+    """Holds every search after its first better design until it is set."""
+    gate, optimise = threading.Event(), module.optimise
+
+    def held(search, starts, control, tell):
+        def hold(progress):
+            tell(progress)
+            while not (gate.is_set() or control.is_cancelled):
+                control.check()
+                gate.wait(0.01)
+
+        return optimise(search, starts, control=control, tell=hold)
+
+    monkeypatch.setattr(module, "optimise", held)
+    return gate
+
+
+def plan(session, **fields):
+    session.update(lambda state: replace(state, plan=replace(state.plan, **fields)))
+
+
+def run(optimiser):
+    optimiser.start()
+    optimiser.wait(lambda: not optimiser.look.is_running)
+    return optimiser.look
+
+
+def goal(session):
+    state = session.state
+    problem = planned(session.vehicle, state.plan)
+    return prepare_goal(session.vehicle, problem, state.rates, state.conditions.speed)
+
+
+def test_it_ends_with_the_session_at_the_best_design(session, optimiser):
+    plan(session, n_starts=3)
+    before, of = session.state.rates, goal(session)
+    look = run(optimiser)
+    assert look.phase == "ended"
+    assert look.optimum.converged
+    assert session.state.rates == look.optimum.rates != before
+    assert of.value(session.state.rates) == pytest.approx(look.optimum.value, rel=1e-9)
+    assert look.original == pytest.approx(of.value({}), rel=1e-12) == 1.0
+    soft = session.vehicle.rate_sets["soft"]
+    assert look.reference == pytest.approx(of.value(soft), rel=1e-12)
+    values = [value for _, value in look.falls]
+    assert values == sorted(values, reverse=True)
+    assert values[-1] == look.optimum.value < 1
+
+
+def test_the_search_is_one_step_to_undo_and_redo(session, optimiser):
+    plan(session, n_starts=2)
+    before = session.state
+    look = run(optimiser)
+    session.undo()
+    assert session.state == before
+    session.redo()
+    assert session.state.rates == look.optimum.rates
+
+
+def test_what_is_accepted_is_pinned_kept_and_undone_with_the_search(session, optimiser):
+    plan(session, n_starts=1)
+    before = session.state
+    found = run(optimiser).optimum.rates
+    optimiser.accept()
+    assert session.state.variants["Optimised 1"].rates == session.state.rates == found
+    session.undo()
+    assert session.state == before
+
+
+def test_a_second_result_gets_a_name_of_its_own(session, optimiser):
+    plan(session, n_starts=1)
+    for normalised in (True, False):
+        plan(session, is_normalised=normalised)
+        run(optimiser)
+        optimiser.accept()
+    assert list(session.state.variants) == ["Optimised 1", "Optimised 2"]
+
+
+def test_to_go_back_brings_the_rates_before_and_can_be_undone(session, optimiser):
+    session.set_rate("A", "lateral", 2e5)
+    plan(session, n_starts=1)
+    before = session.state.rates
+    found = run(optimiser).optimum.rates
+    optimiser.go_back()
+    assert session.state.rates == before
+    session.undo()
+    assert session.state.rates == found
+
+
+def test_cancel_answers_at_once_and_keeps_the_best(session, optimiser, gate):
+    optimiser.start()
+    optimiser.wait(lambda: optimiser.look.falls)
+    begin = time.perf_counter()
+    optimiser.cancel()
+    optimiser.wait(lambda: not optimiser.look.is_running)
+    assert time.perf_counter() - begin < ANSWERS_WITHIN
+    look = optimiser.look
+    assert look.optimum.reason == "cancelled"
+    assert look.optimum.value == look.falls[-1][1]
+    assert session.state.rates == look.optimum.rates
+
+
+def test_cancel_while_it_prepares_is_over_at_once_and_changes_nothing(session, optimiser, monkeypatch):
+    may_prepare, before = threading.Event(), session.state
+    prepare = module.prepare_goal
+
+    def slow(*args):
+        may_prepare.wait(SOON)
+        return prepare(*args)
+
+    monkeypatch.setattr(module, "prepare_goal", slow)
+    optimiser.start()
+    optimiser.cancel()
+    assert not optimiser.look.is_running
+    may_prepare.set()
+    optimiser.close()
+    assert optimiser.look.phase == "ended"
+    assert session.state == before
+
+
+def test_a_paused_search_evaluates_nothing_until_it_goes_on(session, optimiser, gate):
+    optimiser.start()
+    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.pause()
+    gate.set()
+    assert optimiser.look.phase == "paused"
+    paused = optimiser.look.progress.evaluations
+    assert session.state.rates == optimiser.look.progress.rates
+    optimiser.resume()
+    optimiser.wait(lambda: not optimiser.look.is_running)
+    assert optimiser.look.optimum.evaluations > paused
+
+
+def test_a_paused_search_is_cancelled_too(optimiser, gate):
+    optimiser.start()
+    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.pause()
+    optimiser.cancel()
+    optimiser.wait(lambda: not optimiser.look.is_running)
+    assert optimiser.look.optimum.reason == "cancelled"
+
+
+def test_a_failing_evaluation_is_told_and_leaves_the_rates_before(session, optimiser, monkeypatch):
+    before, can_undo = session.state, session.can_undo
+    better = {"A": MountRates(5e5, 2e5, 2e5), "B": MountRates(5e5, 2e5, 2e5)}
+
+    def fails(search, starts, control, tell):
+        tell(Progress(1, better, 0.5, 1, 1))
+        assert session.state.rates == better
+        raise SolveError("no answer with A vertical 500 N/mm")
+
+    monkeypatch.setattr(module, "optimise", fails)
+    look = run(optimiser)
+    assert look.phase == "failed"
+    assert look.failure == "no answer with A vertical 500 N/mm"
+    assert session.state == before
+    assert session.can_undo == can_undo
+
+
+def test_what_nobody_expected_is_told_as_our_mistake(session, optimiser, monkeypatch, capsys):
+    def fails(search, starts, control, tell):
+        raise RuntimeError("a bug")
+
+    monkeypatch.setattr(module, "optimise", fails)
+    assert "our mistake" in run(optimiser).failure
+    assert "a bug" in capsys.readouterr().err
+
+
+def test_a_plan_that_cannot_be_is_refused_and_the_next_one_is_searched(session, optimiser):
+    plan(session, groups=frozenset())
+    with pytest.raises(ModevizError, match="no group of mounts may change"):
+        optimiser.start()
+    assert optimiser.look is None
+    plan(session, groups=frozenset({"A"}), n_starts=1)
+    before = session.state.rates
+    found = run(optimiser).optimum.rates
+    assert found["B"] == before["B"]
+    assert found["A"] != before["A"]
+
+
+def test_a_second_search_is_refused_while_one_runs(optimiser, gate):
+    optimiser.start()
+    optimiser.wait(lambda: optimiser.look.falls)
+    with pytest.raises(ModevizError, match="cancel it first"):
+        optimiser.start()
+
+
+def test_locked_rates_stay(session, optimiser):
+    session.change(locked=frozenset({("A", "lateral")}))
+    plan(session, n_starts=1)
+    before = session.state.rates["A"]
+    found = run(optimiser).optimum.rates["A"]
+    assert found.lateral == before.lateral
+    assert found.vertical != before.vertical
+
+
+def test_rates_that_somebody_moves_meanwhile_are_not_taken_from_them(session, optimiser, gate):
+    optimiser.start()
+    optimiser.wait(lambda: optimiser.look.falls)
+    session.set_rate("A", "vertical", 3.21e5)
+    mine = session.state.rates
+    gate.set()
+    optimiser.wait(lambda: not optimiser.look.is_running)
+    assert session.state.rates == mine
+    optimiser.accept()
+    assert session.state.rates == optimiser.look.optimum.rates
+
+
+def test_closing_ends_a_search(session, optimiser, gate):
+    optimiser.start()
+    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.close()
+    assert not optimiser.look.is_running
+    assert not any(thread.name == "optimiser" for thread in threading.enumerate())
+
+
+def test_a_mode_is_held_where_the_plan_wants_it(session, optimiser):
+    yaw = session._last.now.mode_index("cab yaw")
+    now_hz = float(session._last.now.modes.frequency_hz[yaw])
+    plan(session, goal="change", mode="cab yaw", high_hz=0.8 * now_hz, n_starts=1)
+    look = run(optimiser)
+    assert session.wait(SOON)
+    solved = session._last
+    f = solved.now.modes.frequency_hz[solved.now.mode_index("cab yaw")]
+    assert 0.79 * now_hz < f <= 0.8 * now_hz
+    assert look.optimum.active[0].name.startswith("cab yaw")
