@@ -73,3 +73,22 @@ def test_a_long_history_forgets_its_beginning():
     while values.undo():
         steps += 1
     assert steps == history.LONGEST
+
+
+def test_changes_may_follow_each_other_slowly_if_that_is_said(clock):
+    values = History(0)
+    for value in (1, 2):
+        clock[0] += 100
+        values.put(value, kind="a", within=1000)
+    assert values.undo()
+    assert values.value == 0
+
+
+def test_changes_of_one_kind_that_lead_all_the_way_back_leave_no_step(clock):
+    values = History(0)
+    values.put(1)
+    for value in (2, 3, 1):
+        values.put(value, kind="a")
+    values.undo()
+    assert values.value == 0
+    assert not values.can_undo

@@ -73,7 +73,7 @@ def shown(options: Namespace, vehicle: Vehicle) -> tuple[Vehicle, Conditions]:
     if chosen is not None:
         return vehicle, chosen
     even = Road("no road", "No road", vehicle.speed, EVEN_HZ, np.zeros((len(EVEN_HZ), 2, 2), complex))
-    still = replace(vehicle, roads=(even,), response_points=())
+    still = replace(vehicle, roads=(even,), response_points=(), problems=())
     return still, Conditions(even.name, still.speed)
 
 

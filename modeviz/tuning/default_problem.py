@@ -3,7 +3,6 @@
 import numpy as np
 
 from modeviz.errors import VehicleError
-from modeviz.tuning.objective import ROAD_HZ, WHEEL_HZ
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup
 from modeviz.vehicle.loads import Road
@@ -11,6 +10,10 @@ from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 NAME = "ride"
+
+ROAD_HZ = np.linspace(6, 14, 25)
+WHEEL_HZ = np.array([11.0, 13.25, 15.75])
+"""The paper's frequencies."""
 
 
 def default_problem(vehicle: Vehicle) -> Problem:
@@ -52,7 +55,7 @@ def _reference(vehicle: Vehicle) -> str:
 
 def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
     loads = tuple(load.name for load in vehicle.wheel_loads)
-    shaken = [Performance(np.array(WHEEL_HZ), wheel_loads=loads)] if loads else []
+    shaken = [Performance(WHEEL_HZ, wheel_loads=loads)] if loads else []
     for road in vehicle.roads[:1]:
         f = _held(road, vehicle.speed)
         if len(f):
@@ -63,5 +66,4 @@ def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
 def _held(road: Road, speed: float) -> Floats:
     """Those of the paper's frequencies that a road's table holds at a speed."""
     low, high = road.frequency_hz[[0, -1]] * speed / road.speed
-    f = np.array(ROAD_HZ)
-    return f[(f >= low) & (f <= high)]
+    return ROAD_HZ[(low <= ROAD_HZ) & (high >= ROAD_HZ)]

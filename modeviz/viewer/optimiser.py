@@ -12,11 +12,8 @@ import numpy as np
 
 from modeviz.errors import ModevizError
 from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.design import design_space
-from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.optimise import Optimum, Progress, optimise, start_points
-from modeviz.tuning.search import Search
-from modeviz.tuning.windows import prepare_windows
+from modeviz.tuning.search import Search, prepare_search
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.plan import planned
@@ -29,8 +26,11 @@ TELL_EVERY = 0.25
 YIELD = 5e-4
 """s that a search rests after each evaluation, so that a slider gets its turn."""
 
-Phase = Literal["preparing", "searching", "paused", "ended", "failed"]
-RUNNING: tuple[Phase, ...] = ("preparing", "searching", "paused")
+PATIENCE = 3.0
+"""s that a session waits for the end of its search: the full model may take longer."""
+
+Phase = Literal["preparing", "searching", "paused", "checking", "ended", "failed"]
+RUNNING: tuple[Phase, ...] = ("preparing", "searching", "paused", "checking")
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +50,7 @@ class Look:
     falls: tuple[tuple[int, float], ...] = ()
     """Every better design: the number of the evaluation, and its goal."""
     optimum: Optimum | None = None
-    """What was found, once it has ended."""
+    """What was found, once the search has ended."""
     failure: str = ""
     """Why it failed, if so."""
 
@@ -100,10 +100,12 @@ class Pursuit:
         """Ends it; the best design so far is kept. While it prepares it is over at once."""
         self._control.cancel()
         self._turn("preparing", "ended")
+        for phase in ("searching", "paused"):
+            self._turn(phase, "checking")
 
     def join(self) -> None:
-        """Waits for the end of the thread."""
-        self._thread.join()
+        """Waits for the end of the thread, but not longer than anybody would."""
+        self._thread.join(PATIENCE)
 
     def change(self, change: Callable[[State], State]) -> None:
         """Changes the session's state as a part of the search, which is undone as a whole."""
@@ -127,18 +129,15 @@ class Pursuit:
     def _prepare(self) -> Search:
         """Raises CancelledError if it is over before it began."""
         vehicle, state, problem = self._session.vehicle, self._state, self.look.problem
-        space = design_space(vehicle, problem.groups, state.rates, state.locked)
-        goal = prepare_goal(vehicle, problem, state.rates, state.conditions.speed)
-        windows = None
-        if problem.windows:
-            windows = prepare_windows(self._session.prepared, problem.windows)
+        speed = state.conditions.speed
+        search = prepare_search(vehicle, problem, state.rates, speed, state.locked)
         reference = np.nan
         if problem.reference:
-            reference = goal.value(vehicle.rate_sets[problem.reference])
-        original = goal.value({})
+            reference = search.goal.value(vehicle.rate_sets[problem.reference])
+        original = search.goal.value({})
         self._control.check()
         self._put(phase="searching", original=original, reference=reference)
-        return Search(space, goal, windows)
+        return search
 
     def _note(self, progress: Progress) -> None:
         """Takes down an evaluation, and now and then tells and brings the session after it."""

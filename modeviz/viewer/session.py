@@ -8,7 +8,6 @@ from typing import Any
 
 from modeviz.errors import ModevizError
 from modeviz.tuning.check import check_exactly
-from modeviz.tuning.preparation import Prepared
 from modeviz.tuning.results import Results
 from modeviz.tuning.sensitivity import sensitivity
 from modeviz.vehicle.connections import Rates
@@ -60,11 +59,6 @@ class Session:
     @property
     def state(self) -> State:
         return self._history.value
-
-    @property
-    def prepared(self) -> Prepared:
-        """The vehicle made ready; there is none before `start`."""
-        return self._answers.prepared
 
     @property
     def can_undo(self) -> bool:

@@ -75,7 +75,7 @@ def _checked(rest: Rest) -> str:
     if check.impossible:
         return f"not checked: {escape(check.impossible)}"
     progress = "" if check.is_complete else f", {check.n_lines} of {check.n_freqs} lines so far"
-    text = f"within {_percent(check.error)} of exact{progress}"
+    text = f"within {percent(check.error)} of exact{progress}"
     return span(text, "bad") if 100 * check.error > ALARMING else text
 
 
@@ -87,12 +87,13 @@ def _classic(solved: Solved) -> str:
     name = title(solved.now.names[classic.mode].spoken)
     true = solved.now.modes.frequency_hz[classic.mode]
     return (
-        f"classic: up to {_percent(classic.error)} off ({name} "
+        f"classic: up to {percent(classic.error)} off ({name} "
         f"{classic.frequency_hz:.2f} instead of {true:.2f} Hz)"
     )
 
 
-def _percent(error: float) -> str:
+def percent(error: float) -> str:
+    """A relative error as people read it: "0.004 %"."""
     return f"{_rounded(100 * error)} %"
 
 

@@ -10,10 +10,12 @@ from modeviz.tuning.optimise import Optimum
 from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.viewer.html import change, heading, row, span, table
 from modeviz.viewer.optimiser import Look
+from modeviz.viewer.panels.status import ALARMING, percent
 
 LEAST_GAIN = 5e-4
 """Of the goal: what gains less is not worth a word."""
 
+RUNNING = {"searching": "Searching", "paused": "Paused", "checking": "Checking"}
 ENDINGS = {
     CONVERGED: "Converged",
     CANCELLED: "Cancelled",
@@ -50,6 +52,17 @@ def figures(look: Look) -> str:
     return f'<div class="figures goals">{"".join(parts)}</div>'
 
 
+def exactness(optimum: Optimum) -> str:
+    """What the full model says of it."""
+    found = optimum.verification
+    if found.impossible:
+        return span(f"Not checked: {escape(found.impossible)}", "bad")
+    if not found.are_kept:
+        return span("The full model has a mode out of its band.", "bad")
+    text = f"The full model has the same goal within {percent(found.difference)}."
+    return span(text, "bad" if 100 * found.difference > ALARMING else "dim")
+
+
 def limits(optimum: Optimum) -> str:
     """The limits that the design sits on, and what they cost."""
     worth = [c for c in optimum.active if c.gain >= LEAST_GAIN]
@@ -65,7 +78,7 @@ def _word(look: Look) -> str:
     if look.optimum is not None:
         reason = look.optimum.reason
         return ENDINGS.get(reason, escape(sentence_case(reason)))
-    return {"searching": "Searching", "paused": "Paused"}.get(look.phase, "Cancelled")
+    return RUNNING.get(look.phase, "Cancelled")
 
 
 def _value(value: float) -> str:

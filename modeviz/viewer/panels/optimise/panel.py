@@ -13,7 +13,7 @@ from modeviz.viewer.html import block, span
 from modeviz.viewer.optimiser import Look, Optimiser
 from modeviz.viewer.panels.optimise.editor import ProblemEditor
 from modeviz.viewer.panels.optimise.fall import FallChart
-from modeviz.viewer.panels.optimise.outcome import figures, limits, where
+from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, where
 from modeviz.viewer.plan import problems
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import State
@@ -24,6 +24,7 @@ OFFERED = {
     "preparing": (CANCEL,),
     "searching": (PAUSE, CANCEL),
     "paused": (RESUME, CANCEL),
+    "checking": (),
 }
 
 
@@ -71,14 +72,15 @@ class OptimisePanel:
         """Brings the controls after the state."""
         if self._editor is not None:
             self._editor.show(solved)
-            self._offer()
+            with self._lock:
+                self._offer()
 
     def follow(self) -> None:
         """Draws where the search is; may be called in any thread."""
-        look = self._optimiser.look
-        if look is None:
-            return
-        with self._lock:
+        with self._lock:  # else an older look could be drawn over a newer one
+            look = self._optimiser.look
+            if look is None:
+                return
             self._offer()
             assign(self._where, content=block(where(look), figures(look)))
             if look.falls:
@@ -88,7 +90,9 @@ class OptimisePanel:
             assign(self._result, content=self._outcome(look))
 
     def _outcome(self, look: Look) -> str:
-        return block(limits(look.optimum)) if look.optimum else ""
+        if look.optimum is None:
+            return ""
+        return block(limits(look.optimum), f"<div>{exactness(look.optimum)}</div>")
 
     def _offer(self) -> None:
         """Offers what can be done now."""

@@ -5,6 +5,7 @@ from html import escape
 
 import numpy as np
 
+from modeviz.export.markup import title
 from modeviz.ride.psd import RIDE_BAND
 from modeviz.tuning.design import DesignSpace
 from modeviz.vehicle.arrays import Floats
@@ -14,10 +15,10 @@ FEW = 4
 """So many frequencies are written out."""
 
 OVERALL = {
-    "rms": "mean squares of acceleration on the road, {band} Hz",
-    "rating": "combined RMS of the ride rating at the driver, {band} Hz",
-    "iso 2631": "weighted vibration total value at the driver, {band} Hz",
-    "change": "mean square of ln(k/k₀), k₀ the present rates",
+    "rms": "Mean squares of acceleration on the road, {band} Hz",
+    "rating": "Combined RMS of the ride rating at the driver, {band} Hz",
+    "iso 2631": "Weighted vibration total value at the driver, {band} Hz",
+    "change": "Mean square of ln(k/k₀), k₀ the present rates",
 }
 
 
@@ -37,7 +38,7 @@ def _small(problem: Problem) -> list[str]:
     if problem.goal != "accelerations":
         band = f"{RIDE_BAND[0]:g} to {RIDE_BAND[1]:g}"
         return [OVERALL[problem.goal].format(band=band)]
-    return [escape(_accelerations(p)) for p in problem.performance]
+    return [title(_accelerations(p)) for p in problem.performance]
 
 
 def _accelerations(performance: Performance) -> str:
@@ -64,14 +65,14 @@ def _frequencies(frequency_hz: Floats) -> str:
 
 def _sum(problem: Problem) -> str:
     if problem.is_normalised:
-        return "normalised: each load case relative to the original"
-    return "plain: g²/Hz on roads and g² under wheel loads added as they are"
+        return "Normalised: each load case relative to the original"
+    return "Plain: g²/Hz on roads and g² under wheel loads added as they are"
 
 
 def _free(problem: Problem, space: DesignSpace) -> str:
     fixed = [g.group for g in problem.groups if g.fixed_ratios]
     n = space.n_variables
-    text = f"{n} number{'s' if n > 1 else ''} within bounds and ratio limits"
+    text = f"{n} number{'s' if n > 1 else ''} to choose, within bounds and ratio limits"
     return escape(f"{text}; {', '.join(fixed)} keep their ratios" if fixed else text)
 
 
@@ -83,4 +84,4 @@ def _held(window: FrequencyWindow) -> str:
         band = f"below {window.high_hz:g} Hz"
     else:
         band = f"{where} {window.low_hz:g} to {window.high_hz:g} Hz"
-    return f"{escape(window.mode)} {band}"
+    return f"{title(window.mode)} {band}"

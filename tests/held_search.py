@@ -1,0 +1,24 @@
+"""A search of a session that waits after its first design, so that tests meet it while it runs."""
+
+import threading
+
+import pytest
+
+from modeviz.viewer import optimiser
+
+
+def hold_searches(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
+    """Holds every search that begins from now on until the event is set, or it is cancelled."""
+    may_go, optimise = threading.Event(), optimiser.optimise
+
+    def held(search, starts, control, tell):
+        def hold(progress):
+            tell(progress)
+            while not (may_go.is_set() or control.is_cancelled):
+                control.check()
+                may_go.wait(0.01)
+
+        return optimise(search, starts, control=control, tell=hold)
+
+    monkeypatch.setattr(optimiser, "optimise", held)
+    return may_go
