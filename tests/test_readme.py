@@ -2,12 +2,14 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from modeviz.cli import main
-from modeviz.vehicle.files import builtin_vehicle
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 
 CHECKOUT = Path(__file__).parents[1]
 README = (CHECKOUT / "README.md").read_text()
@@ -22,6 +24,27 @@ def test_solve_prints_the_cab_yaw_of_each_set_of_rates(capsys: pytest.CaptureFix
     assert original == pytest.approx(11.7, rel=0.012)
     assert optimised == pytest.approx(9.8, abs=0.15)
     assert optimised < softer < original
+
+
+def test_the_problem_it_shows_is_read_and_says_what_is_so_anyway(tmp_path: Path):
+    (block,) = re.findall(r"```toml\n(.*?)```", README, re.DOTALL)
+    vehicle = replace(read_vehicle(builtin_vehicle()), problems=())
+    write_vehicle(vehicle, tmp_path / "truck")
+    with (tmp_path / "truck" / "vehicle.toml").open("a") as file:
+        file.write(f"\n{block}")
+    (problem,) = read_vehicle(tmp_path / "truck").problems
+    rear, engine = problem.groups
+    own = vehicle.mount_group("C2")
+    assert rear.bounds == own.bounds
+    assert rear.ratio_limits == own.ratio_limits
+    assert rear.directions == DesignGroup("C2").directions
+    assert engine.fixed_ratios
+    (performance,) = problem.performance
+    plain = Performance(performance.frequency_hz, roads=("road 1",))
+    for key in ("directions", "target", "weight"):
+        assert getattr(performance, key) == getattr(plain, key)
+    assert performance.points == tuple(point.name for point in vehicle.response_points)
+    assert problem.is_normalised is Problem("", problem.groups, (plain,)).is_normalised
 
 
 def keys(value) -> set[str]:

@@ -11,14 +11,17 @@ from mounted_cabin import mounted_cabin
 from modeviz.export.axes import decibel_axis
 from modeviz.export.charts import BOTTOM, LEFT, RIGHT, TOP
 from modeviz.export.report import Picture, report
-from modeviz.export.report.ride import SHOWN_HZ
+from modeviz.export.report.sides import SHOWN_HZ
 from modeviz.ride.psd import power_decibels
 from modeviz.tuning.check import Check
 from modeviz.tuning.comparison import RateSet, compare
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions
+from modeviz.tuning.wheel_peaks import wheel_peak_lines
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.loads import WheelLoad
+from modeviz.vehicle.problem import DesignGroup, Problem
 
 TODAY = date(2026, 11, 22)
 SOFT = RateSet("soft", {"A": MountRates(2e5, 1e5, 4e5)})
@@ -57,6 +60,20 @@ def test_rates_are_in_newtons_per_millimetre_with_their_change(document):
         ["fore-aft", "400", "400", "0.0 %"],
     ]
     assert rows[4] == ["B rear"]
+
+
+def test_the_reference_of_the_usual_problem_stands_beside_both_sets():
+    problem = Problem("comfort", (DesignGroup("A"),), goal="change", reference="soft")
+    vehicle = replace(mounted_cabin(), problems=(problem,))
+    stiff = RateSet("stiff", {"A": MountRates(1.6e6, 3e5, 4e5)})
+    found = compare(prepare(vehicle), ORIGINAL, stiff, None)
+    header, *rows = Document(report(found, TODAY)).tables["Mount rates"]
+    assert header[1:] == ["original, N/mm", "stiff, N/mm", "Change", "soft, N/mm", "Change"]
+    assert rows[1] == ["vertical", "800", "1600", "+100.0 %", "200", "−75.0 %"]
+    for names in (("original", "soft"), ("soft", "soft")):
+        both = compare(prepare(vehicle), *(RateSet(name, {}) for name in names), None)
+        header, *_ = Document(report(both, TODAY)).tables["Mount rates"]
+        assert header[1:] == [f"{names[0]}, N/mm", f"{names[1]}, N/mm", "Change"]
 
 
 def test_loss_factors_are_told_where_they_changed():
@@ -111,35 +128,84 @@ def test_wheel_loads_have_means_from_11_to_16_hz(comparison, document):
     row = document.tables["Seat"][-1]
     base, now = (1000 * w.mean((11.0, 16.0))[0, 0] for w in comparison.wheels)
     expected = [mean[axis] for axis in (1, 2, 0) for mean in (base, now)]
-    assert [value(row[i]) for i in (1, 2, 4, 5, 7, 8)] == pytest.approx(expected, abs=0.0051)
+    assert [value(row[i]) for i in (1, 2, 5, 6, 9, 10)] == pytest.approx(expected, abs=0.0051)
+
+
+def test_changes_of_means_are_relative_to_themselves_and_to_the_largest(comparison, document):
+    """The paper's Tables 5 and 6 have the second; the first is what hides in them."""
+    groups, header, row = document.tables["Seat"]
+    assert groups == ["", "Lateral", "Vertical", "Fore-aft"]
+    assert header[1:5] == ["original", "soft", "Change", "of largest"]
+    base, now = (1000 * w.mean((11.0, 16.0))[0, 0] for w in comparison.wheels)
+    for axis, own, common in zip((1, 2, 0), (3, 7, 11), (4, 8, 12), strict=True):
+        change = now[axis] - base[axis]
+        assert value(row[own]) == pytest.approx(100 * change / base[axis], abs=0.051)
+        assert value(row[common]) == pytest.approx(100 * change / base.max(), abs=0.051)
+    where = ("fore-aft", "lateral", "vertical")[int(base.argmax())]
+    largest = f"the largest mean of original, {base.max():.2f} (seat, {where}, front left radial force)"
+    assert largest in document.words
+
+
+def lines(text, number):
+    """Width and height of the chart of that number, and its curves, (n_freqs, 2)."""
+    svg = re.findall(r"<svg xmlns.*?</figure>", text)[number]
+    _, _, width, height = map(float, re.search(r'viewBox="([^"]*)"', svg)[1].split())
+    curves = re.findall(r'<polyline points="([^"]*)"', svg)
+    points = [np.array([p.split(",") for p in curve.split()], float) for curve in curves]
+    return width - LEFT - RIGHT, height - TOP - BOTTOM, points
+
+
+def assert_drawn(text, number, f, levels):
+    """The curves of a chart are these levels, as far as they are within it."""
+    width, height, curves = lines(text, number)
+    inside = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
+    axis = decibel_axis("", [level[inside] for level in levels])
+    for points, level in zip(curves, levels, strict=True):
+        x, y = points[inside].T
+        shown = level[inside] > axis.low
+        hertz = SHOWN_HZ[0] + x / width * (SHOWN_HZ[1] - SHOWN_HZ[0])
+        decibels = axis.high - y / height * (axis.high - axis.low)
+        np.testing.assert_allclose(hertz, f[inside], atol=0.06 * 24 / width)
+        np.testing.assert_allclose(decibels[shown], level[inside][shown], atol=0.06 * 60 / 190)
 
 
 @pytest.mark.parametrize(("number", "direction"), list(enumerate(["lateral", "vertical", "fore-aft"])))
 def test_curves_are_the_spectra_of_both_sets(comparison, text, number, direction):
-    svg = re.findall(r"<svg xmlns.*?</figure>", text)[number]
-    _, _, width, height = map(float, re.search(r'viewBox="([^"]*)"', svg)[1].split())
     levels = [power_decibels(r.response(0, direction)) for r in comparison.rides]
-    f = comparison.base.frequency_hz
-    inside = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
-    axis = decibel_axis("", [level[inside] for level in levels])
-    lines = re.findall(r'<polyline points="([^"]*)"', svg)
-    for line, level in zip(lines, levels, strict=True):
-        x, y = np.array([point.split(",") for point in line.split()], float)[inside].T
-        shown = level[inside] > axis.low
-        hertz = SHOWN_HZ[0] + x / (width - LEFT - RIGHT) * (SHOWN_HZ[1] - SHOWN_HZ[0])
-        decibels = axis.high - y / (height - TOP - BOTTOM) * (axis.high - axis.low)
-        np.testing.assert_allclose(hertz, f[inside], atol=0.06 * 24 / (width - LEFT - RIGHT))
-        np.testing.assert_allclose(decibels[shown], level[inside][shown], atol=0.06 * 60 / 190)
+    assert_drawn(text, number, comparison.base.frequency_hz, levels)
+
+
+@pytest.mark.parametrize(("number", "axis"), [(3, 1), (4, 2)])
+def test_curves_are_the_harmonic_responses_of_both_sets(comparison, text, number, axis):
+    levels = [20 * np.log10(w.acceleration_g[:, 0, 0, axis]) for w in comparison.wheels]
+    assert_drawn(text, number, comparison.wheels[0].frequency_hz, levels)
+
+
+def test_the_load_that_is_drawn_is_the_rear_radial_force_on_the_drivers_side():
+    vehicle = mounted_cabin()
+    loads = [
+        WheelLoad(f"{kind} {tyre.name}", kind, tyre.name, 10.0)
+        for tyre in vehicle.tyres
+        for kind in ("unbalance", "radial force")
+    ]
+    for order in (loads, loads[::-1]):
+        vehicle = replace(vehicle, wheel_loads=tuple(order))
+        text = report(compare(prepare(vehicle), ORIGINAL, SOFT, None), TODAY)
+        for direction in ("Lateral", "Vertical"):
+            assert f"{direction} acceleration at seat under radial force tyre 2.5 -0.7;" in text
 
 
 def test_curves_are_full_lines_whose_peaks_are_marked(comparison, text):
     assert "stroke-dasharray" not in text
     f = comparison.base.frequency_hz
     charts = re.findall(r"<svg xmlns.*?</figure>", text)
-    for chart, direction in zip(charts, ("lateral", "vertical", "fore-aft"), strict=True):
+    for chart, direction in zip(charts[:3], ("lateral", "vertical", "fore-aft"), strict=True):
         found = [line for r in comparison.rides for line in r.peak_lines(0, direction)]
         shown = [line for line in found if SHOWN_HZ[0] <= f[line] <= SHOWN_HZ[1]]
         assert 1 <= chart.count("<circle") <= len(shown)
+    for chart, direction in zip(charts[3:], ("lateral", "vertical"), strict=True):
+        found = [line for w in comparison.wheels for line in wheel_peak_lines(w, 0, 0, direction)]
+        assert chart.count("<circle") == len([n for n in found if SHOWN_HZ[0] <= f[n] <= SHOWN_HZ[1]])
 
 
 def test_it_says_how_exact_it_is(comparison, document):

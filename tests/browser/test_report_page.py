@@ -11,6 +11,8 @@ from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions
 
 WIDTHS = (1280, 800)
+A4 = 680
+"""CSS pixels between the margins: 180 mm."""
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +58,7 @@ def colors(page: Page) -> list[str]:
 def test_pictures_and_curves_are_drawn_without_a_network(page):
     assert page.evaluate("document.images[0].naturalWidth") == 40
     boxes = page.evaluate("[...document.querySelectorAll('polyline')].map(l => l.getBBox().width)")
-    assert len(boxes) == 6
+    assert len(boxes) == 10
     assert min(boxes) > 400
 
 
@@ -81,6 +83,9 @@ def test_a_dark_page_has_other_colours_and_paper_is_light(page):
 
 
 def test_it_prints_on_a4(page):
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": A4, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth") == A4
     pdf = page.pdf(prefer_css_page_size=True)
     assert pdf.startswith(b"%PDF")
     assert b"/MediaBox [0 0 594.95996 841.91998]" in pdf

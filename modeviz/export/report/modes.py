@@ -7,7 +7,7 @@ import numpy as np
 
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.export.markup import NONE, note, section, span, table, title
-from modeviz.export.report.ride import SHOWN_HZ
+from modeviz.export.report.sides import SHOWN_HZ
 from modeviz.export.wording import number, percent_change, signed, significant
 from modeviz.ride.psd import power_decibels
 from modeviz.tuning.comparison import Comparison
@@ -16,27 +16,53 @@ from modeviz.tuning.pairing import Pair, pair_modes
 from modeviz.tuning.results import ModalResults, Results
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup
+from modeviz.vehicle.vehicle import Vehicle
 
 
 def rates(comparison: Comparison) -> str:
-    """Mount rates, as the paper's Table 4, and the loss factors that are not the same."""
-    sides = (comparison.base.vehicle.mount_groups, comparison.now.vehicle.mount_groups)
-    rows = [row for before, after in zip(*sides, strict=True) for row in _group_rows(before, after)]
+    """Mount rates, as the paper's Table 4, and the loss factors that are not the same.
+
+    Beside both sets stands what the vehicle's usual problem is compared with, if that is neither.
+    """
+    sets = [
+        (comparison.names[0], comparison.base.vehicle),
+        (comparison.names[1], comparison.now.vehicle),
+        *_reference(comparison),
+    ]
+    columns = zip(*(vehicle.mount_groups for _, vehicle in sets), strict=True)
+    rows = [row for groups in columns for row in _group_rows(groups)]
     if not rows:
         return ""
-    header = ["Mount", *(f"{escape(name)}, N/mm" for name in comparison.names), "Change"]
+    first, *others = (f"{escape(name)}, N/mm" for name, _ in sets)
+    header = ["Mount", first, *(cell for name in others for cell in (name, "Change"))]
     return section("Mount rates", table(header, rows))
 
 
-def _group_rows(before: MountGroup, after: MountGroup) -> Iterator[list[str]]:
+def _reference(comparison: Comparison) -> list[tuple[str, Vehicle]]:
+    """What the vehicle's usual problem is compared with, by name; nothing if it is one of both."""
+    vehicle = comparison.vehicle
+    name = vehicle.problems[0].reference if vehicle.problems else ""
+    if not name or name in comparison.names:
+        return []
+    return [(name, vehicle.with_rates(vehicle.rate_sets[name]))]
+
+
+def _group_rows(groups: Sequence[MountGroup]) -> Iterator[list[str]]:
+    """Of one group with each set of rates."""
     per_mm = factor("N/mm", "stiffness")
-    yield [f"{escape(before.name)} <small>{escape(before.label)}</small>"]
-    values = zip(DIRECTIONS, before.rates.as_tuple(), after.rates.as_tuple(), strict=True)
-    for direction, base, now in values:
-        yield [direction, significant(base / per_mm), significant(now / per_mm), _change(now, base)]
-    base, now = before.loss_factor, after.loss_factor
-    if base != now:
-        yield ["loss factor", significant(base), significant(now), _change(now, base)]
+    yield [f"{escape(groups[0].name)} <small>{escape(groups[0].label)}</small>"]
+    columns = zip(*(group.rates.as_tuple() for group in groups), strict=True)
+    for direction, values in zip(DIRECTIONS, columns, strict=True):
+        yield [direction, *_rate_cells([value / per_mm for value in values])]
+    loss_factors = [group.loss_factor for group in groups]
+    if len(set(loss_factors)) > 1:
+        yield ["loss factor", *_rate_cells(loss_factors)]
+
+
+def _rate_cells(values: Sequence[float]) -> list[str]:
+    """The first, and each other with its change."""
+    base, *others = values
+    return [significant(base), *(t for now in others for t in (significant(now), _change(now, base)))]
 
 
 def frequencies(comparison: Comparison) -> str:

@@ -11,7 +11,8 @@ from importlib.resources import files
 from modeviz.export.markup import change, section, span
 from modeviz.export.report.exactness import exactness
 from modeviz.export.report.modes import frequencies, participation, rates
-from modeviz.export.report.ride import levels, spectra, wheels
+from modeviz.export.report.ride import levels, spectra
+from modeviz.export.report.wheels import wheels
 from modeviz.export.wording import number, signed
 from modeviz.tuning.check import Check
 from modeviz.tuning.comparison import Comparison

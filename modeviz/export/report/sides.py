@@ -1,0 +1,83 @@
+"""Both sets of rates side by side: accelerations as charts and tables."""
+
+from collections.abc import Sequence
+from html import escape
+
+from modeviz.export.axes import Axis, decibel_axis
+from modeviz.export.charts import BASE, NOW, Curve, line_chart
+from modeviz.export.markup import change, table, title
+from modeviz.export.wording import number
+from modeviz.tuning.comparison import Comparison
+from modeviz.tuning.results import AXIS
+from modeviz.vehicle.arrays import Floats
+
+SHOWN_HZ = (1.0, 25.0)
+"""What is drawn, and whose peaks are listed."""
+
+DIRECTIONS = ("lateral", "vertical", "fore-aft")
+"""In the order of the paper's figures."""
+
+
+def chart(
+    comparison: Comparison,
+    frequency_hz: Floats,
+    levels: Sequence[Floats],
+    peaks: Sequence[Sequence[int]],
+    heading: str,
+    unit: str,
+) -> str:
+    """A figure of two curves whose peaks are marked.
+
+    Args:
+        comparison: whose sets of rates they are.
+        frequency_hz: (n_freqs,).
+        levels: (n_freqs,) of each set, dB.
+        peaks: the lines of each set's peaks.
+        heading: what is drawn, as HTML.
+        unit: of the levels.
+    """
+    f = frequency_hz
+    shown = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
+    styles = zip(comparison.names, levels, (BASE, NOW), (1.6, 2.2), peaks, strict=True)
+    curves = [Curve(name, f, level, *style) for name, level, *style in styles]
+    y = decibel_axis(unit, [level[shown] for level in levels])
+    svg = line_chart(curves, Axis("Frequency, Hz", *SHOWN_HZ), y, heading, 900, 270)
+    return f"<figure>{svg}<figcaption>{escape(heading)}; peaks in Hz</figcaption></figure>"
+
+
+def by_direction(
+    comparison: Comparison,
+    names: Sequence[str],
+    base: Floats,
+    now: Floats,
+    decimals: int,
+    common: float | None = None,
+) -> str:
+    """A table of accelerations.
+
+    Args:
+        comparison: whose sets of rates they are.
+        names: of the rows.
+        base: (n_rows, 3): x, y, z with the first set.
+        now: with the second.
+        decimals: of the accelerations.
+        common: if given, changes are also told in percent of this.
+    """
+
+    def cells(before: float, after: float) -> list[str]:
+        found = compared((before, after), decimals)
+        return found if common is None else [*found, change(common + after - before, common)]
+
+    rows = [
+        [title(name), *(c for d in DIRECTIONS for c in cells(base[i, AXIS[d]], now[i, AXIS[d]]))]
+        for i, name in enumerate(names)
+    ]
+    columns = [*map(escape, comparison.names), "Change", *([] if common is None else ["of largest"])]
+    groups = [("", 1), *((direction.capitalize(), len(columns)) for direction in DIRECTIONS)]
+    return table(["", *columns * len(DIRECTIONS)], rows, groups)
+
+
+def compared(values: Sequence[float], decimals: int) -> list[str]:
+    """Base, now and the change, of what had better be less."""
+    base, now = values
+    return [number(base, decimals), number(now, decimals), change(now, base)]
