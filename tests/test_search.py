@@ -12,7 +12,9 @@ from toy_goals import logarithmic_search, paraboloid
 import modeviz as mv
 from modeviz.errors import SolveError, VehicleError
 from modeviz.tuning.control import Control
-from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET, descend, prepare_search
+from modeviz.tuning.descent import descend
+from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
+from modeviz.tuning.search import prepare_search
 from modeviz.vehicle.problem import FrequencyWindow
 
 CENTER = np.array([2.0, -3.0, 0.1, 2.0, 2.0, 2.0])

@@ -14,6 +14,7 @@ from modeviz.vehicle.problem import Goal, Problem
 
 SMALL: dict[Goal, str] = {
     "accelerations": "squared accelerations",
+    "peak": "largest squared acceleration",
     "rms": "mean squares on the road",
     "rating": "combined mean square at the driver's point",
     "iso 2631": "square of the ISO 2631-1 total at the driver's point",

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import nnls
 
+from modeviz.tuning.peak import Peak
 from modeviz.tuning.search import Search
 from modeviz.vehicle.arrays import Floats
 
@@ -37,16 +38,31 @@ def active_constraints(search: Search, x: Floats) -> tuple[ActiveConstraint, ...
     λ >= 0 (W. Karush, H. W. Kuhn and A. W. Tucker); λ is found by non-negative least squares, which for
     limits that depend on each other is one of several ways to share.
     """
-    value, gradient = search.evaluate(x)
+    value, slopes = _slopes(search, x)
     names, rows = _met(search, x)
     if not names:
         return ()
-    multipliers, _ = nnls(np.transpose(rows), -gradient)
+    # Of a peak's largest squares the goal has a mean: as many more multipliers, whose sum is one.
+    size = np.abs(slopes).max(initial=1.0)
+    means = np.pad(slopes, ((0, 0), (0, 1)), constant_values=size)
+    limits = np.pad(rows, ((0, 0), (0, 1)))
+    wanted = np.append(np.zeros(len(x)), size)
+    multipliers, _ = nnls(np.vstack([limits, means]).T, wanted)
     found = [
         ActiveConstraint(name, float(m), float(m * np.log(1 + RELAXED) / value) if value else 0.0)
-        for name, m in zip(names, multipliers, strict=True)
+        for name, m in zip(names, multipliers[: len(names)], strict=True)
     ]
     return tuple(sorted(found, key=lambda c: -c.multiplier))
+
+
+def _slopes(search: Search, x: Floats) -> tuple[float, Floats]:
+    """The goal, and its derivatives, or those of all squares that are as large as a peak."""
+    if not isinstance(search.goal, Peak):
+        value, gradient = search.evaluate(x)
+        return value, gradient[None]
+    squares, gradients = search.squares(x)
+    largest = squares.max()
+    return float(largest), gradients[squares >= largest * (1 - ACTIVE)]
 
 
 def _met(search: Search, x: Floats) -> tuple[list[str], list[Floats]]:

@@ -5,16 +5,16 @@ from collections.abc import Callable
 from scipy.optimize import differential_evolution
 
 from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.search import (
+from modeviz.tuning.evaluator import (
     CANCELLED,
     CONVERGED,
     OUT_OF_BUDGET,
     Descent,
     Evaluator,
     OutOfBudgetError,
-    Search,
     Step,
 )
+from modeviz.tuning.search import Search
 from modeviz.tuning.threads import one_thread
 
 

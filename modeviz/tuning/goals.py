@@ -10,13 +10,14 @@ from modeviz.errors import VehicleError
 from modeviz.ride.psd import RIDE_BAND, integration_weights
 from modeviz.ride.rating import COMFORT_FACTORS, squared_weights
 from modeviz.tuning.objective import LoadCase, prepare_objective
+from modeviz.tuning.peak import Peak
 from modeviz.tuning.preparation import FREQUENCY_HZ
 from modeviz.tuning.results import AXIS, Conditions
 from modeviz.tuning.sensitivity import rate_variables
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
-from modeviz.vehicle.problem import Performance, Problem
+from modeviz.vehicle.problem import VARIABLES, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 DRIVER = 0
@@ -84,16 +85,18 @@ def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) 
     cases = load_cases(vehicle, problem, speed)
     objective = prepare_objective(vehicle, [replace(case, weight=1.0) for case in cases])
     weights = np.array([case.weight for case in cases])
-    if not problem.is_normalised:
-        return objective.scaled(weights)
-    own = objective.values({})
-    shares = weights / (weights.sum() or 1.0)
-    return objective.scaled(np.divide(shares, own, out=shares.copy(), where=own > 0))
+    is_peak = problem.goal == "peak"
+    if problem.is_normalised:
+        H = objective.response({})
+        own = objective.criterion.largest(H) if is_peak else objective.criterion.values(H)
+        weights = weights / ((weights.max() if is_peak else weights.sum()) or 1.0)
+        weights = np.divide(weights, own, out=weights.copy(), where=own > 0)
+    return Peak(objective.scaled(weights)) if is_peak else objective.scaled(weights)
 
 
 def load_cases(vehicle: Vehicle, problem: Problem, speed: float) -> list[LoadCase]:
     """The load cases of a goal that is made of accelerations; raises as `prepare_goal`."""
-    if problem.goal == "accelerations":
+    if problem.goal in VARIABLES:
         return [case for p in problem.performance for case in _cases(vehicle, p, speed)]
     road = Conditions(_road(vehicle, problem), speed)
     pattern = np.zeros((len(FREQUENCY_HZ), len(vehicle.response_points), 3))

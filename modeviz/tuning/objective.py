@@ -1,6 +1,6 @@
 """What the optimiser is to make small: weighted sums of squared accelerations, as the paper's."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -59,9 +59,13 @@ class _Term:
         """The case's part of an array whose last axes are frequency, another one and input."""
         return of_all[..., self.lines, :, self.inputs]
 
+    def squares(self, power: Floats) -> Floats:
+        """W (a - target)², from a², (..., n_lines, n_outputs) both."""
+        return self.weights * (np.sqrt(power) - self.target) ** 2
+
     def value(self, power: Floats) -> Floats:
         """Σ w (a - target)², from a² (..., n_lines, n_outputs)."""
-        return (self.weights * (np.sqrt(power) - self.target) ** 2).sum(axis=(-2, -1))
+        return self.squares(power).sum(axis=(-2, -1))
 
     def slope(self, power: Floats) -> Floats:
         """∂value/∂a², (n_lines, n_outputs): where nothing moves towards a target it has none, and is
@@ -89,6 +93,10 @@ class Criterion:
             response: (..., n_freqs, n_outputs, n_inputs), as of `Objective.driven`.
         """
         return np.stack([term.value(self.power(term, response)) for term in self.terms], axis=-1)
+
+    def largest(self, response: Complexes) -> Floats:
+        """The largest w (a - target)² of each case, (n_cases,)."""
+        return np.array([term.squares(self.power(term, response)).max() for term in self.terms])
 
     def power(self, term: _Term, response: Complexes) -> Floats:
         """a² of a case, (..., n_lines, n_outputs), from the response of all outputs to all inputs."""
@@ -120,10 +128,18 @@ class Objective:
 
     def values(self, rates: Rates) -> Floats:
         """What each case adds to F, (n_cases,); raises as `solve`."""
-        return self.criterion.values(self.driven.response(self.prepared.mount_stiffness(rates)))
+        return self.criterion.values(self.response(rates))
 
     def exact_value(self, rates: Rates) -> float:
-        """F from the equations of motion of the full model, frequency by frequency.
+        """F from the equations of motion of the full model; raises as `exact_response`."""
+        return float(self.criterion.values(self.exact_response(rates)).sum())
+
+    def response(self, rates: Rates) -> Complexes:
+        """Of all outputs to all inputs, (n_freqs, n_outputs, n_inputs); raises as `solve`."""
+        return self.driven.response(self.prepared.mount_stiffness(rates))
+
+    def exact_response(self, rates: Rates) -> Complexes:
+        """The same from the equations of motion of the full model, frequency by frequency.
 
         Raises:
             VehicleError: a group that the vehicle does not have.
@@ -132,8 +148,7 @@ class Objective:
         prepared = self.prepared
         forces = prepared.input_directions.T @ self.amplitudes
         system = prepared.system.with_rates(rates)
-        H = direct_response(system, prepared.frequency_hz, forces, prepared.outputs[self.outputs])
-        return float(self.criterion.values(H).sum())
+        return direct_response(system, prepared.frequency_hz, forces, prepared.outputs[self.outputs])
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         """F and ∂F/∂k, (n_variables,) in the order of `rate_variables`; raises as `solve`."""
@@ -150,14 +165,35 @@ class Objective:
         Raises:
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
-        H, a, b = self.driven.response_gradient(stiffness)
         value, gradient = 0.0, np.zeros(shares.shape[1])
-        for term in self.terms:
-            f, power = self.driven.frequency_hz[term.lines], self.criterion.power(term, H)
-            change = psd_gradient(f, term.own(H), a[term.lines], term.own(b), term.input_psd, shares)
+        for term, power, change in self._powers(stiffness, shares):
             value += float(term.value(power))
             gradient += np.tensordot(term.slope(power), change, 2)
         return value, gradient
+
+    def squares_and_gradients(self, rates: Rates) -> tuple[Floats, Floats]:
+        """W (a - target)² of everything that has a weight, (n,), and derivatives, (n, n_variables).
+
+        These are to each of `rate_variables`; raises as `solve`.
+        """
+        squares, gradients = [], []
+        stiffness, shares = self.prepared.mount_stiffness(rates), spring_shares(self.prepared, rates)
+        for term, power, change in self._powers(stiffness, shares):
+            counts = term.weights > 0
+            squares.append(term.squares(power)[counts])
+            slope = np.broadcast_to(term.slope(power), power.shape)
+            gradients.append(slope[counts, None] * change[counts])
+        return np.concatenate(squares), np.concatenate(gradients)
+
+    def _powers(
+        self, stiffness: Complexes, shares: Complexes
+    ) -> Iterator[tuple[_Term, Floats, Floats]]:
+        """Each case, its a² and the derivatives of these; arguments and errors as `of_springs`."""
+        H, a, b = self.driven.response_gradient(stiffness)
+        for term in self.terms:
+            f, power = self.driven.frequency_hz[term.lines], self.criterion.power(term, H)
+            change = psd_gradient(f, term.own(H), a[term.lines], term.own(b), term.input_psd, shares)
+            yield term, power, change
 
     @property
     def criterion(self) -> "Criterion":

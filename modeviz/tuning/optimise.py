@@ -8,8 +8,10 @@ import numpy as np
 from modeviz.errors import SolveError
 from modeviz.tuning.active import ActiveConstraint, active_constraints
 from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.descent import descend
+from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent, Step
 from modeviz.tuning.evolution import evolve
-from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent, Search, Step, descend
+from modeviz.tuning.search import Search
 from modeviz.tuning.threads import one_thread
 from modeviz.tuning.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats

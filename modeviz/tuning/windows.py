@@ -13,8 +13,11 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import FrequencyWindow
 
-MARGIN = 1e-6
-"""How far within a window a search aims, relative to its ends, so that rounding does not leave it."""
+MARGIN = 2e-6
+"""How far within a window a search aims, relative to its ends; frequencies are within 4e-7 of exact."""
+
+SLACK = 1e-6
+"""By how much a design may miss that and still counts: a search comes to it from both sides."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,14 +9,17 @@ from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.connections import DIRECTIONS, MountRates, check_bounds
 
-Goal = Literal["accelerations", "rms", "rating", "iso 2631", "change"]
+Goal = Literal["accelerations", "peak", "rms", "rating", "iso 2631", "change"]
 """What is to become small.
 
-accelerations: the performance variables. rms: the mean squares, on the road, at the points and along
-the directions of these. rating: the combined RMS that the mean personal rating falls with, at the
-driver's point. iso 2631: the vibration total value there. change: the mean square of ln(k/k₀) of the
-rates that may change.
+accelerations: the performance variables. peak: the largest of them. rms: the mean squares, on the
+road, at the points and along the directions of these. rating: the combined RMS that the mean personal
+rating falls with, at the driver's point. iso 2631: the vibration total value there. change: the mean
+square of ln(k/k₀) of the rates that may change.
 """
+
+VARIABLES: tuple[Goal, ...] = ("accelerations", "peak")
+"""Goals that are made of performance variables."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,138 @@
+"""The search from one start: scipy's SLSQP with analytic derivatives, feasible at every step."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy.optimize import OptimizeResult, minimize
+
+from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.evaluator import (
+    CANCELLED,
+    CONVERGED,
+    OUT_OF_BUDGET,
+    Descent,
+    Evaluator,
+    OutOfBudgetError,
+    Step,
+)
+from modeviz.tuning.peak import Peak
+from modeviz.tuning.search import Search
+from modeviz.tuning.threads import one_thread
+from modeviz.vehicle.arrays import Floats
+
+TOLERANCE = 1e-12
+"""A search has converged when a step gains less of the goal that it started with: then the derivatives
+along what is free are some 1e-7 of the rest, with 1e-8 they are 1e-4, for a tenth less evaluations."""
+
+MOST_STEPS = 500
+"""Of one search; the budget of evaluations ends it before."""
+
+RESTARTS = 2
+"""How often a solver that got stuck begins anew where it was best, with nothing to mislead it."""
+
+PEAK_TOLERANCE = 1e-10
+"""The same of a peak, which is found where limits and squares meet, and so at once or not better."""
+
+
+@one_thread
+def descend(
+    search: Search,
+    start: Floats,
+    budget: int,
+    control: Control | None = None,
+    tell: Callable[[Step], None] = lambda _: None,
+) -> Descent:
+    """The best design down from a start.
+
+    Bounds and ratio limits are linear, so that SLSQP (D. Kraft, "A software package for sequential
+    quadratic programming", DFVLR-FB 88-28, 1988) keeps to them at every step; what it evaluates is put
+    within them to the last bit. Of modes' windows only designs that keep to them count. A `Peak` is the
+    smallest t that none of its squares is above, which is smooth again.
+
+    Args:
+        search: what is sought.
+        start: (n_variables,), put within the limits.
+        budget: the most evaluations it may take.
+        control: lets somebody hold or end it.
+        tell: told every evaluation.
+
+    Raises:
+        SolveError: a design that cannot be solved, with its rates.
+    """
+    evaluator = Evaluator(search, budget, control or Control(), tell)
+    solve = _smallest_peak if isinstance(search.goal, Peak) else _smallest
+    try:
+        result = solve(search, evaluator, search.space.admitted(start))
+        for _ in range(RESTARTS):
+            if result.success or evaluator.x is None:
+                break
+            result = solve(search, evaluator, evaluator.x)
+        reason = CONVERGED if result.success else result.message.lower()
+    except CancelledError:
+        reason = CANCELLED
+    except OutOfBudgetError:
+        reason = OUT_OF_BUDGET
+    return evaluator.end(reason)
+
+
+def _smallest(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeResult:
+    """SLSQP down a goal that is smooth."""
+    return minimize(
+        evaluator.value_and_gradient,
+        start,
+        jac=True,
+        method="SLSQP",
+        bounds=_bounds(search),
+        constraints=_constraints(search),
+        options={"ftol": TOLERANCE, "maxiter": MOST_STEPS},
+    )
+
+
+def _smallest_peak(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeResult:
+    """SLSQP for (x, t): t is to become small, and nothing may be above it."""
+    under = {
+        "type": "ineq",
+        "fun": lambda z: z[-1] - evaluator.squares(z[:-1])[0],
+        "jac": lambda z: np.pad(-evaluator.squares(z[:-1])[1], ((0, 0), (0, 1)), constant_values=1.0),
+    }
+    return minimize(
+        lambda z: z[-1],
+        np.append(start, evaluator.squares(start)[0].max()),
+        jac=lambda z: np.eye(len(z))[-1],
+        method="SLSQP",
+        bounds=[*_bounds(search), (0.0, None)],
+        constraints=[under, *map(_without_last, _constraints(search))],
+        options={"ftol": PEAK_TOLERANCE, "maxiter": MOST_STEPS},
+    )
+
+
+def _without_last(constraint: dict[str, Any]) -> dict[str, Any]:
+    """The same of all numbers but the last."""
+    return {
+        "type": "ineq",
+        "fun": lambda z: constraint["fun"](z[:-1]),
+        "jac": lambda z: np.pad(constraint["jac"](z[:-1]), ((0, 0), (0, 1))),
+    }
+
+
+def _bounds(search: Search) -> list[tuple[float, float]]:
+    return list(zip(search.space.lower.tolist(), search.space.upper.tolist(), strict=True))
+
+
+def _constraints(search: Search) -> list[dict[str, Any]]:
+    """Ratio limits and windows as scipy takes them, c(x) >= 0."""
+    space = search.space
+    rows, values = space.rows[space.ratios], space.values[space.ratios]
+    constraints = []
+    if len(rows):
+        constraints.append({"type": "ineq", "fun": lambda x: values - rows @ x, "jac": lambda _: -rows})
+    if search.windows is not None:
+        constraints.append(
+            {
+                "type": "ineq",
+                "fun": lambda x: search.margins(x)[0],
+                "jac": lambda x: search.margins(x)[1],
+            }
+        )
+    return constraints
