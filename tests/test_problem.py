@@ -100,7 +100,7 @@ def test_a_window_that_cannot_be_is_refused(changes, words):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"goal": "rsm"}, "unknown goal 'rsm': did you mean 'rms'? there are accelerations, rms"),
+        ({"goal": "rsm"}, "unknown goal 'rsm': did you mean 'rms'? there are accelerations, peak"),
         ({"groups": ()}, "has no groups, so nothing may change; expected one or more"),
         ({"groups": (GROUP, GROUP)}, "design group 'A' is there twice"),
         ({"performance": ()}, "performance: found none with a weight above zero, expected one or more"),

@@ -26,6 +26,7 @@ from modeviz.viewer.state import ORIGINAL, State
 
 GOALS: dict[str, Goal] = {
     "Accelerations": "accelerations",
+    "Highest peak": "peak",
     "RMS on the road": "rms",
     "Ride rating": "rating",
     "ISO 2631": "iso 2631",

@@ -9,7 +9,7 @@ from modeviz.export.markup import title
 from modeviz.ride.psd import RIDE_BAND
 from modeviz.tuning.design import DesignSpace
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.problem import FrequencyWindow, Performance, Problem
+from modeviz.vehicle.problem import VARIABLES, FrequencyWindow, Performance, Problem
 
 FEW = 4
 """So many frequencies are written out."""
@@ -26,8 +26,8 @@ def summary(problem: Problem, space: DesignSpace) -> str:
     """What is to become small, and what may change for it."""
     first, *others = _small(problem)
     rows = [("Reduce", first), *(("", text) for text in others)]
-    if problem.goal == "accelerations":
-        rows.append(("Sum", _sum(problem)))
+    if problem.goal in VARIABLES:
+        rows.append(("Largest" if problem.goal == "peak" else "Sum", _sum(problem)))
     rows.append(("Free", _free(problem, space)))
     rows += [("Held", _held(window)) for window in problem.windows]
     lines = "".join(f'<span class="dim">{key}</span><span>{text}</span>' for key, text in rows)
@@ -35,7 +35,7 @@ def summary(problem: Problem, space: DesignSpace) -> str:
 
 
 def _small(problem: Problem) -> list[str]:
-    if problem.goal != "accelerations":
+    if problem.goal not in VARIABLES:
         band = f"{RIDE_BAND[0]:g} to {RIDE_BAND[1]:g}"
         return [OVERALL[problem.goal].format(band=band)]
     return [title(_accelerations(p)) for p in problem.performance]
@@ -66,7 +66,7 @@ def _frequencies(frequency_hz: Floats) -> str:
 def _sum(problem: Problem) -> str:
     if problem.is_normalised:
         return "Normalised: each load case relative to the original"
-    return "Plain: g²/Hz on roads and g² under wheel loads added as they are"
+    return "Plain: g²/Hz on roads and g² under wheel loads as they are"
 
 
 def _free(problem: Problem, space: DesignSpace) -> str:
