@@ -61,6 +61,7 @@ from modeviz.tuning.results import solve_wheels as solve_wheels
 from modeviz.tuning.scatter import Scatter as Scatter
 from modeviz.tuning.scatter import scatter as scatter
 from modeviz.tuning.search import Search as Search
+from modeviz.tuning.search import prepare_search as prepare_search
 from modeviz.tuning.sensitivity import RateVariable as RateVariable
 from modeviz.tuning.sensitivity import frequency_sensitivity as frequency_sensitivity
 from modeviz.tuning.sensitivity import rate_variables as rate_variables

@@ -1,6 +1,7 @@
 """Every example runs and gives the physics it is about."""
 
 import importlib.util
+import re
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -83,3 +84,81 @@ def test_the_seat_moves_at_its_peak_mostly_by_the_cab_yaw():
     assert 0.2 < moving.likeness(moving.on_road, moving.damped.shape) < 0.5
     assert moving.likeness(moving.damped.shape, moving.damped.shape) == pytest.approx(1.0)
     assert {s.name for s in moving.shares[:2]} == {"lateral", "yaw"}
+
+
+@pytest.fixture(scope="module")
+def optimised():
+    return example("05_optimised_mounts")
+
+
+def test_every_optimum_is_better_than_the_papers_rates_by_its_own_sum(optimised):
+    found = optimised
+    for search, optimum, name in (
+        (found.plain, found.downhill, "downhill"),
+        (found.normalised, found.best, "best of 20"),
+    ):
+        assert optimum.converged
+        assert found.part(search, name) < found.part(search, "paper") < 1
+        assert optimum.verification.difference < 1e-9
+
+
+def test_optimised_mounts_keep_bounds_and_ratios(optimised):
+    powertrain = {"E", "T"}
+    for name in ("downhill", "best of 20"):
+        for group in optimised.vehicle.mount_groups:
+            k = np.array(optimised.sets[name][group.name].as_tuple())
+            softest, stiffest = (np.array(rates.as_tuple()) for rates in group.bounds)
+            assert (k >= softest * (1 - 1e-9)).all()
+            assert (k <= stiffest * (1 + 1e-9)).all()
+            if group.name in powertrain:
+                np.testing.assert_allclose(k / group.rates.as_tuple(), k[0] / group.rates.vertical)
+            else:
+                low, high = group.ratio_limits
+                assert low - 1e-9 <= k[1:].min() / k[0] <= k[1:].max() / k[0] <= high + 1e-9
+
+
+def test_downhill_body_mounts_change_as_the_papers_do(optimised):
+    """Table 4: C1 stiffer, F and C2 softer in every direction; figure 16: cab yaw to 9.8 Hz."""
+    for group, sign in (("F", -1), ("C1", 1), ("C2", -1)):
+        original, paper, downhill = (
+            np.array(optimised.sets[name][group].as_tuple())
+            for name in ("original", "paper", "downhill")
+        )
+        assert (np.sign(paper - original) == sign).all()
+        assert (np.sign(downhill - original) == sign).all()
+    assert optimised.cab_yaw_hz("paper") == pytest.approx(9.8, abs=0.15)
+    assert optimised.cab_yaw_hz("downhill") == pytest.approx(9.8, abs=0.5)
+
+
+def test_readme_has_what_is_found(optimised):
+    readme = (EXAMPLES.parent / "README.md").read_text()
+    (table,) = re.findall(r"\| Found on the truck.*?\n\n", readme, re.DOTALL)
+    rows = {
+        cells[0].strip(): cells[1:] for cells in (r[2:-2].split("|") for r in table.splitlines()[2:-1])
+    }
+    names = ("paper", "downhill", "best of 20")
+    for group in optimised.vehicle.mount_groups:
+        for cell, name in zip(rows.pop(group.name), names, strict=True):
+            factors = np.divide(optimised.sets[name][group.name].as_tuple(), group.rates.as_tuple())
+            assert [float(f) for f in cell.split("/")] == pytest.approx(factors.tolist(), abs=0.02)
+    found = [
+        [number(name) for name in names]
+        for number in (
+            lambda name: optimised.part(optimised.plain, name),
+            lambda name: optimised.part(optimised.normalised, name),
+            optimised.gain,
+            optimised.cab_yaw_hz,
+        )
+    ]
+    printed = [[float(cell) for cell in row] for row in rows.values()]
+    np.testing.assert_allclose(printed, found, atol=0.02)
+
+
+def test_the_best_of_twenty_starts_is_another_design(optimised):
+    """Softer where the paper's is stiffer: README says so and why."""
+    best, original = (optimised.sets[name]["C1"].as_tuple() for name in ("best of 20", "original"))
+    assert (np.array(best) < original).all()
+    assert optimised.part(optimised.normalised, "best of 20") < 0.345
+    assert optimised.cab_yaw_hz("best of 20") < 9
+    for name in ("downhill", "best of 20"):
+        assert optimised.gain(name) > optimised.gain("paper") > 2.5
