@@ -4,12 +4,13 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 from modeviz.cli import main
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
-from modeviz.vehicle.problem import DesignGroup, Performance, Problem
+from modeviz.vehicle.problem import DesignGroup, Goal, Performance, Problem
 
 CHECKOUT = Path(__file__).parents[1]
 README = (CHECKOUT / "README.md").read_text()
@@ -45,6 +46,8 @@ def test_the_problem_it_shows_is_read_and_says_what_is_so_anyway(tmp_path: Path)
         assert getattr(performance, key) == getattr(plain, key)
     assert performance.points == tuple(point.name for point in vehicle.response_points)
     assert problem.is_normalised is Problem("", problem.groups, (plain,)).is_normalised
+    (goals,) = re.findall(r"^goal = (.*)", block, re.MULTILINE)
+    assert re.findall(r'"(.*?)"', goals) == list(get_args(Goal))
 
 
 def keys(value) -> set[str]:

@@ -1,6 +1,6 @@
 """What a search may choose in a mount group, and the limits to that, in logarithms x = ln(k/k₀)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,21 +91,11 @@ def group_limits(
     Raises:
         VehicleError: a rate of zero, or fixed ratios that no bounds allow.
     """
-    bounds = group.bounds or mounts.bounds
-    limits = []
-    for number, variable in enumerate(variables, first):
-        low, high = _reach_within(variable, base, bounds)
-        limits += _sides(variable.spoken, "bound", number, None, low, high)
+    numbered = dict(enumerate(variables, first))
+    limits = _bounds(group.bounds or mounts.bounds, base, numbered)
     ratios = group.ratio_limits or mounts.ratio_limits
     if ratios and not group.fixed_ratios:
-        numbers = {variable.lead: number for number, variable in enumerate(variables, first)}
-        for field in SHEAR:
-            rate, of = numbers.get(field), numbers.get(VERTICAL)
-            if rate is not None or of is not None:
-                spoken = _spoken(group.group, field)
-                start = _rate(group.group, base, field) / _rate(group.group, base, VERTICAL)
-                low, high = (_log(limit / start) for limit in ratios)
-                limits += _sides(spoken, "ratio limit", rate, of, low, high)
+        limits += _ratio_limits(group.group, ratios, base, numbered)
     return limits
 
 
@@ -139,6 +129,33 @@ def _tighten(lower: Floats, upper: Floats, number: int, sign: int, value: float)
         upper[number] = min(upper[number], value)
     else:
         lower[number] = max(lower[number], -value)
+
+
+def _bounds(
+    bounds: tuple[MountRates, MountRates], base: MountRates, numbered: Mapping[int, DesignVariable]
+) -> list[Limit]:
+    """The bounds of each number."""
+    limits = []
+    for number, variable in numbered.items():
+        low, high = _reach_within(variable, base, bounds)
+        limits += _sides(variable.spoken, "bound", number, None, low, high)
+    return limits
+
+
+def _ratio_limits(
+    group: str, ratios: tuple[float, float], base: MountRates, numbered: Mapping[int, DesignVariable]
+) -> list[Limit]:
+    """The limits of each ratio of which a search can change one rate or both."""
+    numbers = {variable.lead: number for number, variable in numbered.items()}
+    limits = []
+    for field in SHEAR:
+        rate, of = numbers.get(field), numbers.get(VERTICAL)
+        k, vertical = getattr(base, field), base.vertical
+        # A rate of zero can only be one that is kept, and no factor changes a ratio with it.
+        if (rate is not None or of is not None) and k and vertical:
+            low, high = (_log(limit * vertical / k) for limit in ratios)
+            limits += _sides(_spoken(group, field), "ratio limit", rate, of, low, high)
+    return limits
 
 
 def _reach_within(
