@@ -84,8 +84,12 @@ def test_pyfe3d_is_imported_by_one_module_of_fem():
     assert [name.split("/")[0] for name in users_of("pyfe3d")] == ["fem"]
 
 
-@pytest.mark.parametrize("library", ["viser", "pyfe3d"])
-def test_importing_modeviz_leaves_the_viewer_and_the_extra_unloaded(library: str):
+def test_dask_is_imported_by_one_module_of_tuning():
+    assert users_of("distributed") == ["tuning/cluster.py"]
+
+
+@pytest.mark.parametrize("library", ["viser", "pyfe3d", "distributed", "dask"])
+def test_importing_modeviz_leaves_the_viewer_and_the_extras_unloaded(library: str):
     program = f"import sys, modeviz; sys.exit({library!r} in sys.modules)"
     assert subprocess.run([sys.executable, "-c", program], cwd=CHECKOUT).returncode == 0
 

@@ -1,0 +1,94 @@
+import os
+import signal
+import time
+
+import numpy as np
+import pytest
+from distributed import LocalCluster
+from scattered_cabin import FLAT, cabin_objective, prepared_cabin
+
+from modeviz.errors import ModevizError
+from modeviz.tuning.cluster import runner_at
+from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.scatter import CHUNK, scatter
+
+
+@pytest.fixture(scope="module")
+def address():
+    """Of a scheduler with two workers, processes of their own."""
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0"
+    ) as cluster:
+        yield cluster.scheduler_address
+
+
+@pytest.fixture(scope="module")
+def study():
+    prepared = prepared_cabin()
+    return prepared, scattered_parts(prepared, {}, Tolerance()), FLAT, cabin_objective()
+
+
+def test_numbers_are_the_same_to_the_last_digit(address, study):
+    n_samples = 2 * CHUNK + 30
+    here = scatter(*study, n_samples, seed=2)
+    with runner_at(address) as runner:
+        there = scatter(*study, n_samples, seed=2, runner=runner)
+    for name in ("deviations", "rms", "psd", "goal"):
+        np.testing.assert_array_equal(getattr(there, name), getattr(here, name))
+
+
+def slowly_squared(shared, item):
+    time.sleep(0.05)
+    return os.getpid(), shared * item**2
+
+
+def test_a_lost_worker_is_survived(address):
+    """The first worker that answers is killed, with all it was to do and what it was sent."""
+    with runner_at(address) as runner:
+        results = []
+        for result in runner.map(slowly_squared, 3, range(40), Control()):
+            if not results:
+                os.kill(result[0], signal.SIGKILL)
+            results.append(result)
+    assert [value for _, value in results] == [3 * n**2 for n in range(40)]
+    assert len({pid for pid, _ in results}) > 1
+
+
+def test_cancel_answers_at_once(address):
+    control = Control()
+    with runner_at(address) as runner:
+        control.cancel()
+        start = time.monotonic()
+        with pytest.raises(CancelledError):
+            next(runner.map(slowly_squared, 1, range(3), control))
+        assert time.monotonic() - start < 0.5
+
+
+def fails(shared, item):
+    raise ModevizError(f"item {item} is bad")
+
+
+def test_what_fails_there_fails_here_in_the_same_words(address):
+    with runner_at(address) as runner, pytest.raises(ModevizError, match=r"^item 0 is bad$"):
+        next(runner.map(fails, None, range(3), Control()))
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        "tcp://127.0.0.1:9",
+        "tcp://127.0.0.1:99999",
+        "tcp://127.0.0.1",
+        "http://127.0.0.1:9",
+        "nonsense",
+        "",
+    ],
+)
+def test_a_scheduler_that_is_not_there_is_one_sentence_within_seconds(address):
+    start = time.monotonic()
+    with pytest.raises(ModevizError, match=r"nobody answers there; expected the address") as error:
+        with runner_at(address):
+            pass
+    assert time.monotonic() - start < 10
+    assert str(error.value).startswith(f"scheduler {address!r}")
