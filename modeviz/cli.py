@@ -1,4 +1,4 @@
-"""The command line: `modeviz [view|modes|psd|wheels|render|report|optimise] [VEHICLE]`."""
+"""The command line: `modeviz [view|modes|psd|wheels|render|report|optimise|scatter] [VEHICLE]`."""
 
 import argparse
 import os
@@ -12,15 +12,17 @@ from modeviz.commands import tables
 from modeviz.commands.optimise import optimise_rates
 from modeviz.commands.render import render_file
 from modeviz.commands.report import write_report
+from modeviz.commands.scatter import scatter_mounts
 from modeviz.commands.view import view as open_view
 from modeviz.dynamics.band import Method
 from modeviz.errors import ModevizError
 from modeviz.tuning.optimise import BUDGET
+from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rates import ORIGINAL
 from modeviz.vehicle.problem import Goal
 
 DEFAULT_PORT = 8080
-COMMANDS = ("view", "modes", "psd", "wheels", "render", "report", "optimise")
+COMMANDS = ("view", "modes", "psd", "wheels", "render", "report", "optimise", "scatter")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -102,6 +104,11 @@ def _parser() -> argparse.ArgumentParser:
         help="without the pictures, for which a Chromium is needed",
     )
     _add_search(_command(commands, "optimise", optimise_rates, "search for better mount rates"))
+    _add_scatter(
+        _command(
+            commands, "scatter", scatter_mounts, "drive many vehicles whose mounts are not as drawn"
+        )
+    )
     return parser
 
 
@@ -170,6 +177,39 @@ def _add_search(command: argparse.ArgumentParser) -> None:
     )
     _add_speed(command)
     _add_json(command)
+
+
+def _add_scatter(command: argparse.ArgumentParser) -> None:
+    usual = Tolerance()
+    command.add_argument("--samples", type=int, default=1000, metavar="N", help="default 1000")
+    command.add_argument("--seed", type=int, default=0, metavar="N", help="of what is random")
+    command.add_argument(
+        "--tolerance",
+        type=float,
+        default=usual.rates,
+        metavar="PART",
+        help=f"of every mount's hardness, up and down; default {usual.rates:g}",
+    )
+    command.add_argument(
+        "--loss-tolerance",
+        type=float,
+        default=usual.loss_factor,
+        metavar="PART",
+        help=f"of every mount's loss factor; default {usual.loss_factor:g}",
+    )
+    command.add_argument("--problem", metavar="NAME", help="whose goal; default: the vehicle's first")
+    command.add_argument("--point", metavar="NAME", help="response point; default: the vehicle's first")
+    _add_road(command)
+    _add_scheduler(command)
+    _add_json(command)
+
+
+def _add_scheduler(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="compute on the dask cluster there, as tcp://10.0.0.1:8786 (default: here)",
+    )
 
 
 def _add_picture(command: argparse.ArgumentParser) -> None:

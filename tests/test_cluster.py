@@ -87,8 +87,8 @@ def test_what_fails_there_fails_here_in_the_same_words(address):
 )
 def test_a_scheduler_that_is_not_there_is_one_sentence_within_seconds(address):
     start = time.monotonic()
-    with pytest.raises(ModevizError, match=r"nobody answers there; expected the address") as error:
-        with runner_at(address):
-            pass
+    answer = pytest.raises(ModevizError, match=r"nobody answers there; expected the address")
+    with answer as error, runner_at(address):
+        pass
     assert time.monotonic() - start < 10
     assert str(error.value).startswith(f"scheduler {address!r}")

@@ -1,0 +1,100 @@
+"""The command that drives many vehicles whose mounts scatter."""
+
+from argparse import Namespace
+
+from modeviz.commands.interrupt import cancelled_by_interrupt
+from modeviz.commands.options import (
+    conditions,
+    need,
+    prepare_telling,
+    print_json,
+    progress,
+    vehicle_and_rates,
+)
+from modeviz.errors import ModevizError, SolveError
+from modeviz.export.scatter import Scattered, scatter_record, scatter_table
+from modeviz.tuning.cluster import runner_at
+from modeviz.tuning.control import CancelledError
+from modeviz.tuning.corner import worst_corner
+from modeviz.tuning.goals import prepare_goal
+from modeviz.tuning.objective import Objective
+from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.results import Conditions
+from modeviz.tuning.scatter import Scatter, scatter
+from modeviz.tuning.spread import Spread, spread
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import DesignGroup, Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+
+def scatter_mounts(options: Namespace) -> None:
+    """Prints percentiles of ride and goal, the worst corner, and which mounts make the spread."""
+    tolerance = Tolerance(options.tolerance, options.loss_tolerance)
+    for name, least in (("samples", 2), ("seed", 0)):
+        if getattr(options, name) < least:
+            found = getattr(options, name)
+            raise ModevizError(f"--{name}: found {found}, expected {least} or more")
+    vehicle, rates = vehicle_and_rates(options)
+    need(vehicle, "mount group", vehicle.mount_groups)
+    chosen = conditions(options, vehicle)
+    problem = _problem(options, vehicle)
+    told = _scattered(options, vehicle, rates, tolerance, chosen, problem)
+    if options.json:
+        print_json(scatter_record(told))
+    else:
+        print(scatter_table(told))
+
+
+def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
+    """The problem whose goal scatters; for a vehicle without one, that of a good rating."""
+    if options.problem is not None:
+        return vehicle.problem(options.problem)
+    groups = tuple(DesignGroup(group.name) for group in vehicle.mount_groups)
+    return vehicle.problems[0] if vehicle.problems else Problem("rating", groups, goal="rating")
+
+
+def _scattered(
+    options: Namespace,
+    vehicle: Vehicle,
+    rates: Rates,
+    tolerance: Tolerance,
+    chosen: Conditions,
+    problem: Problem,
+) -> Scattered:
+    goal = prepare_goal(vehicle, problem, rates, chosen.speed)
+    if not isinstance(goal, Objective):
+        raise ModevizError(
+            f"problem {problem.name!r}: its goal is a change of rates, which does not scatter; choose "
+            "another one with --problem"
+        )
+    points = () if options.point is None else (options.point,)
+    with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:
+        prepared = prepare_telling(vehicle)
+        parts = scattered_parts(prepared, rates, tolerance)
+        try:
+            result = scatter(
+                prepared,
+                parts,
+                chosen,
+                goal,
+                options.samples,
+                options.seed,
+                points,
+                runner,
+                control,
+                progress("scattering"),
+            )
+        except CancelledError:
+            raise KeyboardInterrupt from None
+        finally:
+            progress("")(1.0)  # leaves an empty line
+    worst = worst_corner(goal, parts, result.deviations[result.goal.argmax()])
+    return Scattered(problem, chosen, options.seed, result, worst, _spread(result))
+
+
+def _spread(result: Scatter) -> Spread | None:
+    """What makes the goal's spread, where there are samples enough to tell."""
+    try:
+        return spread(result.deviations, result.goal)
+    except SolveError:
+        return None

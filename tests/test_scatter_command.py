@@ -1,0 +1,154 @@
+"""`modeviz scatter` tells what the same vehicles do in Python."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cabin_problem import PROBLEM
+from mounted_cabin import mounted_cabin
+
+from modeviz.cli import main
+from modeviz.commands import scatter as command
+from modeviz.tuning.corner import goals
+from modeviz.tuning.goals import prepare_goal
+from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions, solve
+from modeviz.tuning.scatter import scatter
+from modeviz.vehicle.files import read_vehicle, write_vehicle
+
+TOLERANCE = Tolerance(0.1, 0.4)
+GIVEN = ["--samples", "120", "--seed", "5", "--tolerance", "0.1", "--loss-tolerance", "0.4"]
+ROAD = ["--road", "rough", "--speed", "25 m/s", "--rates", "soft"]
+
+
+@pytest.fixture(scope="module")
+def cabin(tmp_path_factory):
+    path = tmp_path_factory.mktemp("vehicles") / "cabin"
+    gentle = replace(PROBLEM, name="gentle", goal="change", reference="")
+    write_vehicle(replace(mounted_cabin(), problems=(PROBLEM, gentle)), path)
+    return str(path)
+
+
+@pytest.fixture(scope="module")
+def expected(cabin):
+    vehicle = read_vehicle(Path(cabin))
+    rates = vehicle.all_rates(vehicle.rate_sets["soft"])
+    prepared = prepare(vehicle)
+    goal = prepare_goal(vehicle, vehicle.problems[0], rates, 25.0)
+    parts = scattered_parts(prepared, rates, TOLERANCE)
+    return goal, parts, scatter(prepared, parts, Conditions("rough", 25.0), goal, 120, 5)
+
+
+@pytest.fixture
+def record(printed_json, cabin):
+    return printed_json("scatter", cabin, *GIVEN, *ROAD)
+
+
+def test_its_numbers_are_those_of_python(record, expected):
+    goal, _, result = expected
+    values = {
+        "rms_lateral_g": result.rms[:, 0, 1],
+        "rms_vertical_g": result.rms[:, 0, 2],
+        "mean_personal_rating": result.mean_personal_rating,
+        "goal": result.goal,
+    }
+    for name, sample in values.items():
+        row = record["quantities"][name]
+        assert row["mean"] == pytest.approx(sample.mean(), rel=1e-12)
+        assert [row["p5"], row["p50"], row["p95"]] == np.percentile(sample, [5, 50, 95]).tolist()
+    nominal = solve(
+        prepare(mounted_cabin()), mounted_cabin().rate_sets["soft"], Conditions("rough", 25.0)
+    )
+    assert record["quantities"]["rms_vertical_g"]["nominal"] == pytest.approx(
+        nominal.rms[0, 2], rel=1e-6
+    )
+    rating = nominal.rating.mean_personal_rating
+    assert record["quantities"]["mean_personal_rating"]["nominal"] == pytest.approx(rating, rel=1e-6)
+    assert record["quantities"]["goal"]["nominal"] == pytest.approx(
+        goal.value(mounted_cabin().rate_sets["soft"]), rel=1e-9
+    )
+
+
+def test_its_bands_are_those_of_python(record, expected):
+    _, _, result = expected
+    low, high = result.psd_percentiles((5, 95))
+    np.testing.assert_array_equal(record["psd"]["lateral"]["p5"], low[:, 0, 1])
+    np.testing.assert_array_equal(record["psd"]["vertical"]["p95"], high[:, 0, 2])
+    np.testing.assert_array_equal(record["psd"]["frequency_hz"], result.frequency_hz)
+
+
+def test_its_corner_has_the_goal_of_its_parts(record, expected):
+    goal, parts, result = expected
+    mounts = record["worst_corner"]["mounts"]
+    assert [m["mount"] for m in mounts] == list(parts.names)
+    ends = np.array([[m["hardness"] for m in mounts], [m["loss_factor"] for m in mounts]])
+    assert set(ends.ravel()) <= {-1, 1}
+    assert record["worst_corner"]["goal"] == pytest.approx(goals(goal, parts, ends.reshape(1, -1))[0])
+    assert record["worst_corner"]["goal"] > result.goal.max()
+
+
+def test_its_contributions_sum_to_one(record):
+    shares = [[c["hardness"], c["loss_factor"]] for c in record["contributions"]]
+    assert np.sum(shares) + record["rest"] == pytest.approx(1, rel=1e-12)
+    assert np.min(shares) >= 0
+
+
+def test_few_samples_have_no_contributions(printed_json, cabin, capsys):
+    record = printed_json("scatter", cabin, "--samples", "20")
+    assert record["contributions"] is None
+    assert main(["scatter", cabin, "--samples", "20"]) == 0
+    assert "too few samples to tell which mounts make the spread" in capsys.readouterr().out
+
+
+def test_its_table_says_what_its_json_says(record, cabin, capsys):
+    assert main(["scatter", cabin, *GIVEN, *ROAD]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "120 vehicles on rough, rates within ±10 %, loss factors within ±40 %"
+    (row,) = [line.split() for line in lines if line.startswith("rms vertical g")]
+    numbers = record["quantities"]["rms_vertical_g"]
+    assert [float(text) for text in row[3:]] == [
+        pytest.approx(numbers[name], rel=1e-3) for name in ("nominal", "mean", "p5", "p50", "p95")
+    ]
+    mounts = [line for line in lines if line.startswith(("A ", "B "))]
+    assert ["soft" in line for line in mounts] == [
+        m["hardness"] < 0 for m in record["worst_corner"]["mounts"]
+    ]
+
+
+def test_a_vehicle_without_a_problem_is_rated(printed_json, folder):
+    record = printed_json("scatter", folder, "--samples", "10")
+    assert record["goal"].startswith("combined mean square at the driver's point")
+    assert record["quantities"]["goal"]["nominal"] == pytest.approx(1)
+
+
+def test_ctrl_c_ends_it(monkeypatch, cabin):
+    def interrupted(*arguments):
+        control = arguments[8]
+        control.cancel()
+        return scatter(*arguments)
+
+    monkeypatch.setattr(command, "scatter", interrupted)
+    assert main(["scatter", cabin, "--samples", "5000"]) == 130
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--samples", "1"], "--samples: found 1, expected 2 or more"),
+        (["--seed", "-1"], "--seed: found -1, expected 0 or more"),
+        (["--tolerance", "1"], "tolerance of rates: found 1, expected a fraction between 0 and 1"),
+        (["--loss-tolerance", "0"], "tolerance of loss factor: found 0, expected a fraction"),
+        (["--point", "seet"], "unknown response point 'seet': did you mean 'seat'?"),
+        (["--problem", "papr"], "unknown problem 'papr'"),
+        (["--problem", "gentle"], "problem 'gentle': its goal is a change of rates, which does not"),
+        (["--scheduler", "tcp://127.0.0.1:9"], "scheduler 'tcp://127.0.0.1:9': nobody answers there"),
+    ],
+)
+def test_what_is_wrong_is_one_sentence(cabin, capsys, arguments, sentence):
+    assert main(["scatter", cabin, *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert not out
+    assert err.startswith(f"modeviz: {sentence}")
+    assert len(err.splitlines()) == 1
