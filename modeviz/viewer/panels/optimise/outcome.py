@@ -6,8 +6,8 @@ import numpy as np
 
 from modeviz.export.wording import sentence_case, signed
 from modeviz.tuning.active import ActiveConstraint
+from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.tuning.optimise import Optimum
-from modeviz.tuning.search import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.viewer.html import change, heading, row, span, table
 from modeviz.viewer.optimiser import Look
 from modeviz.viewer.panels.status import ALARMING, percent
