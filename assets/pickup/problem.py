@@ -2,17 +2,13 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
+from modeviz.tuning.default_problem import ROAD_HZ, WHEEL_HZ
 from modeviz.vehicle.loads import Road, WheelLoad
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 
 BODY_MOUNTS = ("F", "C1", "C2")
 POWERTRAIN_MOUNTS = ("E", "T")
 """Of which the paper keeps the ratios of rates."""
-
-ROAD_HZ = np.linspace(6, 14, 25)
-WHEEL_HZ = np.array([11.0, 13.25, 15.75])
 
 
 def paper_problem(road: Road, wheel_loads: Sequence[WheelLoad]) -> Problem:
