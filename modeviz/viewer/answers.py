@@ -112,7 +112,8 @@ class Answers:
     def __init__(self, vehicle: Vehicle) -> None:
         """Nothing is solved before `prepare`."""
         self._vehicle = vehicle
-        self._prepared: Prepared
+        self.prepared: Prepared
+        """The vehicle made ready, once `prepare` has."""
         self._drive: Drive
         """Near the rates of the last rest."""
         self._home: Drive
@@ -137,15 +138,15 @@ class Answers:
         Raises:
             ModevizError: there is no answer on that road at that speed.
         """
-        self._prepared = prepare(self._vehicle, progress=progress)
-        self._drive = self._home = drive(self._prepared, state.conditions)
+        self.prepared = prepare(self._vehicle, progress=progress)
+        self._drive = self._home = drive(self.prepared, state.conditions)
         named = self._solve_named(state)
         base = named[_answerable(state, named).against]
         self._track, self._tracked = accept(base), base
 
     def rebase(self, state: State) -> Prepared:
         """Makes answers close to a state cheap; gives the vehicle prepared there."""
-        near = self._prepared.near(state.rates)
+        near = self.prepared.near(state.rates)
         self._drive = drive(near, state.conditions)
         return near
 
@@ -220,7 +221,7 @@ class Answers:
             if results.conditions == state.conditions
         }
         if self._home.conditions != state.conditions:
-            self._home = drive(self._prepared, state.conditions)
+            self._home = drive(self.prepared, state.conditions)
         sets = rate_sets(self._vehicle, state)
         named, unsolved = {}, {}
         for name, rates in sets.items():
@@ -310,7 +311,7 @@ class Answers:
 
     def _in_phase(self, shape: Floats) -> Floats:
         """The shape, turned so that it does not jump by half a cycle from the one before."""
-        mass = self._prepared.system.mass
+        mass = self.prepared.system.mass
         turned = self._last is not None and self._last.shape @ mass @ shape < 0
         return -shape if turned else shape
 

@@ -36,10 +36,12 @@ from modeviz.viewer.panels.mounts.panel import MountsPanel
 from modeviz.viewer.panels.optimise.panel import OptimisePanel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
+from modeviz.viewer.panels.scatter import ScatterPanel
 from modeviz.viewer.panels.shape import ShapePanel
 from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.variants import VariantsPanel
 from modeviz.viewer.panels.view import ViewPanel
+from modeviz.viewer.scatterer import Scatterer
 from modeviz.viewer.scene import Scene
 from modeviz.viewer.session import Session
 from modeviz.viewer.stage import DARK, LIGHT
@@ -83,6 +85,7 @@ class App:
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
         self.optimiser = Optimiser(self.session, lambda: self._optimise.follow())
+        self.scatterer = Scatterer(self.session, lambda: self._scatter.follow())
         scripts.run(self._gui, "style.js", style_sheet())
         scripts.run(self._gui, "delivery.js")
         scripts.run(self._gui, "numbers.js")
@@ -165,8 +168,9 @@ class App:
         return report(comparison, date.today(), pictures, solved.rest.check).encode()
 
     def end(self) -> None:
-        """Ends the session, and the search that may be running in it."""
+        """Ends the session, and what may be running in it."""
         self.optimiser.close()
+        self.scatterer.cancel()
         self.session.close()
 
     def close(self) -> None:
@@ -186,6 +190,7 @@ class App:
             self._variants = VariantsPanel(gui, session)
         with tabs.add_tab("Optimise", viser.Icon.TARGET_ARROW):
             self._optimise = OptimisePanel(gui, session, self.optimiser, dark)
+            self._scatter = ScatterPanel(gui, session, self.scatterer)
         with tabs.add_tab("View", viser.Icon.EYE):
             self._view = ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
@@ -198,7 +203,7 @@ class App:
 
         right = gui.add_panel()
         with right.add_tab("Response", viser.Icon.CHART_LINE):
-            self._response = ResponsePanel(gui, session, dark)
+            self._response = ResponsePanel(gui, session, self.scatterer, dark)
             tabs = gui.add_tab_group()
             with tabs.add_tab("Modes", viser.Icon.WAVE_SINE):
                 self._modes = ModesPanel(gui, session)
@@ -243,6 +248,7 @@ class App:
                 self._excitation.show(solved)
                 self._variants.show(solved)
                 self._optimise.show(solved)
+                self._scatter.follow()
                 self._view.show()
                 self._modes.show(solved)
                 self._energy.show(solved)

@@ -23,9 +23,6 @@ from modeviz.viewer.state import State, rate_sets
 TELL_EVERY = 0.25
 """s between two words on how far a search is, and two designs that the session is brought to."""
 
-YIELD = 5e-4
-"""s that a search rests after each evaluation, so that a slider gets its turn."""
-
 PATIENCE = 3.0
 """s that a session waits for the end of its search: the full model may take longer."""
 
@@ -114,8 +111,9 @@ class Pursuit:
     def _run(self) -> None:
         try:
             search = self._prepare()
-            starts = start_points(search, self.look.before, self._plan.n_starts)
-            optimum = optimise(search, starts, control=self._control, tell=self._note)
+            n_starts, control = self._plan.n_starts, self._control
+            starts = start_points(search, self.look.before, n_starts, control=control)
+            optimum = optimise(search, starts, control=control, tell=self._note)
         except CancelledError:
             return
         except ModevizError as error:
@@ -150,7 +148,6 @@ class Pursuit:
             self._follow()
             self._changed()
             self._told = time.monotonic()
-        time.sleep(YIELD)
 
     def _end(self, optimum: Optimum) -> None:
         self._follow()

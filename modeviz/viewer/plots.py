@@ -21,6 +21,9 @@ NO_TICKS = {"show": False, "size": 0}
 HEADROOM = 3
 """dB above the highest curve, so that the scale need not change when the present one grows."""
 
+SHADE = "40"
+"""Hexadecimal opacity of the band around the present curve."""
+
 SET_COLORS = ("#e69f00", "#009e73", "#cc79a7", "#d55e00")
 """Of the sets that are drawn beside, told apart by the colour-blind too (M. Okabe and K. Ito, 2008)."""
 
@@ -87,6 +90,7 @@ class ResponsePlot:
         lines: Sequence[Line],
         levels: Floats,
         peaks: Sequence[int],
+        band: Floats | None = None,
     ) -> None:
         """Replaces the curves.
 
@@ -96,25 +100,29 @@ class ResponsePlot:
             lines: one for each curve.
             levels: (n_curves, n_freqs), in the unit of the scale's quantity; the last is the present.
             peaks: numbers of the frequencies at which that one is marked.
+            band: (2, n_freqs), the levels between which the paper is shaded, if any.
         """
+        shaded = np.zeros((0, len(self._f))) if band is None else band[:, self._inside]
         levels = levels[:, self._inside]
         decibels = scale.quantity.decibels(levels)
-        drawn = decibels if scale.decibels else levels
+        every = np.vstack([shaded, levels])
+        drawn = scale.quantity.decibels(every) if scale.decibels else every
         data = np.vstack([drawn, np.where(np.isin(self._lines, peaks), drawn[-1], np.nan)])
         axes = {}
-        key = (subject, scale, tuple(lines))
+        key = (subject, scale, tuple(lines), band is None)
         if key != self._subject or decibels[-1].max() > self._top:
             self._subject = key
             bottom, self._top = level_range(decibels)
-            axes = self._axes(scale, bottom, self._top) | {"series": self._series(lines)}
+            axes = self._axes(scale, bottom, self._top) | self._series(lines, band is not None)
         if axes or not np.array_equal(data, self._data, equal_nan=True):
             self._data = data
             drawn_from = (self._f, *data.astype(np.float32))  # a chart can only be sent as a whole
             send_together(self._chart, data=drawn_from, **axes)
 
-    def _series(self, lines: Sequence[Line]) -> tuple:
-        """The curves, and the marks on the last."""
+    def _series(self, lines: Sequence[Line], is_shaded: bool) -> dict:
+        """The ends of what is shaded, the curves, and the marks on the last."""
         none = {"show": False}
+        ends = 2 * [{"label": "band", "width": 0, "points": none}] if is_shaded else []
         curves = [
             {
                 "label": line.label,
@@ -127,7 +135,11 @@ class ResponsePlot:
         ]
         color = lines[-1].color
         points = {"show": True, "size": 7, "width": 2, "stroke": color, "fill": self._paper}
-        return ({"label": "Hz"}, *curves, {"label": "peaks", "width": 0, "points": points})
+        marks = {"label": "peaks", "width": 0, "points": points}
+        return {
+            "series": ({"label": "Hz"}, *ends, *curves, marks),
+            "bands": ({"series": (2, 1), "fill": f"{color}{SHADE}"},) if is_shaded else (),
+        }
 
     def _axes(self, scale: Scale, bottom: int, top: int) -> dict:
         y = level_axis(scale, bottom, top)

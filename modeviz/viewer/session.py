@@ -8,6 +8,7 @@ from typing import Any
 
 from modeviz.errors import ModevizError
 from modeviz.tuning.check import check_exactly
+from modeviz.tuning.preparation import Prepared
 from modeviz.tuning.results import Results
 from modeviz.tuning.sensitivity import sensitivity
 from modeviz.vehicle.connections import Rates
@@ -59,6 +60,11 @@ class Session:
     @property
     def state(self) -> State:
         return self._history.value
+
+    @property
+    def prepared(self) -> Prepared:
+        """The vehicle made ready; there is none before `start`."""
+        return self._answers.prepared
 
     @property
     def can_undo(self) -> bool:
@@ -129,6 +135,11 @@ class Session:
             return replace(state, hidden=hidden)
 
         self.update(shown)
+
+    def show_again(self) -> None:
+        """Asks for the present state once more: something else is to be drawn with it."""
+        with self._lock:
+            self._submit()
 
     def undo(self) -> None:
         """Goes back to the state before the last change."""

@@ -8,6 +8,7 @@ from held_search import hold_searches
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
+from modeviz.export.wording import significant
 from modeviz.tuning.results import Conditions
 
 SOLVE_S = 60
@@ -28,7 +29,7 @@ def app(server):
 def page(app, server, open_page):
     page = open_page(server, viewport=(980, 1000))
     page.get_by_role("tab", name="Optimise").click()
-    wait_for(page, f"{TEXT}.includes('Normalised: each load case')")
+    wait_for(page, f"{TEXT}.includes('each load case relative to the original')")
     return page
 
 
@@ -63,7 +64,7 @@ def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page
     charts = page.evaluate(CHART)
     before = app.shown.now.psd
     found = search(app, page)
-    wait_for(page, f"{BEST} === a.best", best=f"{found.value:.3f}")
+    wait_for(page, f"{BEST} === a.best", best=significant(found.value))
     assert page.evaluate(CHART) == charts + 1
     wait_until(page, lambda: app.shown.now.rates == found.rates)
     assert (app.shown.now.psd != before).any()
@@ -113,7 +114,7 @@ def test_one_goes_back_to_the_rates_before(app, page):
 def test_the_problem_is_changed_on_the_page(app, page):
     own = app.session.state.plan
     page.get_by_label("Normalised").uncheck()
-    wait_for(page, f"{TEXT}.includes('Plain: g²/Hz on roads')")
+    wait_for(page, f"{TEXT}.includes('plain sum')")
     page.locator(".mv .pills label", has_text="B").click()
     wait_for(page, f"{TEXT}.includes('3 numbers to choose')")
     page.get_by_role("combobox", name="Hold mode").click()
@@ -149,3 +150,17 @@ def test_nothing_in_the_tab_is_wider_than_its_column(app, page):
         .filter(e => !e.closest('svg') && e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0)
         .map(e => e.outerHTML.slice(0, 80))"""
     assert page.evaluate(too_wide) == []
+
+
+def test_scattered_parts_shade_the_charts_until_a_rate_moves(app, page):
+    chart = app._response._charts._plots[0]._chart
+    assert not chart.bands
+    press(page, "Scatter")
+    wait_until(page, lambda: app.scatterer.look and app.scatterer.look.result)
+    wait_for(page, f"{TEXT}.includes('1000 vehicles')")
+    wait_until(page, lambda: chart.bands)
+    low, high, *_, now, _ = chart.data[1:]
+    assert ((low < now) & (now < high)).mean() > 0.9
+    app.session.set_rate("A", "vertical", 3e5)
+    wait_for(page, f"{TEXT}.includes('other rates or road')")
+    wait_until(page, lambda: not chart.bands)

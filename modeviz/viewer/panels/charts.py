@@ -1,5 +1,6 @@
 """Right column: two charts of responses, and what their colours mean."""
 
+from collections.abc import Callable
 from html import escape
 
 import numpy as np
@@ -7,6 +8,7 @@ import viser
 
 from modeviz.tuning.preparation import FREQUENCY_HZ
 from modeviz.units import factor
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
@@ -36,13 +38,20 @@ class ChartsPanel:
         for i in range(len(session.state.curves)):
             self._add_chart(gui, i, dark)
 
-    def show(self, solved: Solved, responses: Responses, peaks: list[list[int]]) -> None:
+    def show(
+        self,
+        solved: Solved,
+        responses: Responses,
+        peaks: list[list[int]],
+        band: Callable[[Curve], Floats | None],
+    ) -> None:
         """Draws an answer.
 
         Args:
             solved: the answer.
             responses: its responses.
             peaks: for each chart the numbers of the frequencies that are marked.
+            band: gives what a curve scatters between, (2, n_freqs), if that is known.
         """
         state = solved.state
         scale = Scale(responses.quantity, state.decibels, state.log_frequency)
@@ -57,7 +66,7 @@ class ChartsPanel:
             assign(choice, label=unit)
             levels = np.stack([responses.of(name, curve) for name in names])
             subject = curve, state.load, state.conditions
-            plot.show(subject, scale, lines, levels, marked)
+            plot.show(subject, scale, lines, levels, marked, band(curve))
 
     def _add_chart(self, gui: viser.GuiApi, i: int, dark: bool) -> None:
         choice = gui.add_dropdown(

@@ -1,5 +1,7 @@
 """Right column, upper part: what the rates do to the ride."""
 
+from functools import partial
+
 import viser
 
 from modeviz.viewer.answers import Solved
@@ -7,14 +9,16 @@ from modeviz.viewer.panels.charts import ChartsPanel
 from modeviz.viewer.panels.figures import FiguresPanel
 from modeviz.viewer.panels.peaks import PeaksPanel
 from modeviz.viewer.responses import Responses
+from modeviz.viewer.scatterer import Scatterer
 from modeviz.viewer.session import Session
 
 
 class ResponsePanel:
     """Four figures, two charts, and the modes in their peaks."""
 
-    def __init__(self, gui: viser.GuiApi, session: Session, dark: bool) -> None:
+    def __init__(self, gui: viser.GuiApi, session: Session, scatterer: Scatterer, dark: bool) -> None:
         """Builds the parts; `show` fills them."""
+        self._scatterer = scatterer
         self._figures = FiguresPanel(gui)
         self._charts = ChartsPanel(gui, session, dark)
         self._peaks = PeaksPanel(gui, session)
@@ -29,4 +33,4 @@ class ResponsePanel:
             return
         if solved.is_detailed:
             self._marked = self._peaks.show(solved, responses)
-        self._charts.show(solved, responses, self._marked)
+        self._charts.show(solved, responses, self._marked, partial(self._scatterer.band, solved.state))

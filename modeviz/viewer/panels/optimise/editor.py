@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from html import escape
-from typing import Any
+from typing import Any, get_args
 
 import viser
 
@@ -24,14 +24,14 @@ from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
 from modeviz.viewer.state import ORIGINAL, State
 
-GOALS: dict[str, Goal] = {
-    "Accelerations": "accelerations",
-    "Highest peak": "peak",
-    "RMS on the road": "rms",
-    "Ride rating": "rating",
-    "ISO 2631": "iso 2631",
-    "Least change": "change",
+WORDS: dict[Goal, str] = {
+    "peak": "Highest peak",
+    "rms": "RMS on the road",
+    "rating": "Ride rating",
+    "iso 2631": "ISO 2631",
+    "change": "Least change",
 }
+GOALS = {WORDS.get(goal) or sentence_case(goal): goal for goal in get_args(Goal)}
 NO_MODE = "None"
 BANDS = {"Within": True, "Out of": False}
 MOST_STARTS = 200

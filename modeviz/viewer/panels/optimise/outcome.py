@@ -4,7 +4,7 @@ from html import escape
 
 import numpy as np
 
-from modeviz.export.wording import sentence_case, signed
+from modeviz.export.wording import sentence_case, signed, significant
 from modeviz.tuning.active import ActiveConstraint
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.tuning.optimise import Optimum
@@ -30,7 +30,7 @@ def where(look: Look) -> str:
     if look.phase == "failed":
         return heading("Failed") + span(escape(look.failure), "bad")
     if look.progress is None:
-        return heading(_word(look), "no design yet")
+        return heading(_word(look), "choosing starts" if look.is_running else "nothing found yet")
     progress = look.progress
     n = f"{progress.evaluations:,}".replace(",", "\N{THIN SPACE}")
     return heading(_word(look), f"start {progress.start} of {progress.n_starts}, {n} evaluations")
@@ -46,7 +46,7 @@ def figures(look: Look) -> str:
         name, value = look.problem.reference, look.reference
         cells.append((sentence_case(name), value, change(value, look.original)))
     parts = (
-        f"<div><span>{escape(label)}</span><b>{_value(value)}</b>{delta}</div>"
+        f"<div><span>{escape(label)}</span><b>{significant(value)}</b>{delta}</div>"
         for label, value, delta in cells
     )
     return f'<div class="figures goals">{"".join(parts)}</div>'
@@ -79,10 +79,6 @@ def _word(look: Look) -> str:
         reason = look.optimum.reason
         return ENDINGS.get(reason, escape(sentence_case(reason)))
     return RUNNING.get(look.phase, "Cancelled")
-
-
-def _value(value: float) -> str:
-    return f"{value:.3f}" if 0.1 <= abs(value) < 1000 else f"{value:.3g}"
 
 
 def _gain(constraint: ActiveConstraint) -> str:

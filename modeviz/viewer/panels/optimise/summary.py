@@ -6,7 +6,7 @@ from html import escape
 import numpy as np
 
 from modeviz.export.markup import title
-from modeviz.ride.psd import RIDE_BAND
+from modeviz.export.optimum import objective_words
 from modeviz.tuning.design import DesignSpace
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.problem import VARIABLES, FrequencyWindow, Performance, Problem
@@ -14,42 +14,27 @@ from modeviz.vehicle.problem import VARIABLES, FrequencyWindow, Performance, Pro
 FEW = 4
 """So many frequencies are written out."""
 
-OVERALL = {
-    "rms": "Mean squares of acceleration on the road, {band} Hz",
-    "rating": "Combined RMS of the ride rating at the driver, {band} Hz",
-    "iso 2631": "Weighted vibration total value at the driver, {band} Hz",
-    "change": "Mean square of ln(k/k₀), k₀ the present rates",
-}
-
 
 def summary(problem: Problem, space: DesignSpace) -> str:
     """What is to become small, and what may change for it."""
-    first, *others = _small(problem)
-    rows = [("Reduce", first), *(("", text) for text in others)]
+    rows = [("Reduce", title(objective_words(problem)))]
     if problem.goal in VARIABLES:
-        rows.append(("Largest" if problem.goal == "peak" else "Sum", _sum(problem)))
+        rows += [("On" if i == 0 else "", title(_loads(p))) for i, p in enumerate(problem.performance)]
     rows.append(("Free", _free(problem, space)))
     rows += [("Held", _held(window)) for window in problem.windows]
     lines = "".join(f'<span class="dim">{key}</span><span>{text}</span>' for key, text in rows)
     return f'<div class="glance">{lines}</div>'
 
 
-def _small(problem: Problem) -> list[str]:
-    if problem.goal not in VARIABLES:
-        band = f"{RIDE_BAND[0]:g} to {RIDE_BAND[1]:g}"
-        return [OVERALL[problem.goal].format(band=band)]
-    return [title(_accelerations(p)) for p in problem.performance]
-
-
-def _accelerations(performance: Performance) -> str:
+def _loads(performance: Performance) -> str:
     """As in "road 1 at 6 to 14 Hz: all points, lateral and vertical"."""
     loads = [*performance.roads, *_counted(performance.wheel_loads, "wheel loads")]
     points = _counted(performance.points, "points") or ["all points"]
-    goal = f", to {performance.target:g}" if performance.target else ""
+    target = f", to {performance.target:g}" if performance.target else ""
     weight = f", weight {performance.weight:g}" if performance.weight != 1 else ""
     return (
         f"{' and '.join(loads)} at {_frequencies(performance.frequency_hz)}: {', '.join(points)}, "
-        f"{' and '.join(performance.directions)}{goal}{weight}"
+        f"{' and '.join(performance.directions)}{target}{weight}"
     )
 
 
@@ -61,12 +46,6 @@ def _frequencies(frequency_hz: Floats) -> str:
     if len(frequency_hz) <= FEW:
         return f"{', '.join(f'{f:.4g}' for f in frequency_hz)} Hz"
     return f"{np.min(frequency_hz):g} to {np.max(frequency_hz):g} Hz"
-
-
-def _sum(problem: Problem) -> str:
-    if problem.is_normalised:
-        return "Normalised: each load case relative to the original"
-    return "Plain: g²/Hz on roads and g² under wheel loads as they are"
 
 
 def _free(problem: Problem, space: DesignSpace) -> str:

@@ -1,0 +1,116 @@
+"""Left column: what it does that no two rubber parts are alike."""
+
+import threading
+
+import numpy as np
+import viser
+
+from modeviz.errors import ModevizError
+from modeviz.export.wording import number, significant
+from modeviz.tuning.results import AXIS
+from modeviz.tuning.scatter import Scatter, rating_of
+from modeviz.tuning.spread import spread
+from modeviz.vehicle.arrays import Floats
+from modeviz.viewer.assign import assign
+from modeviz.viewer.html import block, heading, row, span, table, title
+from modeviz.viewer.scatterer import PERCENT, Scattered, Scatterer, between
+from modeviz.viewer.session import Session
+
+SCATTER, CANCEL = "Scatter", "Cancel"
+N_VEHICLES = 1000
+VEHICLES = (300, 10_000)
+N_PARTS = 3
+"""So many parts are named that make most of the spread."""
+
+
+class ScatterPanel:
+    """A button that scatters the mounts at the present rates, and what came of it."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session, scatterer: Scatterer) -> None:
+        """Builds the controls; nothing for a vehicle without anything to optimise for."""
+        self._session, self._scatterer = session, scatterer
+        self._lock = threading.Lock()
+        self._is_built = session.state.plan is not None
+        if not self._is_built:
+            return
+        with gui.add_folder("Scatter of parts"):
+            self._count = gui.add_number(
+                "Vehicles",
+                N_VEHICLES,
+                min=VEHICLES[0],
+                max=VEHICLES[1],
+                step=1,
+                hint="How many are built of parts that differ: rates by up to ±15 %, loss factors by "
+                "±30 %, the same ones every time",
+            )
+            self._buttons = gui.add_button_group(
+                "Parts",
+                (SCATTER,),
+                hint="Solves them all at the present rates and shades, in the charts, what 90 of 100 "
+                "stay between",
+            )
+            self._buttons.on_click(lambda event: self._press(event))
+            self._text = gui.add_html("")
+
+    def follow(self) -> None:
+        """Draws where the scatter is; may be called in any thread."""
+        if not self._is_built:
+            return
+        with self._lock:
+            look = self._scatterer.look
+            is_running = look is not None and look.is_running
+            assign(self._buttons, options=(CANCEL,) if is_running else (SCATTER,))
+            if look is not None:
+                is_current = look.is_of(self._session.state)
+                assign(self._text, content=block(*_text(look, is_current)))
+
+    def _press(self, event: viser.GuiEvent) -> None:
+        if self._buttons.value == CANCEL:
+            self._scatterer.cancel()
+            return
+        try:
+            self._scatterer.start(round(self._count.value))
+        except ModevizError as error:
+            if event.client:
+                event.client.add_notification("Not possible", str(error), color="red")
+
+
+def _text(look: Scattered, is_current: bool) -> list[str]:
+    if look.failure:
+        return [heading("Failed"), span(title(look.failure), "bad")]
+    if look.is_cancelled:
+        return [heading("Cancelled")]
+    if look.result is None:
+        bar = f'<div class="bar"><i style="width:{look.done:.0%};background:var(--mv-now)"></i></div>'
+        return [heading("Scattering", f"{100 * look.done:.0f} %"), bar]
+    n = f"{len(look.result.goal)} vehicles"
+    quiet = n if is_current else f"{n}, other rates or road"
+    return [heading("Scatter", quiet), _figures(look.result), _parts(look.result)]
+
+
+def _figures(found: Scatter) -> str:
+    """Of the goal and the driver's ride: what 90 of 100 stay between."""
+    driver = found.rms[:, 0]
+    rows = [_row("Goal", found.goal, found.nominal_goal)]
+    for direction in ("lateral", "vertical"):
+        axis = AXIS[direction]
+        values, nominal = driver[:, axis], float(found.nominal_rms[0, axis])
+        rows.append(_row(f"RMS {direction}, g", values, nominal))
+    low, high = between(found.mean_personal_rating)
+    nominal = float(rating_of(found.nominal_rms[:1])[0])
+    rows.append(row(["Ride rating", number(low, 2), span(number(nominal, 2), "dim"), number(high, 2)]))
+    return table(("", f"{PERCENT[0]:g} %", "as drawn", f"{PERCENT[1]:g} %"), rows)
+
+
+def _row(label: str, values: Floats, nominal: float) -> str:
+    low, high = between(values)
+    return row([label, significant(low), span(significant(nominal), "dim"), significant(high)])
+
+
+def _parts(found: Scatter) -> str:
+    """The parts that make most of the goal's spread."""
+    shares = spread(found.deviations, found.goal).shares
+    names = [f"{name} {what}" for what in ("hardness", "damping") for name in found.parts.names]
+    most = np.argsort(-shares)[:N_PARTS]
+    rows = [row([title(names[i]), f"{100 * shares[i]:.0f} %"]) for i in most]
+    return table(("Most of the goal's spread", ""), rows)

@@ -1,0 +1,121 @@
+"""Mounts that scatter, in a session."""
+
+import threading
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.errors import ModevizError, SolveError
+from modeviz.tuning.results import Conditions
+from modeviz.viewer import scatterer as module
+from modeviz.viewer.scatterer import Scatterer
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import Curve, first_state
+
+SOON = 20
+CURVE = Curve(0, "lateral")
+
+
+@pytest.fixture
+def session():
+    vehicle = mounted_cabin()
+    failures, answers = [], []
+    state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
+    session = Session(vehicle, state, answers.append, failures.append)
+    session.answers = answers
+    session.start()
+    assert session.wait(SOON)
+    yield session
+    session.close()
+    assert not failures
+
+
+@pytest.fixture
+def scatterer(session):
+    told = threading.Condition()
+
+    def tell():
+        with told:
+            told.notify_all()
+
+    def finish():
+        with told:
+            assert told.wait_for(lambda: not scatterer.look.is_running, SOON)
+        return scatterer.look
+
+    scatterer = Scatterer(session, tell)
+    scatterer.finish = finish
+    yield scatterer
+    scatterer.cancel()
+
+
+@pytest.fixture
+def gate(monkeypatch):
+    """Holds every scatter before its first vehicle until it is set."""
+    may_go, scatter = threading.Event(), module.scatter
+
+    def held(*arguments, **keywords):
+        may_go.wait(SOON)
+        return scatter(*arguments, **keywords)
+
+    monkeypatch.setattr(module, "scatter", held)
+    return may_go
+
+
+def test_nine_of_ten_vehicles_stay_within_the_band(session, scatterer):
+    scatterer.start(400)
+    found = scatterer.finish().result
+    low, high = scatterer.band(session.state, CURVE)
+    psd = found.psd[:, :, 0, 1]
+    within = ((low <= psd) & (psd <= high)).mean(axis=0)
+    np.testing.assert_allclose(within, 0.9, atol=0.01)
+
+
+def test_the_page_is_drawn_again_when_the_band_is_there(session, scatterer):
+    n_before = len(session.answers)
+    scatterer.start(400)
+    scatterer.finish()
+    assert session.wait(SOON)
+    assert len(session.answers) > n_before
+    assert session.answers[-1].is_detailed
+
+
+def test_a_band_is_of_its_rates_road_and_speed_only(session, scatterer):
+    assert scatterer.band(session.state, CURVE) is None
+    scatterer.start(400)
+    scatterer.finish()
+    session.set_rate("A", "vertical", 3e5)
+    assert scatterer.band(session.state, CURVE) is None
+    session.undo()
+    assert scatterer.band(session.state, CURVE) is not None
+    session.change(load="front left radial force")
+    assert scatterer.band(session.state, CURVE) is None
+    session.change(load="", conditions=Conditions("rough", 20.0))
+    assert scatterer.band(session.state, CURVE) is None
+
+
+def test_cancel_is_over_at_once_and_the_next_one_is_its_own(session, scatterer, gate):
+    scatterer.start(400)
+    scatterer.cancel()
+    assert scatterer.look.is_cancelled
+    scatterer.start(300)
+    gate.set()
+    assert len(scatterer.finish().result.goal) == 300
+
+
+def test_a_second_one_is_refused_while_one_runs(scatterer, gate):
+    scatterer.start(400)
+    with pytest.raises(ModevizError, match="cancel it first"):
+        scatterer.start(400)
+    gate.set()
+    scatterer.finish()
+
+
+def test_a_failure_is_told(scatterer, monkeypatch):
+    def fails(*arguments, **keywords):
+        raise SolveError("an undamped resonance")
+
+    monkeypatch.setattr(module, "scatter", fails)
+    scatterer.start(400)
+    assert scatterer.finish().failure == "an undamped resonance"
