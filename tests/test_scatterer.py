@@ -1,6 +1,7 @@
 """Mounts that scatter, in a session."""
 
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -119,3 +120,12 @@ def test_a_failure_is_told(scatterer, monkeypatch):
     monkeypatch.setattr(module, "scatter", fails)
     scatterer.start(400)
     assert scatterer.finish().failure == "an undamped resonance"
+
+
+@pytest.mark.parametrize("goal", ["peak", "change"])
+def test_of_goals_that_are_no_sum_the_accelerations_are_looked_at(session, scatterer, goal):
+    session.update(lambda state: replace(state, plan=replace(state.plan, goal=goal)))
+    scatterer.start(300)
+    look = scatterer.finish()
+    assert look.problem.goal == "accelerations"
+    assert look.result.nominal_goal == pytest.approx(1.0, rel=1e-9)

@@ -18,12 +18,16 @@ from modeviz.tuning.results import AXIS, Conditions
 from modeviz.tuning.scatter import Scatter, scatter
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import Goal, Problem
 from modeviz.viewer.plan import planned
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import Curve, State
 
 PERCENT = (5.0, 95.0)
 """Between these percentiles a band is drawn."""
+
+NOT_SUMS: tuple[Goal, ...] = ("peak", "change")
+"""Goals that no part scatters, or that are no sum; the accelerations are looked at in their place."""
 
 TELL_EVERY = 0.25
 """s between two words on how far it is."""
@@ -35,6 +39,8 @@ class Scattered:
 
     rates: Rates
     conditions: Conditions
+    problem: Problem
+    """Whose goal is looked at."""
     done: float = 0.0
     """The fraction that is done."""
     result: Scatter | None = None
@@ -76,15 +82,19 @@ class Scatterer:
         """Begins with so many vehicles.
 
         Raises:
-            ModevizError: another one is running.
+            ModevizError: another one is running, or the state's plan asks for what cannot be.
         """
         with self._lock:
             if self.look and self.look.is_running:
                 raise ModevizError("a scatter is running: cancel it first")
             state = self._session.state
-            self.look = Scattered(state.rates, state.conditions)
+            assert state.plan is not None
+            problem = planned(self._session.vehicle, state.plan)
+            if problem.goal in NOT_SUMS:
+                problem = replace(problem, goal="accelerations")
+            self.look = Scattered(state.rates, state.conditions, problem)
             self._control = Control()
-        arguments = state, n_samples, self._control
+        arguments = problem, state, n_samples, self._control
         threading.Thread(target=self._run, args=arguments, name="scatter", daemon=True).start()
         self._changed()
 
@@ -101,9 +111,9 @@ class Scatterer:
             return None
         return look.percentiles[:, :, curve.point, AXIS[curve.direction]]
 
-    def _run(self, state: State, n_samples: int, control: Control) -> None:
+    def _run(self, problem: Problem, state: State, n_samples: int, control: Control) -> None:
         try:
-            found = self._scatter(state, n_samples, control)
+            found = self._scatter(problem, state, n_samples, control)
             self._put(control, result=found, done=1.0)
         except CancelledError:
             return
@@ -115,12 +125,8 @@ class Scatterer:
         else:
             self._session.show_again()
 
-    def _scatter(self, state: State, n_samples: int, control: Control) -> Scatter:
+    def _scatter(self, problem: Problem, state: State, n_samples: int, control: Control) -> Scatter:
         vehicle, prepared = self._session.vehicle, self._session.prepared
-        assert state.plan is not None
-        problem = planned(vehicle, state.plan)
-        if problem.goal == "change":  # which no part scatters
-            problem = replace(problem, goal="accelerations")
         goal = prepare_goal(vehicle, problem, state.rates, state.conditions.speed)
         assert isinstance(goal, Objective)
         control.check()

@@ -1,18 +1,21 @@
 """Left column: what it does that no two rubber parts are alike."""
 
 import threading
+from html import escape
 
 import numpy as np
 import viser
 
 from modeviz.errors import ModevizError
+from modeviz.export.optimum import objective_words
 from modeviz.export.wording import number, significant
 from modeviz.tuning.results import AXIS
 from modeviz.tuning.scatter import Scatter, rating_of
 from modeviz.tuning.spread import spread
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.problem import Problem
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, heading, row, span, table, title
+from modeviz.viewer.html import block, heading, hinted, row, span, table, title
 from modeviz.viewer.scatterer import PERCENT, Scattered, Scatterer, between
 from modeviz.viewer.session import Session
 
@@ -85,13 +88,14 @@ def _text(look: Scattered, is_current: bool) -> list[str]:
         return [heading("Scattering", f"{100 * look.done:.0f} %"), bar]
     n = f"{len(look.result.goal)} vehicles"
     quiet = n if is_current else f"{n}, other rates or road"
-    return [heading("Scatter", quiet), _figures(look.result), _parts(look.result)]
+    return [heading("Scatter", quiet), _figures(look.problem, look.result), _parts(look.result)]
 
 
-def _figures(found: Scatter) -> str:
+def _figures(problem: Problem, found: Scatter) -> str:
     """Of the goal and the driver's ride: what 90 of 100 stay between."""
     driver = found.rms[:, 0]
-    rows = [_row("Goal", found.goal, found.nominal_goal)]
+    goal = hinted("Goal", escape(objective_words(problem)))
+    rows = [_row(goal, found.goal, found.nominal_goal)]
     for direction in ("lateral", "vertical"):
         axis = AXIS[direction]
         values, nominal = driver[:, axis], float(found.nominal_rms[0, axis])
