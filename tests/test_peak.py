@@ -73,7 +73,7 @@ def test_with_other_damping_the_best_peak_is_higher(optimum, factor):
 def test_a_peak_has_the_derivatives_of_its_largest_square():
     search = cabin_search(goal="peak")
     value, gradient = search.evaluate(X)
-    squares, gradients = search.squares(X)
+    squares, gradients = search.parts(X)
     assert value == pytest.approx(search.value(X), rel=1e-12)
     assert value == squares.max()
     np.testing.assert_array_equal(gradient, gradients[squares.argmax()])

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import nnls
 
-from modeviz.tuning.peak import Peak
+from modeviz.tuning.peak import MinMax
 from modeviz.tuning.search import Search
 from modeviz.vehicle.arrays import Floats
 
@@ -35,14 +35,14 @@ def active_constraints(search: Search, x: Floats) -> tuple[ActiveConstraint, ...
     """The limits that a design sits on, those that cost most first.
 
     At a minimum the goal's derivatives are ∇F = -Aᵀλ, with the rows A of the limits it sits on and
-    λ >= 0 (W. Karush, H. W. Kuhn and A. W. Tucker); λ is found by non-negative least squares, which for
+    λ >= 0 (W. Karush, H. W. Kuhn and A. W. Tucker); λ is found by non-negative least parts, which for
     limits that depend on each other is one of several ways to share.
     """
     value, slopes = _slopes(search, x)
     names, rows = _met(search, x)
     if not names:
         return ()
-    # Of a peak's largest squares the goal has a mean: as many more multipliers, whose sum is one.
+    # Of a min-max's largest parts the goal has a mean: as many more multipliers, whose sum is one.
     size = np.abs(slopes).max(initial=1.0)
     means = np.pad(slopes, ((0, 0), (0, 1)), constant_values=size)
     limits = np.pad(rows, ((0, 0), (0, 1)))
@@ -56,13 +56,13 @@ def active_constraints(search: Search, x: Floats) -> tuple[ActiveConstraint, ...
 
 
 def _slopes(search: Search, x: Floats) -> tuple[float, Floats]:
-    """The goal, and its derivatives, or those of all squares that are as large as a peak."""
-    if not isinstance(search.goal, Peak):
+    """The goal, and its derivatives, or those of all parts that are as large as a `MinMax`."""
+    if not isinstance(search.goal, MinMax):
         value, gradient = search.evaluate(x)
         return value, gradient[None]
-    squares, gradients = search.squares(x)
-    largest = squares.max()
-    return float(largest), gradients[squares >= largest * (1 - ACTIVE)]
+    parts, gradients = search.parts(x)
+    largest = parts.max()
+    return float(largest), gradients[parts >= largest * (1 - ACTIVE)]
 
 
 def _met(search: Search, x: Floats) -> tuple[list[str], list[Floats]]:

@@ -16,7 +16,7 @@ from modeviz.tuning.evaluator import (
     OutOfBudgetError,
     Step,
 )
-from modeviz.tuning.peak import Peak
+from modeviz.tuning.peak import MinMax
 from modeviz.tuning.search import Search
 from modeviz.tuning.threads import one_thread
 from modeviz.vehicle.arrays import Floats
@@ -31,8 +31,8 @@ MOST_STEPS = 500
 RESTARTS = 2
 """How often a solver that got stuck begins anew where it was best, with nothing to mislead it."""
 
-PEAK_TOLERANCE = 1e-10
-"""The same of a peak, which is found where limits and squares meet, and so at once or not better."""
+MIN_MAX_TOLERANCE = 1e-10
+"""The same of a `MinMax`, which is found where limits and parts meet, and so at once or not better."""
 
 
 @one_thread
@@ -47,8 +47,8 @@ def descend(
 
     Bounds and ratio limits are linear, so that SLSQP (D. Kraft, "A software package for sequential
     quadratic programming", DFVLR-FB 88-28, 1988) keeps to them at every step; what it evaluates is put
-    within them to the last bit. Of modes' windows only designs that keep to them count. A `Peak` is the
-    smallest t that none of its squares is above, which is smooth again.
+    within them to the last bit. Of modes' windows only designs that keep to them count. A `MinMax` is
+    the smallest t that none of its parts is above, which is smooth again.
 
     Args:
         search: what is sought.
@@ -61,7 +61,7 @@ def descend(
         SolveError: a design that cannot be solved, with its rates.
     """
     evaluator = Evaluator(search, budget, control or Control(), tell)
-    solve = _smallest_peak if isinstance(search.goal, Peak) else _smallest
+    solve = _smallest_largest if isinstance(search.goal, MinMax) else _smallest
     try:
         result = solve(search, evaluator, search.space.admitted(start))
         for _ in range(RESTARTS):
@@ -89,21 +89,21 @@ def _smallest(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeRe
     )
 
 
-def _smallest_peak(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeResult:
+def _smallest_largest(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeResult:
     """SLSQP for (x, t): t is to become small, and nothing may be above it."""
     under = {
         "type": "ineq",
-        "fun": lambda z: z[-1] - evaluator.squares(z[:-1])[0],
-        "jac": lambda z: np.pad(-evaluator.squares(z[:-1])[1], ((0, 0), (0, 1)), constant_values=1.0),
+        "fun": lambda z: z[-1] - evaluator.parts(z[:-1])[0],
+        "jac": lambda z: np.pad(-evaluator.parts(z[:-1])[1], ((0, 0), (0, 1)), constant_values=1.0),
     }
     return minimize(
         lambda z: z[-1],
-        np.append(start, evaluator.squares(start)[0].max()),
+        np.append(start, evaluator.parts(start)[0].max()),
         jac=lambda z: np.eye(len(z))[-1],
         method="SLSQP",
         bounds=[*_bounds(search), (0.0, None)],
         constraints=[under, *map(_without_last, _constraints(search))],
-        options={"ftol": PEAK_TOLERANCE, "maxiter": MOST_STEPS},
+        options={"ftol": MIN_MAX_TOLERANCE, "maxiter": MOST_STEPS},
     )
 
 

@@ -61,7 +61,7 @@ class Evaluator:
         self.x: Floats | None = None
         self._value = np.inf
         self._unit = 0.0
-        self._squares: tuple[Floats, tuple[Floats, Floats]] | None = None
+        self._parts: tuple[Floats, tuple[Floats, Floats]] | None = None
 
     def value_and_gradient(self, x: Floats) -> tuple[float, Floats]:
         """The goal of the design nearest to one, and its derivatives, relative to the first one's goal.
@@ -77,15 +77,15 @@ class Evaluator:
         unit = self._found(x, value)
         return value / unit, gradient / unit
 
-    def squares(self, x: Floats) -> tuple[Floats, Floats]:
-        """All of which a `Peak` is the largest, likewise; asked twice of a design it is solved once."""
-        if self._squares is None or not np.array_equal(self._squares[0], x):
+    def parts(self, x: Floats) -> tuple[Floats, Floats]:
+        """All of which a `MinMax` is the largest, likewise; asked twice it solves once."""
+        if self._parts is None or not np.array_equal(self._parts[0], x):
             self._count()
             admitted = self._search.space.admitted(x)
-            squares, gradients = self._search.squares(admitted)
-            unit = self._found(admitted, float(squares.max()))
-            self._squares = x.copy(), (squares / unit, gradients / unit)
-        return self._squares[1]
+            parts, gradients = self._search.parts(admitted)
+            unit = self._found(admitted, float(parts.max()))
+            self._parts = x.copy(), (parts / unit, gradients / unit)
+        return self._parts[1]
 
     def value(self, x: Floats) -> float:
         """The goal of a design; of one that leaves a window `FORBIDDEN` and more, the farther it is.

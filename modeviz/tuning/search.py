@@ -9,7 +9,7 @@ import numpy as np
 from modeviz.errors import SolveError
 from modeviz.tuning.design import DesignSpace, design_space
 from modeviz.tuning.goals import Goal, prepare_goal
-from modeviz.tuning.peak import Peak
+from modeviz.tuning.peak import MinMax
 from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.sensitivity import rate_variables
 from modeviz.tuning.threads import one_thread
@@ -48,19 +48,19 @@ class Search:
             _check_finite(value)
         return value
 
-    def squares(self, x: Floats) -> tuple[Floats, Floats]:
-        """All of which a `Peak` is the largest, (n,), and their derivatives, (n, n_variables).
+    def parts(self, x: Floats) -> tuple[Floats, Floats]:
+        """All of which a `MinMax` is the largest, (n,), and their derivatives, (n, n_variables).
 
         Raises:
             SolveError: as `evaluate`.
         """
-        assert isinstance(self.goal, Peak)
+        assert isinstance(self.goal, MinMax)
         rates = self.space.rates(x)
         with self._naming(x):
-            squares, by_rate = self.goal.squares_and_gradients(rates)
+            parts, by_rate = self.goal.parts_and_gradients(rates)
             gradients = self._by_x(rates, by_rate)
-            _check_finite(float(squares.max()), gradients)
-        return squares, gradients
+            _check_finite(float(parts.max()), gradients)
+        return parts, gradients
 
     def margins(self, x: Floats) -> tuple[Floats, Floats]:
         """What is left to the ends of windows, (n_ends,), and derivatives, (n_ends, n_variables)."""
