@@ -142,7 +142,7 @@ def test_ctrl_c_ends_it(monkeypatch, cabin):
         (["--loss-tolerance", "0"], "tolerance of loss factor: found 0, expected a fraction"),
         (["--point", "seet"], "unknown response point 'seet': did you mean 'seat'?"),
         (["--problem", "papr"], "unknown problem 'papr'"),
-        (["--problem", "gentle"], "problem 'gentle': its goal is a change of rates, which does not"),
+        (["--problem", "gentle"], "problem 'gentle': its goal, change, does not scatter"),
         (["--scheduler", "tcp://127.0.0.1:9"], "scheduler 'tcp://127.0.0.1:9': nobody answers there"),
     ],
 )

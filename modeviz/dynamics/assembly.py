@@ -96,11 +96,18 @@ class System:
             VehicleError: a group that does not exist.
         """
         vehicle = self.vehicle.with_rates(rates)
-        R = self.mount_motions
         change = mount_stiffness(vehicle) - mount_stiffness(self.vehicle)
+        return replace(self.with_springs(change), vehicle=vehicle)
+
+    def with_springs(self, change: Complexes) -> "System":
+        """The same with mount springs that differ from what the vehicle says.
+
+        Args:
+            change: (n_springs,), of complex rates, N/m.
+        """
+        R = self.mount_motions
         return replace(
             self,
-            vehicle=vehicle,
             stiffness=self.stiffness + (R.T * change.real) @ R,
             structural_damping=self.structural_damping + (R.T * change.imag) @ R,
         )

@@ -8,11 +8,10 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 from urllib.parse import urlsplit
 
-from threadpoolctl import threadpool_limits
-
 from modeviz.errors import ModevizError
 from modeviz.tuning.control import Control
 from modeviz.tuning.runner import HERE, Runner
+from modeviz.tuning.threads import one_thread
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -106,7 +105,7 @@ class _Cluster:
         waiting: deque[Future] = deque()
         try:
             for item in items:
-                waiting.append(self._client.submit(_one_thread, function, kept, item, pure=False))
+                waiting.append(self._client.submit(_solved, function, kept, item, pure=False))
                 if len(waiting) >= n_ahead:
                     yield self._result(waiting.popleft(), control)
             while waiting:
@@ -140,7 +139,6 @@ def _kept(shared: S) -> S:
     return shared
 
 
-def _one_thread(function: Callable[[S, A], T], shared: S, item: A) -> T:
+def _solved(function: Callable[[S, A], T], shared: S, item: A) -> T:
     """A task, with as many BLAS threads as here."""
-    with threadpool_limits(1, user_api="blas"):
-        return function(shared, item)
+    return one_thread(function)(shared, item)

@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.assembly import System
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.response import check_frequencies, direct_response
 from modeviz.errors import SolveError
@@ -145,9 +146,12 @@ class Objective:
             VehicleError: a group that the vehicle does not have.
             SolveError: as `direct_response`.
         """
+        return self.exact_response_of(self.prepared.system.with_rates(rates))
+
+    def exact_response_of(self, system: System) -> Complexes:
+        """The same of a system that differs from the prepared one; raises as `direct_response`."""
         prepared = self.prepared
         forces = prepared.input_directions.T @ self.amplitudes
-        system = prepared.system.with_rates(rates)
         return direct_response(system, prepared.frequency_hz, forces, prepared.outputs[self.outputs])
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
