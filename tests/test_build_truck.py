@@ -237,6 +237,16 @@ def matrices_now(name):
     return assemble(part.structure.mesh).scaled(part.stiffness_factor, part.mass_factor)
 
 
+def test_the_folder_is_what_is_written_of_it(tmp_path):
+    """Nobody has edited it by hand, and it is the format of today."""
+    write_vehicle(truck(), tmp_path / "truck")
+    written, committed = (
+        {p.relative_to(f): p.read_bytes() for p in f.rglob("*") if p.is_file()}
+        for f in (tmp_path / "truck", builtin_vehicle())
+    )
+    assert written == committed
+
+
 @pytest.mark.slow
 def test_the_truck_is_built_the_same_to_the_byte_every_time(tmp_path):
     for folder in ("first", "second"):
