@@ -105,12 +105,12 @@ EDITS = {
     "one bound": (
         "stiffest = ",
         "#",
-        "problem[0]: group[0]: softest and stiffest: found one of them, expected both or neither",
+        "problem[0].group[0]: softest and stiffest: found one of them, expected both or neither",
     ),
     "bounds the wrong way round": (
         "lateral = 2000.0",
         "lateral = 1.0",
-        "problem[0]: group[0]: design group 'A': bounds: lateral: found 10000.0 to 1000.0 N/m",
+        "problem[0].group[0]: design group 'A': bounds: lateral: found 10000.0 to 1000.0 N/m",
     ),
     "negative rate": (
         "vertical = 10.0",
@@ -120,7 +120,7 @@ EDITS = {
     "limits the wrong way round": (
         "[0.25, 0.8]",
         "[0.8, 0.25]",
-        "problem[0]: group[0]: design group 'A': ratio_limits: found 0.8 to 0.25",
+        "problem[0].group[0]: design group 'A': ratio_limits: found 0.8 to 0.25",
     ),
     "three limits": (
         "[0.25, 0.8]",
@@ -130,7 +130,7 @@ EDITS = {
     "fixed and free": (
         "ratio_limits = [0.25, 0.8]",
         "fixed_ratios = true",
-        "problem[0]: group[0]: design group 'A': directions: found lateral, fore-aft with fixed_ratios",
+        "problem[0].group[0]: design group 'A': directions: found lateral, fore-aft with fixed_ratios",
     ),
     "unknown direction": ('"fore-aft"]', '"fore aft"]', "unknown direction 'fore aft': did you mean"),
     "unknown goal": (
@@ -156,7 +156,7 @@ EDITS = {
     "no frequencies": (
         "[11.0, 13.25, 15.666666666666666]",
         "[]",
-        "problem[0]: performance[1]: performance: frequency_hz: found none, expected rising values",
+        "problem[0].performance[1]: performance: frequency_hz: found none, expected rising values",
     ),
     "text for frequencies": (
         "[11.0, 13.25, 15.666666666666666]",
@@ -177,12 +177,12 @@ EDITS = {
     "no load": (
         'roads = ["flat", "rough"]',
         "",
-        "problem[0]: performance[0]: performance: found neither roads nor wheel_loads",
+        "problem[0].performance[0]: performance: found neither roads nor wheel_loads",
     ),
     "window of nothing": (
         "high_hz = 10.0",
         "",
-        "problem[0]: window[0]: window of 'cab yaw': found neither low_hz nor high_hz",
+        "problem[0].window[0]: window of 'cab yaw': found neither low_hz nor high_hz",
     ),
     "unknown group": (
         'group = "A"',

@@ -6,7 +6,7 @@ from typing import Annotated, Self, TypeVar
 import msgspec
 from msgspec import Meta
 
-from modeviz.errors import located
+from modeviz.errors import ModevizError, VehicleError
 from modeviz.vehicle.connections import MountRates
 
 Name = Annotated[str, Meta(min_length=1)]
@@ -36,10 +36,23 @@ class RatesRecord(Record, kw_only=True):
         return MountRates(self.vertical, self.lateral, self.fore_aft)
 
 
+class RecordError(VehicleError):
+    """A record that cannot be built, with its key path: "problem[0].group[1]"."""
+
+    def __init__(self, path: str, words: str) -> None:
+        super().__init__(f"{path}: {words}")
+        self.path, self.words = path, words
+
+
 def built(records: Iterable[R], key: str, build: Callable[[R], P]) -> tuple[P, ...]:
-    """What each record builds; an error names the record."""
+    """What each record builds; an error names the record, and the one it is in."""
     parts = []
     for index, record in enumerate(records):
-        with located(f"{key}[{index}]"):
+        path = f"{key}[{index}]"
+        try:
             parts.append(build(record))
+        except RecordError as error:
+            raise RecordError(f"{path}.{error.path}", error.words) from None
+        except ModevizError as error:
+            raise RecordError(path, str(error)) from None
     return tuple(parts)
