@@ -1,0 +1,43 @@
+import threading
+
+import pytest
+
+from modeviz.tuning.control import CancelledError, Control
+
+
+def test_it_lets_a_computation_run():
+    control = Control()
+    control.check()
+    assert not control.is_paused
+    assert not control.is_cancelled
+
+
+def test_cancelled_it_ends_it():
+    control = Control()
+    control.cancel()
+    assert control.is_cancelled
+    with pytest.raises(CancelledError):
+        control.check()
+
+
+@pytest.mark.parametrize("release", ["resume", "cancel"])
+def test_held_it_waits_until_it_may_go_on_or_has_to_end(release):
+    control, ends = Control(), []
+    control.pause()
+
+    def compute():
+        try:
+            control.check()
+            ends.append("resume")
+        except CancelledError:
+            ends.append("cancel")
+
+    thread = threading.Thread(target=compute)
+    thread.start()
+    thread.join(0.1)
+    assert control.is_paused
+    assert not ends
+    getattr(control, release)()
+    thread.join(60)
+    assert ends == [release]
+    assert not control.is_paused

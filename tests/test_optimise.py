@@ -1,0 +1,219 @@
+import threading
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cabin_problem import cabin_search
+from mounted_cabin import mounted_cabin
+from test_search import CENTER, MINIMUM
+from threadpoolctl import threadpool_limits
+from toy_goals import logarithmic_search, paraboloid
+
+import modeviz as mv
+from modeviz.errors import SolveError
+from modeviz.tuning.control import Control
+from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
+from modeviz.tuning.evolution import evolve
+from modeviz.tuning.optimise import SCREENED, best_of, optimise, search_globally, start_points
+from modeviz.tuning.search import prepare_search
+from modeviz.vehicle.problem import FrequencyWindow
+
+WELLS = np.array([-0.8, 0.5])
+
+
+def two_wells(u):
+    """Along A vertical two minima, the better one at the first; a bowl along all others."""
+    step = u.copy()
+    step[0] = 0.0
+    distance = u[0] - WELLS
+    value = 10 * np.prod(distance**2) + 0.05 * u[0] + 0.5 * step @ step + 1
+    slope = 20 * np.prod(distance) * distance.sum() + 0.05
+    return value, np.concatenate([[slope], step[1:]])
+
+
+def along(x0):
+    return np.array([x0, 0, 0, 0])
+
+
+def test_of_several_starts_the_best_end_is_kept():
+    search = logarithmic_search(two_wells)
+    optimum = optimise(search, [along(0.6), along(-0.7)])
+    near, far = optimum.descents
+    assert near.value > far.value == optimum.value
+    assert optimum.x[0] == pytest.approx(-0.8, abs=0.01)
+    assert optimum.converged
+    assert optimum.evaluations == near.evaluations + far.evaluations
+    assert optimum.rates["A"].vertical == pytest.approx(8e5 * np.exp(optimum.x[0]), rel=1e-12)
+
+
+def test_a_convex_problem_has_one_end_from_everywhere():
+    search = logarithmic_search(paraboloid(CENTER))
+    optimum = optimise(search, start_points(search, {}, 8))
+    for descent in optimum.descents:
+        np.testing.assert_allclose(descent.x, MINIMUM, atol=1e-6)
+    assert {c.name for c in optimum.active} == {"B rates: upper bound", "A lateral: lower ratio limit"}
+    assert optimum.verification.difference == 0
+
+
+def test_starts_are_the_given_rates_and_the_best_of_many_designs():
+    search = cabin_search()
+    rates = mounted_cabin().rate_sets["soft"]
+    first, *others = start_points(search, rates, 4, seed=5)
+    np.testing.assert_array_equal(first, search.space.to_x(rates))
+    values = [search.value(x) for x in search.space.samples(3 * SCREENED, seed=5)]
+    assert [search.value(x) for x in others] == sorted(values)[:3]
+    again = start_points(search, rates, 4, seed=5)
+    np.testing.assert_array_equal(again, [first, *others])
+    assert len(start_points(search, rates, 1)) == 1
+
+
+def test_starts_are_chosen_from_what_there_is_when_it_is_cancelled():
+    control = Control()
+    control.cancel()
+    assert len(start_points(cabin_search(), {}, 4, control=control)) == 1
+
+
+def test_the_global_search_finds_the_better_of_two_minima():
+    search = logarithmic_search(two_wells)
+    assert optimise(search, [along(0.6)]).x[0] == pytest.approx(0.5, abs=0.01)
+    optimum = search_globally(search, seed=2)
+    assert optimum.x[0] == pytest.approx(-0.8, abs=0.01)
+    assert optimum.converged
+    evolved, polished = optimum.descents
+    assert polished.value <= evolved.value
+    assert search.space.excess(optimum.x) < 1e-12
+
+
+def test_a_population_keeps_all_limits_and_windows():
+    window = FrequencyWindow("cab yaw", high_hz=9.5)
+    search, steps = cabin_search(windows=(window,)), []
+    descent = evolve(search, seed=0, budget=400, tell=steps.append)
+    assert descent.reason == OUT_OF_BUDGET
+    assert descent.evaluations == len(steps) == 400
+    assert all(search.space.excess(s.x) < 1e-12 for s in steps if s.x is not None)
+    (f,) = search.windows.exact_frequencies(search.space.rates(descent.x))
+    assert f <= 9.5
+    again = evolve(search, seed=0, budget=400)
+    np.testing.assert_array_equal(again.x, descent.x)
+
+
+def test_a_global_search_ends_with_its_budget_or_when_it_is_cancelled():
+    search, control = cabin_search(), Control()
+    spent = search_globally(search, budget=50)
+    assert (spent.reason, spent.evaluations) == (OUT_OF_BUDGET, 50)
+    optimum = search_globally(search, control=control, tell=lambda _: control.cancel())
+    assert (optimum.reason, optimum.evaluations) == (CANCELLED, 1)
+
+
+def test_the_budget_is_for_all_starts_together():
+    search = cabin_search()
+    starts = start_points(search, {}, 5)
+    optimum = optimise(search, starts, budget=20)
+    assert optimum.evaluations == 20
+    assert optimum.reason == OUT_OF_BUDGET
+    assert not optimum.converged
+    assert len(optimum.descents) < 5
+    assert optimum.value == min(d.value for d in optimum.descents)
+
+
+def test_progress_tells_the_best_so_far_of_all_starts():
+    search, told = cabin_search(), []
+    optimum = optimise(search, start_points(search, {}, 3), tell=told.append)
+    values = [p.value for p in told]
+    assert values == sorted(values, reverse=True)
+    assert values[-1] == optimum.value
+    assert [p.evaluations for p in told] == list(range(1, optimum.evaluations + 1))
+    assert [p.start for p in told] == sorted(p.start for p in told)
+    assert {(p.start, p.n_starts) for p in told} == {(1, 3), (2, 3), (3, 3)}
+    assert search.goal.value(told[-1].rates) == pytest.approx(optimum.value, rel=1e-12)
+
+
+def in_thread(search, control, tell):
+    """An optimisation in a thread of its own, and where its result will be."""
+    found = []
+    starts = start_points(search, {}, 20)
+    thread = threading.Thread(
+        target=lambda: found.append(optimise(search, starts, 5000, control, tell))
+    )
+    thread.start()
+    return thread, found
+
+
+def test_cancelled_from_outside_it_answers_at_once_with_the_best():
+    control, told, has_begun = Control(), [], threading.Event()
+
+    def tell(progress):
+        told.append(progress)
+        if len(told) == 10:
+            has_begun.set()
+
+    thread, found = in_thread(cabin_search(), control, tell)
+    assert has_begun.wait(60)
+    begin = time.perf_counter()
+    control.cancel()
+    thread.join(60)
+    assert time.perf_counter() - begin < 0.5
+    (optimum,) = found
+    assert optimum.reason == CANCELLED
+    assert optimum.value == told[-1].value
+    assert optimum.evaluations == len(told)
+    assert optimum.verification.difference < 1e-9
+
+
+def test_held_it_waits_and_then_finds_the_same():
+    control, told, is_held = Control(), [], threading.Event()
+
+    def tell(progress):
+        told.append(progress)
+        if len(told) == 10:
+            control.pause()
+            is_held.set()
+
+    search = cabin_search()
+    thread, found = in_thread(search, control, tell)
+    assert is_held.wait(60)
+    thread.join(0.2)
+    assert control.is_paused
+    assert thread.is_alive()
+    assert len(told) == 10
+    control.resume()
+    thread.join(60)
+    (optimum,) = found
+    assert optimum.reason == CONVERGED
+    assert optimum.value == optimise(search, start_points(search, {}, 20)).value
+
+
+def test_without_a_design_that_keeps_the_windows_there_is_an_error():
+    search = cabin_search(windows=(FrequencyWindow("cab yaw", high_hz=1.0),))
+    starts = start_points(search, {}, 2)
+    with pytest.raises(SolveError, match="no design was found that keeps the modes"):
+        optimise(search, starts, budget=40)
+    control = Control()
+    control.cancel()
+    with pytest.raises(SolveError, match="cancelled before a design was found"):
+        optimise(search, starts, control=control)
+
+
+def test_the_end_that_is_told_is_why_not_all_was_searched():
+    search = logarithmic_search(two_wells)
+    descents = optimise(search, [along(0.6), along(-0.7)]).descents
+    assert best_of(search, descents).reason == CONVERGED
+    stopped = replace(descents[0], reason=OUT_OF_BUDGET)
+    assert best_of(search, [stopped, descents[1]]).reason == OUT_OF_BUDGET
+
+
+@pytest.mark.slow
+def test_on_the_truck_twenty_starts_find_the_same_best_whatever_the_seed():
+    vehicle = mv.read_vehicle(mv.builtin_vehicle())
+    problem = vehicle.problem("paper")
+    with threadpool_limits(limits=1, user_api="blas"):
+        search = prepare_search(vehicle, problem, vehicle.rates, vehicle.speed)
+        found = [optimise(search, start_points(search, {}, 20, seed)) for seed in (0, 1)]
+        paper = search.goal.value(vehicle.rate_sets[problem.reference])
+    for optimum in found:
+        assert optimum.converged
+        assert optimum.value == pytest.approx(0.33384, rel=1e-2)
+        assert optimum.value < paper < 1
+        assert search.space.excess(optimum.x) < 1e-12
+        assert optimum.verification.difference < 1e-9

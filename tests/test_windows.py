@@ -1,0 +1,91 @@
+import numpy as np
+import pytest
+from differences import central_difference
+from mounted_cabin import mounted_cabin
+
+from modeviz.errors import VehicleError
+from modeviz.tuning.preparation import prepare_modes
+from modeviz.tuning.results import solve_modal
+from modeviz.tuning.windows import MARGIN, prepare_windows
+from modeviz.vehicle.connections import RATE_FIELDS, MountRates
+from modeviz.vehicle.problem import FrequencyWindow
+
+YAW_HZ = 10.675
+RATES = {"A": MountRates(7e5, 2e5, 4.5e5), "B": MountRates(9e5, 2.8e5, 3.5e5)}
+
+
+@pytest.fixture(scope="module")
+def prepared():
+    return prepare_modes(mounted_cabin())
+
+
+def windows_of(prepared, *limits):
+    return prepare_windows(prepared, [FrequencyWindow("cab yaw", *own) for own in limits])
+
+
+@pytest.mark.parametrize(
+    ("limits", "margins"),
+    [
+        ((0.0, 12.0), [1 - YAW_HZ / 12]),
+        ((9.0, np.inf), [YAW_HZ / 9 - 1]),
+        ((9.0, 12.0), [YAW_HZ / 9 - 1, 1 - YAW_HZ / 12]),
+        ((11.0, 12.0), [YAW_HZ / 11 - 1, 1 - YAW_HZ / 12]),
+        ((8.0, 10.0, False), [YAW_HZ / 10 - 1]),
+        ((11.0, 14.0, False), [1 - YAW_HZ / 11]),
+        ((10.0, 14.0, False), [1 - YAW_HZ / 10]),
+        ((8.0, 11.0, False), [YAW_HZ / 11 - 1]),
+    ],
+)
+def test_margins_are_what_is_left_to_the_ends(prepared, limits, margins):
+    found, _ = windows_of(prepared, limits).margins({})
+    np.testing.assert_allclose(found, np.subtract(margins, MARGIN), atol=1e-4)
+
+
+def test_their_derivatives_are_central_differences(prepared):
+    windows = windows_of(prepared, (9.0, 12.0), (11.0, 14.0, False), (8.0, 9.0, False))
+    values, gradients = windows.margins(RATES)
+    assert values.shape == (4,)
+    for i, (group, name) in enumerate((g, n) for g in RATES for n in RATE_FIELDS):
+        k = getattr(RATES[group], name)
+
+        def margins(rate, group=group, name=name):
+            fields = {n: getattr(RATES[group], n) for n in RATE_FIELDS} | {name: rate}
+            return windows.margins({**RATES, group: MountRates(**fields)})[0]
+
+        expected = central_difference(margins, k, step=1e-3)
+        scale = np.abs(gradients).max(axis=1)
+        assert (np.abs(gradients[:, i] - expected) < 1e-6 * scale).all()
+
+
+def test_ends_are_spoken_in_the_order_of_the_margins(prepared):
+    windows = windows_of(prepared, (9.0, 12.0), (0.0, 10.5), (14.0, np.inf), (11.0, 14.0, False))
+    assert windows.spoken == [
+        "cab yaw: at least 9 Hz", "cab yaw: at most 12 Hz", "cab yaw: at most 10.5 Hz",
+        "cab yaw: at least 14 Hz", "cab yaw: not 11 Hz to 14 Hz",
+    ]  # fmt: skip
+    assert len(windows.margins({})[0]) == len(windows.spoken)
+
+
+def test_where_no_mode_has_the_name_the_one_most_like_it_is_meant(prepared):
+    """With mounts that are rigid sideways no mode is a yaw of the cab alone."""
+    rigid = {group: MountRates(1e4, 1e7, 1e4) for group in "AB"}
+    exact = solve_modal(prepared, rigid, "exact")
+    assert exact.mode_index("cab yaw") is None
+    own = solve_modal(prepared, {})
+    shape = own.modes.shapes[:, own.mode_index("cab yaw")]
+    mac = np.abs(exact.modes.shapes.T @ prepared.system.mass @ shape)
+    (f,) = windows_of(prepared, (1.0, 12.0)).exact_frequencies(rigid)
+    assert f == exact.modes.frequency_hz[mac.argmax()]
+
+
+def test_exact_frequencies_are_those_of_the_full_eigenproblem(prepared):
+    windows = windows_of(prepared, (9.0, 12.0))
+    (f,) = windows.exact_frequencies({})
+    assert f == pytest.approx(YAW_HZ, abs=1e-3)
+    margins, _ = windows.margins({})
+    assert margins[0] == pytest.approx(f / 9 - 1 - MARGIN, abs=1e-6)
+
+
+def test_a_mode_that_is_not_there_is_an_error(prepared):
+    with pytest.raises(VehicleError, match=r"^window: unknown mode 'cab jaw': did you mean 'cab yaw'"):
+        prepare_windows(prepared, [FrequencyWindow("cab jaw", high_hz=9.0)])
