@@ -42,8 +42,8 @@ def scatterer(session):
 
     def finish():
         with told:
-            assert told.wait_for(lambda: not scatterer.look.is_running, SOON)
-        return scatterer.look
+            assert told.wait_for(lambda: not scatterer.job.is_running, SOON)
+        return scatterer.job
 
     scatterer = Scatterer(session, tell)
     scatterer.finish = finish
@@ -66,7 +66,7 @@ def gate(monkeypatch):
 
 def test_nine_of_ten_vehicles_stay_within_the_band(session, scatterer):
     scatterer.start(400)
-    found = scatterer.finish().result
+    found = scatterer.finish().found.scatter
     low, high = scatterer.band(session.state, CURVE)
     psd = found.psd[:, :, 0, 1]
     within = ((low <= psd) & (psd <= high)).mean(axis=0)
@@ -99,10 +99,10 @@ def test_a_band_is_of_its_rates_road_and_speed_only(session, scatterer):
 def test_cancel_is_over_at_once_and_the_next_one_is_its_own(session, scatterer, gate):
     scatterer.start(400)
     scatterer.cancel()
-    assert scatterer.look.is_cancelled
+    assert scatterer.job.phase == "cancelled"
     scatterer.start(300)
     gate.set()
-    assert len(scatterer.finish().result.goal) == 300
+    assert len(scatterer.finish().found.scatter.goal) == 300
 
 
 def test_a_second_one_is_refused_while_one_runs(scatterer, gate):
@@ -127,5 +127,5 @@ def test_of_goals_that_are_no_sum_the_accelerations_are_looked_at(session, scatt
     session.update(lambda state: replace(state, plan=replace(state.plan, goal=goal)))
     scatterer.start(300)
     look = scatterer.finish()
-    assert look.problem.goal == "accelerations"
-    assert look.result.nominal_goal == pytest.approx(1.0, rel=1e-9)
+    assert look.asked.problem.goal == "accelerations"
+    assert look.found.scatter.nominal_goal == pytest.approx(1.0, rel=1e-9)

@@ -39,6 +39,7 @@ from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.scatter import ScatterPanel
 from modeviz.viewer.panels.shape import ShapePanel
 from modeviz.viewer.panels.status import StatusPanel
+from modeviz.viewer.panels.trade_off import TradeOffPanel
 from modeviz.viewer.panels.variants import VariantsPanel
 from modeviz.viewer.panels.view import ViewPanel
 from modeviz.viewer.scatterer import Scatterer
@@ -47,6 +48,7 @@ from modeviz.viewer.session import Session
 from modeviz.viewer.stage import DARK, LIGHT
 from modeviz.viewer.state import State, first_state, variant_name
 from modeviz.viewer.title import Title
+from modeviz.viewer.trader import Trader
 
 LEFT = {WIDE: 376, NARROW: 300}
 RIGHT = {WIDE: 484, NARROW: 380}
@@ -85,6 +87,7 @@ class App:
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
         self.optimiser = Optimiser(self.session, lambda: self._optimise.follow())
+        self.trader = Trader(self.session, lambda: self._trade_off.follow())
         self.scatterer = Scatterer(self.session, lambda: self._scatter.follow())
         scripts.run(self._gui, "style.js", style_sheet())
         scripts.run(self._gui, "delivery.js")
@@ -170,6 +173,7 @@ class App:
     def end(self) -> None:
         """Ends the session, and what may be running in it."""
         self.optimiser.close()
+        self.trader.cancel()
         self.scatterer.cancel()
         self.session.close()
 
@@ -190,6 +194,7 @@ class App:
             self._variants = VariantsPanel(gui, session)
         with tabs.add_tab("Optimise", viser.Icon.TARGET_ARROW):
             self._optimise = OptimisePanel(gui, session, self.optimiser, dark)
+            self._trade_off = TradeOffPanel(gui, session, self.trader)
             self._scatter = ScatterPanel(gui, session, self.scatterer)
         with tabs.add_tab("View", viser.Icon.EYE):
             self._view = ViewPanel(gui, session, self._scene.look)
@@ -248,6 +253,7 @@ class App:
                 self._excitation.show(solved)
                 self._variants.show(solved)
                 self._optimise.show(solved)
+                self._trade_off.follow()
                 self._scatter.follow()
                 self._view.show()
                 self._modes.show(solved)

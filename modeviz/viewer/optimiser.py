@@ -16,12 +16,10 @@ from modeviz.tuning.optimise import Optimum, Progress, optimise, start_points
 from modeviz.tuning.search import Search, prepare_search
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
+from modeviz.viewer.beside import OUR_MISTAKE, TELL_EVERY
 from modeviz.viewer.plan import planned
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import State, rate_sets
-
-TELL_EVERY = 0.25
-"""s between two words on how far a search is, and two designs that the session is brought to."""
 
 PATIENCE = 3.0
 """s that a session waits for the end of its search: the full model may take longer."""
@@ -120,7 +118,7 @@ class Pursuit:
             self._fail(str(error))
         except Exception as error:
             traceback.print_exception(error)
-            self._fail("This is our mistake: the terminal says more.")
+            self._fail(OUR_MISTAKE)
         else:
             self._end(optimum)
 

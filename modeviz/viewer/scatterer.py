@@ -1,16 +1,10 @@
 """What mounts that scatter do to the present rates: computed beside, drawn as bands."""
 
-import threading
-import time
-import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import numpy as np
-
-from modeviz.errors import ModevizError
-from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.control import Control
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.objective import Objective
 from modeviz.tuning.parts import Tolerance, scattered_parts
@@ -19,6 +13,7 @@ from modeviz.tuning.scatter import Scatter, scatter
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Goal, Problem
+from modeviz.viewer.beside import Beside, Job, Tell
 from modeviz.viewer.plan import planned
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import Curve, State
@@ -29,40 +24,36 @@ PERCENT = (5.0, 95.0)
 NOT_SUMS: tuple[Goal, ...] = ("peak", "change")
 """Goals that no part scatters, or that are no sum; the accelerations are looked at in their place."""
 
-TELL_EVERY = 0.25
-"""s between two words on how far it is."""
-
 
 @dataclass(frozen=True, eq=False)
-class Scattered:
-    """A scatter of the mounts at some rates, done or on its way."""
+class Build:
+    """Vehicles that are built with some rates."""
 
     rates: Rates
     conditions: Conditions
     problem: Problem
     """Whose goal is looked at."""
-    done: float = 0.0
-    """The fraction that is done."""
-    result: Scatter | None = None
-    failure: str = ""
-    is_cancelled: bool = False
-
-    @property
-    def is_running(self) -> bool:
-        return self.result is None and not self.failure and not self.is_cancelled
+    n_samples: int
 
     def is_of(self, state: State) -> bool:
-        """Whether it is of the rates, the road and the speed of a state."""
+        """Whether they have the rates of a state, on its road at its speed."""
         return self.rates == state.rates and self.conditions == state.conditions
 
+
+@dataclass(frozen=True, eq=False)
+class Scattered:
+    """What these vehicles do."""
+
+    scatter: Scatter
+
     @cached_property
-    def percentiles(self) -> Floats | None:
+    def percentiles(self) -> Floats:
         """Of the PSDs, (2, n_freqs, n_points, 3), g²/Hz."""
-        return None if self.result is None else self.result.psd_percentiles(PERCENT)
+        return self.scatter.psd_percentiles(PERCENT)
 
 
 class Scatterer:
-    """Scatters the mounts of a session's present rates, in a thread of its own."""
+    """Scatters the mounts of a session's present rates."""
 
     def __init__(self, session: Session, changed: Callable[[], None]) -> None:
         """Starts nothing.
@@ -72,11 +63,12 @@ class Scatterer:
             changed: told that there is something new to look at.
         """
         self._session, self._changed = session, changed
-        self._lock = threading.Lock()
-        self._control = Control()
-        self._told = 0.0
-        self.look: Scattered | None = None
+        self._beside = Beside[Build, Scattered]("scatter", self._scatter, self._tell)
+
+    @property
+    def job(self) -> Job[Build, Scattered] | None:
         """The newest scatter; None before the first."""
+        return self._beside.job
 
     def start(self, n_samples: int) -> None:
         """Begins with so many vehicles.
@@ -84,79 +76,43 @@ class Scatterer:
         Raises:
             ModevizError: another one is running, or the state's plan asks for what cannot be.
         """
-        with self._lock:
-            if self.look and self.look.is_running:
-                raise ModevizError("a scatter is running: cancel it first")
-            state = self._session.state
-            assert state.plan is not None
-            problem = planned(self._session.vehicle, state.plan)
-            if problem.goal in NOT_SUMS:
-                problem = replace(problem, goal="accelerations")
-            self.look = Scattered(state.rates, state.conditions, problem)
-            self._control = Control()
-        arguments = problem, state, n_samples, self._control
-        threading.Thread(target=self._run, args=arguments, name="scatter", daemon=True).start()
-        self._changed()
+        state = self._session.state
+        assert state.plan is not None
+        problem = planned(self._session.vehicle, state.plan)
+        if problem.goal in NOT_SUMS:
+            problem = replace(problem, goal="accelerations")
+        self._beside.start(Build(state.rates, state.conditions, problem, n_samples))
 
     def cancel(self) -> None:
-        """Ends what is running, at once; nothing of it is kept."""
-        self._control.cancel()
-        if self.look and self.look.is_running:
-            self._put(self._control, is_cancelled=True)
+        """Ends what is running; nothing of it is kept."""
+        self._beside.cancel()
 
     def band(self, state: State, curve: Curve) -> Floats | None:
         """Between what a curve scatters, (2, n_freqs), g²/Hz, if that is known for a state."""
-        look = self.look
-        if look is None or look.percentiles is None or state.load or not look.is_of(state):
+        job = self.job
+        if job is None or job.found is None or state.load or not job.asked.is_of(state):
             return None
-        return look.percentiles[:, :, curve.point, AXIS[curve.direction]]
+        return job.found.percentiles[:, :, curve.point, AXIS[curve.direction]]
 
-    def _run(self, problem: Problem, state: State, n_samples: int, control: Control) -> None:
-        try:
-            found = self._scatter(problem, state, n_samples, control)
-            self._put(control, result=found, done=1.0)
-        except CancelledError:
-            return
-        except ModevizError as error:
-            self._put(control, failure=str(error))
-        except Exception as error:
-            traceback.print_exception(error)
-            self._put(control, failure="This is our mistake: the terminal says more.")
-        else:
-            self._session.show_again()
-
-    def _scatter(self, problem: Problem, state: State, n_samples: int, control: Control) -> Scatter:
+    def _scatter(self, build: Build, control: Control, tell: Tell[Scattered]) -> Scattered:
         vehicle, prepared = self._session.vehicle, self._session.prepared
-        goal = prepare_goal(vehicle, problem, state.rates, state.conditions.speed)
+        goal = prepare_goal(vehicle, build.problem, build.rates, build.conditions.speed)
         assert isinstance(goal, Objective)
         control.check()
-        return scatter(
+        found = scatter(
             prepared,
-            scattered_parts(prepared, state.rates, Tolerance()),
-            state.conditions,
+            scattered_parts(prepared, build.rates, Tolerance()),
+            build.conditions,
             goal,
-            n_samples,
+            build.n_samples,
             points=[point.name for point in vehicle.response_points],
             control=control,
-            tell=lambda done: self._tell(control, done),
+            tell=tell,
         )
+        return Scattered(found)
 
-    def _tell(self, control: Control, done: float) -> None:
-        if time.monotonic() - self._told > TELL_EVERY:
-            self._told = time.monotonic()
-            self._put(control, done=done)
-
-    def _put(self, control: Control, **news) -> None:
-        """Keeps news of the newest scatter; those of one that was cancelled are nobody's."""
-        with self._lock:
-            if control is not self._control or (self.look and self.look.is_cancelled):
-                return
-            assert self.look is not None
-            self.look = replace(self.look, **news)
+    def _tell(self) -> None:
+        """Has the charts drawn again once there is a band."""
         self._changed()
-
-
-def between(values: Floats) -> tuple[float, float]:
-    """Its two percentiles of `PERCENT`."""
-    low, high = np.percentile(values, PERCENT)
-    return float(low), float(high)
+        if self.job and self.job.found:
+            self._session.show_again()

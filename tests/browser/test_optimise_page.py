@@ -156,7 +156,7 @@ def test_scattered_parts_shade_the_charts_until_a_rate_moves(app, page):
     chart = app._response._charts._plots[0]._chart
     assert not chart.bands
     press(page, "Scatter")
-    wait_until(page, lambda: app.scatterer.look and app.scatterer.look.result)
+    wait_until(page, lambda: app.scatterer.job and app.scatterer.job.found)
     wait_for(page, f"{TEXT}.includes('1000 vehicles')")
     wait_until(page, lambda: chart.bands)
     low, high, *_, now, _ = chart.data[1:]

@@ -15,8 +15,9 @@ from modeviz.tuning.spread import spread
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.assign import assign
+from modeviz.viewer.beside import Job
 from modeviz.viewer.html import block, heading, hinted, row, span, table, title
-from modeviz.viewer.scatterer import PERCENT, Scattered, Scatterer, between
+from modeviz.viewer.scatterer import PERCENT, Build, Scattered, Scatterer
 from modeviz.viewer.session import Session
 
 SCATTER, CANCEL = "Scatter", "Cancel"
@@ -60,12 +61,11 @@ class ScatterPanel:
         if not self._is_built:
             return
         with self._lock:
-            look = self._scatterer.look
-            is_running = look is not None and look.is_running
-            assign(self._buttons, options=(CANCEL,) if is_running else (SCATTER,))
-            if look is not None:
-                is_current = look.is_of(self._session.state)
-                assign(self._text, content=block(*_text(look, is_current)))
+            job = self._scatterer.job
+            assign(self._buttons, options=(CANCEL,) if job and job.is_running else (SCATTER,))
+            if job:
+                is_current = job.asked.is_of(self._session.state)
+                assign(self._text, content=block(*_text(job, is_current)))
 
     def _press(self, event: viser.GuiEvent) -> None:
         if self._buttons.value == CANCEL:
@@ -78,17 +78,18 @@ class ScatterPanel:
                 event.client.add_notification("Not possible", str(error), color="red")
 
 
-def _text(look: Scattered, is_current: bool) -> list[str]:
-    if look.failure:
-        return [heading("Failed"), span(title(look.failure), "bad")]
-    if look.is_cancelled:
+def _text(job: Job[Build, Scattered], is_current: bool) -> list[str]:
+    if job.phase == "failed":
+        return [heading("Failed"), span(escape(job.failure), "bad")]
+    if job.phase == "cancelled":
         return [heading("Cancelled")]
-    if look.result is None:
-        bar = f'<div class="bar"><i style="width:{look.done:.0%};background:var(--mv-now)"></i></div>'
-        return [heading("Scattering", f"{100 * look.done:.0f} %"), bar]
-    n = f"{len(look.result.goal)} vehicles"
+    if job.found is None:
+        bar = f'<div class="bar"><i style="width:{job.done:.0%};background:var(--mv-now)"></i></div>'
+        return [heading("Scattering", f"{100 * job.done:.0f} %"), bar]
+    found = job.found.scatter
+    n = f"{len(found.goal)} vehicles"
     quiet = n if is_current else f"{n}, other rates or road"
-    return [heading("Scatter", quiet), _figures(look.problem, look.result), _parts(look.result)]
+    return [heading("Scatter", quiet), _figures(job.asked.problem, found), _parts(found)]
 
 
 def _figures(problem: Problem, found: Scatter) -> str:
@@ -100,14 +101,14 @@ def _figures(problem: Problem, found: Scatter) -> str:
         axis = AXIS[direction]
         values, nominal = driver[:, axis], float(found.nominal_rms[0, axis])
         rows.append(_row(f"RMS {direction}, g", values, nominal))
-    low, high = between(found.mean_personal_rating)
+    low, high = _between(found.mean_personal_rating)
     nominal = float(rating_of(found.nominal_rms[:1])[0])
     rows.append(row(["Ride rating", number(low, 2), span(number(nominal, 2), "dim"), number(high, 2)]))
     return table(("", f"{PERCENT[0]:g} %", "as drawn", f"{PERCENT[1]:g} %"), rows)
 
 
 def _row(label: str, values: Floats, nominal: float) -> str:
-    low, high = between(values)
+    low, high = _between(values)
     return row([label, significant(low), span(significant(nominal), "dim"), significant(high)])
 
 
@@ -118,3 +119,9 @@ def _parts(found: Scatter) -> str:
     most = np.argsort(-shares)[:N_PARTS]
     rows = [row([title(names[i]), f"{100 * shares[i]:.0f} %"]) for i in most]
     return table(("Most of the goal's spread", ""), rows)
+
+
+def _between(values: Floats) -> tuple[float, float]:
+    """The percentiles of `PERCENT`."""
+    low, high = np.percentile(values, PERCENT)
+    return float(low), float(high)

@@ -1,0 +1,119 @@
+"""Left column: a front of designs between two goals, on which a click loads one."""
+
+import threading
+from html import escape
+
+import viser
+
+from modeviz.errors import ModevizError
+from modeviz.export.axes import Axis
+from modeviz.export.wording import sentence_case, significant
+from modeviz.viewer.assign import assign
+from modeviz.viewer.beside import Job
+from modeviz.viewer.html import HiddenButtons, block, heading, span
+from modeviz.viewer.session import Session
+from modeviz.viewer.trader import Designs, Trade, Trader
+
+FIND, CANCEL = "Find front", "Cancel"
+N_POINTS = 24
+MARGIN = 0.06
+"""Of the axes' length, between the outermost points and the frame."""
+
+
+class TradeOffPanel:
+    """Which two goals, a button that finds their front, and the front."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session, trader: Trader) -> None:
+        """Builds the controls; nothing where nothing can be traded."""
+        self._session, self._trader = session, trader
+        self._lock = threading.Lock()
+        offers = trader.offers() if session.state.plan else ()
+        self._is_built = bool(offers)
+        if not self._is_built:
+            return
+        with gui.add_folder("Trade-off"):
+            self._points = HiddenButtons(gui, N_POINTS, trader.load)
+            self._between = gui.add_dropdown(
+                "Between",
+                tuple(map(sentence_case, offers)),
+                hint="Two goals out of the problem above, of which neither can fall any more unless the "
+                "other rises",
+            )
+            self._buttons = gui.add_button_group(
+                "Front",
+                (FIND,),
+                hint="Looks for designs along the front of both goals, from the best in one to the best "
+                "in the other; takes a while. Click on one to load its rates",
+            )
+            self._buttons.on_click(lambda event: self._press(event))
+            self._front = gui.add_html("")
+
+    def follow(self) -> None:
+        """Draws the front as far as it is found; may be called in any thread."""
+        if not self._is_built:
+            return
+        with self._lock:
+            job = self._trader.job
+            offers = self._trader.offers()
+            if offers:
+                assign(self._between, options=tuple(map(sentence_case, offers)))
+            assign(self._buttons, options=(CANCEL,) if job and job.is_running else (FIND,))
+            if job:
+                assign(self._front, content=block(_where(job), self._chart(job)))
+
+    def _press(self, event: viser.GuiEvent) -> None:
+        if self._buttons.value == CANCEL:
+            self._trader.cancel()
+            return
+        names = {sentence_case(name): name for name in self._trader.offers()}
+        try:
+            self._trader.start(names[self._between.value])
+        except ModevizError as error:
+            if event.client:
+                event.client.add_notification("Not possible", str(error), color="red")
+
+    def _chart(self, job: Job[Trade, Designs]) -> str:
+        """The designs where both goals have them, as points that can be clicked."""
+        designs = (job.found or ())[:N_POINTS]
+        if not designs:
+            return ""
+        across, up = (axis([design.values[i] for design in designs]) for i in (0, 1))
+        first, second = (escape(side.name) for side in job.asked.sides)
+        points = []
+        for i, design in enumerate(designs):
+            a, b = design.values
+            hint = f"{first} {significant(a)}, {second} {significant(b)}: click to load"
+            is_present = design.rates == self._session.state.rates
+            place = f"left:{100 * float(across.place(a)):.1f}%;bottom:{100 * float(up.place(b)):.1f}%"
+            point = self._points.label(i, f'<span title="{hint}"></span>')
+            points.append(f'<div class="{"on" if is_present else ""}" style="{place}">{point}</div>')
+        ticks = [*_ticks(across, "left"), *_ticks(up, "bottom")]
+        named = f'<div class="dim">{sentence_case(second)} ↑ &nbsp; {sentence_case(first)} →</div>'
+        return f'{named}<div class="front">{"".join(ticks)}{"".join(points)}</div>'
+
+
+def axis(values: list[float]) -> Axis:
+    """An axis that holds values, and a little more."""
+    low, high = min(values), max(values)
+    margin = MARGIN * ((high - low) or abs(high) or 1.0)
+    return Axis("", low - margin, high + margin)
+
+
+def _ticks(of: Axis, side: str) -> list[str]:
+    """The round values of an axis, where they are."""
+    every = 2 if len(of.ticks()) > 5 else 1
+    return [
+        f'<i class="{side}" style="{side}:{100 * float(of.place(value)):.1f}%">{text}</i>'
+        for value, text in of.ticks()[::every]
+    ]
+
+
+def _where(job: Job[Trade, Designs]) -> str:
+    n = len(job.found or ())
+    designs = f"{n} design{'' if n == 1 else 's'}"
+    if job.phase == "failed":
+        return heading("Failed") + span(escape(job.failure), "bad")
+    if job.is_running:
+        bar = f'<div class="bar"><i style="width:{job.done:.0%};background:var(--mv-now)"></i></div>'
+        return heading("Searching", designs) + bar
+    return heading("Front" if job.phase == "ended" else "Cancelled", designs)
