@@ -170,6 +170,25 @@ def test_cancel_while_it_prepares_is_over_at_once_and_changes_nothing(session, o
     assert session.state == before
 
 
+def test_a_search_is_paused_before_it_began(optimiser, gate, monkeypatch):
+    may_prepare, prepare = threading.Event(), module.prepare_search
+
+    def slow(*args):
+        may_prepare.wait(SOON)
+        return prepare(*args)
+
+    monkeypatch.setattr(module, "prepare_search", slow)
+    optimiser.start()
+    optimiser.pause()
+    may_prepare.set()
+    assert optimiser.look.phase == "paused"
+    optimiser.resume()
+    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.cancel()
+    optimiser.wait(lambda: not optimiser.look.is_running)
+    assert optimiser.look.optimum.reason == "cancelled"
+
+
 def test_a_paused_search_evaluates_nothing_until_it_goes_on(session, optimiser, gate):
     optimiser.start()
     optimiser.wait(lambda: optimiser.look.falls)

@@ -82,21 +82,20 @@ class Pursuit:
 
     def pause(self) -> None:
         """Holds it, with the session at the best design so far."""
-        if self._turn("searching", "paused"):
+        if self._turn("paused", "preparing", "searching"):
             self._control.pause()
             self._follow()
 
     def resume(self) -> None:
         """Lets it go on."""
-        if self._turn("paused", "searching"):
+        if self._turn("searching", "paused"):
             self._control.resume()
 
     def cancel(self) -> None:
         """Ends it; the best design so far is kept. While it prepares it is over at once."""
         self._control.cancel()
-        self._turn("preparing", "ended")
-        for phase in ("searching", "paused"):
-            self._turn(phase, "checking")
+        self._turn("ended", "preparing")
+        self._turn("checking", "searching", "paused")
 
     def join(self) -> None:
         """Waits for the end of the thread, but not longer than anybody would."""
@@ -113,7 +112,7 @@ class Pursuit:
             starts = start_points(search, self.look.before, n_starts, control=control)
             optimum = optimise(search, starts, control=control, tell=self._note)
         except CancelledError:
-            return
+            self._put(phase="ended")
         except ModevizError as error:
             self._fail(str(error))
         except Exception as error:
@@ -173,12 +172,12 @@ class Pursuit:
 
         self.change(followed)
 
-    def _turn(self, before: Phase, after: Phase) -> bool:
-        """Goes from one phase to another; whether it still was in the first."""
+    def _turn(self, phase: Phase, *before: Phase) -> bool:
+        """Goes on to a phase from one of some others; whether it still was in one of them."""
         with self._lock:
-            if self.look.phase != before:
+            if self.look.phase not in before:
                 return False
-            self.look = replace(self.look, phase=after)
+            self.look = replace(self.look, phase=phase)
         self._changed()
         return True
 

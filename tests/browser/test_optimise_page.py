@@ -164,3 +164,14 @@ def test_scattered_parts_shade_the_charts_until_a_rate_moves(app, page):
     app.session.set_rate("A", "vertical", 3e5)
     wait_for(page, f"{TEXT}.includes('other rates or road')")
     wait_until(page, lambda: not chart.bands)
+
+
+def test_a_click_on_a_front_loads_its_design(app, page):
+    press(page, "Find front")
+    wait_until(page, lambda: app.trader.job and app.trader.job.phase == "ended", seconds=120)
+    points = "document.querySelectorAll('.mv .front > div')"
+    designs = app.trader.job.found
+    wait_for(page, f"{points}.length === a.n", n=len(designs))
+    page.locator(".mv .front label").nth(1).click()
+    wait_until(page, lambda: app.session.state.rates == designs[1].rates)
+    wait_for(page, f"{points}[1].className === 'on'")

@@ -36,14 +36,14 @@ class TradeOffPanel:
             self._between = gui.add_dropdown(
                 "Between",
                 tuple(map(sentence_case, offers)),
-                hint="Two goals out of the problem above, of which neither can fall any more unless the "
-                "other rises",
+                hint="Two goals out of the problem above; on their front neither can fall any more "
+                "unless the other rises",
             )
             self._buttons = gui.add_button_group(
                 "Front",
                 (FIND,),
-                hint="Looks for designs along the front of both goals, from the best in one to the best "
-                "in the other; takes a while. Click on one to load its rates",
+                hint="Looks for designs from the best in one goal to the best in the other; takes a "
+                "while. Click on one to load its rates",
             )
             self._buttons.on_click(lambda event: self._press(event))
             self._front = gui.add_html("")

@@ -21,7 +21,7 @@ from modeviz.viewer.state import State
 START, PAUSE, RESUME, CANCEL = "Start", "Pause", "Resume", "Cancel"
 ACCEPT, GO_BACK = "Accept", "Go back"
 OFFERED = {
-    "preparing": (CANCEL,),
+    "preparing": (PAUSE, CANCEL),
     "searching": (PAUSE, CANCEL),
     "paused": (RESUME, CANCEL),
     "checking": (),

@@ -1,0 +1,101 @@
+"""The front of a trade-off, in a session."""
+
+import threading
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.errors import VehicleError
+from modeviz.tuning.results import Conditions
+from modeviz.viewer import trader as module
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import first_state
+from modeviz.viewer.trader import Trader
+
+SOON = 60
+OFFER = "lateral against vertical"
+
+
+@pytest.fixture
+def session():
+    vehicle = mounted_cabin()
+    state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
+    session = Session(vehicle, state, lambda _: None, print)
+    yield session
+    session.close()
+
+
+@pytest.fixture
+def trader(session):
+    told = threading.Condition()
+
+    def tell():
+        with told:
+            told.notify_all()
+
+    def wait(reached):
+        with told:
+            assert told.wait_for(reached, SOON)
+
+    trader = Trader(session, tell)
+    trader.wait = wait
+    yield trader
+    trader.cancel()
+
+
+def test_on_the_front_neither_goal_falls_unless_the_other_rises(trader):
+    assert trader.offers() == (OFFER,)
+    trader.start(OFFER)
+    trader.wait(lambda: not trader.job.is_running)
+    assert trader.job.phase == "ended"
+    lateral, vertical = np.transpose([design.values for design in trader.job.found])
+    assert len(lateral) > 2
+    assert (np.diff(lateral) > 0).all()
+    assert (np.diff(vertical) < 0).all()
+
+
+def test_a_design_is_loaded_and_undone(session, trader):
+    before = session.state
+    trader.start(OFFER)
+    trader.wait(lambda: not trader.job.is_running)
+    trader.load(1)
+    assert session.state.rates == trader.job.found[1].rates
+    trader.load(99)
+    session.undo()
+    assert session.state == before
+
+
+def test_cancel_keeps_the_designs_found_by_then(trader, monkeypatch):
+    find, may_go = module.find_front, threading.Event()
+
+    def held(*arguments, tell, **keywords):
+        def hold(progress):
+            tell(progress)
+            may_go.wait(SOON)
+
+        return find(*arguments, tell=hold, **keywords)
+
+    monkeypatch.setattr(module, "find_front", held)
+    trader.start(OFFER)
+    trader.wait(lambda: trader.job.found)
+    found = trader.job.found
+    trader.cancel()
+    assert trader.job.phase == "cancelled"
+    may_go.set()
+    assert trader.job.found is found
+
+
+def test_where_nothing_can_be_traded_nothing_is_offered(session, trader):
+    session.update(lambda state: replace(state, plan=replace(state.plan, groups=frozenset())))
+    assert trader.offers() == ()
+    with pytest.raises(VehicleError, match="no group of mounts may change"):
+        trader.start(OFFER)
+
+
+def test_a_goal_without_sides_is_told(session, trader):
+    session.update(lambda state: replace(state, plan=replace(state.plan, goal="rating")))
+    trader.start(OFFER)
+    trader.wait(lambda: not trader.job.is_running)
+    assert "has no points and directions to trade" in trader.job.failure
