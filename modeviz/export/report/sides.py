@@ -39,7 +39,7 @@ def chart(
     f = frequency_hz
     shown = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
     styles = zip(comparison.names, levels, (BASE, NOW), (1.6, 2.2), peaks, strict=True)
-    curves = [Curve(name, f, level, *style) for name, level, *style in styles]
+    curves = [Curve(name, f, level, color, width, lines) for name, level, color, width, lines in styles]
     y = decibel_axis(unit, [level[shown] for level in levels])
     svg = line_chart(curves, Axis("Frequency, Hz", *SHOWN_HZ), y, heading, 900, 270)
     return f"<figure>{svg}<figcaption>{escape(heading)}; peaks in Hz</figcaption></figure>"
