@@ -227,7 +227,7 @@ class App:
             self._shape = ShapePanel(gui, session)
         card.float(x=24, y=-24)
         Layout(self.server, ((gui.main_panel, LEFT), (right, RIGHT), (card, CARD)))
-        self._hotkeys.add("Play or pause", "space", lambda _: self._animation.toggle())
+        self._hotkeys.add("Play or pause", "space", lambda event: self._animation.toggle(event.client))
         self._hotkeys.add("Next mode", "N", lambda _: self._step_mode(1))
         self._hotkeys.add("Mode before", "P", lambda _: self._step_mode(-1))
         self._hotkeys.add("Swap with the set compared with", "B", lambda _: session.swap())

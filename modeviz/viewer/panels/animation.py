@@ -7,11 +7,13 @@ import numpy as np
 import viser
 
 from modeviz.export.wording import sentence_case
+from modeviz.viewer import scripts
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.html import block, heading, title
 from modeviz.viewer.panels.color_scale import color_scale
+from modeviz.viewer.settle import WriteBack
 
 START_SPEED_HZ = 0.5
 START_PHASE = 90.0
@@ -32,6 +34,7 @@ class AnimationCard:
             step_mode: shows the next mode (+1) or the one before (-1).
         """
         self._driver, self._step_mode = driver, step_mode
+        self._write_back = WriteBack()
         self._head = gui.add_html("")
         self._amplitude = gui.add_slider(
             "Amplitude", 0.0, 3.0, 0.05, 1.0, marks=(1.0,), hint="How far the shape is drawn"
@@ -54,13 +57,15 @@ class AnimationCard:
             marks=(90.0, 180.0, 270.0),
             hint="Stops at this phase, degrees",
         )
+        self._stands = gui.add_number("Stands at", START_PHASE, visible=False)
         self._transport = gui.add_button_group(
             "Motion", (PAUSE, PREVIOUS, NEXT), hint="Stop or go on; the mode before or after this one"
         )
         self._amplitude.on_update(lambda _: driver.drive(amplitude=self._amplitude.value))
         self._speed.on_update(lambda _: driver.drive(frequency_hz=self._speed.value))
-        self._phase.on_update(lambda _: self._hold())
-        self._transport.on_click(lambda _: self._press(self._transport.value))
+        self._phase.on_update(self._hold)
+        self._stands.on_update(lambda _: self._say_phase())
+        self._transport.on_click(lambda event: self._press(self._transport.value, event.client))
         driver.drive(frequency_hz=START_SPEED_HZ, running=True)
         self._is_running = True
 
@@ -73,11 +78,20 @@ class AnimationCard:
         content = block(heading(name, escape(moving.about)), color_scale(solved), problem)
         assign(self._head, content=content)
 
-    def toggle(self) -> None:
-        """Stops the motion, or lets it go on."""
+    def toggle(self, client: viser.ClientHandle | None) -> None:
+        """Stops the motion for all pages where it is in one of them, or lets it go on."""
         self._run(not self._is_running)
+        if client is not None and not self._is_running:
+            scripts.run(client.gui, "tell_phase.js", self._stands._impl.uuid)
 
-    def _hold(self) -> None:
+    def _say_phase(self) -> None:
+        """Takes over the phase at which a page stands, unless the motion has gone on meanwhile."""
+        if not self._is_running:
+            assign(self._phase, value=self._stands.value)
+
+    def _hold(self, event: viser.GuiEvent) -> None:
+        if event.client is not None:  # its value may cross what `_say_phase` sends
+            self._write_back.touch(event.target)
         self._run(False)
         self._driver.seek(np.deg2rad(self._phase.value))
 
@@ -86,11 +100,11 @@ class AnimationCard:
         self._is_running = running
         self._transport.options = (PAUSE if running else PLAY, PREVIOUS, NEXT)
 
-    def _press(self, button: str) -> None:
+    def _press(self, button: str, client: viser.ClientHandle | None) -> None:
         if button in (PREVIOUS, NEXT):
             self._step_mode(1 if button == NEXT else -1)
-        else:
-            self._run(button == PLAY)
+        elif (button == PLAY) != self._is_running:
+            self.toggle(client)
 
 
 def _said(problem: str) -> str:
