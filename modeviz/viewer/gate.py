@@ -4,14 +4,17 @@ Values from a page are anybody's: viser stores 1e9 and NaN, and lets a page set 
 widget. Here a message must be of a kind we use, and its value one that its widget can produce.
 """
 
+import asyncio
 import math
 from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import viser
 from viser import _messages
 from viser.infra import ClientId, WebsockClientConnection
 
+from modeviz.viewer.settle import DELAY
 from modeviz.viewer.uploads import UPLOADS, is_upload_allowed, refuse_upload
 
 if TYPE_CHECKING:
@@ -70,10 +73,29 @@ def _gate(server: viser.ViserServer, handler: Any, connection: WebsockClientConn
         if set(message.updates) == {"value"} and is_possible(widget, message.updates["value"]):
             await handle(client_id, message)
         elif connection is not None and not isinstance(widget, viser.GuiUploadButtonHandle):
-            true_value = {"value": widget._impl.value}
-            connection.queue_message(_messages.GuiUpdateMessage(message.uuid, true_value))
+            _correct(connection, widget)
+            # The correction can cross a possible value that the page says next.
+            again = partial(_correct_if_there, server, client_id, connection, widget)
+            asyncio.get_running_loop().call_later(DELAY, again)
 
     handler._handle_incoming_message = checked
+
+
+def _correct(connection: WebsockClientConnection, widget: "_GuiInputHandle") -> None:
+    """Sends a page the value that a widget has."""
+    true_value = {"value": widget._impl.value}
+    connection.queue_message(_messages.GuiUpdateMessage(widget._impl.uuid, true_value))
+
+
+def _correct_if_there(
+    server: viser.ViserServer,
+    client_id: ClientId,
+    connection: WebsockClientConnection,
+    widget: "_GuiInputHandle",
+) -> None:
+    """The same, unless the page has been closed meanwhile."""
+    if client_id in server.get_clients():
+        _correct(connection, widget)
 
 
 def _widget(server: viser.ViserServer, client_id: ClientId, uuid: str) -> "_GuiInputHandle | None":

@@ -194,13 +194,16 @@ def fence(server):
     return server.gui.add_checkbox("Fence", False)
 
 
-def say(server, fence, *messages):
-    """Sends messages as a page would, and returns the values it is sent until the fence's own."""
+def say(server, fence, *messages, n_fences=1):
+    """Sends messages as a page would, and returns the values it is sent until the fence's own.
+
+    That comes at once, and for a second time when all that was refused is put right again.
+    """
     corrections = []
     with knock(server, own_origin(server)) as socket:
         for message in (*messages, update(fence, value="neither")):
             socket.send(msgspec.msgpack.encode({"type": type(message).__name__, **vars(message)}))
-        while not corrections or corrections[-1]["uuid"] != fence._impl.uuid:
+        while sum(m["uuid"] == fence._impl.uuid for m in corrections) < n_fences:
             sent = decoded(socket.recv(timeout=20))
             corrections += [m for m in sent if m["type"] == "GuiUpdateMessage"]
     return corrections[:-1]
@@ -276,6 +279,17 @@ def test_refused_value_is_put_back_on_the_screen(server, fence):
     sent = say(server, fence, update(number, value=1e9))
     corrections = [m["updates"] for m in sent if m["uuid"] == number._impl.uuid]
     assert corrections == [{"value": 20.0}]
+    number.remove()
+
+
+def test_a_correction_does_not_undo_the_possible_value_that_follows(server, fence):
+    """As a box does that is left with a number that is too large: it says that, then the largest."""
+    number = server.gui.add_number("Speed", 20.0, min=0.0, max=50.0)
+    wrong, right = update(number, value=99999), update(number, value=50)
+    sent = say(server, fence, wrong, right, n_fences=2)
+    corrections = [m["updates"] for m in sent if m["uuid"] == number._impl.uuid]
+    assert corrections == [{"value": 20.0}, {"value": 50.0}]
+    assert number.value == 50
     number.remove()
 
 
