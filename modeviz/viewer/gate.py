@@ -94,7 +94,7 @@ def _correct_if_there(
     widget: "_GuiInputHandle",
 ) -> None:
     """The same, unless the page has been closed meanwhile."""
-    if client_id in server.get_clients():
+    if client_id in server._websock_server._live_connections:
         _correct(connection, widget)
 
 
