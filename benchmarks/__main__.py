@@ -13,9 +13,10 @@ from benchmarks.figures import figures
 from benchmarks.measure import ONE_THREAD, in_own_process, machine
 from benchmarks.report import Figures, Report, tables
 from benchmarks.scaled_vehicle import Size
+from benchmarks.scatter import scatter_figures
 from benchmarks.websocket import drag
 
-N_FREQS, N_ROUNDS, N_MOVES = 400, 3, 60
+N_FREQS, N_ROUNDS, N_MOVES, N_SAMPLES = 400, 3, 60, 10_000
 SIZES = [
     (Size(n_wagons=4, n_modes=50, n_mounts=3), 400, 40.0),
     (Size(n_wagons=4, n_modes=250, n_mounts=3), 100, 40.0),
@@ -30,7 +31,7 @@ SIZES = [
 """Vehicles of 200 to 2000 coordinates with 27 to 300 springs, at how many frequencies
 and with modes up to how many hertz."""
 
-QUICK = 20, 1, 5
+QUICK = 20, 1, 5, 100
 QUICK_SIZES = [(Size(n_wagons=3, n_modes=20, n_mounts=1), 20, 40.0)]
 
 P = ParamSpec("P")
@@ -54,6 +55,7 @@ def measure(
     n_freqs: int = N_FREQS,
     n_rounds: int = N_ROUNDS,
     n_moves: int = N_MOVES,
+    n_samples: int = N_SAMPLES,
     sizes: Sequence[tuple[Size, int, float]] = SIZES,
 ) -> Report:
     """Everything, each part in a process of its own.
@@ -62,10 +64,12 @@ def measure(
         n_freqs: frequencies on the truck.
         n_rounds: turns of each method.
         n_moves: of a slider in the page.
+        n_samples: trucks whose mounts scatter.
         sizes: other vehicles, with their number of frequencies and the top of their band, Hz.
     """
     comparison = _run("the methods", compare, n_freqs, n_rounds)
     truck = _run("the truck", figures, None, n_freqs)
+    scattered = _run("scatter", scatter_figures, n_samples, n_freqs)
     page = _run("the page", drag, n_moves)
     others = [_run(f"{size}, {n} frequencies", figures, size, n, top) for size, n, top in sizes]
     return Report(
@@ -80,6 +84,7 @@ def measure(
             websocket_ms=page.websocket_ms,
             server_ms=page.server_ms,
         ),
+        scatter=scattered,
         scaling=[truck, *others],
     )
 

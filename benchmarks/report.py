@@ -49,6 +49,18 @@ class SizeRow(TypedDict):
     """Scaled from a few frequencies."""
 
 
+class ScatterFigures(TypedDict):
+    """What it takes to drive many vehicles whose mounts scatter."""
+
+    samples: int
+    seconds: float
+    """After the preparation."""
+    peak_mb: float
+    """Of the process that prepared and did this."""
+    psd_error: float
+    """How far an interpolated PSD is off at worst, a part of it."""
+
+
 class Report(TypedDict):
     """All of it."""
 
@@ -56,6 +68,7 @@ class Report(TypedDict):
     """With "not_installed", the peers that are missing and why."""
     comparison: list[MethodRow]
     modeviz: Figures
+    scatter: ScatterFigures
     scaling: list[SizeRow]
     """The built-in truck first, then made-up vehicles."""
 
@@ -101,7 +114,7 @@ def _comparison(report: Report) -> str:
 
 
 def _figures(report: Report) -> str:
-    figures = report["modeviz"]
+    figures, scatter = report["modeviz"], report["scatter"]
     return table(
         ["modeviz on the built-in truck", ""],
         [
@@ -109,6 +122,8 @@ def _figures(report: Report) -> str:
             ["the same through a websocket, ms", f"{figures['websocket_ms']:.1f}"],
             ["processor time of the server for it, ms", f"{figures['server_ms']:.1f}"],
             ["sets of rates in a batch, 1/s", f"{figures['batch_per_s']:.0f}"],
+            [f"{scatter['samples']} scattered trucks, s", f"{scatter['seconds']:.1f}"],
+            ["peak memory of that, MB", f"{scatter['peak_mb']:.0f}"],
             ["preparation, s", f"{figures['prepare_s']:.2f}"],
             ["peak memory, MB", f"{figures['peak_mb']:.0f}"],
             ["response by the time of its flops in gemm", f"{figures['gemm_floor_ratio']:.1f}"],

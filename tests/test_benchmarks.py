@@ -97,7 +97,9 @@ def quick(tmp_path_factory):
 @pytest.mark.slow
 def test_figures_are_written_in_the_documented_structure(quick):
     _, report = quick
-    assert set(report) == {"machine", "comparison", "modeviz", "scaling"}
+    assert set(report) == {"machine", "comparison", "modeviz", "scatter", "scaling"}
+    assert set(report["scatter"]) == {"samples", "seconds", "peak_mb", "psd_error"}
+    assert all(value > 0 for value in report["scatter"].values())
     for row in report["comparison"]:
         assert set(row) == {
             "method",
@@ -118,7 +120,8 @@ def test_readme_documents_every_figure(quick):
     _, report = quick
     readme = (CHECKOUT / "README.md").read_text()
     (documented,) = re.findall(r'^\{"machine".*?^```', readme, re.DOTALL | re.MULTILINE)
-    parts = [report, report["machine"], *report["comparison"], report["modeviz"], *report["scaling"]]
+    rows = [*report["comparison"], *report["scaling"]]
+    parts = [report, report["machine"], report["modeviz"], report["scatter"], *rows]
     assert set(re.findall(r'"(\w+)"', documented)) == set().union(*parts)
 
 

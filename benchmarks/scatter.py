@@ -1,0 +1,33 @@
+"""What it takes to drive many vehicles whose mounts scatter."""
+
+import time
+
+from benchmarks.measure import peak_bytes
+from benchmarks.report import ScatterFigures
+from modeviz.tuning.goals import prepare_goal
+from modeviz.tuning.objective import Objective
+from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.preparation import FREQUENCY_HZ, prepare
+from modeviz.tuning.results import Conditions
+from modeviz.tuning.scatter import scatter
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+
+
+def scatter_figures(n_samples: int, n_freqs: int) -> ScatterFigures:
+    """Rides of built-in trucks at the driver's point, and the goals of the paper's problem.
+
+    Args:
+        n_samples: how many trucks.
+        n_freqs: how many frequencies, spread over the band.
+    """
+    vehicle = read_vehicle(builtin_vehicle())
+    prepared = prepare(vehicle, FREQUENCY_HZ[:: len(FREQUENCY_HZ) // n_freqs])
+    goal = prepare_goal(vehicle, vehicle.problems[0], vehicle.rates, vehicle.speed)
+    assert isinstance(goal, Objective)
+    road = Conditions(vehicle.roads[0].name, vehicle.speed)
+    begin = time.perf_counter()
+    result = scatter(prepared, scattered_parts(prepared, {}, Tolerance()), road, goal, n_samples)
+    seconds = time.perf_counter() - begin
+    return ScatterFigures(
+        samples=n_samples, seconds=seconds, peak_mb=peak_bytes() / 1e6, psd_error=result.psd_error
+    )
