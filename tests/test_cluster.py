@@ -30,7 +30,7 @@ def study():
 
 
 def test_numbers_are_the_same_to_the_last_digit(address, study):
-    n_samples = 2 * CHUNK + 30
+    n_samples = 3 * CHUNK + 30
     here = scatter(*study, n_samples, seed=2)
     with runner_at(address) as runner:
         there = scatter(*study, n_samples, seed=2, runner=runner)

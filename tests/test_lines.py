@@ -59,4 +59,4 @@ def test_an_undamped_resonance_is_an_error():
     z = np.eye(12)[[2, 8]]
     receptances = prepare_receptances(two_masses(1.0), np.array([1.0, 4.0]), z, z)
     with pytest.raises(SolveError, match=r"no accurate response at 4\.0 Hz"):
-        few_lines(receptances, np.array([[50.0], [resonant_rate(4.0)]], complex))
+        few_lines(receptances, np.array([[0, 0, 50.0], [0, 0, resonant_rate(4.0)]], complex))

@@ -12,7 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
+from numpy.typing import NDArray
 
+from modeviz.dynamics.galerkin import Reduced
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.vehicle.arrays import Complexes
 
@@ -24,8 +26,10 @@ TOLERANCE = 3e-5
 class FewLines:
     """Receptances at a few frequencies, and what they tell about all."""
 
-    receptances: Receptances
-    """At the few frequencies."""
+    lines: NDArray[np.intp]
+    """(n_lines,): the numbers of the few frequencies."""
+    receptances: Receptances | Reduced
+    """At these."""
     matrix: Complexes
     """(n_freqs, n_lines): the response at every frequency per response at the few."""
     offset: Complexes
@@ -66,13 +70,13 @@ def few_lines(receptances: Receptances, stiffness: Complexes) -> FewLines:
     lines, between = _interpolation(samples)
     matrix = between * scale[lines] / scale[:, None]
     offset = middle - np.tensordot(matrix, middle[lines], 1)
-    return FewLines(receptances.at(lines), matrix, offset)
+    return FewLines(lines, receptances.at(lines), matrix, offset)
 
 
-def _interpolation(samples: Complexes) -> tuple[np.ndarray, Complexes]:
+def _interpolation(samples: Complexes) -> tuple[NDArray[np.intp], Complexes]:
     """Some columns, rising, and the matrix (n_columns, n_some) that gives all columns from them."""
     factors = scipy.linalg.qr(samples, mode="r", pivoting=True, check_finite=False)
-    R, order = np.asarray(factors[0]), np.asarray(factors[-1])
+    R, order = np.asarray(factors[0]), np.asarray(factors[-1], np.intp)
     size = np.abs(np.diag(R))
     rank = int(np.count_nonzero(size > TOLERANCE * size[0]))
     coefficients = np.zeros((samples.shape[1], rank), complex)

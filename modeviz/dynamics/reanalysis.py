@@ -131,7 +131,7 @@ class Receptances:
                 A = self.springs[i] / np.multiply.outer(u, u) * scale[sets, None]
                 A[:, range(n_springs), range(n_springs)] += weight[sets]
                 b = np.broadcast_to(self.inputs[i] / u[:, None], (len(A), *self.inputs.shape[1:]))
-                forces = (scale[sets] / u)[:, :, None] * _solve(A, b, np.full(len(A), f))
+                forces = (scale[sets] / u)[:, :, None] * solve_checked(A, b, np.full(len(A), f))
                 H[sets, i] = self.direct[i] - _transposed(np.tensordot(forces, self.outputs[i], (1, 0)))
         return H
 
@@ -192,7 +192,7 @@ class Receptances:
             A = self._between(changed, lines) * scale
             A[:, range(len(changed)), range(len(changed))] += weight
             b = stretches[lines, changed] / u[:, None]
-            forces[lines] = _solve(A, b, self.frequency_hz[lines])
+            forces[lines] = solve_checked(A, b, self.frequency_hz[lines])
         return changed, (change * weight / u)[:, None] * forces
 
     def _add_forces(self, stretches: Complexes, changed: NDArray[np.intp], forces: Complexes) -> None:
@@ -240,7 +240,7 @@ def prepare_receptances(
     )
 
 
-def _solve(A: Complexes, b: Complexes, frequency_hz: Floats) -> Complexes:
+def solve_checked(A: Complexes, b: Complexes, frequency_hz: Floats) -> Complexes:
     """A⁻¹ b, with a probe that no pole escapes."""
     probe = np.random.default_rng(0).uniform(0.5, 1.0, A.shape[1])
     columns = np.broadcast_to(probe[:, None], (*A.shape[:2], 1))

@@ -1,0 +1,71 @@
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+from test_reanalysis import resonant_rate, two_masses
+
+from modeviz.dynamics.galerkin import reduced
+from modeviz.dynamics.reanalysis import prepare_receptances
+from modeviz.errors import SolveError
+from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions, drive
+
+FREQUENCY_HZ = np.arange(1, 41) * 1.0
+
+
+@pytest.fixture(scope="module")
+def receptances():
+    return drive(prepare(mounted_cabin(), FREQUENCY_HZ), Conditions("flat", 20.0)).receptances
+
+
+@pytest.fixture(scope="module")
+def parts():
+    return scattered_parts(prepare(mounted_cabin(), FREQUENCY_HZ[:1]), {}, Tolerance())
+
+
+@pytest.fixture(scope="module")
+def few(receptances, parts):
+    return reduced(receptances, parts.stiffness(np.vstack([np.zeros(8), parts.samples(64, 0)])))
+
+
+def test_few_stretches_are_enough(few):
+    assert max(line.basis.shape[1] for line in few.lines) < 12
+
+
+def test_parts_that_were_not_learned_from_are_answered(few, receptances, parts):
+    stiffness = parts.stiffness(parts.samples(40, 1))
+    expected = receptances.responses(stiffness)
+    off = np.abs(few.responses(stiffness) - expected).max(axis=(0, 2, 3))
+    assert (off / np.abs(expected).max(axis=(0, 2, 3))).max() < 1e-3
+
+
+def test_parts_as_drawn_are_exact(few, receptances, parts):
+    drawn = parts.stiffness(np.zeros((1, 8)))
+    np.testing.assert_allclose(few.responses(drawn), receptances.responses(drawn), rtol=1e-9)
+
+
+def test_all_stretches_are_exact(receptances, parts, monkeypatch):
+    """With nothing left out it is structural modification, only in other coordinates."""
+    monkeypatch.setattr("modeviz.dynamics.galerkin.TOLERANCE", 0.0)
+    stiffness = parts.stiffness(np.vstack([np.zeros(8), parts.samples(64, 0)]))
+    every = reduced(receptances, stiffness)
+    other = parts.stiffness(parts.samples(5, 1))
+    np.testing.assert_allclose(every.responses(other), receptances.responses(other), rtol=1e-6)
+
+
+def test_an_undamped_resonance_is_an_error():
+    z = np.eye(12)[[2, 8]]
+    receptances = prepare_receptances(two_masses(1.0), np.array([1.0, 4.0]), z, z)
+    few = reduced(receptances, np.array([[0, 0, 50.0], [0, 0, 60.0]], complex))
+    with pytest.raises(SolveError, match=r"no accurate response at 4\.0 Hz"):
+        few.responses(np.array([[0, 0, resonant_rate(4.0)]], complex))
+
+
+def test_springs_without_a_rate_do_not_matter(receptances, parts):
+    drawn = parts.stiffness(np.zeros(8))
+    drawn[4] = 0
+    few = reduced(receptances, np.array([drawn, 1.1 * drawn, 0.9 * drawn]))
+    other = 1.05 * drawn[None]
+    expected = receptances.responses(other)
+    off = np.abs(few.responses(other) - expected).max(axis=(0, 2, 3))
+    assert (off / np.abs(expected).max(axis=(0, 2, 3))).max() < 1e-3
