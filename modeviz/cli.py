@@ -175,6 +175,7 @@ def _add_search(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--budget", type=int, default=BUDGET, metavar="N", help=f"evaluations, default {BUDGET}"
     )
+    _add_scheduler(command)
     _add_speed(command)
     _add_json(command)
 

@@ -1,17 +1,23 @@
 import os
 import signal
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from cabin_problem import PROBLEM, cabin_search
 from distributed import LocalCluster
+from mounted_cabin import mounted_cabin
 from scattered_cabin import FLAT, cabin_objective, prepared_cabin
 
 from modeviz.errors import ModevizError
 from modeviz.tuning.cluster import runner_at
 from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.multistart import optimise_on
+from modeviz.tuning.optimise import optimise, start_points
 from modeviz.tuning.parts import Tolerance, scattered_parts
 from modeviz.tuning.scatter import CHUNK, scatter
+from modeviz.vehicle.files import write_vehicle
 
 
 @pytest.fixture(scope="module")
@@ -36,6 +42,23 @@ def test_numbers_are_the_same_to_the_last_digit(address, study):
         there = scatter(*study, n_samples, seed=2, runner=runner)
     for name in ("deviations", "rms", "psd", "goal"):
         np.testing.assert_array_equal(getattr(there, name), getattr(here, name))
+
+
+def test_searches_find_the_same_to_the_last_digit(address):
+    search = cabin_search()
+    starts = start_points(search, {}, 4)
+    here = optimise(search, starts)
+    with runner_at(address) as runner:
+        there = optimise_on(runner, search, starts)
+    np.testing.assert_array_equal(there.x, here.x)
+    assert [d.value for d in there.descents] == [d.value for d in here.descents]
+    assert (there.value, there.reason, there.evaluations) == (here.value, here.reason, here.evaluations)
+
+
+def test_modeviz_optimise_says_the_same_with_a_scheduler(address, printed_json, tmp_path):
+    write_vehicle(replace(mounted_cabin(), problems=(PROBLEM,)), tmp_path / "cabin")
+    command = "optimise", str(tmp_path / "cabin"), "--starts", "3"
+    assert printed_json(*command, "--scheduler", address) == printed_json(*command)
 
 
 def slowly_squared(shared, item):

@@ -9,6 +9,8 @@ from modeviz.commands.options import chosen_speed, need, print_json, progress, v
 from modeviz.errors import ModevizError
 from modeviz.export.optimum import optimum_record, optimum_table
 from modeviz.export.wording import significant
+from modeviz.tuning.cluster import runner_at
+from modeviz.tuning.multistart import optimise_on
 from modeviz.tuning.optimise import Optimum, Progress, optimise, search_globally, start_points
 from modeviz.tuning.rate_files import rates_format, write_rates
 from modeviz.tuning.search import Search, prepare_search
@@ -25,6 +27,8 @@ def optimise_rates(options: Namespace) -> None:
     _check("--starts", options.starts, 1, MOST_STARTS)
     _check("--budget", options.budget, 1, inf)
     _check("--seed", options.seed, 0, inf)
+    if options.everywhere and options.scheduler:
+        raise ModevizError("--global is one search: expected it without --scheduler")
     vehicle, rates = vehicle_and_rates(options)
     problem = _problem(options, vehicle)
     speed = chosen_speed(options, vehicle)
@@ -54,10 +58,12 @@ def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
 def _search(options: Namespace, search: Search, rates: Rates) -> Optimum:
     """The best that is found until the end, or until Ctrl+C."""
     try:
-        with cancelled_by_interrupt() as control:
+        with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:
             if options.everywhere:
                 return search_globally(search, options.seed, options.budget, control, _tell)
             starts = start_points(search, rates, options.starts, options.seed, control)
+            if options.scheduler:
+                return optimise_on(runner, search, starts, options.budget, control, _tell)
             return optimise(search, starts, options.budget, control, _tell)
     finally:
         progress("")(1.0)  # leaves an empty line

@@ -99,8 +99,7 @@ class _Cluster:
     def map(
         self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: Control
     ) -> Iterator[T]:
-        # What is submitted, other than what is scattered, is made again if its workers are lost.
-        kept = self._client.submit(_kept, shared, pure=False)
+        kept = self._sent(shared)
         n_ahead = AHEAD * max(1, self._n_threads())
         waiting: deque[Future] = deque()
         try:
@@ -112,6 +111,13 @@ class _Cluster:
                 yield self._result(waiting.popleft(), control)
         finally:
             self._client.cancel([*waiting, kept], force=True)
+
+    def _sent(self, shared: object) -> "Future":
+        """What all tasks share, as a task: other than what is scattered, it outlives its workers."""
+        import dask.config
+
+        with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1GB"}):
+            return self._client.submit(_kept, shared, pure=False)
 
     def _result(self, future: "Future", control: Control):
         """Waits for a task while there is hope."""

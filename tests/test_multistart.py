@@ -1,0 +1,53 @@
+import pytest
+from cabin_problem import cabin_search
+
+from modeviz.errors import SolveError
+from modeviz.tuning.control import Control
+from modeviz.tuning.multistart import optimise_on
+from modeviz.tuning.optimise import optimise, start_points
+from modeviz.tuning.runner import HERE
+
+
+@pytest.fixture(scope="module")
+def search():
+    return cabin_search()
+
+
+@pytest.fixture(scope="module")
+def starts(search):
+    return start_points(search, {}, 4)
+
+
+def test_side_by_side_finds_what_one_after_the_other_does(search, starts):
+    found, expected = optimise_on(HERE, search, starts), optimise(search, starts)
+    assert found.x.tolist() == expected.x.tolist()
+    assert [d.evaluations for d in found.descents] == [d.evaluations for d in expected.descents]
+
+
+def test_every_end_of_a_search_is_told(search, starts):
+    told = []
+    found = optimise_on(HERE, search, starts, tell=told.append)
+    assert [p.start for p in told] == [1, 2, 3, 4]
+    assert told[-1].value == found.value
+    assert told[-1].evaluations == found.evaluations
+
+
+def test_cancelled_it_keeps_the_best_so_far(search, starts):
+    control = Control()
+    found = optimise_on(HERE, search, starts, control=control, tell=lambda _: control.cancel())
+    assert found.reason == "cancelled"
+    assert not found.converged
+    assert found.value == optimise(search, starts[:1]).value
+
+
+def test_cancelled_before_anything_was_found_is_an_error(search, starts):
+    control = Control()
+    control.cancel()
+    with pytest.raises(SolveError, match="cancelled before a design was found"):
+        optimise_on(HERE, search, starts, control=control)
+
+
+def test_a_budget_is_shared_evenly(search, starts):
+    found = optimise_on(HERE, search, starts, budget=12)
+    assert [d.evaluations for d in found.descents] == [3, 3, 3, 3]
+    assert found.reason == "out of budget"
