@@ -11,12 +11,13 @@ from typing import ParamSpec, TypeVar
 from benchmarks.compare import compare
 from benchmarks.figures import figures
 from benchmarks.measure import ONE_THREAD, in_own_process, machine
+from benchmarks.optimise import optimise_figures
 from benchmarks.report import Figures, Report, tables
 from benchmarks.scaled_vehicle import Size
 from benchmarks.scatter import scatter_figures
 from benchmarks.websocket import drag
 
-N_FREQS, N_ROUNDS, N_MOVES, N_SAMPLES = 400, 3, 60, 10_000
+N_FREQS, N_ROUNDS, N_MOVES, N_SAMPLES, N_STARTS = 400, 3, 60, 10_000, 20
 SIZES = [
     (Size(n_wagons=4, n_modes=50, n_mounts=3), 400, 40.0),
     (Size(n_wagons=4, n_modes=250, n_mounts=3), 100, 40.0),
@@ -31,7 +32,7 @@ SIZES = [
 """Vehicles of 200 to 2000 coordinates with 27 to 300 springs, at how many frequencies
 and with modes up to how many hertz."""
 
-QUICK = 20, 1, 5, 100
+QUICK = 20, 1, 5, 100, 2
 QUICK_SIZES = [(Size(n_wagons=3, n_modes=20, n_mounts=1), 20, 40.0)]
 
 P = ParamSpec("P")
@@ -56,6 +57,7 @@ def measure(
     n_rounds: int = N_ROUNDS,
     n_moves: int = N_MOVES,
     n_samples: int = N_SAMPLES,
+    n_starts: int = N_STARTS,
     sizes: Sequence[tuple[Size, int, float]] = SIZES,
 ) -> Report:
     """Everything, each part in a process of its own.
@@ -65,11 +67,13 @@ def measure(
         n_rounds: turns of each method.
         n_moves: of a slider in the page.
         n_samples: trucks whose mounts scatter.
+        n_starts: of a search for better rates.
         sizes: other vehicles, with their number of frequencies and the top of their band, Hz.
     """
     comparison = _run("the methods", compare, n_freqs, n_rounds)
     truck = _run("the truck", figures, None, n_freqs)
     scattered = _run("scatter", scatter_figures, n_samples, n_freqs)
+    search = _run("the search", optimise_figures, n_starts)
     page = _run("the page", drag, n_moves)
     others = [_run(f"{size}, {n} frequencies", figures, size, n, top) for size, n, top in sizes]
     return Report(
@@ -85,6 +89,7 @@ def measure(
             server_ms=page.server_ms,
         ),
         scatter=scattered,
+        optimise=search,
         scaling=[truck, *others],
     )
 

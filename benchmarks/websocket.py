@@ -77,7 +77,7 @@ def _widgets(page: Page) -> tuple[Message, Message]:
     for message in _received(page):
         if message["type"] == "GuiSliderMessage":
             slider = slider or message
-        elif message["type"] == "GuiUplotMessage":
+        elif message["type"] == "GuiUplotMessage" and message["props"]["series"][0]["label"] == "Hz":
             spectrum = spectrum or message
         if slider and spectrum:
             break

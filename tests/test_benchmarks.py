@@ -97,9 +97,13 @@ def quick(tmp_path_factory):
 @pytest.mark.slow
 def test_figures_are_written_in_the_documented_structure(quick):
     _, report = quick
-    assert set(report) == {"machine", "comparison", "modeviz", "scatter", "scaling"}
+    assert set(report) == {"machine", "comparison", "modeviz", "scatter", "optimise", "scaling"}
     assert set(report["scatter"]) == {"samples", "seconds", "peak_mb", "psd_error"}
     assert all(value > 0 for value in report["scatter"].values())
+    searched = {"variables", "one_start_s", "starts", "starts_s", "evaluations", "found"}
+    assert set(report["optimise"]) == searched
+    assert report["optimise"]["variables"] == 15
+    assert 0 < report["optimise"]["found"] < 1
     for row in report["comparison"]:
         assert set(row) == {
             "method",
@@ -122,6 +126,7 @@ def test_readme_documents_every_figure(quick):
     (documented,) = re.findall(r'^\{"machine".*?^```', readme, re.DOTALL | re.MULTILINE)
     rows = [*report["comparison"], *report["scaling"]]
     parts = [report, report["machine"], report["modeviz"], report["scatter"], *rows]
+    parts.append(report["optimise"])
     assert set(re.findall(r'"(\w+)"', documented)) == set().union(*parts)
 
 
