@@ -138,6 +138,13 @@ def test_it_tells_each_design_and_can_be_cancelled(cabin):
     assert front.evaluations <= told[1].evaluations + 1
 
 
+def test_cancelled_before_it_begins_it_has_no_designs(cabin):
+    control = Control()
+    control.cancel()
+    front = find_front(cabin[0], [{}], control=control)
+    assert (front.reason, front.designs, front.evaluations) == (CANCELLED, (), 0)
+
+
 def test_it_ends_with_its_budget(cabin):
     front = find_front(cabin[0], [{}], budget=30)
     assert front.reason == OUT_OF_BUDGET

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.tuning.control import Control
+from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.descent import descend
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent
 from modeviz.tuning.optimise import BUDGET, SCREENED
@@ -111,11 +111,12 @@ class _Walk:
 
     def spread(self, designs: Sequence[Floats]) -> None:
         """Evaluates designs to start from."""
-        for x in designs:
-            if self._spread and self._control.is_cancelled:
-                self.reason = CANCELLED
-                return
-            self._spread.append(self._trade_off.compromise(x))
+        try:
+            for x in designs:
+                self._control.check()
+                self._spread.append(self._trade_off.compromise(x))
+        except CancelledError:
+            self.reason = CANCELLED
 
     def to(self, search: Search, weights: Floats) -> None:
         """The best for one search down from several starts, unless it is to end.
