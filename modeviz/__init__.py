@@ -32,6 +32,7 @@ from modeviz.ride.wheels import wheel_forces as wheel_forces
 from modeviz.tuning.batch import solve_many as solve_many
 from modeviz.tuning.check import check_exactly as check_exactly
 from modeviz.tuning.check import classic_error as classic_error
+from modeviz.tuning.cluster import runner_at as runner_at
 from modeviz.tuning.corner import worst_corner as worst_corner
 from modeviz.tuning.design import DesignSpace as DesignSpace
 from modeviz.tuning.design import design_space as design_space

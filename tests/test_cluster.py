@@ -11,6 +11,7 @@ from mounted_cabin import mounted_cabin
 from scattered_cabin import FLAT, cabin_objective, prepared_cabin
 
 from modeviz.errors import ModevizError
+from modeviz.tuning.batch import SENT, solve_many
 from modeviz.tuning.cluster import runner_at
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.multistart import optimise_on
@@ -20,13 +21,20 @@ from modeviz.tuning.scatter import CHUNK, scatter
 from modeviz.vehicle.files import write_vehicle
 
 
+def cluster(n_workers):
+    """A scheduler with workers that are processes of their own."""
+    return LocalCluster(
+        n_workers=n_workers,
+        threads_per_worker=1,
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",
+    )
+
+
 @pytest.fixture(scope="module")
 def address():
-    """Of a scheduler with two workers, processes of their own."""
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0"
-    ) as cluster:
-        yield cluster.scheduler_address
+    with cluster(2) as own:
+        yield own.scheduler_address
 
 
 @pytest.fixture(scope="module")
@@ -59,6 +67,18 @@ def test_modeviz_optimise_says_the_same_with_a_scheduler(address, printed_json, 
     write_vehicle(replace(mounted_cabin(), problems=(PROBLEM,)), tmp_path / "cabin")
     command = "optimise", str(tmp_path / "cabin"), "--starts", "3"
     assert printed_json(*command, "--scheduler", address) == printed_json(*command)
+
+
+def test_sweeps_are_the_same_to_the_last_digit(address, study):
+    prepared, parts, conditions, _ = study
+    stiffness = parts.stiffness(parts.samples(SENT + 20, 0))
+    (here,) = solve_many(prepared, stiffness, conditions)
+    with runner_at(address) as runner:
+        first, second = solve_many(prepared, stiffness, conditions, runner=runner)
+    assert (first.start, second.start) == (0, SENT)
+    for name in ("frequency_hz", "psd", "rms"):
+        there = np.concatenate([getattr(first, name), getattr(second, name)])
+        np.testing.assert_array_equal(there, getattr(here, name))
 
 
 def slowly_squared(shared, item):
@@ -95,6 +115,30 @@ def fails(shared, item):
 def test_what_fails_there_fails_here_in_the_same_words(address):
     with runner_at(address) as runner, pytest.raises(ModevizError, match=r"^item 0 is bad$"):
         next(runner.map(fails, None, range(3), Control()))
+
+
+def lacks(shared, item):
+    import modeviz.nothing  # noqa: F401
+
+
+def test_workers_without_the_same_modeviz_are_an_error(address):
+    answer = pytest.raises(ModevizError, match=r"^the workers need the same modeviz as here: No module")
+    with runner_at(address) as runner, answer:
+        next(runner.map(lacks, None, range(3), Control()))
+
+
+def test_a_lost_scheduler_is_an_error():
+    answer = pytest.raises(ModevizError, match=r"^the scheduler is lost; start it and this again$")
+    with cluster(1) as own, answer, runner_at(own.scheduler_address) as runner:
+        for _ in runner.map(slowly_squared, 3, range(1000), Control()):
+            own.close()
+
+
+def test_a_scheduler_without_workers_is_an_error(monkeypatch):
+    monkeypatch.setattr("modeviz.tuning.cluster.TIMEOUT_S", 1.0)
+    answer = pytest.raises(ModevizError, match=r"it has no workers; start one with dask worker tcp://")
+    with cluster(0) as own, answer, runner_at(own.scheduler_address):
+        pass
 
 
 @pytest.mark.parametrize(

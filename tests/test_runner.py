@@ -18,16 +18,18 @@ def test_nothing_has_no_results():
     assert list(HERE.map(times, 3, [], Control())) == []
 
 
+def counted(taken):
+    """Items, with a list of those that were taken."""
+    for n in range(1000):
+        taken.append(n)
+        yield n
+
+
 def test_it_is_only_a_few_tasks_ahead_of_who_takes_the_results():
-    started = []
-
-    def starts(shared, item):
-        started.append(item)
-        return item
-
-    results = HERE.map(starts, None, range(1000), Control())
+    taken = []
+    results = HERE.map(times, 1, counted(taken), Control())
     assert next(results) == 0
-    assert len(started) <= N_THREADS + 1
+    assert len(taken) <= N_THREADS + 1
     results.close()
 
 
@@ -42,9 +44,11 @@ def test_what_a_task_raises_is_raised():
 def test_cancelled_it_ends_and_leaves_no_thread():
     before = set(threading.enumerate())
     control = Control()
-    results = HERE.map(times, 1, range(1000), control)
+    taken = []
+    results = HERE.map(times, 1, counted(taken), control)
     next(results)
     control.cancel()
     with pytest.raises(CancelledError):
         list(results)
+    assert len(taken) <= N_THREADS + 2
     assert set(threading.enumerate()) <= before

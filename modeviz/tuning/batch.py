@@ -10,12 +10,17 @@ from modeviz.dynamics.band import natural_frequencies
 from modeviz.errors import SolveError
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
+from modeviz.tuning.control import Control
 from modeviz.tuning.preparation import Prepared
-from modeviz.tuning.results import AXIS, Conditions, drive
+from modeviz.tuning.results import AXIS, Conditions, Drive, drive
+from modeviz.tuning.runner import Runner
 from modeviz.vehicle.arrays import Complexes, Floats
 
 MEMORY = 256 * 2**20
 """Bytes that results may take at a time."""
+
+SENT = 100
+"""The most sets that are sent away at a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +45,11 @@ class Batch:
 
 
 def solve_many(
-    prepared: Prepared, mount_stiffness: Complexes, conditions: Conditions, memory: int = MEMORY
+    prepared: Prepared,
+    mount_stiffness: Complexes,
+    conditions: Conditions,
+    memory: int = MEMORY,
+    runner: Runner | None = None,
 ) -> Iterator[Batch]:
     """Natural frequencies and ride of many sets of rates, a chunk after the other.
 
@@ -51,6 +60,8 @@ def solve_many(
         conditions: road and speed.
         memory: bytes that a chunk and the one before it, which the caller still has, may take together;
             a chunk has one set at least. Beside them one set is solved at a time.
+        runner: where chunks are solved, of at most `SENT` sets each, a few of them ahead of the caller;
+            None: here, one set after the other.
 
     Raises:
         VehicleError: a road that the vehicle does not have.
@@ -58,25 +69,37 @@ def solve_many(
             not finite or with an undamped resonance on a frequency.
     """
     _check_stiffness(mount_stiffness, len(prepared.receptances.mount_stiffness))
-    f = prepared.frequency_hz
     on_road = drive(prepared, conditions)
+    n_values = prepared.basis.n_below + 3 * len(prepared.vehicle.response_points) * (
+        len(prepared.frequency_hz) + 1
+    )
+    n_at_once = max(1, memory // (2 * 8 * n_values))
+    if runner is not None:
+        n_at_once = min(n_at_once, SENT)
+    starts = range(0, len(mount_stiffness), n_at_once)
+    chunks = [(start, mount_stiffness[start : start + n_at_once]) for start in starts]
+    if runner is None:
+        return (_solve(on_road, chunk) for chunk in chunks)
+    return runner.map(_solve, on_road, chunks, Control())
+
+
+def _solve(on_road: Drive, chunk: tuple[int, Complexes]) -> Batch:
+    """The results of some sets, of which the first has a number."""
+    start, sets = chunk
+    prepared, f = on_road.prepared, on_road.prepared.frequency_hz
     shape = (len(prepared.vehicle.response_points), 3)
-    n_bytes = 8 * (prepared.basis.n_below + (len(f) + 1) * np.prod(shape, dtype=int))
-    n_at_once = max(1, memory // (2 * n_bytes))
-    for start in range(0, len(mount_stiffness), n_at_once):
-        sets = mount_stiffness[start : start + n_at_once]
-        frequency_hz = np.empty((len(sets), prepared.basis.n_below))
-        psd = np.empty((len(sets), len(f), *shape))
-        roots = np.empty((len(sets), *shape))
-        for i, stiffness in enumerate(sets):
-            try:
-                frequency_hz[i] = natural_frequencies(prepared.basis, stiffness)
-                response = on_road.receptances.response(stiffness)
-            except SolveError as error:
-                raise SolveError(f"set {start + i + 1}: {error}") from None
-            psd[i] = acceleration_psd(f, response, on_road.spectrum).reshape(psd.shape[1:])
-            roots[i] = rms(f, psd[i])
-        yield Batch(start, frequency_hz, psd, roots)
+    frequency_hz = np.empty((len(sets), prepared.basis.n_below))
+    psd = np.empty((len(sets), len(f), *shape))
+    roots = np.empty((len(sets), *shape))
+    for i, stiffness in enumerate(sets):
+        try:
+            frequency_hz[i] = natural_frequencies(prepared.basis, stiffness)
+            response = on_road.receptances.response(stiffness)
+        except SolveError as error:
+            raise SolveError(f"set {start + i + 1}: {error}") from None
+        psd[i] = acceleration_psd(f, response, on_road.spectrum).reshape(psd.shape[1:])
+        roots[i] = rms(f, psd[i])
+    return Batch(start, frequency_hz, psd, roots)
 
 
 def _check_stiffness(stiffness: Complexes, n_springs: int) -> None:

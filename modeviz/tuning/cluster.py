@@ -4,6 +4,7 @@ import socket
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from concurrent import futures
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 from urllib.parse import urlsplit
@@ -132,6 +133,10 @@ class _Cluster:
                 last_seen = time.monotonic() if self._n_threads() else last_seen
             except KilledWorker as error:
                 raise ModevizError(f"the workers end while they compute: {error}") from None
+            except futures.CancelledError:
+                raise ModevizError("the scheduler is lost; start it and this again") from None
+            except ImportError as error:
+                raise ModevizError(f"the workers need the same modeviz as here: {error}") from None
             if time.monotonic() - last_seen > PATIENCE_S:
                 raise ModevizError("all workers of the scheduler are lost")
 
