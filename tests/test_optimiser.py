@@ -193,9 +193,11 @@ def test_a_paused_search_evaluates_nothing_until_it_goes_on(session, optimiser, 
     optimiser.start()
     optimiser.wait(lambda: optimiser.look.falls)
     optimiser.pause()
-    gate.set()
-    assert optimiser.look.phase == "paused"
     paused = optimiser.look.progress.evaluations
+    gate.set()
+    optimiser._pursuit._thread.join(0.5)
+    assert optimiser.look.phase == "paused"
+    assert optimiser.look.progress.evaluations == paused
     assert session.state.rates == optimiser.look.progress.rates
     optimiser.resume()
     optimiser.wait(lambda: not optimiser.look.is_running)

@@ -74,6 +74,7 @@ def test_nine_of_ten_vehicles_stay_within_the_band(session, scatterer):
 
 
 def test_the_page_is_drawn_again_when_the_band_is_there(session, scatterer):
+    assert session.wait_checked(SOON)
     n_before = len(session.answers)
     scatterer.start(400)
     scatterer.finish()
