@@ -1,6 +1,7 @@
 """Mounts optimised in the page."""
 
 from dataclasses import replace
+from functools import partial
 
 import pytest
 from apps import open_app
@@ -10,6 +11,7 @@ from pages import wait_for, wait_until
 
 from modeviz.export.wording import significant
 from modeviz.tuning.results import Conditions
+from modeviz.viewer import trader
 
 SOLVE_S = 60
 TEXT = "document.body.textContent"
@@ -166,7 +168,9 @@ def test_scattered_parts_shade_the_charts_until_a_rate_moves(app, page):
     wait_until(page, lambda: not chart.bands)
 
 
-def test_a_click_on_a_front_loads_its_design(app, page):
+def test_a_click_on_a_front_loads_its_design(app, page, monkeypatch):
+    monkeypatch.setattr(trader, "find_front", partial(trader.find_front, n_designs=4))
+    monkeypatch.setattr(trader, "N_STARTS", 1)
     press(page, "Find front")
     wait_until(page, lambda: app.trader.job and app.trader.job.phase == "ended", seconds=120)
     points = "document.querySelectorAll('.mv .front > div')"
