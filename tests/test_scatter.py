@@ -9,7 +9,7 @@ from modeviz.tuning.parts import Tolerance, scattered_parts
 from modeviz.tuning.results import solve
 from modeviz.tuning.scatter import CHUNK, scatter
 
-N_SAMPLES = CHUNK + 50
+N_SAMPLES = 2 * CHUNK + 50
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +89,7 @@ def test_small_tolerances_propagate_linearly(prepared, objective):
 
 def test_progress_ends_with_one(prepared, parts, objective):
     told = []
-    scatter(prepared, parts, FLAT, objective, 500, tell=told.append)
+    scatter(prepared, parts, FLAT, objective, 250, tell=told.append)
     assert told == pytest.approx([0.4, 0.8, 1.0])
 
 

@@ -21,7 +21,7 @@ from modeviz.tuning.results import AXIS, Conditions, drive
 from modeviz.tuning.runner import HERE, Runner
 from modeviz.vehicle.arrays import Complexes, Floats
 
-CHUNK = 200
+CHUNK = 100
 """Vehicles that are solved at a time, wherever they are, so that numbers never depend on where."""
 
 N_TAUGHT, N_CHECKED = 64, 16
