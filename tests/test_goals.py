@@ -124,6 +124,18 @@ def test_rms_is_of_the_points_and_directions_that_are_named():
     assert goal.value(RATES) == pytest.approx(ride(RATES).rms[0, 2] ** 2, rel=1e-9)
 
 
+def test_rms_is_of_every_road_that_is_named():
+    vehicle = mounted_cabin()
+    named = Performance(np.array([5.0]), roads=("flat", "rough"))
+    problem = replace(PROBLEM, goal="rms", performance=(named,), is_normalised=False)
+    both = prepare_goal(vehicle, problem, vehicle.rates, 20.0).value({})
+    expected = [
+        (solve(mv.prepare(vehicle), {}, Conditions(road, 20.0)).rms[:, 1:] ** 2).sum()
+        for road in ("flat", "rough")
+    ]
+    assert both == pytest.approx(sum(expected), rel=1e-9)
+
+
 def test_a_change_is_measured_from_the_rates_that_are_given():
     base = {**mounted_cabin().rates, "B": RATES["B"]}
     goal = goal_of(goal="change", base=base)

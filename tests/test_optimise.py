@@ -15,7 +15,15 @@ from modeviz.errors import SolveError
 from modeviz.tuning.control import Control
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.tuning.evolution import evolve
-from modeviz.tuning.optimise import SCREENED, best_of, optimise, search_globally, start_points
+from modeviz.tuning.optimise import (
+    LEFT,
+    SCREENED,
+    best_of,
+    optimise,
+    search_globally,
+    start_points,
+    why_ended,
+)
 from modeviz.tuning.search import prepare_search
 from modeviz.vehicle.problem import FrequencyWindow
 
@@ -187,20 +195,53 @@ def test_held_it_waits_and_then_finds_the_same():
 def test_without_a_design_that_keeps_the_windows_there_is_an_error():
     search = cabin_search(windows=(FrequencyWindow("cab yaw", high_hz=1.0),))
     starts = start_points(search, {}, 2)
-    with pytest.raises(SolveError, match="no design was found that keeps the modes"):
+    with pytest.raises(
+        SolveError,
+        match=r"no design was found that keeps the frequency windows \(cab yaw: at most 1 Hz\): widen",
+    ):
         optimise(search, starts, budget=40)
     control = Control()
     control.cancel()
-    with pytest.raises(SolveError, match="cancelled before a design was found"):
+    with pytest.raises(SolveError, match="cancelled: no design was found"):
         optimise(search, starts, control=control)
+
+
+def test_cancelled_while_starts_are_chosen_the_best_of_these_is_kept():
+    search = cabin_search()
+    control = Control()
+    starts = start_points(search, {}, 3)
+    control.cancel()
+    optimum = optimise(search, starts, control=control)
+    assert optimum.reason == CANCELLED
+    assert optimum.evaluations == 2
+    assert optimum.x.tolist() == starts[1].tolist()
+    assert optimum.value < search.value(starts[0])
+
+
+def test_a_global_search_has_converged_once_its_last_part_has():
+    optimum = search_globally(logarithmic_search(two_wells), budget=400)
+    assert optimum.descents[0].reason == OUT_OF_BUDGET
+    assert optimum.converged
+
+
+def test_what_the_full_model_does_not_keep_has_not_converged(monkeypatch):
+    search = cabin_search(windows=(FrequencyWindow("cab yaw", high_hz=10.0),))
+    found = optimise(search, start_points(search, {}, 2), budget=60)
+    assert found.reason != LEFT
+    exact = np.array([10.1])
+    monkeypatch.setattr(type(search.windows), "exact_frequencies", lambda *_: exact)
+    left = best_of(search, found.descents, CONVERGED)
+    assert left.reason == LEFT
+    assert not left.converged
 
 
 def test_the_end_that_is_told_is_why_not_all_was_searched():
     search = logarithmic_search(two_wells)
     descents = optimise(search, [along(0.6), along(-0.7)]).descents
-    assert best_of(search, descents).reason == CONVERGED
+    assert why_ended(descents, 2) == CONVERGED
+    assert why_ended(descents, 3) == OUT_OF_BUDGET
     stopped = replace(descents[0], reason=OUT_OF_BUDGET)
-    assert best_of(search, [stopped, descents[1]]).reason == OUT_OF_BUDGET
+    assert why_ended([stopped, descents[1]], 2) == OUT_OF_BUDGET
 
 
 @pytest.mark.slow

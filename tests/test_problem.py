@@ -105,6 +105,11 @@ def test_a_window_that_cannot_be_is_refused(changes, words):
         ({"groups": (GROUP, GROUP)}, "design group 'A' is there twice"),
         ({"performance": ()}, "performance: found none with a weight above zero, expected one or more"),
         ({"performance": (replace(ON_ROAD, weight=0.0),)}, "found none with a weight above zero"),
+        ({"goal": "peak", "performance": ()}, "performance: found none with a weight above zero"),
+        (
+            {"windows": (FrequencyWindow("cab yaw", 5.0, 8.0), FrequencyWindow("cab yaw", 9.0))},
+            "windows of 'cab yaw': found one from 9 Hz and one to 8 Hz, which no frequency keeps",
+        ),
     ],
 )
 def test_a_problem_that_cannot_be_is_refused(changes, words):

@@ -136,7 +136,8 @@ def test_ctrl_c_ends_it(monkeypatch, cabin):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["--samples", "1"], "--samples: found 1, expected 2 or more"),
+        (["--samples", "1"], "--samples: found 1, expected 2 to 1000000"),
+        (["--samples", "99999999999"], "--samples: found 99999999999, expected 2 to 1000000"),
         (["--seed", "-1"], "--seed: found -1, expected 0 or more"),
         (["--tolerance", "1"], "tolerance of rates: found 1, expected a fraction between 0 and 1"),
         (["--loss-tolerance", "0"], "tolerance of loss factor: found 0, expected a fraction"),

@@ -1,6 +1,7 @@
 """The command that drives many vehicles whose mounts scatter."""
 
 from argparse import Namespace
+from math import inf
 
 from modeviz.commands.interrupt import cancelled_by_interrupt
 from modeviz.commands.options import (
@@ -26,14 +27,18 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import DesignGroup, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
+MOST_SAMPLES = 1_000_000
+"""Their results would not fit the memory of most machines."""
+
 
 def scatter_mounts(options: Namespace) -> None:
     """Prints percentiles of ride and goal, the worst corner, and which mounts make the spread."""
     tolerance = Tolerance(options.tolerance, options.loss_tolerance)
-    for name, least in (("samples", 2), ("seed", 0)):
-        if getattr(options, name) < least:
-            found = getattr(options, name)
-            raise ModevizError(f"--{name}: found {found}, expected {least} or more")
+    for name, least, most in (("samples", 2, MOST_SAMPLES), ("seed", 0, inf)):
+        found = getattr(options, name)
+        if not least <= found <= most:
+            expected = f"{least} or more" if most == inf else f"{least} to {most}"
+            raise ModevizError(f"--{name}: found {found}, expected {expected}")
     vehicle, rates = vehicle_and_rates(options)
     need(vehicle, "mount group", vehicle.mount_groups)
     chosen = conditions(options, vehicle)

@@ -104,10 +104,11 @@ def _row(values: list[float]) -> list[str]:
 
 def _ending(problem: Problem, optimum: Optimum) -> str:
     n = len(optimum.descents)
+    noun = "evaluation" if optimum.evaluations == 1 else "evaluations"
     starts = "1 search" if n == 1 else f"{n} searches"
     return (
         f"objective: {objective_words(problem)}\n"
-        f"{optimum.reason} after {optimum.evaluations} evaluations in {starts}"
+        f"{optimum.reason} after {optimum.evaluations} {noun} in {starts}"
     )
 
 
@@ -131,6 +132,6 @@ def _exactness(search: Search, optimum: Optimum) -> str:
 def _limits(optimum: Optimum) -> str:
     if not optimum.active:
         return ""
-    header = ["limits it sits on", f"relaxing it by {100 * RELAXED:.0f} % would gain", "multiplier"]
+    header = ["limits it sits on", f"{100 * RELAXED:.0f} % wider would gain about", "multiplier"]
     rows = [[c.name, f"{100 * c.gain:.1f} %", f"{c.multiplier:.3g}"] for c in optimum.active]
     return table(header, rows)

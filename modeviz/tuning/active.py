@@ -15,9 +15,6 @@ ACTIVE = 1e-6
 RELAXED = 0.1
 """The part by which a limit is moved to say what that would gain."""
 
-LEAST = 1e-6
-"""A multiplier below this, relative to the goal, gains nothing."""
-
 
 @dataclass(frozen=True)
 class ActiveConstraint:

@@ -1,6 +1,5 @@
 """What a problem wants small, as one number of the rates, with its derivatives."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -98,19 +97,31 @@ def load_cases(vehicle: Vehicle, problem: Problem, speed: float) -> list[LoadCas
     """The load cases of a goal that is made of accelerations; raises as `prepare_goal`."""
     if problem.goal in VARIABLES:
         return [case for p in problem.performance for case in _cases(vehicle, p, speed)]
-    road = Conditions(_road(vehicle, problem), speed)
+    weights = integration_weights(FREQUENCY_HZ, RIDE_BAND)[:, None, None]
+    return [
+        LoadCase(
+            Conditions(road, speed),
+            tuple(FREQUENCY_HZ),
+            pattern=weights * _integrated(vehicle, problem, road),
+        )
+        for road in _roads(vehicle, problem)
+    ]
+
+
+def _integrated(vehicle: Vehicle, problem: Problem, road: str) -> Floats:
+    """What a goal over the whole band takes of PSDs on a road, (n_freqs, n_points, 3)."""
     pattern = np.zeros((len(FREQUENCY_HZ), len(vehicle.response_points), 3))
     match problem.goal:
         case "rms":
-            for performance in problem.performance or (_everything(road.road),):
+            named = [p for p in problem.performance if road in p.roads]
+            for performance in named or [_everything(road)]:
                 pattern = np.maximum(pattern, _selected(vehicle, performance))
         case "rating":
             pattern[:, DRIVER, [AXIS["lateral"], AXIS["vertical"]]] = 1.0
         case "iso 2631":
             factors = np.square(COMFORT_FACTORS) * STANDARD_GRAVITY**2
             pattern[:, DRIVER] = factors * squared_weights(FREQUENCY_HZ)
-    pattern = pattern * integration_weights(FREQUENCY_HZ, RIDE_BAND)[:, None, None]
-    return [LoadCase(road, tuple(FREQUENCY_HZ), pattern=pattern)]
+    return pattern
 
 
 def _cases(vehicle: Vehicle, performance: Performance, speed: float) -> list[LoadCase]:
@@ -139,10 +150,9 @@ def _everything(road: str) -> Performance:
     return Performance(FREQUENCY_HZ, (road,))
 
 
-def _road(vehicle: Vehicle, problem: Problem) -> str:
-    """The first road that the problem names, else the vehicle's first."""
-    named: Sequence[str] = [road for p in problem.performance for road in p.roads]
-    every = [*named, *(road.name for road in vehicle.roads)]
-    if not every:
+def _roads(vehicle: Vehicle, problem: Problem) -> list[str]:
+    """The roads that the problem names, each once, else the vehicle's first."""
+    named = list(dict.fromkeys(road for p in problem.performance for road in p.roads))
+    if not named and not vehicle.roads:
         raise VehicleError(f"problem {problem.name!r}: goal {problem.goal!r} needs a [[road]]")
-    return every[0]
+    return named or [vehicle.roads[0].name]

@@ -1,12 +1,11 @@
 """Searches from many starts side by side, on other machines too."""
 
 from collections.abc import Callable, Sequence
-from math import inf
 
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.descent import descend
 from modeviz.tuning.evaluator import CANCELLED, Descent
-from modeviz.tuning.optimise import BUDGET, Optimum, Progress, best_of
+from modeviz.tuning.optimise import BUDGET, FIRST, Optimum, Progress, best_of, why_ended
 from modeviz.tuning.runner import Runner
 from modeviz.tuning.search import Search
 from modeviz.vehicle.arrays import Floats
@@ -44,8 +43,9 @@ def optimise_on(
                 rates = search.space.rates(best.x)
                 tell(Progress(used, rates, best.value, len(descents), len(starts)))
     except CancelledError:
-        descents.append(Descent(None, inf, CANCELLED, 0))
-    return best_of(search, descents)
+        descents += [descend(search, start, 1, control) for start in starts[:FIRST]]
+        return best_of(search, descents, CANCELLED)
+    return best_of(search, descents, why_ended(descents, len(starts)))
 
 
 def _descend(shared: tuple[Search, int], start: Floats) -> Descent:

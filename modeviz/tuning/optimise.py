@@ -23,6 +23,13 @@ BUDGET = 5_000
 SCREENED = 20
 """Designs of which the best is one to start from."""
 
+LEFT = "a mode leaves its window in the full model"
+"""Why an optimum is none, whatever the search said."""
+
+FIRST = 2
+"""So many starts are looked at even if the search is cancelled: the present rates, and the best of the
+spread designs."""
+
 EVOLVING = 0.8
 """The part of them that a global search has before its best design is improved."""
 
@@ -62,7 +69,7 @@ class Optimum:
 
     @property
     def converged(self) -> bool:
-        """Whether every search came to its end."""
+        """Whether the search that found it came to its end, and none was cut short."""
         return self.reason == CONVERGED
 
 
@@ -121,11 +128,12 @@ def optimise(
     descents: list[Descent] = []
     for i, start in enumerate(starts, 1):
         used = sum(d.evaluations for d in descents)
-        if descents and (used >= budget or descents[-1].reason == CANCELLED):
+        is_cancelled = i > FIRST and descents[-1].reason == CANCELLED
+        if used >= budget or is_cancelled:
             break
         teller = _teller(search, descents, used, i, len(starts), tell)
         descents.append(descend(search, start, budget - used, control, teller))
-    return best_of(search, descents)
+    return best_of(search, descents, why_ended(descents, len(starts)))
 
 
 def search_globally(
@@ -151,31 +159,50 @@ def search_globally(
     evolved = evolve(search, seed, max(1, int(EVOLVING * budget)), control, teller)
     rest = budget - evolved.evaluations
     if evolved.x is None or evolved.reason == CANCELLED or not rest:
-        return best_of(search, [evolved])
+        return best_of(search, [evolved], evolved.reason)
     teller = _teller(search, [evolved], evolved.evaluations, 2, 2, tell)
-    return best_of(search, [evolved, descend(search, evolved.x, rest, control, teller)])
+    descent = descend(search, evolved.x, rest, control, teller)
+    return best_of(search, [evolved, descent], descent.reason)
+
+
+def why_ended(descents: Sequence[Descent], n_starts: int) -> str:
+    """Why searches from so many starts ended, of which the last may not have been come to."""
+    reasons = [descent.reason for descent in descents]
+    if CANCELLED in reasons:
+        return CANCELLED
+    if OUT_OF_BUDGET in reasons or len(descents) < n_starts:
+        return OUT_OF_BUDGET
+    return min(descents, key=lambda d: d.value).reason
 
 
 @one_thread
-def best_of(search: Search, descents: Sequence[Descent]) -> Optimum:
-    """The optimum of several searches, held against the full model; raises as `optimise`."""
+def best_of(search: Search, descents: Sequence[Descent], reason: str) -> Optimum:
+    """The optimum of several searches, held against the full model.
+
+    Args:
+        search: what was sought.
+        descents: the end of each search.
+        reason: why there are no more of them, see `why_ended`.
+
+    Raises:
+        SolveError: as `optimise`.
+    """
     best = min(descents, key=lambda d: d.value)
-    if best.x is None and best.reason == CANCELLED:
-        raise SolveError("cancelled before a design was found that keeps the frequency windows")
     if best.x is None:
-        raise SolveError(
-            "no design was found that keeps the modes where they have to be: widen the frequency "
-            "window, free more rates or take more starts"
-        )
-    ended = next((d.reason for d in descents if d.reason in (CANCELLED, OUT_OF_BUDGET)), best.reason)
+        windows = "; ".join(search.windows.spoken) if search.windows else ""
+        kept = f"no design was found that keeps the frequency windows ({windows})"
+        if reason == CANCELLED:
+            raise SolveError(f"cancelled: {kept}")
+        raise SolveError(f"{kept}: widen them, free more rates or take more starts")
+    verification = verify(search, best.x, best.value)
     return Optimum(
         x=best.x,
         rates=search.space.rates(best.x),
         value=best.value,
-        reason=ended,
+        reason=reason if verification.are_kept else LEFT,
         evaluations=sum(d.evaluations for d in descents),
         active=active_constraints(search, best.x),
-        verification=verify(search, best.x, best.value),
+        verification=verification,
         descents=tuple(descents),
     )
 

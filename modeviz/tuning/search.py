@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.errors import SolveError
+from modeviz.errors import SolveError, located
 from modeviz.tuning.design import DesignSpace, design_space
 from modeviz.tuning.goals import Goal, prepare_goal
 from modeviz.tuning.peak import MinMax
@@ -117,5 +117,6 @@ def prepare_search(
     """
     space = design_space(vehicle, problem.groups, rates, locked)
     goal = prepare_goal(vehicle, problem, rates, speed)
-    windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None
+    with located(f"problem {problem.name!r}"):
+        windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None
     return Search(space, goal, windows)

@@ -152,10 +152,19 @@ class Problem:
         if not self.groups:
             raise VehicleError(f"{where}: has no groups, so nothing may change; expected one or more")
         check_unique(f"{where}: design group", (g.group for g in self.groups))
-        if self.goal == "accelerations" and not any(p.weight for p in self.performance):
+        if self.goal in VARIABLES and not any(p.weight for p in self.performance):
             raise VehicleError(
                 f"{where}: performance: found none with a weight above zero, expected one or more"
             )
+        for mode in {window.mode for window in self.windows}:
+            inside = [w for w in self.windows if w.mode == mode and w.is_inside]
+            low = max((w.low_hz for w in inside), default=0.0)
+            high = min((w.high_hz for w in inside), default=np.inf)
+            if low >= high:
+                raise VehicleError(
+                    f"{where}: windows of {mode!r}: found one from {low:g} Hz and one to {high:g} Hz, "
+                    "which no frequency keeps"
+                )
 
 
 def check_directions(where: str, directions: tuple[str, ...]) -> None:
