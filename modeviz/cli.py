@@ -175,15 +175,30 @@ def _add_search(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--budget", type=int, default=BUDGET, metavar="N", help=f"evaluations, default {BUDGET}"
     )
+    command.add_argument(
+        "--robust",
+        action="store_true",
+        help="then make the 95th percentile over mounts within their tolerances small",
+    )
+    _add_tolerances(command)
     _add_scheduler(command)
     _add_speed(command)
     _add_json(command)
 
 
 def _add_scatter(command: argparse.ArgumentParser) -> None:
-    usual = Tolerance()
     command.add_argument("--samples", type=int, default=1000, metavar="N", help="default 1000")
     command.add_argument("--seed", type=int, default=0, metavar="N", help="of what is random")
+    _add_tolerances(command)
+    command.add_argument("--problem", metavar="NAME", help="whose goal; default: the vehicle's first")
+    command.add_argument("--point", metavar="NAME", help="response point; default: the vehicle's first")
+    _add_road(command)
+    _add_scheduler(command)
+    _add_json(command)
+
+
+def _add_tolerances(command: argparse.ArgumentParser) -> None:
+    usual = Tolerance()
     command.add_argument(
         "--tolerance",
         type=float,
@@ -198,11 +213,6 @@ def _add_scatter(command: argparse.ArgumentParser) -> None:
         metavar="PART",
         help=f"of every mount's loss factor; default {usual.loss_factor:g}",
     )
-    command.add_argument("--problem", metavar="NAME", help="whose goal; default: the vehicle's first")
-    command.add_argument("--point", metavar="NAME", help="response point; default: the vehicle's first")
-    _add_road(command)
-    _add_scheduler(command)
-    _add_json(command)
 
 
 def _add_scheduler(command: argparse.ArgumentParser) -> None:

@@ -10,9 +10,15 @@ from modeviz.errors import ModevizError
 from modeviz.export.optimum import optimum_record, optimum_table
 from modeviz.export.wording import significant
 from modeviz.tuning.cluster import runner_at
+from modeviz.tuning.control import Control
+from modeviz.tuning.goals import Goal
 from modeviz.tuning.multistart import optimise_on
+from modeviz.tuning.objective import Objective
 from modeviz.tuning.optimise import Optimum, Progress, optimise, search_globally, start_points
+from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rate_files import rates_format, write_rates
+from modeviz.tuning.robust import Robust, robust
+from modeviz.tuning.runner import Runner
 from modeviz.tuning.search import Search, prepare_search
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.files.disk import check_writable
@@ -35,8 +41,8 @@ def optimise_rates(options: Namespace) -> None:
     if options.output:
         rates_format(options.output)
         check_writable(options.output)
-    search = prepare_search(vehicle, problem, rates, speed)
-    optimum = _search(options, search, rates)
+    tolerance = Tolerance(options.tolerance, options.loss_tolerance) if options.robust else None
+    search, optimum = _search(options, prepare_search(vehicle, problem, rates, speed), rates, tolerance)
     if options.output:
         write_rates(options.output, optimum.rates)
     if options.json:
@@ -55,18 +61,44 @@ def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
     return replace(problem, is_normalised=problem.is_normalised and not options.plain)
 
 
-def _search(options: Namespace, search: Search, rates: Rates) -> Optimum:
-    """The best that is found until the end, or until Ctrl+C."""
+def _search(
+    options: Namespace, search: Search, rates: Rates, tolerance: Tolerance | None
+) -> tuple[Search, Optimum]:
+    """The last search and the best that it found until its end, or until Ctrl+C."""
+    robustly = replace(search, goal=_robust(search.goal, tolerance)) if tolerance else None
     try:
         with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:
-            if options.everywhere:
-                return search_globally(search, options.seed, options.budget, control, _tell)
-            starts = start_points(search, rates, options.starts, options.seed, control)
-            if options.scheduler:
-                return optimise_on(runner, search, starts, options.budget, control, _tell)
-            return optimise(search, starts, options.budget, control, _tell)
+            optimum = _search_once(options, search, rates, runner, control)
+            if robustly is None:
+                return search, optimum
+            return robustly, optimise(robustly, [optimum.x], options.budget, control, _tell)
     finally:
         progress("")(1.0)  # leaves an empty line
+
+
+def _search_once(
+    options: Namespace, search: Search, rates: Rates, runner: Runner, control: Control
+) -> Optimum:
+    if options.everywhere:
+        return search_globally(search, options.seed, options.budget, control, _tell)
+    starts = start_points(search, rates, options.starts, options.seed, control)
+    if options.scheduler:
+        return optimise_on(runner, search, starts, options.budget, control, _tell)
+    return optimise(search, starts, options.budget, control, _tell)
+
+
+def _robust(goal: Goal, tolerance: Tolerance) -> Robust:
+    """The percentile of a goal.
+
+    Raises:
+        ModevizError: the goal is not one that scatters.
+    """
+    if not isinstance(goal, Objective):
+        raise ModevizError(
+            "--robust: expected a goal that is a sum of squared accelerations, such as accelerations "
+            "or rating"
+        )
+    return robust(goal, tolerance)
 
 
 def _tell(where: Progress) -> None:

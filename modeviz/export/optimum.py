@@ -6,13 +6,17 @@ from modeviz.export.records import Record, rates_record
 from modeviz.export.tables import table
 from modeviz.export.wording import percent_change, scientific, significant
 from modeviz.tuning.active import RELAXED
+from modeviz.tuning.goals import Goal
 from modeviz.tuning.optimise import Optimum
+from modeviz.tuning.parts import Tolerance
+from modeviz.tuning.robust import Robust
 from modeviz.tuning.search import Search
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, Rates
-from modeviz.vehicle.problem import Goal, Problem
+from modeviz.vehicle.problem import Goal as GoalName
+from modeviz.vehicle.problem import Problem
 
-SMALL: dict[Goal, str] = {
+SMALL: dict[GoalName, str] = {
     "accelerations": "squared accelerations",
     "peak": "largest squared acceleration",
     "rms": "mean squares on the road",
@@ -26,16 +30,18 @@ SMALL: dict[Goal, str] = {
 def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record:
     """What an optimisation found.
 
-    `{"goal", "normalised", "objective": {"original", "found", "paper": of the problem's reference or
-    null}, "rates": see rates_record, "converged", "reason", "evaluations", "active_constraints":
-    [{"name", "multiplier", "gain"}], "exact_difference": or null where the full model cannot be solved
-    exactly enough}`; a gain is a part of what was found, from relaxing the limit by 10 %.
+    `{"goal", "normalised", "percentile": of the objective over parts that scatter or null, "objective":
+    {"original", "found", "paper": of the problem's reference or null}, "rates": see rates_record,
+    "converged", "reason", "evaluations", "active_constraints": [{"name", "multiplier", "gain"}],
+    "exact_difference": or null where the full model cannot be solved exactly enough}`; a gain is a part
+    of what was found, from relaxing the limit by 10 %.
     """
     vehicle = search.space.vehicle
     difference = optimum.verification.difference
     return {
         "goal": problem.goal,
         "normalised": problem.is_normalised,
+        "percentile": search.goal.percent if isinstance(search.goal, Robust) else None,
         "objective": _objective(problem, search, optimum),
         "rates": rates_record(vehicle.with_rates(optimum.rates)),
         "converged": optimum.converged,
@@ -52,7 +58,7 @@ def optimum_table(problem: Problem, search: Search, optimum: Optimum) -> str:
     """Rates and objective, original, found and of the reference; why it ended; limits it sits on."""
     parts = [
         _rates_table(problem, search, optimum),
-        _ending(problem, optimum),
+        _ending(problem, search, optimum),
         _exactness(search, optimum),
         _limits(optimum),
     ]
@@ -66,6 +72,12 @@ def objective_words(problem: Problem) -> str:
         return what
     how = "each load case relative to the original" if problem.is_normalised else "plain sum"
     return f"{what}, {how}"
+
+
+def tolerance_words(tolerance: Tolerance) -> str:
+    """Within what parts scatter."""
+    rates, loss = 100 * tolerance.rates, 100 * tolerance.loss_factor
+    return f"rates within ±{rates:.3g} %, loss factors within ±{loss:.3g} %"
 
 
 def _objective(problem: Problem, search: Search, optimum: Optimum) -> dict[str, float | None]:
@@ -102,14 +114,21 @@ def _row(values: list[float]) -> list[str]:
     ]
 
 
-def _ending(problem: Problem, optimum: Optimum) -> str:
+def _ending(problem: Problem, search: Search, optimum: Optimum) -> str:
     n = len(optimum.descents)
     noun = "evaluation" if optimum.evaluations == 1 else "evaluations"
     starts = "1 search" if n == 1 else f"{n} searches"
     return (
-        f"objective: {objective_words(problem)}\n"
+        f"objective: {objective_words(problem)}{_scattered(search.goal)}\n"
         f"{optimum.reason} after {optimum.evaluations} {noun} in {starts}"
     )
+
+
+def _scattered(goal: Goal) -> str:
+    """Over which parts a goal is a percentile, if it is one."""
+    if not isinstance(goal, Robust):
+        return ""
+    return f",\n{goal.percent:g}th percentile with {tolerance_words(goal.tolerance)}"
 
 
 def _exactness(search: Search, optimum: Optimum) -> str:

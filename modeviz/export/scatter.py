@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.export.optimum import objective_words
+from modeviz.export.optimum import objective_words, tolerance_words
 from modeviz.export.records import Record
 from modeviz.export.tables import table
 from modeviz.export.wording import MINUS, percent_change, significant
@@ -74,10 +74,7 @@ def scatter_table(told: Scattered) -> str:
         + [_significant(v) for v in _percentiles(values).values()]
         for name, (nominal, values) in _quantities(result).items()
     ]
-    head = (
-        f"{len(result.goal)} vehicles on {told.conditions.road}, rates within "
-        f"±{100 * tolerance.rates:.3g} %, loss factors within ±{100 * tolerance.loss_factor:.3g} %"
-    )
+    head = f"{len(result.goal)} vehicles on {told.conditions.road}, {tolerance_words(tolerance)}"
     worse = percent_change(told.worst.goal, result.nominal_goal)
     return "\n\n".join(
         [

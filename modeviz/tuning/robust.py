@@ -32,6 +32,8 @@ class Robust:
     tolerance: Tolerance
     deviations: Floats
     """(n_samples, n_deviations), see `Parts`."""
+    percent: float
+    """Of which percentile, above 0 and below 100."""
     weights: Floats
     """(n_samples,): of the smallest value, the next, and so on; they sum to one."""
 
@@ -106,7 +108,7 @@ def robust(
     if not 0 < percent < 100:
         raise SolveError(f"percentile: found {percent:g}, expected more than 0 and less than 100")
     deviations = scattered_parts(objective.prepared, {}, tolerance).samples(n_samples, seed)
-    return Robust(objective, tolerance, deviations, percentile_weights(n_samples, percent))
+    return Robust(objective, tolerance, deviations, percent, percentile_weights(n_samples, percent))
 
 
 def percentile_weights(n_samples: int, percent: float) -> Floats:
