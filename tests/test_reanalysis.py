@@ -76,11 +76,11 @@ def test_many_responses_are_the_same_as_one_by_one(system, receptances):
         assert error(response, receptances.response(own)) < TOLERANCE.get(kind, 1e-10)
 
 
-def test_many_responses_do_not_depend_on_how_many_are_solved_at_once(system, receptances):
+def test_many_responses_depend_by_rounding_only_on_how_many_are_solved_at_once(system, receptances):
     n_sets = BLOCK // (16 * 12**2) + 2
     stiffness = np.tile([rates(system, kind) for kind in ("softer", "any")], (n_sets // 2, 1))
     H = receptances.responses(stiffness)
-    np.testing.assert_array_equal(H[2:], np.tile(H[:2], (len(H) // 2 - 1, 1, 1, 1)))
+    np.testing.assert_allclose(H[2:], np.tile(H[:2], (len(H) // 2 - 1, 1, 1, 1)), rtol=1e-11)
 
 
 def test_receptances_can_be_asked_at_some_frequencies_and_outputs_only(system, receptances):
