@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 from mounted_cabin import mounted_cabin
 
+from modeviz.dynamics.reanalysis import Receptances
 from modeviz.tuning.objective import LoadCase, Objective, prepare_objective
+from modeviz.tuning.parts import Parts, Tolerance, scattered_parts
 from modeviz.tuning.preparation import Prepared, prepare
-from modeviz.tuning.results import Conditions
+from modeviz.tuning.results import Conditions, drive
+from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.loads import ResponsePoint
 
 FLAT = Conditions("flat", 20.0)
@@ -19,6 +22,22 @@ def prepared_cabin() -> Prepared:
     rear = ResponsePoint("rear", "cab", np.array([2.2, 0.4, 0.9]))
     points = (*vehicle.response_points, rear)
     return prepare(replace(vehicle, response_points=points), np.linspace(0.5, 40, 80))
+
+
+def cabin_receptances(frequency_hz: Floats) -> Receptances:
+    """On its road."""
+    return drive(prepare(mounted_cabin(), frequency_hz), FLAT).receptances
+
+
+def drawn_and_sampled(parts: Parts, n_samples: int) -> Complexes:
+    """The mount springs of parts as drawn, and of some that scatter."""
+    drawn = np.zeros(parts.n_deviations)
+    return parts.stiffness(np.vstack([drawn, parts.samples(n_samples, 0)]))
+
+
+def cabin_parts() -> Parts:
+    """Within the usual tolerance."""
+    return scattered_parts(prepare(mounted_cabin(), np.array([1.0])), {}, Tolerance())
 
 
 def cabin_objective() -> Objective:

@@ -1,31 +1,28 @@
 import numpy as np
 import pytest
-from mounted_cabin import mounted_cabin
+from scattered_cabin import cabin_parts, cabin_receptances, drawn_and_sampled
 from test_reanalysis import resonant_rate, two_masses
 
 from modeviz.dynamics.lines import few_lines
 from modeviz.dynamics.reanalysis import prepare_receptances
 from modeviz.errors import SolveError
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, drive
 
 FREQUENCY_HZ = np.arange(1, 201) / 5
 
 
 @pytest.fixture(scope="module")
 def receptances():
-    return drive(prepare(mounted_cabin(), FREQUENCY_HZ), Conditions("flat", 20.0)).receptances
+    return cabin_receptances(FREQUENCY_HZ)
 
 
 @pytest.fixture(scope="module")
 def parts():
-    return scattered_parts(prepare(mounted_cabin(), FREQUENCY_HZ[:1]), {}, Tolerance())
+    return cabin_parts()
 
 
 @pytest.fixture(scope="module")
 def few(receptances, parts):
-    return few_lines(receptances, parts.stiffness(np.vstack([np.zeros(8), parts.samples(64, 0)])))
+    return few_lines(receptances, drawn_and_sampled(parts, 64))
 
 
 def test_few_frequencies_are_enough(few):

@@ -6,16 +6,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import OptimizeResult, minimize
 
-from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.evaluator import (
-    CANCELLED,
-    CONVERGED,
-    OUT_OF_BUDGET,
-    Descent,
-    Evaluator,
-    OutOfBudgetError,
-    Step,
-)
+from modeviz.tuning.control import Control
+from modeviz.tuning.evaluator import Descent, Evaluator, Step
 from modeviz.tuning.peak import MinMax
 from modeviz.tuning.search import Search
 from modeviz.tuning.threads import one_thread
@@ -61,19 +53,18 @@ def descend(
         SolveError: a design that cannot be solved, with its rates.
     """
     evaluator = Evaluator(search, budget, control or Control(), tell)
+    return evaluator.run(lambda: _restarted(search, evaluator, search.space.admitted(start)))
+
+
+def _restarted(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeResult:
+    """The end of the solver for the goal, begun again from the best design where it got stuck."""
     solve = _smallest_largest if isinstance(search.goal, MinMax) else _smallest
-    try:
-        result = solve(search, evaluator, search.space.admitted(start))
-        for _ in range(RESTARTS):
-            if result.success or evaluator.x is None:
-                break
-            result = solve(search, evaluator, evaluator.x)
-        reason = CONVERGED if result.success else result.message.lower()
-    except CancelledError:
-        reason = CANCELLED
-    except OutOfBudgetError:
-        reason = OUT_OF_BUDGET
-    return evaluator.end(reason)
+    result = solve(search, evaluator, start)
+    for _ in range(RESTARTS):
+        if result.success or evaluator.x is None:
+            break
+        result = solve(search, evaluator, evaluator.x)
+    return result
 
 
 def _smallest(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeResult:

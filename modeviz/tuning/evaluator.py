@@ -4,8 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import OptimizeResult
 
-from modeviz.tuning.control import Control
+from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.search import Search
 from modeviz.tuning.windows import SLACK
 from modeviz.vehicle.arrays import Floats
@@ -101,8 +102,15 @@ class Evaluator:
         self._remember(x, value, is_allowed and value < self._value)
         return value
 
-    def end(self, reason: str) -> Descent:
-        """What it found, and why it ended."""
+    def run(self, solve: Callable[[], OptimizeResult]) -> Descent:
+        """What a solver that asks it found, and why that ended."""
+        try:
+            result = solve()
+            reason = CONVERGED if result.success else str(result.message).lower()
+        except CancelledError:
+            reason = CANCELLED
+        except OutOfBudgetError:
+            reason = OUT_OF_BUDGET
         return Descent(self.x, self._value, reason, self._n_evaluations)
 
     def _count(self) -> None:

@@ -4,16 +4,8 @@ from collections.abc import Callable
 
 from scipy.optimize import differential_evolution
 
-from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.evaluator import (
-    CANCELLED,
-    CONVERGED,
-    OUT_OF_BUDGET,
-    Descent,
-    Evaluator,
-    OutOfBudgetError,
-    Step,
-)
+from modeviz.tuning.control import Control
+from modeviz.tuning.evaluator import Descent, Evaluator, Step
 from modeviz.tuning.search import Search
 from modeviz.tuning.threads import one_thread
 
@@ -42,17 +34,12 @@ def evolve(
         SolveError: a design that cannot be solved, with its rates.
     """
     evaluator = Evaluator(search, budget, control or Control(), tell)
-    try:
-        result = differential_evolution(
+    return evaluator.run(
+        lambda: differential_evolution(
             lambda fractions: evaluator.value(search.space.sampled(fractions)),
             [(0.0, 1.0)] * search.space.n_variables,
             maxiter=budget,
             rng=seed,
             polish=False,
         )
-        reason = CONVERGED if result.success else str(result.message).lower()
-    except CancelledError:
-        reason = CANCELLED
-    except OutOfBudgetError:
-        reason = OUT_OF_BUDGET
-    return evaluator.end(reason)
+    )

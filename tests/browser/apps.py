@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
+from mounted_cabin import mounted_cabin
 from websockets.sync.connection import Connection
 
 from benchmarks.websocket import open_websocket
@@ -10,6 +11,8 @@ from modeviz.tuning.results import Conditions
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
 from modeviz.viewer.doors import Server
+
+SOLVE_S = 60
 
 
 @contextmanager
@@ -23,6 +26,15 @@ def open_app(server: Server, vehicle: Vehicle, conditions: Conditions) -> Iterat
         yield app
     finally:
         app.end()
+
+
+@contextmanager
+def open_solved_cabin(server: Server) -> Iterator[App]:
+    """The small cabin's page with its first answer."""
+    with open_app(server, mounted_cabin(), Conditions("flat", 20.0)) as app:
+        app.start()
+        assert app.session.wait(SOLVE_S)
+        yield app
 
 
 @contextmanager

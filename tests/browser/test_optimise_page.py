@@ -4,16 +4,14 @@ from dataclasses import replace
 from functools import partial
 
 import pytest
-from apps import open_app
+from apps import SOLVE_S, open_solved_cabin
 from held_search import hold_searches
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
 from modeviz.export.wording import significant
-from modeviz.tuning.results import Conditions
 from modeviz.viewer import trader
 
-SOLVE_S = 60
 TEXT = "document.body.textContent"
 BEST = "document.querySelector('.mv .goals b')?.textContent"
 CHART = "document.querySelectorAll('.uplot').length"
@@ -21,9 +19,7 @@ CHART = "document.querySelectorAll('.uplot').length"
 
 @pytest.fixture(scope="module")
 def app(server):
-    with open_app(server, mounted_cabin(), Conditions("flat", 20.0)) as app:
-        app.start()
-        assert app.session.wait(SOLVE_S)
+    with open_solved_cabin(server) as app:
         yield app
 
 

@@ -1,16 +1,14 @@
 """Sets of rates: pinned, compared, swapped, and as files."""
 
 import pytest
-from apps import open_app
+from apps import SOLVE_S, open_solved_cabin
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
 from modeviz.tuning.rate_files import parse_rates, rates_text
-from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.uploads import LARGEST_FILE
 
-SOLVE_S = 60
 TRIED = {"A": MountRates(4e5, 131.4e3, 4e5), "B": MountRates(8e5, 3e5, 4e5)}
 ROWS = "Array.from(document.querySelectorAll('.mv .sets tr'), r => r.textContent)"
 NOTICE = "Array.from(document.querySelectorAll('.mantine-Notification-root'), n => n.textContent)"
@@ -18,9 +16,7 @@ NOTICE = "Array.from(document.querySelectorAll('.mantine-Notification-root'), n 
 
 @pytest.fixture(scope="module")
 def app(server):
-    with open_app(server, mounted_cabin(), Conditions("flat", 20.0)) as app:
-        app.start()
-        assert app.session.wait(SOLVE_S)
+    with open_solved_cabin(server) as app:
         yield app
 
 
