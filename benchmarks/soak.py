@@ -171,7 +171,7 @@ def _widgets(page: Page, server: Server) -> list[str]:
 
 def _is_same(value: object, shown: object) -> bool:
     if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return abs(float(str(shown)) - value) <= 1e-6 * max(1.0, abs(value))
+        return bool(shown) and abs(float(str(shown)) - value) <= 1e-6 * max(1.0, abs(value))
     return value == shown
 
 

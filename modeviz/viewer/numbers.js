@@ -7,9 +7,13 @@
     return target instanceof HTMLInputElement && target.matches(".mantine-NumberInput-input") ? target : null;
   }
 
+  function isNumber(text) {
+    return text !== "" && Number.isFinite(Number(text)); // letters are there until React takes them away
+  }
+
   function note(event) {
     const box = boxOf(event);
-    if (box && (event.type === "focusin" || box.value)) last = box.value;
+    if (box && (event.type === "focusin" || isNumber(box.value))) last = box.value;
   }
 
   function fill(event) {

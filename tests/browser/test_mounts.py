@@ -116,12 +116,14 @@ def test_a_removed_mount_and_a_rigid_one_are_taken_with_the_slider_at_its_ends(a
     wait_until(page, lambda: rate(app, "A", "fore_aft") == 1e9 and position(slider) == end)
 
 
-def test_a_number_that_is_taken_out_is_said_again(app, page):
+@pytest.mark.parametrize("keys", [["Delete"], ["a", "b", "c"]])
+def test_a_number_box_left_without_a_number_says_it_again(app, page, keys):
     number = box(page, "A", "vertical")
     number.scroll_into_view_if_needed()
     number.click()
     number.press("ControlOrMeta+a")
-    number.press("Delete")
+    for key in keys:
+        number.press(key)
     assert not number.input_value()
     number.blur()
     wait_until(page, lambda: number.input_value() == "800")
