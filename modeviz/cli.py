@@ -10,6 +10,7 @@ from typing import get_args
 
 from modeviz.commands import tables
 from modeviz.commands.optimise import optimise_rates
+from modeviz.commands.options import say
 from modeviz.commands.render import render_file
 from modeviz.commands.report import write_report
 from modeviz.commands.scatter import scatter_mounts
@@ -26,7 +27,10 @@ COMMANDS = ("view", "modes", "psd", "wheels", "render", "report", "optimise", "s
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs a command and returns its exit status: 0, or 2 for what the user can put right."""
+    """Runs a command and returns its exit status.
+
+    That is 0, or 2 for what the user can put right, or 130 after an interrupt.
+    """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     parser = _parser()
     if not arguments or (arguments[0] not in (*COMMANDS, "-h", "--help", "--version")):
@@ -42,6 +46,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Whoever reads, such as `head`, has enough; Python would fail again when it flushes at its end.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except KeyboardInterrupt:
+        say("")
+        print("modeviz: interrupted", file=sys.stderr)
         return 130
     return 0
 

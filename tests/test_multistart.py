@@ -26,7 +26,7 @@ def test_side_by_side_finds_what_one_after_the_other_does(search, starts):
 def test_every_end_of_a_search_is_told(search, starts):
     told = []
     found = optimise_on(HERE, search, starts, tell=told.append)
-    assert [p.start for p in told] == [1, 2, 3, 4]
+    assert [p.start for p in told if not p.is_checking] == [1, 2, 3, 4]
     assert told[-1].value == found.value
     assert told[-1].evaluations == found.evaluations
 

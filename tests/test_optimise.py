@@ -1,6 +1,7 @@
 import threading
 import time
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from modeviz.errors import SolveError
 from modeviz.tuning.control import Control
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.tuning.evolution import evolve
+from modeviz.tuning.multistart import optimise_on
 from modeviz.tuning.optimise import (
     LEFT,
     SCREENED,
@@ -24,7 +26,9 @@ from modeviz.tuning.optimise import (
     start_points,
     why_ended,
 )
+from modeviz.tuning.runner import HERE
 from modeviz.tuning.search import prepare_search
+from modeviz.tuning.verification import verify
 from modeviz.vehicle.problem import FrequencyWindow
 
 WELLS = np.array([-0.8, 0.5])
@@ -128,6 +132,7 @@ def test_the_budget_is_for_all_starts_together():
 def test_progress_tells_the_best_so_far_of_all_starts():
     search, told = cabin_search(), []
     optimum = optimise(search, start_points(search, {}, 3), tell=told.append)
+    told = [p for p in told if not p.is_checking]
     values = [p.value for p in told]
     assert values == sorted(values, reverse=True)
     assert values[-1] == optimum.value
@@ -135,6 +140,23 @@ def test_progress_tells_the_best_so_far_of_all_starts():
     assert [p.start for p in told] == sorted(p.start for p in told)
     assert {(p.start, p.n_starts) for p in told} == {(1, 3), (2, 3), (3, 3)}
     assert search.goal.value(told[-1].rates) == pytest.approx(optimum.value, rel=1e-12)
+
+
+@pytest.mark.parametrize("find", [optimise, search_globally, partial(optimise_on, HERE)])
+def test_it_is_told_before_the_full_model_is_solved(monkeypatch, find):
+    search, told, at_check = logarithmic_search(two_wells), [], []
+
+    def noted(*arguments):
+        at_check.append(told[-1])
+        return verify(*arguments)
+
+    monkeypatch.setattr("modeviz.tuning.optimise.verify", noted)
+    what = {"seed": 1} if find is search_globally else {"starts": [along(0.6), along(-0.7)]}
+    optimum = find(search, **what, tell=told.append)
+    (last,) = at_check
+    assert [p.is_checking for p in told] == [False] * (len(told) - 1) + [True]
+    assert (last.value, last.rates) == (optimum.value, optimum.rates)
+    assert (last.start, last.n_starts, last.evaluations) == (2, 2, optimum.evaluations)
 
 
 def in_thread(search, control, tell):
@@ -165,7 +187,7 @@ def test_cancelled_from_outside_it_answers_at_once_with_the_best():
     (optimum,) = found
     assert optimum.reason == CANCELLED
     assert optimum.value == told[-1].value
-    assert optimum.evaluations == len(told)
+    assert optimum.evaluations == told[-1].evaluations
     assert optimum.verification.difference < 1e-9
 
 
@@ -230,7 +252,7 @@ def test_what_the_full_model_does_not_keep_has_not_converged(monkeypatch):
     assert found.reason != LEFT
     exact = np.array([10.1])
     monkeypatch.setattr(type(search.windows), "exact_frequencies", lambda *_: exact)
-    left = best_of(search, found.descents, CONVERGED)
+    left = best_of(search, found.descents, CONVERGED, 2)
     assert left.reason == LEFT
     assert not left.converged
 

@@ -1,6 +1,7 @@
 """`modeviz optimise` finds what the same search finds in Python, and keeps what it has."""
 
 import json
+import pty
 import signal
 from dataclasses import replace
 
@@ -197,15 +198,39 @@ def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path
     assert signal.getsignal(signal.SIGINT) is before
 
 
-def test_a_second_interrupt_ends_the_program(monkeypatch, cabin, tmp_path):
+def test_a_second_interrupt_ends_the_program_and_writes_nothing(monkeypatch, capsys, cabin, tmp_path):
     def interrupt(_):
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
 
     monkeypatch.setattr(command, "_tell", interrupt)
-    path = tmp_path / "rates.json"
-    assert main(["optimise", cabin, "--output", str(path)]) == 130
-    assert not path.exists()
+    assert main(["optimise", cabin, "--output", str(tmp_path / "rates.json")]) == 130
+    assert capsys.readouterr().err == "modeviz: interrupted\n"
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_terminal_is_told_of_an_interrupt_at_once_and_of_the_check(monkeypatch, cabin):
+    tell = command._tell
+
+    def interrupt(progress):
+        tell(progress)
+        if progress.evaluations == 5:
+            signal.raise_signal(signal.SIGINT)
+            tell(progress)
+
+    monkeypatch.setattr(command, "_tell", interrupt)
+    reader, writer = pty.openpty()
+    with open(reader, "rb", buffering=0) as terminal, open(writer, "w") as errors:
+        monkeypatch.setattr("sys.stderr", errors)
+        assert main(["optimise", cabin, "--json"]) == 0
+        lines = terminal.read(100_000).decode().split("\r")
+    assert lines[0] == ""
+    assert lines[-1] == "\x1b[K"
+    told = [line.removesuffix("\x1b[K") for line in lines[1:-1]]
+    interrupted = told.index("ending; Ctrl+C again ends it at once")
+    assert told[interrupted - 1] == told[interrupted + 1]
+    assert told[interrupted - 1].startswith("search   1 of 20, objective")
+    assert told[-1] == "checking with the full model"
 
 
 def test_what_cannot_be_is_refused_in_a_sentence(refused, cabin):

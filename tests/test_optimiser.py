@@ -12,6 +12,7 @@ from modeviz.errors import ModevizError, SolveError
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.optimise import Progress
 from modeviz.tuning.results import Conditions
+from modeviz.tuning.verification import verify
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer import optimiser as module
 from modeviz.viewer.optimiser import Optimiser
@@ -150,6 +151,22 @@ def test_cancel_answers_at_once_and_keeps_the_best(session, optimiser, gate):
     assert look.optimum.reason == "cancelled"
     assert look.optimum.value == look.falls[-1][1]
     assert session.state.rates == look.optimum.rates
+
+
+def test_it_says_when_the_full_model_is_solved(optimiser, monkeypatch):
+    is_solved = threading.Event()
+
+    def held(*arguments):
+        is_solved.wait(SOON)
+        return verify(*arguments)
+
+    monkeypatch.setattr("modeviz.tuning.optimise.verify", held)
+    optimiser.start()
+    optimiser.wait(lambda: optimiser.look.phase == "checking")
+    assert optimiser.look.is_running
+    assert optimiser.look.falls[-1][1] == optimiser.look.progress.value
+    is_solved.set()
+    optimiser.wait(lambda: optimiser.look.phase == "ended")
 
 
 def test_cancel_while_it_prepares_is_over_at_once_and_changes_nothing(session, optimiser, monkeypatch):

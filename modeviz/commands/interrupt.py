@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from modeviz.commands.options import say
 from modeviz.tuning.control import Control
 
 
@@ -15,6 +16,7 @@ def cancelled_by_interrupt() -> Iterator[Control]:
 
     def cancel(_signal: int, _frame: FrameType | None) -> None:
         signal.signal(signal.SIGINT, before)
+        say("ending; Ctrl+C again ends it at once")
         control.cancel()
 
     before = signal.signal(signal.SIGINT, cancel)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from math import inf
 
 from modeviz.commands.interrupt import cancelled_by_interrupt
-from modeviz.commands.options import chosen_speed, need, print_json, progress, vehicle_and_rates
+from modeviz.commands.options import chosen_speed, need, print_json, progress, say, vehicle_and_rates
 from modeviz.errors import ModevizError
 from modeviz.export.optimum import optimum_record, optimum_table
 from modeviz.export.wording import significant
@@ -73,7 +73,7 @@ def _search(
                 return search, optimum
             return robustly, optimise(robustly, [optimum.x], options.budget, control, _tell)
     finally:
-        progress("")(1.0)  # leaves an empty line
+        say("")
 
 
 def _search_once(
@@ -102,6 +102,9 @@ def _robust(goal: Goal, tolerance: Tolerance) -> Robust:
 
 
 def _tell(where: Progress) -> None:
+    if where.is_checking:
+        say("checking with the full model")
+        return
     text = f"search {where.start:3d} of {where.n_starts}, objective {significant(where.value):>9}"
     progress(text)((where.start - 1) / where.n_starts)
 

@@ -1,6 +1,7 @@
 """What commands share: the vehicle, rates, road and speed that were asked for, and word of progress."""
 
 import json
+import os
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Sized
@@ -91,13 +92,14 @@ def prepare_telling(vehicle: Vehicle) -> Prepared:
 
 def progress(what: str) -> Callable[[float], None]:
     """Tells on a terminal how far something is, 0 to 1; nothing where errors go to a file."""
+    return lambda done: say(f"{what} {done:4.0%}" if done < 1 else "")
 
-    def tell(done: float) -> None:
-        if sys.stderr.isatty():
-            text = f"\r{what} {done:4.0%}" if done < 1 else "\r\x1b[K"
-            print(end=text, file=sys.stderr, flush=True)
 
-    return tell
+def say(text: str) -> None:
+    """Puts a text in the place of the line before on a terminal; nothing where errors go to a file."""
+    if sys.stderr.isatty():
+        # Not through Python's buffer, which would refuse what an interrupt says while it is written to.
+        os.write(sys.stderr.fileno(), f"\r{text}\x1b[K".encode())
 
 
 def print_json(record: Record) -> None:

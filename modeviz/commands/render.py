@@ -3,7 +3,7 @@
 import math
 from argparse import Namespace
 
-from modeviz.commands.options import progress, shown, tell, vehicle_and_rates
+from modeviz.commands.options import say, shown, tell, vehicle_and_rates
 from modeviz.errors import ModevizError
 from modeviz.vehicle.files.disk import check_writable, write_bytes
 
@@ -38,7 +38,7 @@ def render_file(options: Namespace) -> None:
     try:
         content = render(vehicle, rates, chosen, wish, shot, kind, tell)
     finally:
-        progress("")(1.0)  # leaves an empty line
+        say("")
     write_bytes(options.output, content)
     print(options.output)
 

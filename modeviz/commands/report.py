@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 
-from modeviz.commands.options import prepare_telling, progress, ride, tell, vehicle_and_rates
+from modeviz.commands.options import prepare_telling, progress, ride, say, tell, vehicle_and_rates
 from modeviz.errors import ModevizError
 from modeviz.export.report import Picture, report
 from modeviz.tuning.check import Check, check_exactly
@@ -50,7 +50,7 @@ def _pictures(
     except ModevizError as error:
         raise ModevizError(f"{error}; or leave the pictures out with --no-pictures") from error
     finally:
-        progress("")(1.0)  # leaves an empty line
+        say("")
 
 
 def _name(choice: str, is_changed: bool = False) -> str:

@@ -10,6 +10,7 @@ from modeviz.commands.options import (
     prepare_telling,
     print_json,
     progress,
+    say,
     vehicle_and_rates,
 )
 from modeviz.errors import ModevizError, SolveError
@@ -92,7 +93,7 @@ def _scattered(
         except CancelledError:
             raise KeyboardInterrupt from None
         finally:
-            progress("")(1.0)  # leaves an empty line
+            say("")
     worst = worst_corner(goal, parts, result.deviations[result.goal.argmax()])
     return Scattered(problem, chosen, options.seed, result, worst, _spread(result))
 

@@ -27,7 +27,7 @@ def optimise_on(
         starts: (n_variables,) each, see `start_points`.
         budget: the most evaluations; every search may take an equal part of them.
         control: lets somebody end it; the best design of the searches that have ended is kept.
-        tell: told at the end of every search, once there is a feasible design.
+        tell: told at the end of every search, once there is a feasible design, and as by `optimise`.
 
     Raises:
         SolveError: as `optimise`.
@@ -44,8 +44,8 @@ def optimise_on(
                 tell(Progress(used, rates, best.value, len(descents), len(starts)))
     except CancelledError:
         descents += [descend(search, start, 1, control) for start in starts[:FIRST]]
-        return best_of(search, descents, CANCELLED)
-    return best_of(search, descents, why_ended(descents, len(starts)))
+        return best_of(search, descents, CANCELLED, len(starts), tell)
+    return best_of(search, descents, why_ended(descents, len(starts)), len(starts), tell)
 
 
 def _descend(shared: tuple[Search, int], start: Floats) -> Descent:

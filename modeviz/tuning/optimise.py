@@ -46,6 +46,8 @@ class Progress:
     start: int
     """The number of the start that is searched from, from one; of a global search the part, of two."""
     n_starts: int
+    is_checking: bool = False
+    """Whether the search is over and its best design now held against the full model."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +122,8 @@ def optimise(
         starts: (n_variables,) each, see `start_points`.
         budget: the most evaluations, all starts together.
         control: lets somebody hold or end it; the best design so far is kept.
-        tell: told every evaluation, once there is a feasible design.
+        tell: told every evaluation, once there is a feasible design, and before the full model is
+            solved.
 
     Raises:
         SolveError: a design that cannot be solved, or none that keeps a mode where it has to be.
@@ -133,7 +136,7 @@ def optimise(
             break
         teller = _teller(search, descents, used, i, len(starts), tell)
         descents.append(descend(search, start, budget - used, control, teller))
-    return best_of(search, descents, why_ended(descents, len(starts)))
+    return best_of(search, descents, why_ended(descents, len(starts)), len(starts), tell)
 
 
 def search_globally(
@@ -150,7 +153,7 @@ def search_globally(
         seed: of the evolution; the same finds the same.
         budget: the most evaluations.
         control: lets somebody hold or end it; the best design so far is kept.
-        tell: told every evaluation, once there is a feasible design.
+        tell: as of `optimise`.
 
     Raises:
         SolveError: as `optimise`.
@@ -159,10 +162,10 @@ def search_globally(
     evolved = evolve(search, seed, max(1, int(EVOLVING * budget)), control, teller)
     rest = budget - evolved.evaluations
     if evolved.x is None or evolved.reason == CANCELLED or not rest:
-        return best_of(search, [evolved], evolved.reason)
+        return best_of(search, [evolved], evolved.reason, 2, tell)
     teller = _teller(search, [evolved], evolved.evaluations, 2, 2, tell)
     descent = descend(search, evolved.x, rest, control, teller)
-    return best_of(search, [evolved, descent], descent.reason)
+    return best_of(search, [evolved, descent], descent.reason, 2, tell)
 
 
 def why_ended(descents: Sequence[Descent], n_starts: int) -> str:
@@ -176,13 +179,21 @@ def why_ended(descents: Sequence[Descent], n_starts: int) -> str:
 
 
 @one_thread
-def best_of(search: Search, descents: Sequence[Descent], reason: str) -> Optimum:
+def best_of(
+    search: Search,
+    descents: Sequence[Descent],
+    reason: str,
+    n_starts: int,
+    tell: Callable[[Progress], None] = lambda _: None,
+) -> Optimum:
     """The optimum of several searches, held against the full model.
 
     Args:
         search: what was sought.
         descents: the end of each search.
         reason: why there are no more of them, see `why_ended`.
+        n_starts: how many of them there might have been.
+        tell: told before the full model is solved, which may take seconds.
 
     Raises:
         SolveError: as `optimise`.
@@ -194,13 +205,16 @@ def best_of(search: Search, descents: Sequence[Descent], reason: str) -> Optimum
         if reason == CANCELLED:
             raise SolveError(f"cancelled: {kept}")
         raise SolveError(f"{kept}: widen them, free more rates or take more starts")
+    rates = search.space.rates(best.x)
+    n_evaluations = sum(d.evaluations for d in descents)
+    tell(Progress(n_evaluations, rates, best.value, len(descents), n_starts, is_checking=True))
     verification = verify(search, best.x, best.value)
     return Optimum(
         x=best.x,
-        rates=search.space.rates(best.x),
+        rates=rates,
         value=best.value,
         reason=reason if verification.are_kept else LEFT,
-        evaluations=sum(d.evaluations for d in descents),
+        evaluations=n_evaluations,
         active=active_constraints(search, best.x),
         verification=verification,
         descents=tuple(descents),

@@ -141,7 +141,9 @@ class Pursuit:
             falls = (*falls, (progress.evaluations, progress.value))
         with self._lock:
             self.look = replace(self.look, progress=progress, falls=falls)
-        if time.monotonic() - self._told > TELL_EVERY:
+        if progress.is_checking:
+            self._turn("checking", "searching", "paused")
+        elif time.monotonic() - self._told > TELL_EVERY:
             self._follow()
             self._changed()
             self._told = time.monotonic()
