@@ -62,6 +62,7 @@ from modeviz.tuning.results import solve as solve
 from modeviz.tuning.results import solve_modal as solve_modal
 from modeviz.tuning.results import solve_wheels as solve_wheels
 from modeviz.tuning.robust import robust as robust
+from modeviz.tuning.robust import robust_search as robust_search
 from modeviz.tuning.scatter import Scatter as Scatter
 from modeviz.tuning.scatter import scatter as scatter
 from modeviz.tuning.search import Search as Search

@@ -105,7 +105,7 @@ def test_robust_it_makes_the_percentile_over_parts_small(printed_json, capsys, t
 
 def test_robust_needs_a_goal_that_scatters(refused, cabin):
     said = refused(cabin, "--robust", "--goal", "change")
-    assert said.startswith("--robust: expected a goal that is a sum of squared accelerations")
+    assert said.startswith("the goal does not scatter with parts: a robust search needs")
 
 
 def test_the_rates_it_writes_are_those_it_prints(printed_json, cabin, tmp_path):

@@ -9,10 +9,10 @@ from modeviz.tuning.corner import goals
 from modeviz.tuning.descent import descend
 from modeviz.tuning.optimise import optimise
 from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.robust import percentile_weights, robust
+from modeviz.tuning.robust import percentile_weights, robust, robust_search
 from modeviz.tuning.search import Search
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.problem import DesignGroup, Performance
+from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance
 
 TOLERANCE = Tolerance(0.3, 0.5)
 
@@ -81,6 +81,19 @@ def test_a_robust_optimum_is_better_for_vehicles_it_has_not_seen():
     assert percentile(found.x) < 0.97 * percentile(drawn.x)
     assert search.goal.value(search.space.rates(found.x)) > drawn.value
     assert search.space.excess(found.x) <= 1e-9
+
+
+def test_a_robust_search_is_within_the_same_limits_and_windows():
+    search = cabin_search(windows=(FrequencyWindow("cab yaw", high_hz=10.0),))
+    robustly = robust_search(search, TOLERANCE, 90)
+    x = search.space.to_x({})
+    assert robustly.value(x) == robust(search.goal, TOLERANCE, 90).value({}) > search.value(x)
+    assert (robustly.space, robustly.windows) == (search.space, search.windows)
+
+
+def test_a_change_does_not_scatter():
+    with pytest.raises(SolveError, match="the goal does not scatter with parts: a robust search needs"):
+        robust_search(cabin_search(goal="change"), TOLERANCE)
 
 
 @pytest.mark.parametrize(

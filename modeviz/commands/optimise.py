@@ -11,13 +11,11 @@ from modeviz.export.optimum import optimum_record, optimum_table
 from modeviz.export.wording import significant
 from modeviz.tuning.cluster import runner_at
 from modeviz.tuning.control import Control
-from modeviz.tuning.goals import Goal
 from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.objective import Objective
 from modeviz.tuning.optimise import Optimum, Progress, optimise, search_globally, start_points
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rate_files import rates_format, write_rates
-from modeviz.tuning.robust import Robust, robust
+from modeviz.tuning.robust import robust_search
 from modeviz.tuning.runner import Runner
 from modeviz.tuning.search import Search, prepare_search
 from modeviz.vehicle.connections import Rates
@@ -65,7 +63,7 @@ def _search(
     options: Namespace, search: Search, rates: Rates, tolerance: Tolerance | None
 ) -> tuple[Search, Optimum]:
     """The last search and the best that it found until its end, or until Ctrl+C."""
-    robustly = replace(search, goal=_robust(search.goal, tolerance)) if tolerance else None
+    robustly = robust_search(search, tolerance) if tolerance else None
     try:
         with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:
             optimum = _search_once(options, search, rates, runner, control)
@@ -85,20 +83,6 @@ def _search_once(
     if options.scheduler:
         return optimise_on(runner, search, starts, options.budget, control, _tell)
     return optimise(search, starts, options.budget, control, _tell)
-
-
-def _robust(goal: Goal, tolerance: Tolerance) -> Robust:
-    """The percentile of a goal.
-
-    Raises:
-        ModevizError: the goal is not one that scatters.
-    """
-    if not isinstance(goal, Objective):
-        raise ModevizError(
-            "--robust: expected a goal that is a sum of squared accelerations, such as accelerations "
-            "or rating"
-        )
-    return robust(goal, tolerance)
 
 
 def _tell(where: Progress) -> None:

@@ -1,6 +1,6 @@
 """A goal that holds for nearly all vehicles that are built: a percentile over parts that scatter."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import beta
@@ -10,6 +10,7 @@ from modeviz.errors import SolveError
 from modeviz.tuning.corner import goals
 from modeviz.tuning.objective import Objective
 from modeviz.tuning.parts import Parts, Tolerance, scattered_parts
+from modeviz.tuning.search import Search
 from modeviz.tuning.sensitivity import spring_shares
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
@@ -109,6 +110,20 @@ def robust(
         raise SolveError(f"percentile: found {percent:g}, expected more than 0 and less than 100")
     deviations = scattered_parts(objective.prepared, {}, tolerance).samples(n_samples, seed)
     return Robust(objective, tolerance, deviations, percent, percentile_weights(n_samples, percent))
+
+
+def robust_search(search: Search, tolerance: Tolerance, percent: float = 95.0) -> Search:
+    """The same search for a percentile over parts that scatter, to begin at the optimum as drawn.
+
+    Raises:
+        SolveError: the goal does not scatter, or as `robust`.
+    """
+    if not isinstance(search.goal, Objective):
+        raise SolveError(
+            "the goal does not scatter with parts: a robust search needs a sum of squared "
+            "accelerations, such as accelerations or rating"
+        )
+    return replace(search, goal=robust(search.goal, tolerance, percent))
 
 
 def percentile_weights(n_samples: int, percent: float) -> Floats:
