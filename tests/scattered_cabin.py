@@ -40,9 +40,9 @@ def cabin_parts() -> Parts:
     return scattered_parts(prepare(mounted_cabin(), np.array([1.0])), {}, Tolerance())
 
 
-def cabin_objective() -> Objective:
+def cabin_objective(kind: type[Objective] = Objective) -> Objective:
     """On a road at three frequencies and under a wheel load at another."""
     vehicle = mounted_cabin()
     (load,) = vehicle.wheel_loads
     cases = [LoadCase(FLAT, (6.0, 8.0, 12.0)), LoadCase(load, (11.0,), weight=1e-3)]
-    return prepare_objective(vehicle, cases)
+    return prepare_objective(vehicle, cases, kind)

@@ -5,7 +5,9 @@ import pytest
 from scattered_cabin import cabin_objective, prepared_cabin
 
 from modeviz.tuning.corner import goals, worst_corner
+from modeviz.tuning.objective import Objective
 from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.peak import Peak
 
 
 @pytest.fixture(scope="module")
@@ -13,9 +15,9 @@ def prepared():
     return prepared_cabin()
 
 
-@pytest.fixture(scope="module")
-def objective():
-    return cabin_objective()
+@pytest.fixture(scope="module", params=[Objective, Peak])
+def objective(request):
+    return cabin_objective(request.param)
 
 
 @pytest.mark.parametrize("tolerance", [Tolerance(), Tolerance(0.6, 0.9)])

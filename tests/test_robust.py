@@ -55,6 +55,24 @@ def test_its_gradient_is_central_differences(search, goal):
     assert relative_to_largest(gradient, np.array(expected), over=0).max() < 1e-5
 
 
+def test_of_a_peak_it_is_the_percentile_of_the_samples_peaks():
+    search = cabin_search(goal="peak")
+    robustly = robust_search(search, TOLERANCE)
+    x = search.space.samples(3, 1)[2]
+    parts = scattered_parts(search.goal.prepared, search.space.rates(x), TOLERANCE)
+    stiffness = parts.stiffness(robustly.goal.deviations)
+    peaks = [search.goal.squares(k, np.zeros((len(k), 0)))[0].max() for k in stiffness]
+    expected = mstats.hdquantiles(peaks, prob=[0.95])[0]
+    value, gradient = robustly.evaluate(x)
+    assert value == pytest.approx(expected, rel=1e-3)
+    slopes = [
+        central_difference(lambda h, s=s: robustly.value(x + (h - 1) * s), 1.0, 1e-5)
+        for s in np.eye(len(x))
+    ]
+    assert relative_to_largest(gradient, np.array(slopes), over=0).max() < 1e-4
+    assert robustly.goal.exact_value({}) == pytest.approx(robustly.goal.value({}), rel=1e-8)
+
+
 def test_the_full_model_says_the_same(goal):
     assert goal.exact_value({}) == pytest.approx(goal.value({}), rel=1e-8)
 

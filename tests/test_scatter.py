@@ -6,6 +6,7 @@ from modeviz.errors import SolveError, VehicleError
 from modeviz.tuning.batch import solve_many
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.peak import Peak
 from modeviz.tuning.results import solve
 from modeviz.tuning.scatter import CHUNK, scatter
 
@@ -47,6 +48,15 @@ def test_every_goal_is_the_objective_of_its_parts(parts, objective, result):
     expected = [objective.of_springs(k, shares)[0] for k in stiffness]
     np.testing.assert_allclose(result.goal[:20], expected, rtol=1e-3)
     assert result.goal_error < 1e-3
+
+
+def test_a_peak_scatters_too(prepared, parts):
+    peak = cabin_objective(Peak)
+    result = scatter(prepared, parts, FLAT, peak, 20)
+    stiffness = parts.stiffness(result.deviations)
+    expected = [peak.squares(k, np.zeros((len(k), 0)))[0].max() for k in stiffness]
+    np.testing.assert_allclose(result.goal, expected, rtol=1e-3)
+    assert result.nominal_goal == pytest.approx(peak.value({}), rel=1e-12)
 
 
 def test_parts_as_drawn_are_the_vehicle_itself(prepared, objective, result):

@@ -70,8 +70,8 @@ def _scattered(
     goal = prepare_goal(vehicle, problem, rates, chosen.speed)
     if not isinstance(goal, Objective):
         raise ModevizError(
-            f"problem {problem.name!r}: its goal, {problem.goal}, does not scatter: only sums of "
-            "squared accelerations do; choose another problem with --problem"
+            f"problem {problem.name!r}: its goal, {problem.goal}, does not scatter: only what is made "
+            "of accelerations does; choose another problem with --problem"
         )
     points = () if options.point is None else (options.point,)
     with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:

@@ -54,5 +54,4 @@ def _climb(objective: Objective, parts: Parts, start: Floats) -> Corner:
 
 def goals(objective: Objective, parts: Parts, deviations: Floats) -> Floats:
     """The goal of vehicles of some deviations, (n,), at all of its frequencies."""
-    responses = objective.driven.responses(parts.stiffness(deviations))
-    return objective.criterion.values(responses).sum(axis=-1)
+    return objective.criterion.total(objective.driven.responses(parts.stiffness(deviations)))

@@ -8,7 +8,7 @@ import numpy as np
 from modeviz.errors import VehicleError
 from modeviz.ride.psd import RIDE_BAND, integration_weights
 from modeviz.ride.rating import COMFORT_FACTORS, squared_weights
-from modeviz.tuning.objective import LoadCase, prepare_objective
+from modeviz.tuning.objective import LoadCase, Objective, prepare_objective
 from modeviz.tuning.peak import Peak
 from modeviz.tuning.preparation import FREQUENCY_HZ
 from modeviz.tuning.results import AXIS, Conditions
@@ -82,15 +82,14 @@ def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) 
     if problem.goal == "change":
         return LeastChange(vehicle, base)
     cases = load_cases(vehicle, problem, speed)
-    objective = prepare_objective(vehicle, [replace(case, weight=1.0) for case in cases])
+    kind = Peak if problem.goal == "peak" else Objective
+    objective = prepare_objective(vehicle, [replace(case, weight=1.0) for case in cases], kind)
     weights = np.array([case.weight for case in cases])
-    is_peak = problem.goal == "peak"
     if problem.is_normalised:
-        H = objective.response({})
-        own = objective.criterion.largest(H) if is_peak else objective.criterion.values(H)
-        weights = weights / ((weights.max() if is_peak else weights.sum()) or 1.0)
+        own = objective.values({})
+        weights = weights / (objective.criterion.join(weights) or 1.0)
         weights = np.divide(weights, own, out=weights.copy(), where=own > 0)
-    return Peak(objective.scaled(weights)) if is_peak else objective.scaled(weights)
+    return objective.scaled(weights)
 
 
 def load_cases(vehicle: Vehicle, problem: Problem, speed: float) -> list[LoadCase]:

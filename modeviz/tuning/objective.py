@@ -95,9 +95,13 @@ class Criterion:
         """
         return np.stack([term.value(self.power(term, response)) for term in self.terms], axis=-1)
 
-    def largest(self, response: Complexes) -> Floats:
-        """The largest w (a - target)² of each case, (n_cases,)."""
-        return np.array([term.squares(self.power(term, response)).max() for term in self.terms])
+    def join(self, values: Floats) -> Floats:
+        """F, (...,), from what each case adds to it."""
+        return values.sum(axis=-1)
+
+    def total(self, response: Complexes) -> Floats:
+        """F, (...,); argument as of `values`."""
+        return self.join(self.values(response))
 
     def power(self, term: _Term, response: Complexes) -> Floats:
         """a² of a case, (..., n_lines, n_outputs), from the response of all outputs to all inputs."""
@@ -125,7 +129,7 @@ class Objective:
 
     def value(self, rates: Rates) -> float:
         """F at rates of the groups that differ from the vehicle's own; raises as `solve`."""
-        return float(self.values(rates).sum())
+        return float(self.criterion.total(self.response(rates)))
 
     def values(self, rates: Rates) -> Floats:
         """What each case adds to F, (n_cases,); raises as `solve`."""
@@ -133,7 +137,7 @@ class Objective:
 
     def exact_value(self, rates: Rates) -> float:
         """F from the equations of motion of the full model; raises as `exact_response`."""
-        return float(self.criterion.values(self.exact_response(rates)).sum())
+        return float(self.criterion.total(self.exact_response(rates)))
 
     def response(self, rates: Rates) -> Complexes:
         """Of all outputs to all inputs, (n_freqs, n_outputs, n_inputs); raises as `solve`."""
@@ -175,13 +179,12 @@ class Objective:
             gradient += np.tensordot(term.slope(power), change, 2)
         return value, gradient
 
-    def squares_and_gradients(self, rates: Rates) -> tuple[Floats, Floats]:
+    def squares(self, stiffness: Complexes, shares: Complexes) -> tuple[Floats, Floats]:
         """W (a - target)² of everything that has a weight, (n,), and derivatives, (n, n_variables).
 
-        These are to each of `rate_variables`; raises as `solve`.
+        Arguments and errors as `of_springs`.
         """
         squares, gradients = [], []
-        stiffness, shares = self.prepared.mount_stiffness(rates), spring_shares(self.prepared, rates)
         for term, power, change in self._powers(stiffness, shares):
             counts = term.weights > 0
             squares.append(term.squares(power)[counts])
@@ -200,7 +203,7 @@ class Objective:
             yield term, power, change
 
     @property
-    def criterion(self) -> "Criterion":
+    def criterion(self) -> Criterion:
         """What makes F of responses."""
         return Criterion(self.driven.frequency_hz, self.terms)
 
@@ -213,8 +216,10 @@ class Objective:
         return replace(self, terms=terms)
 
 
-def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
-    """The objective of some load cases.
+def prepare_objective(
+    vehicle: Vehicle, cases: Sequence[LoadCase], kind: type[Objective] = Objective
+) -> Objective:
+    """The objective of some load cases, their sum or of another kind, such as `Peak`.
 
     Raises:
         VehicleError: a road that the vehicle does not have.
@@ -236,7 +241,7 @@ def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
     )
     amplitudes = np.concatenate(by_case, axis=2)
     driven = prepared.receptances.with_outputs(outputs).driven(amplitudes)
-    return Objective(prepared, driven, amplitudes, outputs, terms)
+    return kind(prepared, driven, amplitudes, outputs, terms)
 
 
 def _weights(vehicle: Vehicle, case: LoadCase) -> Floats:

@@ -3,8 +3,11 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-from modeviz.tuning.objective import Objective
-from modeviz.vehicle.arrays import Floats
+import numpy as np
+
+from modeviz.tuning.objective import Criterion, Objective
+from modeviz.tuning.sensitivity import spring_shares
+from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
 
 
@@ -31,17 +34,29 @@ class MinMax(ABC):
 
 
 @dataclass(frozen=True, eq=False)
-class Peak(MinMax):
+class Largest(Criterion):
+    """The largest w (a - target)² of each case, and of all."""
+
+    def values(self, response: Complexes) -> Floats:
+        squares = [term.squares(self.power(term, response)) for term in self.terms]
+        return np.stack([own.max(axis=(-2, -1)) for own in squares], axis=-1)
+
+    def join(self, values: Floats) -> Floats:
+        return values.max(axis=-1)
+
+
+@dataclass(frozen=True, eq=False)
+class Peak(Objective, MinMax):
     """max w (a - target)² over load cases, frequencies, response points and directions."""
 
-    objective: Objective
-    """Whose sum it would be."""
-
-    def value(self, rates: Rates) -> float:
-        return float(self.objective.criterion.largest(self.objective.response(rates)).max())
-
-    def exact_value(self, rates: Rates) -> float:
-        return float(self.objective.criterion.largest(self.objective.exact_response(rates)).max())
+    @property
+    def criterion(self) -> Criterion:
+        return Largest(self.driven.frequency_hz, self.terms)
 
     def parts_and_gradients(self, rates: Rates) -> tuple[Floats, Floats]:
-        return self.objective.squares_and_gradients(rates)
+        return self.squares(self.prepared.mount_stiffness(rates), spring_shares(self.prepared, rates))
+
+    def of_springs(self, stiffness: Complexes, shares: Complexes) -> tuple[float, Floats]:
+        squares, gradients = self.squares(stiffness, shares)
+        largest = squares.argmax()
+        return float(squares[largest]), gradients[largest]

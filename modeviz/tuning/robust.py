@@ -79,7 +79,7 @@ class Robust:
         """The objective of parts, from the full model."""
         system = self.objective.prepared.system
         system = system.with_springs(stiffness - mount_stiffness(system.vehicle))
-        return float(self.objective.criterion.values(self.objective.exact_response_of(system)).sum())
+        return float(self.objective.criterion.total(self.objective.exact_response_of(system)))
 
 
 def robust(
@@ -120,8 +120,8 @@ def robust_search(search: Search, tolerance: Tolerance, percent: float = 95.0) -
     """
     if not isinstance(search.goal, Objective):
         raise SolveError(
-            "the goal does not scatter with parts: a robust search needs a sum of squared "
-            "accelerations, such as accelerations or rating"
+            "the goal does not scatter with parts: a robust search needs one that is made of "
+            "accelerations, such as accelerations, peak or rating"
         )
     return replace(search, goal=robust(search.goal, tolerance, percent))
 

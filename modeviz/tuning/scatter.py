@@ -162,7 +162,7 @@ class _Study:
         psd = acceleration_psd(self.frequency_hz, self.ride.responses(stiffness), self.spectrum)
         psd = psd.reshape(*psd.shape[:2], -1, 3)
         roots = rms(self.frequency_hz, psd.swapaxes(0, 1))
-        goal = self.criterion.values(self.goal.responses(stiffness)).sum(axis=-1)
+        goal = self.criterion.total(self.goal.responses(stiffness))
         return _Sampled(psd.astype(np.float32), roots, goal)
 
 

@@ -12,7 +12,7 @@ from modeviz.tuning.results import AXIS, Conditions
 from modeviz.tuning.scatter import Scatter, scatter
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
-from modeviz.vehicle.problem import Goal, Problem
+from modeviz.vehicle.problem import Problem
 from modeviz.viewer.beside import Beside, Job, Tell
 from modeviz.viewer.plan import planned
 from modeviz.viewer.session import Session
@@ -20,9 +20,6 @@ from modeviz.viewer.state import Curve, State
 
 PERCENT = (5.0, 95.0)
 """Between these percentiles a band is drawn."""
-
-NOT_SUMS: tuple[Goal, ...] = ("peak", "change")
-"""Goals that no part scatters, or that are no sum; the accelerations are looked at in their place."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +76,7 @@ class Scatterer:
         state = self._session.state
         assert state.plan is not None
         problem = planned(self._session.vehicle, state.plan)
-        if problem.goal in NOT_SUMS:
+        if problem.goal == "change":  # which no part scatters
             problem = replace(problem, goal="accelerations")
         self._beside.start(Build(state.rates, state.conditions, problem, n_samples))
 
