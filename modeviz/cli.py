@@ -20,6 +20,7 @@ from modeviz.errors import ModevizError
 from modeviz.tuning.optimise import BUDGET
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rates import ORIGINAL
+from modeviz.tuning.threads import one_thread
 from modeviz.vehicle.problem import Goal
 
 DEFAULT_PORT = 8080
@@ -37,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments = ["view", *arguments]
     options = parser.parse_args(arguments)
     try:
-        options.run(options)
+        one_thread(options.run)(options)
         sys.stdout.flush()
     except ModevizError as error:
         print(f"modeviz: {error}", file=sys.stderr)

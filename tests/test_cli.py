@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from modeviz.cli import main
 from modeviz.tuning.preparation import prepare
@@ -36,6 +37,18 @@ def test_modes_json_has_its_documented_structure(printed_json, folder):
         assert sum(mode["kinetic_energy"].values()) == pytest.approx(1.0)
         assert sum(mode["strain_energy"].values()) == pytest.approx(1.0)
         assert set(mode["strain_energy"]) == {"A", "B", "tyres"}
+
+
+def test_commands_have_one_thread_for_linear_algebra(monkeypatch, folder):
+    found = []
+
+    def note(_):
+        found.extend(p["num_threads"] for p in threadpool_info() if p["user_api"] == "blas")
+
+    monkeypatch.setattr("modeviz.commands.tables.psd", note)
+    with threadpool_limits(2, user_api="blas"):
+        main(["psd", folder])
+    assert set(found) == {1}
 
 
 def test_psd_json_is_the_solution_of_the_tuned_vehicle(printed_json, folder):

@@ -5,6 +5,8 @@ import pytest
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.runner import HERE, N_THREADS
 
+SOON = 20
+
 
 def times(shared, item):
     return shared * item
@@ -16,6 +18,13 @@ def test_results_come_in_the_order_of_their_items():
 
 def test_nothing_has_no_results():
     assert list(HERE.map(times, 3, [], Control())) == []
+
+
+def join_all_but(before):
+    """Waits for the end of all threads that were not there before."""
+    for thread in set(threading.enumerate()) - before:
+        thread.join(SOON)
+        assert not thread.is_alive()
 
 
 def counted(taken):
@@ -41,7 +50,7 @@ def test_what_a_task_raises_is_raised():
         list(HERE.map(fails, None, range(5), Control()))
 
 
-def test_cancelled_it_ends_and_leaves_no_thread():
+def test_cancelled_it_ends_and_its_threads_soon():
     before = set(threading.enumerate())
     control = Control()
     taken = []
@@ -51,4 +60,25 @@ def test_cancelled_it_ends_and_leaves_no_thread():
     with pytest.raises(CancelledError):
         list(results)
     assert len(taken) <= N_THREADS + 2
-    assert set(threading.enumerate()) <= before
+    join_all_but(before)
+
+
+def test_cancelled_it_does_not_wait_for_what_is_being_computed():
+    before = set(threading.enumerate())
+    control, has_begun, may_end, ended = Control(), threading.Event(), threading.Event(), []
+
+    def held(_shared, item):
+        has_begun.set()
+        may_end.wait(SOON)
+        ended.append(item)
+
+    def cancel():
+        has_begun.wait(SOON)
+        control.cancel()
+
+    threading.Thread(target=cancel).start()
+    with pytest.raises(CancelledError):
+        list(HERE.map(held, None, range(50), control))
+    assert not ended
+    may_end.set()
+    join_all_but(before)

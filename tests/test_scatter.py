@@ -1,3 +1,5 @@
+import threading
+
 import numpy as np
 import pytest
 from scattered_cabin import FLAT, cabin_objective, prepared_cabin
@@ -114,6 +116,21 @@ def test_it_ends_when_told_to(prepared, parts, objective):
     with pytest.raises(CancelledError):
         scatter(prepared, parts, FLAT, objective, 10_000, control=control, tell=tell)
     assert len(told) == 1
+
+
+def test_it_ends_also_before_it_has_a_sample(monkeypatch, prepared, parts, objective):
+    control, may_end, ended = Control(), threading.Event(), []
+
+    def held(*_):
+        control.cancel()
+        may_end.wait(20)
+        ended.append(True)
+
+    monkeypatch.setattr("modeviz.tuning.scatter.few_lines", held)
+    with pytest.raises(CancelledError):
+        scatter(prepared, parts, FLAT, objective, 250, control=control)
+    assert not ended
+    may_end.set()
 
 
 def test_one_sample_does_not_scatter(prepared, parts, objective):

@@ -74,22 +74,23 @@ def _scattered(
             "of accelerations does; choose another problem with --problem"
         )
     points = () if options.point is None else (options.point,)
-    with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:
+    with runner_at(options.scheduler) as runner:
         prepared = prepare_telling(vehicle)
         parts = scattered_parts(prepared, rates, tolerance)
         try:
-            result = scatter(
-                prepared,
-                parts,
-                chosen,
-                goal,
-                options.samples,
-                options.seed,
-                points,
-                runner,
-                control,
-                progress("scattering"),
-            )
+            with cancelled_by_interrupt() as control:
+                result = scatter(
+                    prepared,
+                    parts,
+                    chosen,
+                    goal,
+                    options.samples,
+                    options.seed,
+                    points,
+                    runner,
+                    control,
+                    progress("scattering"),
+                )
         except CancelledError:
             raise KeyboardInterrupt from None
         finally:

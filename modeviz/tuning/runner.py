@@ -3,7 +3,7 @@
 import os
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import Protocol, TypeVar
 
 from threadpoolctl import threadpool_limits
@@ -12,6 +12,9 @@ from modeviz.tuning.control import Control
 
 N_THREADS = min(4, os.cpu_count() or 1)
 """Tasks side by side: linear algebra does not hold the interpreter's lock."""
+
+POLL_S = 0.05
+"""Between looks at whether somebody ends it."""
 
 S = TypeVar("S")
 A = TypeVar("A")
@@ -44,20 +47,28 @@ class Here:
     def map(
         self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: Control
     ) -> Iterator[T]:
-        with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(N_THREADS) as pool:
-            waiting = deque()
+        pool, waiting = ThreadPoolExecutor(N_THREADS), deque()
+        with threadpool_limits(1, user_api="blas"):
             try:
                 for item in items:
                     control.check()
                     waiting.append(pool.submit(function, shared, item))
                     if len(waiting) > N_THREADS:
-                        yield waiting.popleft().result()
+                        yield _result(waiting.popleft(), control)
                 while waiting:
-                    control.check()
-                    yield waiting.popleft().result()
+                    yield _result(waiting.popleft(), control)
             finally:
-                for future in waiting:
-                    future.cancel()
+                # Tasks in hand are left to themselves: who ends it does not wait for them.
+                pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _result(future: Future[T], control: Control) -> T:
+    """Waits for a task as long as it may."""
+    control.check()
+    while not future.done():
+        wait([future], POLL_S)
+        control.check()
+    return future.result()
 
 
 HERE = Here()

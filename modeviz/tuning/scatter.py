@@ -103,13 +103,15 @@ def scatter(
     if n_samples < 2:
         raise SolveError(f"samples: found {n_samples}, expected 2 or more")
     numbers = _points(prepared, points)
-    study, nominal, errors = _study(prepared, conditions, objective, parts, numbers, seed)
+    control = control or Control()
+    given = prepared, conditions, objective, parts, numbers, control
+    ((study, nominal, errors),) = HERE.map(_study, given, [seed], control)  # where it can be left
     deviations = parts.samples(n_samples, seed)
     chunks = [deviations[i : i + CHUNK] for i in range(0, n_samples, CHUNK)]
     psd = np.empty((n_samples, len(prepared.frequency_hz), len(numbers), 3), np.float32)
     roots, goal = np.empty((n_samples, len(numbers), 3)), np.empty(n_samples)
     done = 0
-    for sampled in runner.map(_Study.sample, study, chunks, control or Control()):
+    for sampled in runner.map(_Study.sample, study, chunks, control):
         own = slice(done, done + len(sampled.goal))
         psd[own], roots[own], goal[own] = sampled.psd, sampled.rms, sampled.goal
         done = own.stop
@@ -167,14 +169,10 @@ class _Study:
 
 
 def _study(
-    prepared: Prepared,
-    conditions: Conditions,
-    objective: Objective,
-    parts: Parts,
-    points: NDArray[np.intp],
-    seed: int,
+    given: tuple[Prepared, Conditions, Objective, Parts, NDArray[np.intp], Control], seed: int
 ) -> tuple[_Study, _Sampled, tuple[float, float]]:
     """What vehicles are solved with, what the one as drawn does, and how far PSDs and goals are off."""
+    prepared, conditions, objective, parts, points, control = given
     on_road = drive(prepared, conditions)
     outputs = (3 * points[:, None] + np.arange(3)).ravel()
     ride = on_road.receptances.with_outputs(outputs)
@@ -183,14 +181,18 @@ def _study(
     checks = others[N_TAUGHT:]
     taught = parts.stiffness(np.vstack([drawn, others[:N_TAUGHT]]))
     few = few_lines(ride, taught)
+    control.check()
+    few_goal = few_lines(objective.driven, taught)
+    control.check()
     study = _Study(
         parts,
         prepared.frequency_hz,
         on_road.spectrum,
         replace(few, receptances=reduced(ride.at(few.lines), taught)),
-        few_lines(objective.driven, taught),
+        few_goal,
         objective.criterion,
     )
+    control.check()
     exact = replace(study, ride=ride, goal=objective.driven)
     found, expected = study.sample(checks), exact.sample(checks)
     errors = _error(found.psd, expected.psd), _error(found.goal, expected.goal)
