@@ -158,7 +158,7 @@ def _add_json(command: argparse.ArgumentParser) -> None:
 
 def _add_search(command: argparse.ArgumentParser) -> None:
     command.add_argument(
-        "--output", type=Path, metavar="FILE", help="where to write the rates found: .json or .csv"
+        "--output", type=Path, metavar="FILE", help="where to write what is found: .json or .csv"
     )
     command.add_argument("--problem", metavar="NAME", help="default: the vehicle's first")
     command.add_argument(
@@ -170,7 +170,15 @@ def _add_search(command: argparse.ArgumentParser) -> None:
         help="add load cases up as they are, as the paper does, not relative to the original",
     )
     command.add_argument(
-        "--starts", type=int, default=20, metavar="N", help="the first from --rates; default 20"
+        "--starts",
+        type=int,
+        metavar="N",
+        help="the first from --rates; default 20, or 5 for each design of a front",
+    )
+    command.add_argument(
+        "--front",
+        metavar="GOALS",
+        help='find designs between two goals instead, such as "lateral against vertical"',
     )
     command.add_argument(
         "--global",

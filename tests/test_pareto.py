@@ -84,7 +84,41 @@ def test_every_design_keeps_all_limits_and_none_dominates_another(cabin):
     for design in front.designs:
         assert trade_off.searches[0].space.excess(design.x) < 1e-12
         exact = [s.goal.exact_value(design.rates) for s in trade_off.searches]
-        assert design.values == pytest.approx(exact, rel=1e-9)
+        off = [abs(v / e - 1) for v, e in zip(design.values, exact, strict=True)]
+        assert design.verification.difference == pytest.approx(max(off), abs=1e-15)
+    assert front.difference == max(d.verification.difference for d in front.designs) < 1e-9
+
+
+@pytest.mark.parametrize("is_cancelled", [False, True])
+def test_designs_are_checked_one_after_the_other_also_after_a_cancel(cabin, is_cancelled):
+    trade_off, _ = cabin
+    control, told = Control(), []
+
+    def tell(progress):
+        told.append(progress)
+        if is_cancelled:
+            control.cancel()
+
+    front = find_front(trade_off, [{}], 4, n_starts=1, control=control, tell=tell)
+    n = len(front.designs)
+    checks = [[d.verification is not None for d in p.designs] for p in told[-n:]]
+    assert checks == [[True] * i + [False] * (n - i) for i in range(1, n + 1)]
+    assert told[-1].designs == front.designs
+
+
+def test_a_design_that_leaves_its_window_in_the_full_model_is_left_out(monkeypatch):
+    trade_off = cabin_trade_off(windows=(FrequencyWindow("cab yaw", high_hz=10.0),))
+    windows = type(trade_off.searches[0].windows)
+    exact, asked = windows.exact_frequencies, []
+
+    def off(windows, rates):
+        asked.append(rates)
+        return np.array([10.1]) if rates == asked[0] else exact(windows, rates)
+
+    monkeypatch.setattr(windows, "exact_frequencies", off)
+    told = []
+    front = find_front(trade_off, [{}], 4, n_starts=1, tell=told.append)
+    assert len(front.designs) == len(told[-1].designs) - 1
 
 
 def test_no_sample_dominates_the_front(cabin):
@@ -132,7 +166,8 @@ def test_it_tells_each_design_and_can_be_cancelled(cabin):
 
     front = find_front(trade_off, [{}], control=control, tell=tell)
     assert front.reason == CANCELLED
-    assert [round(p.done * 11) for p in told] == list(range(1, len(told) + 1))
+    found = [p for p in told if not any(d.verification for d in p.designs)]
+    assert [round(p.done * 11) for p in found] == list(range(1, len(found) + 1))
     assert told[1].designs
     assert front.designs[0].values == told[1].designs[0].values
     assert front.evaluations <= told[1].evaluations + 1

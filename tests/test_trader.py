@@ -62,6 +62,7 @@ def test_on_the_front_neither_goal_falls_unless_the_other_rises(trader):
     assert len(lateral) > 1
     assert (np.diff(lateral) > 0).all()
     assert (np.diff(vertical) < 0).all()
+    assert all(design.verification.difference < 1e-9 for design in trader.job.found)
 
 
 def test_a_design_is_loaded_and_undone(session, trader):

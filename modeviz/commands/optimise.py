@@ -4,6 +4,7 @@ from argparse import Namespace
 from dataclasses import replace
 from math import inf
 
+from modeviz.commands.front import optimise_front
 from modeviz.commands.interrupt import cancelled_by_interrupt
 from modeviz.commands.options import chosen_speed, need, print_json, progress, say, vehicle_and_rates
 from modeviz.errors import ModevizError
@@ -23,12 +24,13 @@ from modeviz.vehicle.files.disk import check_writable
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
-MOST_STARTS = 10_000
+N_STARTS, MOST_STARTS = 20, 10_000
 
 
 def optimise_rates(options: Namespace) -> None:
     """Searches, writes the rates that were found and prints what they are worth."""
-    _check("--starts", options.starts, 1, MOST_STARTS)
+    if options.starts is not None:
+        _check("--starts", options.starts, 1, MOST_STARTS)
     _check("--budget", options.budget, 1, inf)
     _check("--seed", options.seed, 0, inf)
     if options.everywhere and options.scheduler:
@@ -39,6 +41,9 @@ def optimise_rates(options: Namespace) -> None:
     if options.output:
         rates_format(options.output)
         check_writable(options.output)
+    if options.front:
+        optimise_front(options, vehicle, problem, rates, speed)
+        return
     tolerance = Tolerance(options.tolerance, options.loss_tolerance) if options.robust else None
     search, optimum = _search(options, prepare_search(vehicle, problem, rates, speed), rates, tolerance)
     if options.output:
@@ -79,7 +84,7 @@ def _search_once(
 ) -> Optimum:
     if options.everywhere:
         return search_globally(search, options.seed, options.budget, control, _tell)
-    starts = start_points(search, rates, options.starts, options.seed, control)
+    starts = start_points(search, rates, options.starts or N_STARTS, options.seed, control)
     if options.scheduler:
         return optimise_on(runner, search, starts, options.budget, control, _tell)
     return optimise(search, starts, options.budget, control, _tell)

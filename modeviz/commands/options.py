@@ -104,7 +104,12 @@ def say(text: str) -> None:
 
 def print_json(record: Record) -> None:
     """Prints what `--json` asks for."""
-    print(json.dumps(record, indent=1, ensure_ascii=False))
+    print(json_text(record))
+
+
+def json_text(record: Record) -> str:
+    """A record as it is printed."""
+    return json.dumps(record, indent=1, ensure_ascii=False)
 
 
 def tell(what: str, done: float) -> None:

@@ -9,6 +9,7 @@ from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.descent import descend
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent
 from modeviz.tuning.optimise import BUDGET, SCREENED
+from modeviz.tuning.runner import HERE
 from modeviz.tuning.search import Search
 from modeviz.tuning.threads import one_thread
 from modeviz.tuning.trade_off import Compromise, TradeOff
@@ -24,7 +25,7 @@ SAME = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Front:
-    """Designs of which none is better than another in both goals."""
+    """Designs of which none is better than another in both goals, held against the full model."""
 
     names: tuple[str, str]
     """Of the goals."""
@@ -33,6 +34,16 @@ class Front:
     reason: str
     """Why it ended: "converged", "cancelled" or "out of budget"."""
     evaluations: int
+
+    @property
+    def converged(self) -> bool:
+        """Whether every search came to its end."""
+        return self.reason == CONVERGED
+
+    @property
+    def difference(self) -> float:
+        """Of the full model's goals from those found, relative, the largest; see `Verification`."""
+        return largest_difference(self.designs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +54,7 @@ class FrontProgress:
     designs: tuple[Compromise, ...]
     """The front so far."""
     done: float
-    """Of all its designs, 0 to 1."""
+    """Of all its designs, 0 to 1; at 1 they are held against the full model, one after the other."""
 
 
 @one_thread
@@ -65,6 +76,11 @@ def find_front(
     efficient frontier", Lecture Notes in Economics 130, 1976). Each is searched from those that are
     best for it, of the designs found before and of some spread evenly.
 
+        pair = sides(vehicle, problem)["lateral against vertical"]
+        trade_off = prepare_trade_off(vehicle, problem, pair, vehicle.rates, vehicle.speed)
+        for design in find_front(trade_off, [vehicle.rates]).designs:
+            print(design.values, design.rates["C2"])
+
     Args:
         trade_off: see `prepare_trade_off`.
         known: rates to begin with, such as the present ones and the best that were found before.
@@ -73,7 +89,8 @@ def find_front(
         seed: of these; the same finds the same.
         budget: the most evaluations, besides those that choose where to start.
         control: lets somebody hold or end it; what is found by then is kept.
-        tell: told each design.
+        tell: told each design, and once more when it is held against the full model; designs that
+            leave a window there are left out.
 
     Raises:
         SolveError: a design that cannot be solved.
@@ -86,7 +103,13 @@ def find_front(
     for ratio in walk.ratios(n_designs - 2):
         weights = np.array([ratio**-0.5, ratio**0.5])
         walk.to(trade_off.weighted(weights), weights)
-    return Front(trade_off.names, walk.front(), walk.reason, walk.evaluations)
+    return Front(trade_off.names, walk.checked(), walk.reason, walk.evaluations)
+
+
+def largest_difference(designs: Sequence[Compromise]) -> float:
+    """Of the full model's goals, relative; NaN where one is not known, 0 of no designs."""
+    differences = [np.nan if d.verification is None else d.verification.difference for d in designs]
+    return float(np.max(differences, initial=0.0))
 
 
 class _Walk:
@@ -147,6 +170,14 @@ class _Walk:
             if not kept or design.values[1] < kept[-1].values[1] * (1 - SAME):
                 kept.append(design)
         return tuple(kept)
+
+    def checked(self) -> tuple[Compromise, ...]:
+        """The front, held against the full model; also what was found by the time of a cancel."""
+        designs = list(self.front())
+        for i, design in enumerate(HERE.map(TradeOff.verified, self._trade_off, designs, Control())):
+            designs[i] = design
+            self._tell(FrontProgress(self.evaluations, tuple(designs), 1.0))
+        return tuple(d for d in designs if d.verification and d.verification.are_kept)
 
     def _starts(self, weights: Floats) -> list[Floats]:
         """The designs that are best for one search."""

@@ -9,6 +9,7 @@ from modeviz.errors import VehicleError
 from modeviz.tuning.goals import Goal
 from modeviz.tuning.peak import MinMax
 from modeviz.tuning.search import Search, prepare_search
+from modeviz.tuning.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import VARIABLES, Performance, Problem
@@ -35,6 +36,8 @@ class Compromise:
     """Of every group."""
     values: tuple[float, float]
     """Of both goals."""
+    verification: Verification | None = None
+    """What the full model says of that goal which differs more; None before it is asked."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +52,15 @@ class TradeOff:
         """A design with what both goals are; raises as `Search.value`."""
         first, second = (search.value(x) for search in self.searches)
         return Compromise(x, self.searches[0].space.rates(x), (first, second))
+
+    def verified(self, design: Compromise) -> Compromise:
+        """The same design with what the full model says of it."""
+        both = [
+            verify(search, design.x, value)
+            for search, value in zip(self.searches, design.values, strict=True)
+        ]
+        worse = int(np.argmax([v.difference for v in both]))  # of which NaN is the largest
+        return replace(design, verification=both[worse])
 
     def weighted(self, weights: Floats) -> Search:
         """The search for the least of the larger of both goals, each times its weight, (2,)."""

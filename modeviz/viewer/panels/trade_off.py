@@ -8,9 +8,11 @@ import viser
 from modeviz.errors import ModevizError
 from modeviz.export.axes import Axis
 from modeviz.export.wording import sentence_case, significant
+from modeviz.tuning.pareto import largest_difference
 from modeviz.viewer.assign import assign
 from modeviz.viewer.beside import Job
 from modeviz.viewer.html import HiddenButtons, block, heading, span
+from modeviz.viewer.panels.status import ALARMING, percent
 from modeviz.viewer.session import Session
 from modeviz.viewer.trader import Designs, Trade, Trader
 
@@ -59,7 +61,7 @@ class TradeOffPanel:
                 assign(self._between, options=tuple(map(sentence_case, offers)))
             assign(self._buttons, options=(CANCEL,) if job and job.is_running else (FIND,))
             if job:
-                assign(self._front, content=block(_where(job), self._chart(job)))
+                assign(self._front, content=block(where(job), self._chart(job)))
 
     def _press(self, event: viser.GuiEvent) -> None:
         if self._buttons.value == CANCEL:
@@ -108,12 +110,28 @@ def _ticks(of: Axis, side: str) -> list[str]:
     ]
 
 
-def _where(job: Job[Trade, Designs]) -> str:
+def where(job: Job[Trade, Designs]) -> str:
+    """A line on how far the search is, and what the full model says of what it found."""
     n = len(job.found or ())
     designs = f"{n} design{'' if n == 1 else 's'}"
     if job.phase == "failed":
         return heading("Failed") + span(escape(job.failure), "bad")
     if job.is_running:
         bar = f'<div class="bar"><i style="width:{job.done:.0%};background:var(--mv-now)"></i></div>'
-        return heading("Searching", designs) + bar
-    return heading("Front" if job.phase == "ended" else "Cancelled", designs)
+        is_checking = any(design.verification for design in job.found or ())
+        return heading("Checking" if is_checking else "Searching", designs) + bar
+    name = "Front" if job.phase == "ended" else "Cancelled"
+    return heading(name, designs) + (_exactness(job.found) if job.found else "")
+
+
+def _exactness(designs: Designs) -> str:
+    """What the full model says of them, as far as it was asked."""
+    verifications = [design.verification for design in designs]
+    if None in verifications:
+        return span("Not held against the full model.", "dim")
+    impossible = [v.impossible for v in verifications if v and v.impossible]
+    if impossible:
+        return span(f"Not checked: {escape(impossible[0])}", "bad")
+    difference = largest_difference(designs)
+    text = f"The full model has the same goals within {percent(difference)}."
+    return span(text, "bad" if 100 * difference > ALARMING else "dim")

@@ -1,0 +1,67 @@
+"""`modeviz optimise --front`: designs between two goals."""
+
+from argparse import Namespace
+
+from modeviz.commands.interrupt import cancelled_by_interrupt
+from modeviz.commands.options import json_text, print_json, progress, say
+from modeviz.errors import ModevizError, unknown
+from modeviz.export.front import front_csv, front_record, front_table
+from modeviz.tuning.pareto import Front, FrontProgress, find_front
+from modeviz.tuning.rate_files import rates_format
+from modeviz.tuning.trade_off import TradeOff, prepare_trade_off, sides
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.files.disk import write_text
+from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+N_STARTS = 5
+"""For each design, besides those found before."""
+
+
+def optimise_front(
+    options: Namespace, vehicle: Vehicle, problem: Problem, rates: Rates, speed: float
+) -> None:
+    """Looks for the front, writes its designs and prints what they are worth."""
+    for name in ("everywhere", "scheduler", "robust"):
+        if getattr(options, name):
+            option = "global" if name == "everywhere" else name
+            raise ModevizError(f"--front is many searches here: expected it without --{option}")
+    offers = sides(vehicle, problem)
+    if options.front not in offers:
+        raise ModevizError("--front: " + unknown("trade-off", options.front, offers))
+    trade_off = prepare_trade_off(vehicle, problem, offers[options.front], rates, speed)
+    front = _found(options, trade_off, rates)
+    record = front_record(problem, trade_off, front)
+    if options.output:
+        is_csv = rates_format(options.output) == "csv"
+        write_text(options.output, front_csv(problem, front) if is_csv else json_text(record) + "\n")
+    if options.json:
+        print_json(record)
+    else:
+        print(front_table(problem, trade_off, front))
+
+
+def _found(options: Namespace, trade_off: TradeOff, rates: Rates) -> Front:
+    """The front as far as it is found until its end, or until Ctrl+C."""
+    with cancelled_by_interrupt() as control:
+        try:
+            return find_front(
+                trade_off,
+                [rates],
+                n_starts=options.starts or N_STARTS,
+                seed=options.seed,
+                budget=options.budget,
+                control=control,
+                tell=_tell,
+            )
+        finally:
+            say("")
+
+
+def _tell(where: FrontProgress) -> None:
+    n = len(where.designs)
+    if where.done < 1:
+        progress(f"searching, {n} designs on the front")(where.done)
+        return
+    checked = sum(design.verification is not None for design in where.designs)
+    say(f"checking with the full model, {checked} of {n} designs")

@@ -1,0 +1,108 @@
+"""`modeviz optimise --front` finds what the same search finds in Python."""
+
+import csv
+import json
+import signal
+from dataclasses import replace
+
+import pytest
+from cabin_problem import PROBLEM
+from mounted_cabin import mounted_cabin
+
+import modeviz as mv
+from modeviz.cli import main
+from modeviz.commands import front as command
+from modeviz.vehicle.files import write_vehicle
+
+OFFER = "lateral against vertical"
+KEYS = {
+    "goal", "normalised", "between", "original", "designs", "converged", "reason", "evaluations",
+    "exact_difference",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def cabin(tmp_path_factory):
+    path = tmp_path_factory.mktemp("vehicles") / "cabin"
+    write_vehicle(replace(mounted_cabin(), problems=(PROBLEM,)), path)
+    return str(path)
+
+
+@pytest.fixture
+def refused(capsys, cabin):
+    def refused(*arguments):
+        assert main(["optimise", cabin, *arguments]) == 2
+        return capsys.readouterr().err.removeprefix("modeviz: ").strip()
+
+    return refused
+
+
+def expected(seed=0):
+    vehicle = mounted_cabin()
+    pair = mv.sides(vehicle, PROBLEM)[OFFER]
+    trade_off = mv.prepare_trade_off(vehicle, PROBLEM, pair, vehicle.rates, vehicle.speed)
+    return mv.find_front(trade_off, [vehicle.rates], n_starts=1, seed=seed)
+
+
+def test_its_designs_are_those_of_python(printed_json, cabin, tmp_path):
+    path = tmp_path / "front.json"
+    arguments = ["--front", OFFER, "--starts", "1", "--seed", "2", "--output", str(path)]
+    record = printed_json("optimise", cabin, *arguments)
+    assert set(record) == KEYS
+    assert record == json.loads(path.read_text())
+    front = expected(seed=2)
+    assert record["between"] == ["lateral", "vertical"]
+    assert record["original"] == pytest.approx([1, 1], rel=1e-12)
+    assert [d["values"] for d in record["designs"]] == [list(d.values) for d in front.designs]
+    assert len(front.designs) > 2
+    for found, design in zip(record["designs"], front.designs, strict=True):
+        vertical = found["rates"]["A"]["vertical"]
+        assert vertical == pytest.approx(design.rates["A"].vertical / 1e3, rel=1e-12)
+    assert record["converged"] is True
+    assert record["evaluations"] == front.evaluations
+    assert 0 <= record["exact_difference"] < 1e-9
+
+
+def test_its_tables_say_the_same_in_print_and_in_a_file(capsys, cabin, tmp_path):
+    path = tmp_path / "front.csv"
+    assert main(["optimise", cabin, "--front", OFFER, "--starts", "1", "--output", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    front = expected()
+    assert lines[0].split() == ["lateral", "vertical"]
+    first = next(line.split() for line in lines if line.startswith("design 1 "))
+    assert float(first[2]) == pytest.approx(front.designs[0].values[0], rel=1e-3)
+    assert f"converged after {front.evaluations} evaluations" in lines
+    assert any(line.startswith("the full model's goals differ by a part of") for line in lines)
+    header, *rows = csv.reader(path.read_text().splitlines())
+    assert header[:4] == ["design", "lateral", "vertical", "A vertical, N/mm"]
+    assert [float(row[2]) for row in rows] == [d.values[1] for d in front.designs]
+    printed = next(line.split() for line in lines if line.startswith("B fore-aft"))
+    column = [float(row[header.index("B fore-aft, N/mm")]) for row in rows]
+    assert column == pytest.approx([d.rates["B"].fore_aft / 1e3 for d in front.designs], rel=1e-12)
+    assert [float(text) for text in printed[2:]] == pytest.approx(column, rel=1e-3)
+
+
+def test_an_interrupt_keeps_the_designs_so_far(monkeypatch, printed_json, cabin):
+    told = []
+
+    def interrupt(progress):
+        told.append(progress)
+        if len(told) == 1:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(command, "_tell", interrupt)
+    record = printed_json("optimise", cabin, "--front", OFFER, "--starts", "1")
+    assert record["reason"] == "cancelled"
+    assert record["converged"] is False
+    assert len(record["designs"]) == 1
+    assert record["exact_difference"] < 1e-9
+
+
+def test_what_cannot_be_is_refused_in_a_sentence(refused):
+    assert refused("--front", "laterally against vertical") == (
+        "--front: unknown trade-off 'laterally against vertical': did you mean 'lateral against "
+        "vertical'? there are lateral against vertical"
+    )
+    assert refused("--front", OFFER, "--global").endswith("expected it without --global")
+    assert refused("--front", OFFER, "--robust").endswith("expected it without --robust")
+    assert "has no points and directions to trade" in refused("--front", OFFER, "--goal", "rating")

@@ -1,0 +1,45 @@
+"""What the page says of a front."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from modeviz.tuning.trade_off import Compromise
+from modeviz.tuning.verification import Verification
+from modeviz.viewer.beside import Job
+from modeviz.viewer.panels.trade_off import where
+
+
+def design(difference=None, impossible=""):
+    verification = Verification(1.0, difference, np.zeros(0), True, impossible)
+    found = Compromise(np.zeros(1), {}, (1.0, 1.0))
+    return found if difference is None else replace(found, verification=verification)
+
+
+def test_a_front_is_held_against_the_full_model_design_after_design():
+    job = Job("what was asked", done=1.0, found=(design(), design()))
+    assert "Searching" in where(job)
+    checking = where(replace(job, found=(design(1e-14), design())))
+    assert "Checking" in checking
+    assert "full model" not in checking
+
+
+def test_the_largest_difference_is_told():
+    said = where(Job("what was asked", "ended", found=(design(1e-14), design(1e-9))))
+    assert "The full model has the same goals within 0.001 %." in said
+    assert "bad" not in said
+    said = where(Job("what was asked", "ended", found=(design(1e-14), design(3e-4), design(1e-9))))
+    assert "within 0.03 %." in said
+    assert "bad" in said
+
+
+@pytest.mark.parametrize(
+    ("designs", "sentence"),
+    [
+        ((design(1e-9), design(np.nan, "it is singular")), "Not checked: it is singular"),
+        ((design(1e-9), design()), "Not held against the full model."),
+    ],
+)
+def test_what_could_not_be_checked_is_told(designs, sentence):
+    assert sentence in where(Job("what was asked", "cancelled", found=designs))
