@@ -326,7 +326,7 @@ EDITS = {
         "flexible_body[0].keep_modes: found 5, expected a whole number at least 6",
     ),
     "overdamped": ("0.03", "1.5", "damping_ratio: found 1.5, expected a fraction of critical"),
-    "bounds the wrong way round": ("lateral = 2000.0", "lateral = 1", "bounds: lateral: found 100000"),
+    "bounds the wrong way round": ("lateral = 2000.0", "lateral = 1", "bounds: lateral: found 100 to"),
     "unknown group in a set": ("C1 = {", "C9 = {", "rates 'optimised': unknown mount group 'C9'"),
     "negative rate in a set": (
         "lateral = 131.0",

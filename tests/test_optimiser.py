@@ -16,7 +16,7 @@ from modeviz.tuning.verification import verify
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer import optimiser as module
 from modeviz.viewer.optimiser import Optimiser
-from modeviz.viewer.plan import planned
+from modeviz.viewer.planning.plan import planned
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import first_state
 
@@ -257,11 +257,11 @@ def test_what_nobody_expected_is_told_as_our_mistake(session, optimiser, monkeyp
 
 
 def test_a_plan_that_cannot_be_is_refused_and_the_next_one_is_searched(session, optimiser):
-    plan(session, groups=frozenset())
+    plan(session, free=frozenset())
     with pytest.raises(ModevizError, match="no group of mounts may change"):
         optimiser.start()
     assert optimiser.look is None
-    plan(session, groups=frozenset({"A"}), n_starts=1)
+    plan(session, free=frozenset({"A"}), n_starts=1)
     before = session.state.rates
     found = run(optimiser).optimum.rates
     assert found["B"] == before["B"]

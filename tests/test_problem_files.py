@@ -110,7 +110,7 @@ EDITS = {
     "bounds the wrong way round": (
         "lateral = 2000.0",
         "lateral = 1.0",
-        "problem[0].group[0]: design group 'A': bounds: lateral: found 10000.0 to 1000.0 N/m",
+        "problem[0].group[0]: design group 'A': bounds: lateral: found 10 to 1 N/mm",
     ),
     "negative rate": (
         "vertical = 10.0",

@@ -97,7 +97,7 @@ def test_cancel_keeps_the_designs_found_by_then(trader, monkeypatch):
 
 
 def test_where_nothing_can_be_traded_nothing_is_offered(session, trader):
-    session.update(lambda state: replace(state, plan=replace(state.plan, groups=frozenset())))
+    session.update(lambda state: replace(state, plan=replace(state.plan, free=frozenset())))
     assert trader.offers() == ()
     with pytest.raises(VehicleError, match="no group of mounts may change"):
         trader.start(OFFER)

@@ -132,7 +132,8 @@ def check_bounds(where: str, bounds: tuple[MountRates, MountRates]) -> None:
     for direction, low, high in zip(DIRECTIONS, softest, stiffest, strict=True):
         if not low < high:
             raise VehicleError(
-                f"{where}: bounds: {direction}: found {low} to {high} N/m, expected the lower one first"
+                f"{where}: bounds: {direction}: found {low / 1e3:g} to {high / 1e3:g} N/mm, expected "
+                "the lower one first"
             )
 
 

@@ -21,6 +21,9 @@ square of ln(k/k₀) of the rates that may change.
 VARIABLES: tuple[Goal, ...] = ("accelerations", "peak")
 """Goals that are made of performance variables."""
 
+UNLIMITED = (0.0, np.inf)
+"""Ratio limits that hold nothing."""
+
 
 @dataclass(frozen=True, eq=False)
 class DesignGroup:
@@ -32,7 +35,8 @@ class DesignGroup:
     bounds: tuple[MountRates, MountRates] | None = None
     """The softest and the stiffest; None: the mount group's."""
     ratio_limits: tuple[float, float] | None = None
-    """The least and the most that lateral and fore-aft may be of vertical; None: the mount group's."""
+    """The least and the most that lateral and fore-aft may be of vertical; None: the mount group's,
+    `UNLIMITED`: none even if that has some."""
     fixed_ratios: bool = False
     """Whether all its rates keep their ratios to each other, whatever the limits."""
 
@@ -46,8 +50,8 @@ class DesignGroup:
             )
         if self.bounds is not None:
             check_bounds(where, self.bounds)
-        low, high = self.ratio_limits or (0.0, 1.0)
-        if not (0 <= low <= high < np.inf and high > 0):
+        low, high = self.ratio_limits or UNLIMITED
+        if (low, high) != UNLIMITED and not (0 <= low <= high < np.inf and high > 0):
             raise VehicleError(
                 f"{where}: ratio_limits: found {low:g} to {high:g}, expected finite numbers from zero, "
                 "the lower one first"

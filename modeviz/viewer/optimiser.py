@@ -17,7 +17,7 @@ from modeviz.tuning.search import Search, prepare_search
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.beside import OUR_MISTAKE, TELL_EVERY
-from modeviz.viewer.plan import planned
+from modeviz.viewer.planning.plan import planned
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import State, rate_sets
 

@@ -14,7 +14,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.beside import Beside, Job, Tell
-from modeviz.viewer.plan import planned
+from modeviz.viewer.planning.plan import planned
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import Curve, State
 

@@ -10,7 +10,7 @@ from modeviz.export.wording import sentence_case
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.plan import Plan, first_plan
+from modeviz.viewer.planning.plan import Plan, first_plan
 
 ORIGINAL = "Original"
 """The name of the vehicle's own rates among the sets."""

@@ -10,7 +10,7 @@ from modeviz.tuning.trade_off import Compromise, Side, prepare_trade_off, sides
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.beside import Beside, Job, Tell
-from modeviz.viewer.plan import planned
+from modeviz.viewer.planning.plan import planned
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import State, rate_sets
 

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
 import pytest
 from apps import SOLVE_S, open_solved_cabin
 from held_search import hold_searches
@@ -10,7 +11,9 @@ from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
 from modeviz.export.wording import significant
+from modeviz.vehicle.connections import MountRates
 from modeviz.viewer import trader
+from modeviz.viewer.planning.plan import first_plan
 
 TEXT = "document.body.textContent"
 BEST = "document.querySelector('.mv .goals b')?.textContent"
@@ -33,9 +36,10 @@ def page(app, server, open_page):
 
 @pytest.fixture(autouse=True)
 def original(app, page):
-    """Every test starts with the vehicle's own rates, and leaves no search behind."""
+    """Every test starts with the vehicle's own rates and problem, and leaves no search behind."""
     app.session.load("Original")
-    app.session.update(lambda state: replace(state, variants={}, plan=replace(state.plan, n_starts=2)))
+    plan = replace(first_plan(app.session.vehicle), n_starts=2)
+    app.session.update(lambda state: replace(state, variants={}, plan=plan))
     assert app.session.wait(SOLVE_S)
     yield
     app.optimiser.close()
@@ -109,6 +113,60 @@ def test_one_goes_back_to_the_rates_before(app, page):
     wait_until(page, lambda: app.session.state.rates == mounted_cabin().rates)
 
 
+def boxes(page, label):
+    """The boxes beside a label; viser names only the first, and none of a text."""
+    row = "ancestor::div[contains(@class, 'mantine-Flex-root')][1]"
+    return page.locator(f"xpath=//label[normalize-space()='{label}']/{row}//input")
+
+
+def test_bounds_and_ratios_of_a_group_are_changed_on_the_page(app, page):
+    page.get_by_text("Bounds and ratios").click()
+    page.get_by_label("Mounts", exact=True).click()
+    page.get_by_role("option", name="B rear", exact=True).click()
+    wait_until(page, lambda: app.session.state.plan.shown_group == "B")
+    boxes(page, "Lateral, N/mm").nth(0).fill("20")
+    wait_until(page, lambda: app.session.state.plan.group.softest == MountRates(1e4, 2e4, 1e4))
+    boxes(page, "Lateral, N/mm").nth(1).fill("5")
+    wait_for(page, f"{TEXT}.includes('lateral: found 20 to 5 N/mm, expected the lower one first')")
+    boxes(page, "Lateral, N/mm").nth(1).fill("5000")
+    page.get_by_label("Ratios", exact=True).click()
+    page.get_by_role("option", name="Within limits", exact=True).click()
+    boxes(page, "Limits").nth(0).fill("0.5")
+    wait_until(page, lambda: app.session.state.plan.group.ratio_limits == (0.5, 0.8))
+    page.locator(".mv .pills label", has_text="Fore-aft").nth(0).click()
+    wait_for(page, f"{TEXT}.includes('5 numbers to choose')")
+    found = search(app, page)
+    b = found.rates["B"]
+    assert np.clip(b.lateral, 2e4, 5e6) == pytest.approx(b.lateral, rel=1e-9)
+    assert np.clip(b.lateral / b.vertical, 0.5, 0.8) == pytest.approx(b.lateral / b.vertical, rel=1e-9)
+    assert b.fore_aft == 4e5
+
+
+def test_accelerations_are_changed_on_the_page(app, page):
+    own = app.session.state.plan
+    assert len(own.loads) == 2
+    page.get_by_text("Loads and points").click()
+    press(page, "Remove")
+    wait_until(page, lambda: app.session.state.plan.loads == own.loads[1:])
+    at = boxes(page, "At, Hz")
+    wait_until(page, lambda: at.input_value() == own.loads[1].frequencies)
+    at.fill("7 to 9 by")
+    wait_for(page, f"{TEXT}.includes('found \\'7 to 9 by\\', expected numbers and ranges in Hz')")
+    at.fill("7 to 9 by 1/4")
+    wait_for(page, f"{TEXT}.includes('at 7 to 9 Hz: all points, lateral and vertical')")
+    page.locator(".mv .pills label", has_text="Rough").click()
+    page.locator(".mv .pills label", has_text="Front left radial force").click()
+    wait_for(page, f"{TEXT}.includes('Rough at 7 to 9 Hz')")
+    press(page, "Add")
+    wait_until(page, lambda: app.session.state.plan.shown_load == 1)
+    page.get_by_label("Weight").fill("3")
+    page.get_by_label("Target").fill("0.5")
+    wait_for(page, f"{TEXT}.includes('to 0.5, weight 3')")
+    first, second = app.session.state.plan.loads
+    assert (first.roads, first.wheel_loads, first.weight) == ({"rough"}, frozenset(), 1)
+    assert second == replace(first, weight=3, target=0.5)
+
+
 def test_the_problem_is_changed_on_the_page(app, page):
     own = app.session.state.plan
     page.get_by_label("Normalised").uncheck()
@@ -117,10 +175,9 @@ def test_the_problem_is_changed_on_the_page(app, page):
     wait_for(page, f"{TEXT}.includes('3 numbers to choose')")
     page.get_by_role("combobox", name="Hold mode").click()
     page.get_by_role("option", name="Cab yaw", exact=True).click()
-    box = page.get_by_label("To, Hz")
-    box.fill("9")
+    boxes(page, "From, to, Hz").nth(1).fill("9")
     wait_for(page, f"{TEXT}.includes('Cab yaw below 9 Hz')")
-    wanted = replace(own, is_normalised=False, groups=frozenset("A"), mode="cab yaw", high_hz=9)
+    wanted = replace(own, is_normalised=False, free=frozenset("A"), mode="cab yaw", high_hz=9)
     assert app.session.state.plan == wanted
     for _ in range(4):
         press(page, "Undo")
@@ -129,7 +186,7 @@ def test_the_problem_is_changed_on_the_page(app, page):
 
 
 def test_what_cannot_be_searched_is_said_and_starts_nothing(app, page):
-    app.session.update(lambda state: replace(state, plan=replace(state.plan, groups=frozenset())))
+    app.session.update(lambda state: replace(state, plan=replace(state.plan, free=frozenset())))
     complaint = "no group of mounts may change"
     wait_for(page, f"{TEXT}.includes(a.complaint)", complaint=complaint)
     press(page, "Start")

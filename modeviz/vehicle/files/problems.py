@@ -1,7 +1,7 @@
 """The [[problem]] tables of `vehicle.toml`: mount optimisations."""
 
 import math
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from msgspec import Meta, field
@@ -10,7 +10,17 @@ from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.vehicle.files.record import Name, NonNegative, Positive, RatesRecord, Record, built
-from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Goal, Performance, Problem
+from modeviz.vehicle.problem import (
+    UNLIMITED,
+    DesignGroup,
+    FrequencyWindow,
+    Goal,
+    Performance,
+    Problem,
+)
+
+NO_LIMITS = "none"
+"""Ratio limits that hold nothing, in a file, where no number is infinite."""
 
 
 class DesignGroupRecord(Record, kw_only=True):
@@ -20,7 +30,7 @@ class DesignGroupRecord(Record, kw_only=True):
     directions: tuple[str, ...] = DIRECTIONS
     softest: RatesRecord | None = None
     stiffest: RatesRecord | None = None
-    ratio_limits: tuple[float, float] | None = None
+    ratio_limits: tuple[float, float] | Literal["none"] | None = None
     fixed_ratios: bool = False
 
     @classmethod
@@ -31,7 +41,7 @@ class DesignGroupRecord(Record, kw_only=True):
             directions=group.directions,
             softest=softest,
             stiffest=stiffest,
-            ratio_limits=group.ratio_limits,
+            ratio_limits=NO_LIMITS if group.ratio_limits == UNLIMITED else group.ratio_limits,
             fixed_ratios=group.fixed_ratios,
         )
 
@@ -41,7 +51,8 @@ class DesignGroupRecord(Record, kw_only=True):
             bounds = self.softest.build(), self.stiffest.build()
         elif self.softest or self.stiffest:
             raise VehicleError("softest and stiffest: found one of them, expected both or neither")
-        return DesignGroup(self.group, self.directions, bounds, self.ratio_limits, self.fixed_ratios)
+        limits = UNLIMITED if self.ratio_limits == NO_LIMITS else self.ratio_limits
+        return DesignGroup(self.group, self.directions, bounds, limits, self.fixed_ratios)
 
 
 MOST_FREQUENCIES = 10_000

@@ -1,9 +1,8 @@
 """What is optimised: the problem at a glance, and the controls that change it."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from html import escape
-from typing import Any, get_args
+from typing import get_args
 
 import viser
 
@@ -15,13 +14,14 @@ from modeviz.tuning.results import Results
 from modeviz.vehicle.problem import Goal
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.html import HiddenButtons, block, span
+from modeviz.viewer.html import block, span
 from modeviz.viewer.panels.modes import listed
+from modeviz.viewer.panels.optimise.accelerations import AccelerationsEditor
+from modeviz.viewer.panels.optimise.bounds import BoundsEditor
+from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, may_change_hint
 from modeviz.viewer.panels.optimise.summary import summary
-from modeviz.viewer.plan import Plan, plan_of, planned, problems
+from modeviz.viewer.planning.plan import Plan, plan_of, planned, problems
 from modeviz.viewer.session import Session
-from modeviz.viewer.settle import WriteBack
 from modeviz.viewer.state import ORIGINAL, State
 
 WORDS: dict[Goal, str] = {
@@ -49,51 +49,39 @@ class ProblemEditor:
             plan: that plan.
         """
         self._gui, self._session = gui, session
-        self._write_back = WriteBack()
+        self._controls = PlanControls(gui, session)
         self._groups = [group.name for group in session.vehicle.mount_groups]
-        self._buttons = HiddenButtons(gui, len(self._groups), self._toggle)
-        self._summary = gui.add_html("")
-        self._bindings: list[Binding] = []
-        if len(known := problems(session.vehicle)) > 1:
-            words = {sentence_case(name): name for name in known}
-            self._choose("Problem", words, lambda p: p.problem, self._take_problem, "Of this vehicle")
-        self._choose(
-            "Goal",
-            GOALS,
-            lambda p: p.goal,
-            lambda goal: self._plan(goal=goal),
-            "What is to become small: the accelerations named above, or one figure of the whole ride; "
-            "Least change is for a mode that has to be held somewhere",
-        )
-        normalised = gui.add_checkbox(
-            "Normalised",
-            plan.is_normalised,
-            hint="Each load case relative to what it is with the original rates, so that units do not "
-            "decide. Without it the accelerations are added as they are, as in the paper",
-        )
-        self._bind(normalised, lambda p: p.is_normalised, lambda v: self._plan(is_normalised=v))
-        self._pills = gui.add_html("")
-        self._add_window(plan)
-        self._starts = self._number(
-            "Starts",
-            "n_starts",
-            plan.n_starts,
-            (1, MOST_STARTS),
-            "From how many designs to search: the present rates, and others spread over all that may "
-            "be. More find a better minimum, and take longer",
-        )
+        with gui.add_folder("Problem"):
+            self._summary = gui.add_html("")
+            self._add_goal()
+            self._pills = Pills(gui, "May change", self._groups, self._toggle)
+            self._add_window(plan)
+            self._controls.number(
+                "Starts",
+                (1, MOST_STARTS),
+                lambda _, p: p.n_starts,
+                lambda value: self._controls.put(n_starts=round(value)),
+                "From how many designs to search: the present rates, and others spread over all that "
+                "may be. More find a better minimum, and take longer",
+            )
+        self._bounds = BoundsEditor(gui, session)
+        self._accelerations = AccelerationsEditor(gui, session, plan) if plan.loads else None
 
     def show(self, solved: Solved) -> None:
         """Brings the controls after the state, and says what is sought."""
-        plan = self._session.state.plan
+        state = self._session.state
+        plan = state.plan
         if plan is None:
             return
         assign(self._mode, options=tuple(self._modes(solved.named.get(ORIGINAL, solved.base))))
-        show_all(self._bindings)
+        self._controls.show()
         for widget in self._band:
             assign(widget, visible=bool(plan.mode))
-        assign(self._pills, content=block(self._free(plan)))
+        self._pills.show([name in plan.free for name in self._groups], self._hints(plan))
         assign(self._summary, content=block(self._text(solved.state, plan)))
+        self._bounds.show(state, plan)
+        if self._accelerations:
+            self._accelerations.show(plan)
 
     def _text(self, state: State, plan: Plan) -> str:
         vehicle = self._session.vehicle
@@ -104,32 +92,59 @@ class ProblemEditor:
             return span(escape(str(error)), "bad")
         return summary(problem, space)
 
+    def _add_goal(self) -> None:
+        """Whose problem it is, and what is to become small."""
+        choose, put = self._controls.choose, self._controls.put
+        if len(known := problems(self._session.vehicle)) > 1:
+            words = {sentence_case(name): name for name in known}
+            choose("Problem", words, lambda _, p: p.problem, self._take_problem, "Of this vehicle")
+        choose(
+            "Goal",
+            GOALS,
+            lambda _, p: p.goal,
+            lambda goal: put(goal=goal),
+            "What is to become small: the accelerations named above, or one figure of the whole ride; "
+            "Least change is for a mode that has to be held somewhere",
+        )
+        self._controls.check(
+            "Normalised",
+            lambda _, p: p.is_normalised,
+            lambda value: put(is_normalised=value),
+            "Each load case relative to what it is with the original rates, so that units do not "
+            "decide. Without it the accelerations are added as they are, as in the paper",
+        )
+
     def _add_window(self, plan: Plan) -> None:
         """A mode to hold, and the band, which is only there with a mode."""
-        modes = {NO_MODE: ""} | ({sentence_case(plan.mode): plan.mode} if plan.mode else {})
+        put = self._controls.put
+        self._named: dict[str, str] = {NO_MODE: ""} | (
+            {sentence_case(plan.mode): plan.mode} if plan.mode else {}
+        )
         self._mode = self._gui.add_dropdown(
             "Hold mode",
-            tuple(modes),
+            tuple(self._named),
             initial_value=sentence_case(plan.mode) or NO_MODE,
             hint="A mode whose frequency has to be in a band, or out of it",
         )
-        self._bind(
+        self._controls.bind(
             self._mode,
-            lambda p: sentence_case(p.mode) or NO_MODE,
-            lambda word: self._plan(mode=self._named.get(word, "")),
+            lambda _, p: sentence_case(p.mode) or NO_MODE,
+            lambda word: put(mode=self._named.get(word, "")),
         )
-        self._named: dict[str, str] = modes
-        side = self._choose(
+        side = self._controls.choose(
             "Band",
             BANDS,
-            lambda p: p.is_inside,
-            lambda value: self._plan(is_inside=value),
+            lambda _, p: p.is_inside,
+            lambda value: put(is_inside=value),
             "Whether the mode has to be within the band, or out of it",
         )
-        limits = (0.0, TOP_HZ)
-        low = self._number("From, Hz", "low_hz", plan.low_hz, limits, "0: no lower limit")
-        high = self._number("To, Hz", "high_hz", plan.high_hz, limits, f"{TOP_HZ:g}: no upper limit")
-        self._band = (side, low, high)
+        band = self._controls.pair(
+            "From, to, Hz",
+            lambda _, p: (p.low_hz, p.high_hz),
+            lambda ends: put(low_hz=ends[0], high_hz=ends[1]),
+            f"0 is no lower limit, {TOP_HZ:g} no upper one",
+        )
+        self._band = (side, band)
 
     def _modes(self, original: Results) -> list[str]:
         """What the modes are called that can be held."""
@@ -139,71 +154,16 @@ class ProblemEditor:
         self._named = {NO_MODE: ""} | {sentence_case(name): name for name in [*held, *sorted(names)]}
         return list(self._named)
 
-    def _free(self, plan: Plan) -> str:
-        """A pill for each group, pressed if its rates may change."""
-        pills = []
-        for i, name in enumerate(self._groups):
-            label = self._session.vehicle.mount_group(name).label
-            may = name in plan.groups
-            hint = f"{label}: {'may change; click to hold' if may else 'held; click to free'}"
-            text = self._buttons.label(i, f'<span title="{escape(hint)}">{escape(name)}</span>')
-            pills.append(f'<div class="pill{" on" if may else ""}">{text}</div>')
-        return f'<div class="pills"><span class="dim">May change</span>{"".join(pills)}</div>'
+    def _hints(self, plan: Plan) -> list[str]:
+        """What a click on each group does."""
+        vehicle = self._session.vehicle
+        now = {name: may_change_hint(name in plan.free) for name in self._groups}
+        return [f"{vehicle.mount_group(name).label}: {hint}" for name, hint in now.items()]
 
     def _toggle(self, i: int) -> None:
-        group = self._groups[i]
-        self._change(lambda plan: replace(plan, groups=plan.groups ^ {group}))
+        self._controls.change(lambda _, plan: replace(plan, free=plan.free ^ {self._groups[i]}))
 
     def _take_problem(self, name: str) -> None:
-        found = problems(self._session.vehicle)[name]
-        self._change(lambda plan: replace(plan_of(found), n_starts=plan.n_starts))
-
-    def _plan(self, **fields: Any) -> None:
-        self._change(lambda plan: replace(plan, **fields))
-
-    def _change(self, change: Callable[[Plan], Plan]) -> None:
-        def changed(state: State) -> State:
-            return replace(state, plan=change(state.plan)) if state.plan else state
-
-        self._session.update(changed)
-
-    def _choose(
-        self,
-        label: str,
-        words: dict[str, Any],
-        read: Callable[[Plan], Any],
-        write: Callable[[Any], None],
-        hint: str,
-    ) -> viser.GuiInputHandle:
-        """A dropdown of values by what they are called."""
-        called = {value: word for word, value in words.items()}
-        plan = self._session.state.plan
-        assert plan is not None
-        dropdown = self._gui.add_dropdown(
-            label, tuple(words), initial_value=called[read(plan)], hint=hint
-        )
-        self._bind(dropdown, lambda p: called[read(p)], lambda word: write(words[word]))
-        return dropdown
-
-    def _number(
-        self, label: str, field: str, value: float, limits: tuple[float, float], hint: str
-    ) -> viser.GuiInputHandle:
-        """A box for a number of the plan."""
-        box = self._gui.add_number(label, value, min=limits[0], max=limits[1], step=1, hint=hint)
-        self._bind(box, lambda p: getattr(p, field), lambda v: self._plan(**{field: v}), typed=True)
-        return box
-
-    def _bind(
-        self,
-        widget: viser.GuiInputHandle,
-        read: Callable[[Plan], Any],
-        write: Callable[[Any], None],
-        typed: bool = False,
-    ) -> None:
-        """Binds a widget to a part of the plan."""
-
-        def read_state(state: State) -> Any:
-            return read(state.plan) if state.plan else widget.value
-
-        write_back = self._write_back if typed else None
-        self._bindings.append(Binding(widget, self._session, read_state, write, write_back, typed))
+        vehicle = self._session.vehicle
+        found = problems(vehicle)[name]
+        self._controls.change(lambda _, plan: replace(plan_of(vehicle, found), n_starts=plan.n_starts))

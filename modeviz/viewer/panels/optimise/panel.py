@@ -14,7 +14,7 @@ from modeviz.viewer.optimiser import Look, Optimiser
 from modeviz.viewer.panels.optimise.editor import ProblemEditor
 from modeviz.viewer.panels.optimise.fall import FallChart
 from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, where
-from modeviz.viewer.plan import problems
+from modeviz.viewer.planning.plan import problems
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import State
 
@@ -47,8 +47,7 @@ class OptimisePanel:
         if plan is None:
             gui.add_html(block(span(escape(_missing(session)), "dim")))
             return
-        with gui.add_folder("Problem"):
-            self._editor = ProblemEditor(gui, session, plan)
+        self._editor = ProblemEditor(gui, session, plan)
         self._buttons = gui.add_button_group(
             "Search",
             (START,),

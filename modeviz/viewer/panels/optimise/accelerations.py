@@ -1,0 +1,125 @@
+"""Which accelerations are to become small: loads, frequencies, points and directions."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import viser
+
+from modeviz.export.wording import sentence_case
+from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.viewer.assign import assign
+from modeviz.viewer.panels.optimise.controls import Pills, PlanControls
+from modeviz.viewer.planning.load_plan import LoadPlan
+from modeviz.viewer.planning.plan import Plan
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import State
+
+ADD, REMOVE = "Add", "Remove"
+
+
+class AccelerationsEditor:
+    """The accelerations of the plan, a part of them at a time."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session, plan: Plan) -> None:
+        """Builds the controls, folded up.
+
+        Args:
+            gui: where.
+            session: whose state has a plan.
+            plan: that plan.
+        """
+        vehicle = session.vehicle
+        self._gui, self._controls = gui, (controls := PlanControls(gui, session))
+        self._roads = [road.name for road in vehicle.roads]
+        self._wheel_loads = [load.name for load in vehicle.wheel_loads]
+        self._points = [point.name for point in vehicle.response_points]
+        with gui.add_folder("Loads and points", expand_by_default=False):
+            self._part = gui.add_dropdown(
+                "Part",
+                parts(plan),
+                initial_value=parts(plan)[plan.shown_load],
+                hint="Which part of the sum is shown here",
+            )
+            controls.bind(
+                self._part,
+                lambda _, plan: parts(plan)[plan.shown_load],
+                lambda word: controls.change(lambda _, plan: showing(plan, word)),
+            )
+            self._edit = gui.add_button_group(
+                "Parts",
+                (ADD, REMOVE),
+                hint="One more part, as the one that is shown to begin with; or the shown one away",
+            )
+            self._edit.on_click(lambda _: self._add_or_remove(self._edit.value))
+            self._road_pills = self._pills("Roads", self._roads, "roads")
+            self._load_pills = self._pills("Wheels", self._wheel_loads, "wheel_loads")
+            controls.text(
+                "At, Hz",
+                lambda _, plan: plan.load.frequencies,
+                lambda text: self._put(frequencies=text),
+                "Frequencies: numbers and ranges, as in 11, 13.25 or 6 to 14 by 1/3",
+            )
+            self._point_pills = self._pills("Points", self._points, "points")
+            self._direction_pills = self._pills("Along", DIRECTIONS, "directions")
+            controls.number(
+                "Target",
+                (0.0, None),
+                lambda _, plan: plan.load.target,
+                lambda value: self._put(target=value),
+                "What each of them is wanted to be: g under a wheel load, g/√Hz on a road",
+            )
+            controls.number(
+                "Weight",
+                (0.0, None),
+                lambda _, plan: plan.load.weight,
+                lambda value: self._put(weight=value),
+                "Of this part in the sum",
+            )
+
+    def show(self, plan: Plan) -> None:
+        """Brings the controls after the state."""
+        assign(self._part, options=parts(plan))
+        self._controls.show()
+        assign(self._edit, options=(ADD, REMOVE) if len(plan.loads) > 1 else (ADD,))
+        for pills, names, chosen in (
+            (self._road_pills, self._roads, plan.load.roads),
+            (self._load_pills, self._wheel_loads, plan.load.wheel_loads),
+            (self._point_pills, self._points, plan.load.points),
+            (self._direction_pills, DIRECTIONS, plan.load.directions),
+        ):
+            pills.show([name in chosen for name in names], names)
+
+    def _pills(self, label: str, names: Sequence[str], field: str) -> Pills:
+        """Names of which some are in a field of the shown part."""
+
+        def toggle(i: int) -> None:
+            def toggled(_: State, plan: Plan) -> Plan:
+                return plan.with_load(**{field: getattr(plan.load, field) ^ {names[i]}})
+
+            self._controls.change(toggled)
+
+        return Pills(self._gui, label, [sentence_case(name) for name in names], toggle)
+
+    def _add_or_remove(self, button: str) -> None:
+        change = Plan.with_one_more_load if button == ADD else Plan.without_load
+        self._controls.change(lambda _, plan: change(plan))
+
+    def _put(self, **fields: Any) -> None:
+        self._controls.change(lambda _, plan: plan.with_load(**fields))
+
+
+def parts(plan: Plan) -> tuple[str, ...]:
+    """What the parts are called: "1 Road 1", "2 12 wheel loads"."""
+    return tuple(f"{i}  {_loads(load)}" for i, load in enumerate(plan.loads, 1))
+
+
+def showing(plan: Plan, part: str) -> Plan:
+    """The plan with the part of that name shown."""
+    return replace(plan, shown_load=parts(plan).index(part)) if part in parts(plan) else plan
+
+
+def _loads(load: LoadPlan) -> str:
+    kinds = ((load.roads, "roads"), (load.wheel_loads, "wheel loads"))
+    named = [next(iter(n)) if len(n) == 1 else f"{len(n)} {kind}" for n, kind in kinds if n]
+    return sentence_case(" and ".join(named)) or "No load"

@@ -1,0 +1,1 @@
+"""What somebody on the page wants optimised, and the problem that comes of it."""

@@ -1,0 +1,63 @@
+"""What of a mount group may change and within what, as it is chosen on the page."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from modeviz.vehicle.connections import DIRECTIONS, MountGroup, MountRates
+from modeviz.vehicle.problem import UNLIMITED, DesignGroup
+
+Ratios = Literal["limited", "fixed", "free"]
+
+USUAL_RATIOS = (0.25, 0.8)
+"""The paper's limits, for a group that had none."""
+
+
+@dataclass(frozen=True)
+class GroupPlan:
+    """A design group before anybody has looked whether it can be."""
+
+    group: str
+    directions: frozenset[str]
+    """Of `DIRECTIONS`: which rates may change."""
+    softest: MountRates
+    stiffest: MountRates
+    ratios: Ratios
+    """What holds lateral and fore-aft by vertical."""
+    ratio_limits: tuple[float, float]
+    """Where these are limited, the least and the most."""
+
+    def design(self, mounts: MountGroup) -> DesignGroup:
+        """What it asks of a search; what is as in the mount group is left to that.
+
+        Raises:
+            VehicleError: no direction, not all of them in fixed ratios, or limits that cannot be.
+        """
+        bounds, limits = (self.softest, self.stiffest), None
+        if self.ratios == "limited" and self.ratio_limits != mounts.ratio_limits:
+            limits = self.ratio_limits
+        elif self.ratios == "free" and mounts.ratio_limits is not None:
+            limits = UNLIMITED
+        return DesignGroup(
+            self.group,
+            tuple(d for d in DIRECTIONS if d in self.directions),
+            None if bounds == mounts.bounds else bounds,
+            limits,
+            self.ratios == "fixed",
+        )
+
+
+def group_plan(mounts: MountGroup, design: DesignGroup) -> GroupPlan:
+    """A design group as it is, for the page to change."""
+    softest, stiffest = design.bounds or mounts.bounds
+    limits = design.ratio_limits or mounts.ratio_limits or UNLIMITED
+    is_free = np.isinf(limits[1])
+    return GroupPlan(
+        mounts.name,
+        frozenset(design.directions),
+        softest,
+        stiffest,
+        "fixed" if design.fixed_ratios else "free" if is_free else "limited",
+        USUAL_RATIOS if is_free else limits,
+    )

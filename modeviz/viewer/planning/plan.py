@@ -1,0 +1,164 @@
+"""What somebody on the page wants optimised: a problem of the vehicle, and what is to be different.
+
+It is part of the state of a session, so that every page shows the same and undo brings it back. It
+may ask for what cannot be, as while somebody types; the problem that is made of it cannot.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from modeviz.dynamics.basis import TOP_HZ
+from modeviz.errors import VehicleError
+from modeviz.tuning.default_problem import default_problem
+from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Goal, Performance, Problem
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.planning.group_plan import GroupPlan, group_plan
+from modeviz.viewer.planning.load_plan import LoadPlan, load_plan
+
+N_STARTS = 20
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A problem as it was chosen and changed on the page."""
+
+    problem: str
+    """The name of the problem that it came from."""
+    goal: Goal
+    is_normalised: bool
+    free: frozenset[str]
+    """Mount groups whose rates may change."""
+    groups: tuple[GroupPlan, ...]
+    """Of every mount group, also while it is held."""
+    loads: tuple[LoadPlan, ...]
+    shown_group: str
+    """The one of which the page shows what it may become."""
+    shown_load: int = 0
+    mode: str = ""
+    """The mode whose frequency is held, or none."""
+    low_hz: float = 0.0
+    high_hz: float = TOP_HZ
+    """From `TOP_HZ` on there is no limit."""
+    is_inside: bool = True
+    """Whether the mode is held in that band, or out of it."""
+    n_starts: int = N_STARTS
+
+    @property
+    def group(self) -> GroupPlan:
+        """The one that the page shows."""
+        return next(group for group in self.groups if group.group == self.shown_group)
+
+    @property
+    def load(self) -> LoadPlan:
+        """The one that the page shows."""
+        return self.loads[self.shown_load]
+
+    def with_group(self, **fields: Any) -> "Plan":
+        """With something else in the group that is shown."""
+        groups = (replace(g, **fields) if g is self.group else g for g in self.groups)
+        return replace(self, groups=tuple(groups))
+
+    def with_load(self, **fields: Any) -> "Plan":
+        """With something else in the accelerations that are shown."""
+        loads = list(self.loads)
+        loads[self.shown_load] = replace(self.load, **fields)
+        return replace(self, loads=tuple(loads))
+
+    def with_one_more_load(self) -> "Plan":
+        """With the accelerations that are shown once more, to be changed, and these shown."""
+        return replace(self, loads=(*self.loads, self.load), shown_load=len(self.loads))
+
+    def without_load(self) -> "Plan":
+        """Without the accelerations that are shown; the last ones stay."""
+        if len(self.loads) < 2:
+            return self
+        loads = (*self.loads[: self.shown_load], *self.loads[self.shown_load + 1 :])
+        return replace(self, loads=loads, shown_load=max(0, self.shown_load - 1))
+
+
+def problems(vehicle: Vehicle) -> Mapping[str, Problem]:
+    """The problems of a vehicle by name, or else one that is made of what it has.
+
+    Raises:
+        VehicleError: it has none, and lacks what one is made of.
+    """
+    found = vehicle.problems or (default_problem(vehicle),)
+    return {problem.name: problem for problem in found}
+
+
+def first_plan(vehicle: Vehicle) -> Plan | None:
+    """To solve a vehicle's usual problem; None where there is none."""
+    try:
+        return plan_of(vehicle, next(iter(problems(vehicle).values())))
+    except VehicleError:
+        return None
+
+
+def plan_of(vehicle: Vehicle, problem: Problem) -> Plan:
+    """To solve a problem as it is."""
+    own = _own_groups(problem)
+    plan = Plan(
+        problem.name,
+        problem.goal,
+        problem.is_normalised,
+        frozenset(own),
+        tuple(group_plan(g, own.get(g.name) or DesignGroup(g.name)) for g in vehicle.mount_groups),
+        tuple(load_plan(vehicle, performance) for performance in problem.performance),
+        problem.groups[0].group,
+    )
+    if not problem.windows:
+        return plan
+    window = problem.windows[0]
+    high = min(window.high_hz, TOP_HZ)
+    return replace(
+        plan, mode=window.mode, low_hz=window.low_hz, high_hz=high, is_inside=window.is_inside
+    )
+
+
+def planned(vehicle: Vehicle, plan: Plan) -> Problem:
+    """The problem that a plan is to solve; what was not changed is that of the problem it came from.
+
+    Raises:
+        VehicleError: nothing may change, or what that is, accelerations or a window cannot be.
+    """
+    problem = problems(vehicle)[plan.problem]
+    if not plan.free:
+        raise VehicleError("no group of mounts may change: choose one or more")
+    return replace(
+        problem,
+        goal=plan.goal,
+        is_normalised=plan.is_normalised,
+        groups=_groups(vehicle, plan, problem),
+        performance=_performance(vehicle, plan, problem),
+        windows=(*_window(plan), *problem.windows[1:]),
+    )
+
+
+def _own_groups(problem: Problem) -> dict[str, DesignGroup]:
+    return {group.group: group for group in problem.groups}
+
+
+def _groups(vehicle: Vehicle, plan: Plan, problem: Problem) -> tuple[DesignGroup, ...]:
+    """Those that may change."""
+    own, found = _own_groups(problem), []
+    every = {group.group: group for group in plan.groups}
+    for mounts in vehicle.mount_groups:
+        if mounts.name in plan.free:
+            asked, before = every[mounts.name], own.get(mounts.name)
+            is_as_before = before is not None and asked == group_plan(mounts, before)
+            found.append(before if is_as_before else asked.design(mounts))
+    return tuple(found)
+
+
+def _performance(vehicle: Vehicle, plan: Plan, problem: Problem) -> tuple[Performance, ...]:
+    own = {load_plan(vehicle, performance): performance for performance in problem.performance}
+    return tuple(own.get(load) or load.performance(vehicle) for load in plan.loads)
+
+
+def _window(plan: Plan) -> tuple[FrequencyWindow, ...]:
+    if not plan.mode:
+        return ()
+    high = math.inf if plan.is_inside and plan.high_hz >= TOP_HZ else plan.high_hz
+    return (FrequencyWindow(plan.mode, plan.low_hz, high, plan.is_inside),)
