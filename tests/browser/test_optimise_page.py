@@ -175,9 +175,9 @@ def test_the_problem_is_changed_on_the_page(app, page):
     wait_for(page, f"{TEXT}.includes('3 numbers to choose')")
     page.get_by_role("combobox", name="Hold mode").click()
     page.get_by_role("option", name="Cab yaw", exact=True).click()
-    boxes(page, "From, to, Hz").nth(1).fill("9")
-    wait_for(page, f"{TEXT}.includes('Cab yaw below 9 Hz')")
-    wanted = replace(own, is_normalised=False, free=frozenset("A"), mode="cab yaw", high_hz=9)
+    boxes(page, "From, to, Hz").nth(1).fill("9.5")
+    wait_for(page, f"{TEXT}.includes('Cab yaw below 9.5 Hz')")
+    wanted = replace(own, is_normalised=False, free=frozenset("A"), mode="cab yaw", high_hz=9.5)
     assert app.session.state.plan == wanted
     for _ in range(4):
         press(page, "Undo")

@@ -10,7 +10,6 @@ from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS
 from modeviz.vehicle.files.scaling import written
 from modeviz.viewer.assign import assign
-from modeviz.viewer.panels.mounts.rows import DECIMALS
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, may_change_hint
 from modeviz.viewer.planning.group_plan import Ratios
 from modeviz.viewer.planning.plan import Plan
@@ -57,7 +56,7 @@ class BoundsEditor:
                 lambda limits: self._put(ratio_limits=limits),
                 "The least and the most that lateral and fore-aft may be of vertical",
             )
-            assign(self._limits, step=0.05, precision=DECIMALS)
+            assign(self._limits, step=0.05)
 
     def show(self, state: State, plan: Plan) -> None:
         """Brings the controls after the state."""
@@ -79,9 +78,7 @@ class BoundsEditor:
             self._controls.change(lambda state, plan: bounded(plan, field, typed, state.unit))
 
         hint = f"The softest and the stiffest {direction} rate that a search may choose"
-        boxes = self._controls.pair(sentence_case(direction), read, write, hint)
-        assign(boxes, precision=DECIMALS)
-        return boxes
+        return self._controls.pair(sentence_case(direction), read, write, hint)
 
     def _toggle(self, i: int) -> None:
         def toggled(_: State, plan: Plan) -> Plan:

@@ -10,6 +10,7 @@ import viser
 from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding, show_all
 from modeviz.viewer.html import HiddenButtons, block
+from modeviz.viewer.panels.mounts.rows import DECIMALS
 from modeviz.viewer.planning.plan import Plan
 from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
@@ -67,14 +68,17 @@ class PlanControls:
     def number(
         self, label: str, limits: tuple[float, float | None], read: Read, write: Write, hint: str
     ) -> viser.GuiInputHandle:
-        """A box for a number."""
+        """A box for a number, a whole one if its limits are."""
         low, high = limits
         box = self._gui.add_number(label, self._now(read), min=low, max=high, step=1, hint=hint)
+        if isinstance(low, float):
+            assign(box, precision=DECIMALS)
         return self.bind(box, read, write, typed=True)
 
     def pair(self, label: str, read: Read, write: Write, hint: str) -> viser.GuiVector2Handle:
         """Two boxes in a row, for the least and the most."""
         boxes = self._gui.add_vector2(label, self._now(read), min=(0.0, 0.0), step=1.0, hint=hint)
+        assign(boxes, precision=DECIMALS)
         return self.bind(boxes, read, write, typed=True)
 
     def text(self, label: str, read: Read, write: Write, hint: str) -> viser.GuiInputHandle:
