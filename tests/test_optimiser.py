@@ -4,13 +4,16 @@ import threading
 import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from held_search import hold_searches
 from mounted_cabin import mounted_cabin
 
 from modeviz.errors import ModevizError, SolveError
+from modeviz.tuning.corner import goals
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.optimise import Progress
+from modeviz.tuning.parts import Tolerance, scattered_parts
 from modeviz.tuning.results import Conditions
 from modeviz.tuning.verification import verify
 from modeviz.vehicle.connections import MountRates
@@ -98,6 +101,45 @@ def test_it_ends_with_the_session_at_the_best_design(session, optimiser):
     values = [value for _, value in look.falls]
     assert values == sorted(values, reverse=True)
     assert values[-1] == look.optimum.value < 1
+
+
+def percentile(session, rates, seed):
+    """The 95th percentile of the goal of vehicles built of parts drawn with a seed of their own."""
+    objective = goal(session)
+    parts = scattered_parts(objective.prepared, rates, Tolerance())
+    return np.percentile(goals(objective, parts, parts.samples(2000, seed)), 95)
+
+
+def test_a_robust_search_is_better_for_parts_that_were_not_in_it(session, optimiser):
+    plan(session, n_starts=2)
+    as_drawn = run(optimiser).optimum
+    optimiser.go_back()
+    plan(session, is_robust=True)
+    look = run(optimiser)
+    assert look.is_robust
+    assert look.optimum.converged
+    assert look.optimum.value == pytest.approx(percentile(session, look.optimum.rates, 7), rel=0.02)
+    assert look.original == pytest.approx(percentile(session, {}, 7), rel=0.02)
+    assert look.falls[-1][1] == look.optimum.value > as_drawn.value
+    assert percentile(session, look.optimum.rates, 7) < percentile(session, as_drawn.rates, 7)
+    assert session.state.rates == look.optimum.rates
+
+
+def test_a_robust_search_of_what_does_not_scatter_is_refused(session, optimiser):
+    plan(session, goal="change", is_robust=True)
+    look = run(optimiser)
+    assert look.phase == "failed"
+    assert "does not scatter" in look.failure
+
+
+def test_a_robust_search_that_is_cancelled_before_it_is_robust_keeps_the_best(session, optimiser, gate):
+    plan(session, n_starts=2, is_robust=True)
+    optimiser.start()
+    optimiser.wait(lambda: optimiser.look.progress)
+    optimiser.cancel()
+    optimiser.wait(lambda: optimiser.look.phase == "ended")
+    assert not optimiser.look.is_robust
+    assert session.state.rates == optimiser.look.optimum.rates
 
 
 def test_the_search_is_one_step_to_undo_and_redo(session, optimiser):

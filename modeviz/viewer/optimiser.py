@@ -13,6 +13,8 @@ import numpy as np
 from modeviz.errors import ModevizError
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.optimise import Optimum, Progress, optimise, start_points
+from modeviz.tuning.parts import Tolerance
+from modeviz.tuning.robust import robust_search
 from modeviz.tuning.search import Search, prepare_search
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
@@ -36,6 +38,8 @@ class Look:
     before: Rates
     """The rates that it began with."""
     phase: Phase = "preparing"
+    is_robust: bool = False
+    """Whether the goal is a percentile over parts that scatter by now."""
     original: float = np.nan
     """The goal with the vehicle's own rates."""
     reference: float = np.nan
@@ -107,10 +111,7 @@ class Pursuit:
 
     def _run(self) -> None:
         try:
-            search = self._prepare()
-            n_starts, control = self._plan.n_starts, self._control
-            starts = start_points(search, self.look.before, n_starts, control=control)
-            optimum = optimise(search, starts, control=control, tell=self._note)
+            optimum = self._search()
         except CancelledError:
             self._put(phase="ended")
         except ModevizError as error:
@@ -121,18 +122,28 @@ class Pursuit:
         else:
             self._end(optimum)
 
-    def _prepare(self) -> Search:
-        """Raises CancelledError if it is over before it began."""
-        vehicle, state, problem = self._session.vehicle, self._state, self.look.problem
+    def _search(self) -> Optimum:
+        """What is found as drawn or, from there, for parts that scatter."""
+        vehicle, state, control = self._session.vehicle, self._state, self._control
         speed = state.conditions.speed
-        search = prepare_search(vehicle, problem, state.rates, speed, state.locked)
-        reference = np.nan
-        if problem.reference:
-            reference = search.goal.value(vehicle.rate_sets[problem.reference])
+        search = prepare_search(vehicle, self.look.problem, state.rates, speed, state.locked)
+        robustly = robust_search(search, Tolerance()) if self._plan.is_robust else None
+        self._begin(search)
+        starts = start_points(search, self.look.before, self._plan.n_starts, control=control)
+        optimum = optimise(search, starts, control=control, tell=self._note)
+        if robustly is None or control.is_cancelled:
+            return optimum
+        self._begin(robustly, is_robust=True, progress=None, falls=())
+        return optimise(robustly, [optimum.x], control=control, tell=self._note)
+
+    def _begin(self, search: Search, **news) -> None:
+        """Says what its goal is with the rates compared with; raises CancelledError if it is over."""
+        reference = self.look.problem.reference
+        rates = self._session.vehicle.rate_sets[reference] if reference else None
+        compared = np.nan if rates is None else search.goal.value(rates)
         original = search.goal.value({})
         self._control.check()
-        self._put(phase="searching", original=original, reference=reference)
-        return search
+        self._put(phase="searching", original=original, reference=compared, **news)
 
     def _note(self, progress: Progress) -> None:
         """Takes down an evaluation, and now and then tells and brings the session after it."""

@@ -44,6 +44,8 @@ class Plan:
     is_inside: bool = True
     """Whether the mode is held in that band, or out of it."""
     n_starts: int = N_STARTS
+    is_robust: bool = False
+    """Whether the search goes on for most vehicles that are built, not for the one as drawn."""
 
     @property
     def group(self) -> GroupPlan:

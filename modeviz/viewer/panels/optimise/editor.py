@@ -64,6 +64,13 @@ class ProblemEditor:
                 "From how many designs to search: the present rates, and others spread over all that "
                 "may be. More find a better minimum, and take longer",
             )
+            self._controls.check(
+                "Robust",
+                lambda _, p: p.is_robust,
+                lambda value: self._controls.put(is_robust=value),
+                "From the best design on, search for one whose 95th percentile of vehicles with parts "
+                "that differ is small, instead of the vehicle as drawn; takes some ten times as long",
+            )
         self._bounds = BoundsEditor(gui, session)
         self._accelerations = AccelerationsEditor(gui, session, plan) if plan.loads else None
 
@@ -90,7 +97,7 @@ class ProblemEditor:
             space = design_space(vehicle, problem.groups, state.rates, state.locked)
         except ModevizError as error:
             return span(escape(str(error)), "bad")
-        return summary(problem, space)
+        return summary(problem, space, plan.is_robust)
 
     def _add_goal(self) -> None:
         """Whose problem it is, and what is to become small."""

@@ -33,7 +33,8 @@ def where(look: Look) -> str:
         return heading(_word(look), "choosing starts" if look.is_running else "nothing found yet")
     progress = look.progress
     n = f"{progress.evaluations:,}".replace(",", "\N{THIN SPACE}")
-    return heading(_word(look), f"start {progress.start} of {progress.n_starts}, {n} evaluations")
+    which = "95th percentile" if look.is_robust else f"start {progress.start} of {progress.n_starts}"
+    return heading(_word(look), f"{which}, {n} evaluations")
 
 
 def figures(look: Look) -> str:

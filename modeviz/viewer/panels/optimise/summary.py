@@ -6,8 +6,9 @@ from html import escape
 import numpy as np
 
 from modeviz.export.markup import title
-from modeviz.export.optimum import objective_words
+from modeviz.export.optimum import objective_words, tolerance_words
 from modeviz.tuning.design import DesignSpace
+from modeviz.tuning.parts import Tolerance
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.problem import VARIABLES, FrequencyWindow, Performance, Problem
 
@@ -15,9 +16,11 @@ FEW = 4
 """So many frequencies are written out."""
 
 
-def summary(problem: Problem, space: DesignSpace) -> str:
+def summary(problem: Problem, space: DesignSpace, is_robust: bool) -> str:
     """What is to become small, and what may change for it."""
     rows = [("Reduce", title(objective_words(problem)))]
+    if is_robust:
+        rows.append(("", f"95th percentile of parts, {tolerance_words(Tolerance())}"))
     if problem.goal in VARIABLES:
         rows += [("On" if i == 0 else "", title(_loads(p))) for i, p in enumerate(problem.performance)]
     rows.append(("Free", _free(problem, space)))
