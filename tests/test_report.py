@@ -5,6 +5,7 @@ from datetime import date
 
 import numpy as np
 import pytest
+from cabin_problem import PROBLEM
 from html_documents import Document, value
 from mounted_cabin import mounted_cabin
 
@@ -15,6 +16,7 @@ from modeviz.export.report.sides import SHOWN_HZ
 from modeviz.ride.psd import power_decibels
 from modeviz.tuning.check import Check
 from modeviz.tuning.comparison import RateSet, compare
+from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions
 from modeviz.tuning.wheel_peaks import wheel_peak_lines
@@ -74,6 +76,24 @@ def test_the_reference_of_the_usual_problem_stands_beside_both_sets():
         both = compare(prepare(vehicle), *(RateSet(name, {}) for name in names), None)
         header, *_ = Document(report(both, TODAY)).tables["Mount rates"]
         assert header[1:] == [f"{names[0]}, N/mm", f"{names[1]}, N/mm", "Change"]
+
+
+@pytest.mark.parametrize("is_normalised", [True, False])
+def test_the_objective_of_the_usual_problem_is_told_of_all_sets(is_normalised):
+    vehicle = replace(mounted_cabin(), problems=(replace(PROBLEM, is_normalised=is_normalised),))
+    stiff = RateSet("stiff", {"A": MountRates(1.6e6, 3e5, 4e5)})
+    document = Document(report(compare(prepare(vehicle), ORIGINAL, stiff, FLAT), TODAY))
+    header, row = document.tables["Objective"]
+    assert header == ["", "original", "stiff", "Change", "soft", "Change"]
+    goal = prepare_goal(vehicle, vehicle.problems[0], vehicle.rates, FLAT.speed)
+    parts = [goal.value(r) / goal.value({}) for r in (stiff.rates, vehicle.rate_sets["soft"])]
+    assert row[:2] == ["Cabin", "1"]
+    assert [float(row[2]), float(row[4])] == pytest.approx(parts, rel=1e-3)
+    assert [value(row[3]), value(row[5])] == pytest.approx(
+        [100 * (part - 1) for part in parts], abs=0.051
+    )
+    sum_of = "each load case relative to the original" if is_normalised else "plain sum"
+    assert f"squared accelerations, {sum_of}, as parts of the original’s" in document.words
 
 
 def test_loss_factors_are_told_where_they_changed():

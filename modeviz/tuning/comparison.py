@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from modeviz.dynamics.tracking import Track
 from modeviz.tuning.following import accept, follow_rates
+from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.preparation import Prepared
 from modeviz.tuning.results import (
     Conditions,
@@ -16,6 +17,7 @@ from modeviz.tuning.results import (
     solve_wheels,
 )
 from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -26,6 +28,20 @@ class RateSet:
     name: str
     rates: Rates
     """Of the groups that differ from the vehicle's own."""
+
+
+@dataclass(frozen=True)
+class Worth:
+    """What the goal of a problem is."""
+
+    problem: Problem
+    original: float
+    """With the vehicle's own rates."""
+    base: float
+    now: float
+    """With the sets that are compared."""
+    reference: float | None
+    """With the problem's set to compare with, if it has one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +57,8 @@ class Comparison:
     """Where the modes of `base` went."""
     wheels: tuple[WheelResults, WheelResults] | None
     """The response to wheel loads, if there are any."""
+    worth: Worth | None
+    """By the vehicle's usual problem, its first; None if it has none."""
 
     @property
     def vehicle(self) -> Vehicle:
@@ -80,4 +98,14 @@ def compare(
     if vehicle.wheel_loads and vehicle.response_points:
         wheels = solve_wheels(prepared, base.rates), solve_wheels(prepared, now.rates)
     track = follow_rates(accept(first), first, second)
-    return Comparison((base.name, now.name), first, second, track, wheels)
+    worth = _worth(vehicle, base.rates, now.rates, conditions.speed if conditions else vehicle.speed)
+    return Comparison((base.name, now.name), first, second, track, wheels, worth)
+
+
+def _worth(vehicle: Vehicle, base: Rates, now: Rates, speed: float) -> Worth | None:
+    if not vehicle.problems:
+        return None
+    problem = vehicle.problems[0]
+    goal = prepare_goal(vehicle, problem, vehicle.rates, speed)
+    reference = goal.value(vehicle.rate_sets[problem.reference]) if problem.reference else None
+    return Worth(problem, goal.value({}), goal.value(base), goal.value(now), reference)

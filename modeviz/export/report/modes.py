@@ -6,7 +6,8 @@ from html import escape
 import numpy as np
 
 from modeviz.dynamics.modes import RESOLVED_HZ
-from modeviz.export.markup import NONE, note, section, span, table, title
+from modeviz.export.markup import NONE, change, note, section, span, table, title
+from modeviz.export.optimum import objective_words
 from modeviz.export.report.sides import SHOWN_HZ
 from modeviz.export.wording import number, percent_change, signed, significant
 from modeviz.ride.psd import power_decibels
@@ -36,6 +37,30 @@ def rates(comparison: Comparison) -> str:
     first, *others = (f"{escape(name)}, N/mm" for name, _ in sets)
     header = ["Mount", first, *(cell for name in others for cell in (name, "Change"))]
     return section("Mount rates", table(header, rows))
+
+
+def objective(comparison: Comparison) -> str:
+    """What the vehicle's usual problem makes small, of the same sets as in `rates`.
+
+    Values are parts of the original's, if that has any.
+    """
+    worth = comparison.worth
+    if worth is None:
+        return ""
+    of = worth.original or 1.0
+    names, values = [*comparison.names], [worth.base / of, worth.now / of]
+    if _reference(comparison) and worth.reference is not None:
+        names, values = [*names, worth.problem.reference], [*values, worth.reference / of]
+    first, *others = map(escape, names)
+    header = ["", first, *(cell for name in others for cell in (name, "Change"))]
+    compared = [c for v in values[1:] for c in (significant(v), change(v, values[0]))]
+    problem = escape(worth.problem.name)
+    parts = ", as parts of the original’s" if worth.original else ""
+    return section(
+        "Objective",
+        table(header, [[title(worth.problem.name), significant(values[0]), *compared]]),
+        note(f"What the problem “{problem}” makes small: {objective_words(worth.problem)}{parts}."),
+    )
 
 
 def _reference(comparison: Comparison) -> list[tuple[str, Vehicle]]:

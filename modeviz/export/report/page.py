@@ -10,7 +10,7 @@ from importlib.resources import files
 
 from modeviz.export.markup import change, section, span
 from modeviz.export.report.exactness import exactness
-from modeviz.export.report.modes import frequencies, participation, rates
+from modeviz.export.report.modes import frequencies, objective, participation, rates
 from modeviz.export.report.ride import levels, spectra
 from modeviz.export.report.wheels import wheels
 from modeviz.export.wording import number, signed
@@ -47,6 +47,7 @@ def report(
             _figures(comparison),
             _pictures(pictures),
             rates(comparison),
+            objective(comparison),
             frequencies(comparison),
             spectra(comparison),
             levels(comparison),
