@@ -94,6 +94,7 @@ from modeviz.vehicle.connections import MountRates as MountRates
 from modeviz.vehicle.connections import Spring as Spring
 from modeviz.vehicle.connections import Tyre as Tyre
 from modeviz.vehicle.files import builtin_vehicle as builtin_vehicle
+from modeviz.vehicle.files import read_problem as read_problem
 from modeviz.vehicle.files import read_vehicle as read_vehicle
 from modeviz.vehicle.files import write_vehicle as write_vehicle
 from modeviz.vehicle.loads import ResponsePoint as ResponsePoint

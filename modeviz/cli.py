@@ -160,7 +160,7 @@ def _add_search(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--output", type=Path, metavar="FILE", help="where to write what is found: .json or .csv"
     )
-    command.add_argument("--problem", metavar="NAME", help="default: the vehicle's first")
+    _add_problem(command, "")
     command.add_argument(
         "--goal", metavar="NAME", help="instead of the problem's: " + ", ".join(get_args(Goal))
     )
@@ -205,11 +205,19 @@ def _add_scatter(command: argparse.ArgumentParser) -> None:
     command.add_argument("--samples", type=int, default=1000, metavar="N", help="default 1000")
     command.add_argument("--seed", type=int, default=0, metavar="N", help="of what is random")
     _add_tolerances(command)
-    command.add_argument("--problem", metavar="NAME", help="whose goal; default: the vehicle's first")
+    _add_problem(command, "whose goal; ")
     command.add_argument("--point", metavar="NAME", help="response point; default: the vehicle's first")
     _add_road(command)
     _add_scheduler(command)
     _add_json(command)
+
+
+def _add_problem(command: argparse.ArgumentParser, what: str) -> None:
+    command.add_argument(
+        "--problem",
+        metavar="NAME|FILE",
+        help=f"{what}a .toml file that the page saved is one, too (default: the vehicle's first)",
+    )
 
 
 def _add_tolerances(command: argparse.ArgumentParser) -> None:

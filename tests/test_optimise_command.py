@@ -18,6 +18,7 @@ from modeviz.tuning.rate_files import read_rates
 from modeviz.tuning.robust import robust
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import write_vehicle
+from modeviz.vehicle.files.problem_file import problem_text
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance
 
 KEYS = {
@@ -147,6 +148,15 @@ def test_another_problem_and_speed_are_taken(printed_json, cabin):
     slow = printed_json("optimise", cabin, "--plain", "--speed", "36 km/h", "--starts", "1")
     fast = printed_json("optimise", cabin, "--plain", "--starts", "1")
     assert slow["objective"]["original"] < fast["objective"]["original"]
+
+
+def test_a_problem_is_taken_from_a_file(printed_json, cabin, folder, refused, tmp_path_factory):
+    path = tmp_path_factory.mktemp("problems") / "mine.toml"
+    path.write_text(problem_text(replace(PROBLEM, is_normalised=False)))
+    plain = printed_json("optimise", cabin, "--plain", "--starts", "1")
+    for vehicle in (cabin, folder):  # the other one has no problem of its own
+        assert printed_json("optimise", vehicle, "--problem", str(path), "--starts", "1") == plain
+    assert "nowhere.toml" in refused(cabin, "--problem", str(path.with_name("nowhere.toml")))
 
 
 def test_the_table_says_what_was_found_and_which_sum_it_is(capsys, cabin):

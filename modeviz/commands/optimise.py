@@ -6,7 +6,15 @@ from math import inf
 
 from modeviz.commands.front import optimise_front
 from modeviz.commands.interrupt import cancelled_by_interrupt
-from modeviz.commands.options import chosen_speed, need, print_json, progress, say, vehicle_and_rates
+from modeviz.commands.options import (
+    chosen_problem,
+    chosen_speed,
+    need,
+    print_json,
+    progress,
+    say,
+    vehicle_and_rates,
+)
 from modeviz.errors import ModevizError
 from modeviz.export.optimum import optimum_record, optimum_table
 from modeviz.export.wording import significant
@@ -56,9 +64,10 @@ def optimise_rates(options: Namespace) -> None:
 
 def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
     """The problem that was asked for, as the vehicle has it but for what was changed."""
-    need(vehicle, "problem", vehicle.problems)
-    name = vehicle.problems[0].name if options.problem is None else options.problem
-    problem = vehicle.problem(name)
+    problem = chosen_problem(options, vehicle)
+    if problem is None:
+        need(vehicle, "problem", vehicle.problems)
+        problem = vehicle.problems[0]
     if options.goal:
         problem = replace(problem, goal=options.goal)
     return replace(problem, is_normalised=problem.is_normalised and not options.plain)

@@ -6,6 +6,7 @@ import sys
 from argparse import Namespace
 from collections.abc import Callable, Sized
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -18,7 +19,9 @@ from modeviz.tuning.results import Conditions
 from modeviz.units import parse
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.files.problem_file import ENDING, read_problem
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 EVEN_HZ = np.array([1e-3, 1e3])
@@ -58,6 +61,18 @@ def chosen_speed(options: Namespace, vehicle: Vehicle) -> float:
         if speed <= 0:
             raise ModevizError(f"found {options.speed!r}, expected more than zero")
     return speed
+
+
+def chosen_problem(options: Namespace, vehicle: Vehicle) -> Problem | None:
+    """The problem of the vehicle or of the file that was named; None if none was.
+
+    Raises:
+        VehicleError: there is none of that name, or not in that file.
+    """
+    if options.problem is None:
+        return None
+    path = Path(options.problem)
+    return read_problem(path, vehicle) if path.suffix == ENDING else vehicle.problem(options.problem)
 
 
 def ride(options: Namespace, vehicle: Vehicle) -> Conditions | None:

@@ -5,6 +5,7 @@ from math import inf
 
 from modeviz.commands.interrupt import cancelled_by_interrupt
 from modeviz.commands.options import (
+    chosen_problem,
     conditions,
     need,
     prepare_telling,
@@ -53,10 +54,10 @@ def scatter_mounts(options: Namespace) -> None:
 
 def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
     """The problem whose goal scatters; for a vehicle without one, that of a good rating."""
-    if options.problem is not None:
-        return vehicle.problem(options.problem)
+    if (problem := chosen_problem(options, vehicle)) or vehicle.problems:
+        return problem or vehicle.problems[0]
     groups = tuple(DesignGroup(group.name) for group in vehicle.mount_groups)
-    return vehicle.problems[0] if vehicle.problems else Problem("rating", groups, goal="rating")
+    return Problem("rating", groups, goal="rating")
 
 
 def _scattered(

@@ -12,8 +12,9 @@ from pages import wait_for, wait_until
 
 from modeviz.export.wording import significant
 from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.files.problem_file import problem_text, read_problem
 from modeviz.viewer import trader
-from modeviz.viewer.planning.plan import first_plan
+from modeviz.viewer.planning.plan import first_plan, planned
 
 TEXT = "document.body.textContent"
 BEST = "document.querySelector('.mv .goals b')?.textContent"
@@ -183,6 +184,18 @@ def test_the_problem_is_changed_on_the_page(app, page):
         press(page, "Undo")
     wait_until(page, lambda: app.session.state.plan == own)
     wait_for(page, f"{TEXT}.includes('6 numbers to choose')")
+
+
+def test_a_changed_problem_is_saved_as_a_file_that_is_read_again(app, page, tmp_path):
+    app.session.update(lambda state: replace(state, plan=replace(state.plan, is_normalised=False)))
+    with page.expect_download() as downloaded:
+        press(page, "Save problem")
+    path = tmp_path / downloaded.value.suggested_filename
+    downloaded.value.save_as(path)
+    assert path.name == "cabin-ride-problem.toml"
+    problem = read_problem(path, app.session.vehicle)
+    assert not problem.is_normalised
+    assert problem_text(problem) == problem_text(planned(app.session.vehicle, app.session.state.plan))
 
 
 def test_what_cannot_be_searched_is_said_and_starts_nothing(app, page):

@@ -5,7 +5,6 @@ are the fields of the records in `records`. FOLDER/bodies/NAME.npz has the modes
 flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a road's spectra; all in SI.
 """
 
-import tomllib
 from itertools import chain
 from pathlib import Path
 
@@ -14,8 +13,7 @@ import msgspec
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.connections import Bolt, Connection, Damper, Spring, Tyre
-from modeviz.vehicle.files.decoding import decode
-from modeviz.vehicle.files.disk import file_stems, read_text, replace_folder, write_text
+from modeviz.vehicle.files.disk import file_stems, replace_folder, write_text
 from modeviz.vehicle.files.meshes import write_mesh
 from modeviz.vehicle.files.modal import write_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
@@ -34,8 +32,9 @@ from modeviz.vehicle.files.records import (
     WheelLoadRecord,
 )
 from modeviz.vehicle.files.roads import write_road
-from modeviz.vehicle.files.scaling import WRITTEN_UNITS, from_si, to_si
+from modeviz.vehicle.files.scaling import WRITTEN_UNITS, from_si
 from modeviz.vehicle.files.toml import to_toml
+from modeviz.vehicle.files.toml_file import read_toml
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -81,7 +80,7 @@ def read_vehicle(folder: Path) -> Vehicle:
             f"{folder}: found no {VEHICLE_FILE}; a vehicle is a folder with a {VEHICLE_FILE}, and the "
             "modes, meshes and roads that it names"
         )
-    record = _read_record(path)
+    record = read_toml(path, VehicleRecord)
     with located(path):
         return _build(record, folder)
 
@@ -105,18 +104,6 @@ def _replaceable(folder: Path) -> bool:
         return False
     names = {path.name for path in folder.iterdir()}
     return not names or ((folder / VEHICLE_FILE).is_file() and names <= CONTENT)
-
-
-def _read_record(path: Path) -> VehicleRecord:
-    """The file's content, in SI."""
-    try:
-        data = tomllib.loads(read_text(path))
-    except (ValueError, RecursionError) as error:
-        raise VehicleError(f"{path}: not TOML: {error}") from None
-    with located(path):
-        units = decode(data.pop("units", {}), dict[str, str], "units")
-        decode(data, VehicleRecord)  # before scaling, so that errors show the file's own numbers
-        return msgspec.convert(to_si(data, units), VehicleRecord)
 
 
 def _build(record: VehicleRecord, folder: Path) -> Vehicle:

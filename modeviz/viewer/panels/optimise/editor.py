@@ -8,9 +8,10 @@ import viser
 
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import ModevizError
-from modeviz.export.wording import sentence_case
+from modeviz.export.wording import file_name, sentence_case
 from modeviz.tuning.design import design_space
 from modeviz.tuning.results import Results
+from modeviz.vehicle.files.problem_file import problem_text
 from modeviz.vehicle.problem import Goal
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
@@ -35,6 +36,7 @@ GOALS = {WORDS.get(goal) or sentence_case(goal): goal for goal in get_args(Goal)
 NO_MODE = "None"
 BANDS = {"Within": True, "Out of": False}
 MOST_STARTS = 200
+SAVE = "Save problem"
 
 
 class ProblemEditor:
@@ -73,6 +75,13 @@ class ProblemEditor:
             )
         self._bounds = BoundsEditor(gui, session)
         self._accelerations = AccelerationsEditor(gui, session, plan) if plan.loads else None
+        save = gui.add_button_group(
+            "Keep",
+            (SAVE,),
+            hint="The problem as a file: modeviz optimise reads it with --problem, and its [[problem]] "
+            "can be put into the vehicle's vehicle.toml",
+        )
+        save.on_click(self._save)
 
     def show(self, solved: Solved) -> None:
         """Brings the controls after the state, and says what is sought."""
@@ -166,6 +175,19 @@ class ProblemEditor:
         vehicle = self._session.vehicle
         now = {name: may_change_hint(name in plan.free) for name in self._groups}
         return [f"{vehicle.mount_group(name).label}: {hint}" for name, hint in now.items()]
+
+    def _save(self, event: viser.GuiEvent) -> None:
+        """Gives the problem to the page that asked for it."""
+        plan, vehicle = self._session.state.plan, self._session.vehicle
+        if event.client is None or plan is None:
+            return
+        try:
+            problem = planned(vehicle, plan)
+        except ModevizError as error:
+            event.client.add_notification("Not saved", str(error), color="red")
+            return
+        name = file_name(f"{vehicle.name} {problem.name} problem", "toml")
+        event.client.send_file_download(name, problem_text(problem).encode(), save_immediately=True)
 
     def _toggle(self, i: int) -> None:
         self._controls.change(lambda _, plan: replace(plan, free=plan.free ^ {self._groups[i]}))
