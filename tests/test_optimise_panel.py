@@ -63,6 +63,16 @@ def test_the_goal_is_shown_beside_the_original_and_the_reference():
         assert part in text
 
 
+def test_a_robust_search_says_that_it_goes_by_a_percentile():
+    assert "choosing starts" in where(LOOK)
+    look = replace(LOOK, is_robust=True)
+    assert "95th percentile" in where(look)
+    look = replace(look, progress=Progress(7, RATES, 0.4, 1, 1))
+    assert "95th percentile, 7 evaluations" in where(look)
+    said = summary(PROBLEM, cabin_search().space, is_robust=True)
+    assert "95th percentile of parts, rates within ±15 %" in said
+
+
 def test_without_a_reference_there_is_none():
     progress = Progress(1, BETTER, 0.25, 1, 1)
     assert "Soft" not in figures(replace(LOOK, progress=progress, reference=np.nan))

@@ -15,6 +15,8 @@ from modeviz.viewer.panels.status import ALARMING, percent
 LEAST_GAIN = 5e-4
 """Of the goal: what gains less is not worth a word."""
 
+PERCENTILE = "95th percentile"
+
 RUNNING = {"searching": "Searching", "paused": "Paused", "checking": "Checking"}
 ENDINGS = {
     CONVERGED: "Converged",
@@ -29,11 +31,12 @@ def where(look: Look) -> str:
         return heading("Preparing")
     if look.phase == "failed":
         return heading("Failed") + span(escape(look.failure), "bad")
-    if look.progress is None:
-        return heading(_word(look), "choosing starts" if look.is_running else "nothing found yet")
     progress = look.progress
+    if progress is None:
+        begun = PERCENTILE if look.is_robust else "choosing starts"
+        return heading(_word(look), begun if look.is_running else "nothing found yet")
     n = f"{progress.evaluations:,}".replace(",", "\N{THIN SPACE}")
-    which = "95th percentile" if look.is_robust else f"start {progress.start} of {progress.n_starts}"
+    which = PERCENTILE if look.is_robust else f"start {progress.start} of {progress.n_starts}"
     return heading(_word(look), f"{which}, {n} evaluations")
 
 
