@@ -6,54 +6,28 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cabin_session import SOON, Watcher, open_session
 from held_search import hold_searches
-from mounted_cabin import mounted_cabin
 
 from modeviz.errors import ModevizError, SolveError
 from modeviz.tuning.corner import goals
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.optimise import Progress
 from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.results import Conditions
 from modeviz.tuning.verification import verify
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer import optimiser as module
 from modeviz.viewer.optimiser import Optimiser
 from modeviz.viewer.planning.plan import planned
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import first_state
 
-SOON = 20
 ANSWERS_WITHIN = 0.5
 """s, of the issue."""
 
 
-class Watcher:
-    """Waits for what a search tells."""
-
-    def __init__(self):
-        self._told = threading.Condition()
-
-    def tell(self):
-        with self._told:
-            self._told.notify_all()
-
-    def wait(self, reached, timeout=SOON):
-        with self._told:
-            assert self._told.wait_for(reached, timeout)
-
-
 @pytest.fixture
 def session():
-    vehicle = mounted_cabin()
-    failures = []
-    state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
-    session = Session(vehicle, state, lambda _: None, failures.append)
-    session.start()
-    assert session.wait(SOON)
-    yield session
-    session.close()
-    assert not failures
+    with open_session() as session:
+        yield session
 
 
 @pytest.fixture

@@ -5,47 +5,34 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mounted_cabin import mounted_cabin
+from cabin_session import SOON, Watcher, open_session
 
 from modeviz.errors import ModevizError, SolveError
 from modeviz.tuning.results import Conditions
 from modeviz.viewer import scatterer as module
 from modeviz.viewer.scatterer import Scatterer
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import Curve, first_state
+from modeviz.viewer.state import Curve
 
-SOON = 20
 CURVE = Curve(0, "lateral")
 
 
 @pytest.fixture
 def session():
-    vehicle = mounted_cabin()
-    failures, answers = [], []
-    state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
-    session = Session(vehicle, state, answers.append, failures.append)
-    session.answers = answers
-    session.start()
-    assert session.wait(SOON)
-    yield session
-    session.close()
-    assert not failures
+    answers = []
+    with open_session(answers.append) as session:
+        session.answers = answers
+        yield session
 
 
 @pytest.fixture
 def scatterer(session):
-    told = threading.Condition()
-
-    def tell():
-        with told:
-            told.notify_all()
+    watcher = Watcher()
 
     def finish():
-        with told:
-            assert told.wait_for(lambda: not scatterer.job.is_running, SOON)
+        watcher.wait(lambda: not scatterer.job.is_running)
         return scatterer.job
 
-    scatterer = Scatterer(session, tell)
+    scatterer = Scatterer(session, watcher.tell)
     scatterer.finish = finish
     yield scatterer
     scatterer.cancel()

@@ -6,26 +6,19 @@ from functools import partial
 
 import numpy as np
 import pytest
-from mounted_cabin import mounted_cabin
+from cabin_session import SOON, Watcher, open_session
 
 from modeviz.errors import VehicleError
-from modeviz.tuning.results import Conditions
 from modeviz.viewer import trader as module
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import first_state
 from modeviz.viewer.trader import Trader
 
-SOON = 120
 OFFER = "lateral against vertical"
 
 
 @pytest.fixture
 def session():
-    vehicle = mounted_cabin()
-    state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
-    session = Session(vehicle, state, lambda _: None, print)
-    yield session
-    session.close()
+    with open_session() as session:
+        yield session
 
 
 @pytest.fixture(autouse=True)
@@ -37,18 +30,9 @@ def short(monkeypatch):
 
 @pytest.fixture
 def trader(session):
-    told = threading.Condition()
-
-    def tell():
-        with told:
-            told.notify_all()
-
-    def wait(reached):
-        with told:
-            assert told.wait_for(reached, SOON)
-
-    trader = Trader(session, tell)
-    trader.wait = wait
+    watcher = Watcher()
+    trader = Trader(session, watcher.tell)
+    trader.wait = watcher.wait
     yield trader
     trader.cancel()
 

@@ -1,0 +1,43 @@
+"""A tuning session of the small cabin, and somebody who waits for what runs beside it."""
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from mounted_cabin import mounted_cabin
+
+from modeviz.tuning.results import Conditions
+from modeviz.viewer.answers import Solved
+from modeviz.viewer.session import Session
+from modeviz.viewer.state import first_state
+
+SOON = 120
+"""s: on a slow machine with others at work."""
+
+
+@contextmanager
+def open_session(show: Callable[[Solved], None] = lambda _: None) -> Iterator[Session]:
+    """A session with its first answer, in which nothing fails."""
+    vehicle, failures = mounted_cabin(), []
+    state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
+    session = Session(vehicle, state, show, failures.append)
+    session.start()
+    assert session.wait(SOON)
+    yield session
+    session.close()
+    assert not failures
+
+
+class Watcher:
+    """Waits for what a computation tells."""
+
+    def __init__(self):
+        self._told = threading.Condition()
+
+    def tell(self):
+        with self._told:
+            self._told.notify_all()
+
+    def wait(self, reached, timeout=SOON):
+        with self._told:
+            assert self._told.wait_for(reached, timeout)
