@@ -3,9 +3,11 @@ import pytest
 from differences import central_difference
 from mounted_cabin import mounted_cabin
 
+from modeviz.dynamics.naming import ModeName
 from modeviz.errors import VehicleError
 from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.results import solve_modal
+from modeviz.tuning.sensitivity import frequency_sensitivity
 from modeviz.tuning.windows import MARGIN, prepare_windows
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import FrequencyWindow
@@ -89,3 +91,35 @@ def test_exact_frequencies_are_those_of_the_full_eigenproblem(prepared):
 def test_a_mode_that_is_not_there_is_an_error(prepared):
     with pytest.raises(VehicleError, match=r"^window: unknown mode 'cab jaw': did you mean 'cab yaw'"):
         prepare_windows(prepared, [FrequencyWindow("cab jaw", high_hz=9.0)])
+
+
+@pytest.mark.parametrize(("score", "is_as_good"), [(0.25, False), (0.415, True)])
+def test_of_modes_with_one_motion_those_with_most_of_it_are_held(
+    prepared, monkeypatch, score, is_as_good
+):
+    own = solve_modal(prepared, {})
+    yaw = own.mode_index("cab yaw")
+
+    def renamed(*arguments):
+        results = solve_modal(*arguments)
+        names = list(results.names)
+        names[yaw - 1], names[yaw] = ModeName("cab yaw", score), ModeName("cab yaw 2", 0.42)
+        vars(results)["names"] = tuple(names)
+        return results
+
+    windows = windows_of(prepared, (9.0, 12.0))
+    monkeypatch.setattr("modeviz.tuning.windows.solve_modal", renamed)
+    assert windows.exact_frequencies({}) == pytest.approx(YAW_HZ, abs=1e-3)
+    (low, high), gradients = windows.margins({})
+    lower = own.modes.frequency_hz[yaw - 1 if is_as_good else yaw]
+    assert low == pytest.approx(lower / 9 - 1 - MARGIN, abs=1e-6)
+    assert high == pytest.approx(1 - YAW_HZ / 12 - MARGIN, abs=1e-4)
+    slopes = frequency_sensitivity(own)
+    np.testing.assert_allclose(gradients[0], slopes[yaw - 1 if is_as_good else yaw] / 9, rtol=1e-9)
+    np.testing.assert_allclose(gradients[1], -slopes[yaw] / 12, rtol=1e-9)
+
+
+@pytest.mark.parametrize("limits", [(0.0, 45.0), (30.0, 45.0, False), (45.0, np.inf)])
+def test_what_lies_above_all_modes_that_are_known_is_refused(prepared, limits):
+    with pytest.raises(VehicleError, match="'cab yaw': found 45 Hz, expected 40 Hz at most, up to"):
+        windows_of(prepared, limits)

@@ -16,6 +16,10 @@ from modeviz.vehicle.problem import FrequencyWindow
 MARGIN = 2e-6
 """How far within a window a search aims, relative to its ends; frequencies are within 4e-7 of exact."""
 
+ALIKE = 0.98
+"""Of the motion that a mode is called after: with so much of what the one with most of it has, another
+mode has to be in the window too, so that a search does not end where the full model finds that one."""
+
 SLACK = 1e-6
 """By how much a design may miss that and still counts: a search comes to it from both sides."""
 
@@ -45,34 +49,42 @@ class Windows:
         results = solve_modal(self.prepared, rates)
         slopes = frequency_sensitivity(results)
         values, gradients = [], []
-        for window, mode in zip(self.windows, self._modes(results), strict=True):
-            for value, slope in _margins(window, float(results.modes.frequency_hz[mode])):
+        for window, shape in zip(self.windows, self.shapes, strict=True):
+            modes = _alike(results, window.mode, shape)
+            by_mode = [_margins(window, f) for f in results.modes.frequency_hz[modes].tolist()]
+            for end in zip(*by_mode, strict=True):
+                closest = int(np.argmin([value for value, _ in end]))
+                value, slope = end[closest]
                 values.append(value)
-                gradients.append(slope * slopes[mode])
+                gradients.append(slope * slopes[modes[closest]])
         return np.array(values), np.array(gradients).reshape(len(values), slopes.shape[1])
 
     def exact_frequencies(self, rates: Rates) -> Floats:
         """Where the mode of each window is in the full eigenproblem, (n_windows,), Hz."""
         results = solve_modal(self.prepared, rates, "exact")
-        return results.modes.frequency_hz[self._modes(results)]
-
-    def _modes(self, results: ModalResults) -> list[int]:
-        """The mode of each window."""
-        return [
-            _mode(results, window.mode, shape)
+        modes = [
+            _alike(results, window.mode, shape)[0]
             for window, shape in zip(self.windows, self.shapes, strict=True)
         ]
+        return results.modes.frequency_hz[modes]
 
 
 def prepare_windows(prepared: PreparedModes, windows: Sequence[FrequencyWindow]) -> Windows:
     """Windows for a vehicle.
 
     Raises:
-        VehicleError: a mode that the vehicle does not have with its own rates.
+        VehicleError: a mode that the vehicle does not have with its own rates, or an end of a window
+            above the band in which modes are known.
     """
-    results = solve_modal(prepared, {})
+    results, top_hz = solve_modal(prepared, {}), prepared.basis.top_hz
     shapes = []
     for window in windows:
+        ends = [f for f in (window.low_hz, window.high_hz) if np.isfinite(f)]
+        if max(ends) > top_hz:
+            raise VehicleError(
+                f"window of {window.mode!r}: found {max(ends):g} Hz, expected {top_hz:g} Hz at most, "
+                "up to which modes are known"
+            )
         mode = results.mode_index(window.mode)
         if mode is None:
             names = [name.name for name in results.names]
@@ -81,12 +93,16 @@ def prepare_windows(prepared: PreparedModes, windows: Sequence[FrequencyWindow])
     return Windows(prepared, tuple(windows), tuple(shapes))
 
 
-def _mode(results: ModalResults, name: str, shape: Floats) -> int:
-    """The mode of that name, else the one most like a shape."""
-    named = results.mode_index(name)
-    if named is not None:
-        return named
-    return int(np.abs(results.modes.shapes.T @ results.prepared.system.mass @ shape).argmax())
+def _alike(results: ModalResults, name: str, shape: Floats) -> list[int]:
+    """The mode that a name fits best and those it fits as well, else the one most like a shape.
+
+    Of "cab yaw" and "cab yaw 2" that is the one with more of the motion, not the lower one.
+    """
+    scores = {i: n.score for i, n in enumerate(results.names) if name in (n.name, n.motion)}
+    if not scores:
+        return [int(np.abs(results.modes.shapes.T @ results.prepared.system.mass @ shape).argmax())]
+    best_first = sorted(scores, key=lambda i: -scores[i])
+    return [i for i in best_first if scores[i] >= ALIKE * scores[best_first[0]]]
 
 
 def _ends(window: FrequencyWindow) -> list[str]:
