@@ -188,7 +188,11 @@ def _add_search(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument("--seed", type=int, default=0, metavar="N", help="of what is random")
     command.add_argument(
-        "--budget", type=int, default=BUDGET, metavar="N", help=f"evaluations, default {BUDGET}"
+        "--budget",
+        type=int,
+        default=BUDGET,
+        metavar="N",
+        help=f"evaluations, besides those that choose where to start; default {BUDGET}",
     )
     command.add_argument(
         "--robust",

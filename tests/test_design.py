@@ -4,9 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cabin_problem import cabin_search
+from limits_kept import excess
 from mounted_cabin import mounted_cabin
 
 import modeviz as mv
+from modeviz.tuning.optimise import optimise, search_globally, start_points
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import DesignGroup
 
@@ -96,7 +99,7 @@ def test_admitted_leaves_feasible_designs_alone_and_brings_others_in(name, reque
         np.testing.assert_allclose(space.admitted(x), x, rtol=0, atol=1e-15)
     for x in np.random.default_rng(4).normal(0, 3, (50, space.n_variables)):
         inside = space.admitted(x)
-        assert space.excess(inside) < ROUNDING
+        assert excess(space, inside) < ROUNDING
         np.testing.assert_array_equal(space.admitted(inside), inside)
 
 
@@ -126,7 +129,7 @@ def test_excess_is_the_logarithm_of_the_worst_limit(of_cabin):
     for x in np.random.default_rng(6).normal(0, 2, (50, of_cabin.n_variables)):
         rates = of_cabin.rates(x)
         over = max(worst(rates["A"], BOUNDS, (0.25, 0.8)), worst(rates["B"], bounds, None))
-        assert of_cabin.excess(x) == pytest.approx(np.log(1 + over), abs=1e-12)
+        assert excess(of_cabin, x) == pytest.approx(np.log(1 + over), abs=1e-12)
         assert rates["B"] == scaled(own, np.exp(x[-1]))
 
 
@@ -159,7 +162,7 @@ def test_ratios_to_a_rate_that_is_kept_are_limited_too(kept):
     assert max(over) < ROUNDING
     assert max(over) > -0.05  # one of them is close to a limit
     assert {getattr(rates, kept) for rates in found} == {getattr(START, kept)}
-    assert space.excess(space.to_x({})) < ROUNDING
+    assert excess(space, space.to_x({})) < ROUNDING
 
 
 def test_a_limit_says_what_it_is_of(of_cabin):
@@ -256,3 +259,24 @@ def test_a_design_is_told_with_its_rates(of_cabin):
         of_cabin.spoken(x)
         == "A vertical 1200 N/mm, A lateral 300 N/mm, A fore-aft 400 N/mm, B rates × 1.2"
     )
+
+
+def test_a_rate_whose_bounds_are_the_same_is_held_and_the_others_are_searched():
+    """Also where ratio limits leave but one rate, and at fixed ratios."""
+    soft, stiff = MountRates(1e5, 2e5, 1e5), MountRates(2e6, 2e5, 2e6)
+    one = replace(LIMITED, bounds=(soft, stiff), ratio_limits=(0.4, 0.4))
+    vertical = 2e5 / 0.4
+    harder = scaled(START, 3.7)
+    both = cabin_search(groups=(one, DesignGroup("B", bounds=(harder, harder), fixed_ratios=True)))
+    for x in both.space.samples(5, 0):
+        rates = both.space.rates(x)
+        assert rates["A"].as_tuple() == pytest.approx((vertical, 2e5, 2e5), rel=1e-12)
+        assert rates["B"].as_tuple() == pytest.approx(harder.as_tuple(), rel=1e-12)
+    free = cabin_search(groups=(replace(one, ratio_limits=None), DesignGroup("B")))
+    for optimum in (
+        optimise(free, start_points(free, {}, 2)),
+        search_globally(free, budget=300),
+    ):
+        assert optimum.rates["A"].lateral == pytest.approx(2e5, rel=1e-12)
+        assert optimum.value < free.value(free.space.to_x({}))
+        assert excess(free.space, optimum.x) < ROUNDING

@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 from cabin_problem import cabin_search
+from limits_kept import excess
 from mounted_cabin import mounted_cabin
 from test_search import CENTER, MINIMUM
 from threadpoolctl import threadpool_limits
@@ -94,7 +95,7 @@ def test_the_global_search_finds_the_better_of_two_minima():
     assert optimum.converged
     evolved, polished = optimum.descents
     assert polished.value <= evolved.value
-    assert search.space.excess(optimum.x) < 1e-12
+    assert excess(search.space, optimum.x) < 1e-12
 
 
 def test_a_population_keeps_all_limits_and_windows():
@@ -103,7 +104,7 @@ def test_a_population_keeps_all_limits_and_windows():
     descent = evolve(search, seed=0, budget=400, tell=steps.append)
     assert descent.reason == OUT_OF_BUDGET
     assert descent.evaluations == len(steps) == 400
-    assert all(search.space.excess(s.x) < 1e-12 for s in steps if s.x is not None)
+    assert all(excess(search.space, s.x) < 1e-12 for s in steps if s.x is not None)
     (f,) = search.windows.exact_frequencies(search.space.rates(descent.x))
     assert f <= 9.5
     again = evolve(search, seed=0, budget=400)
@@ -204,7 +205,6 @@ def test_held_it_waits_and_then_finds_the_same():
     thread, found = in_thread(search, control, tell)
     assert is_held.wait(60)
     thread.join(0.2)
-    assert control.is_paused
     assert thread.is_alive()
     assert len(told) == 10
     control.resume()
@@ -278,5 +278,5 @@ def test_on_the_truck_twenty_starts_find_the_same_best_whatever_the_seed():
         assert optimum.converged
         assert optimum.value == pytest.approx(0.33384, rel=1e-2)
         assert optimum.value < paper < 1
-        assert search.space.excess(optimum.x) < 1e-12
+        assert excess(search.space, optimum.x) < 1e-12
         assert optimum.verification.difference < 1e-9

@@ -248,7 +248,7 @@ def test_what_cannot_be_is_refused_in_a_sentence(refused, cabin):
         "unknown problem 'cabim': did you mean 'cabin'? there are cabin, gentle"
     )
     assert "unknown goal 'speed': there are accelerations" in refused(cabin, "--goal", "speed")
-    assert refused(cabin, "--starts", "0") == "--starts: found 0, expected 1 to 10000"
+    assert refused(cabin, "--starts", "0") == "--starts: found 0, expected 1 to 1000"
     assert refused(cabin, "--budget", "0") == "--budget: found 0, expected 1 or more"
     assert refused(cabin, "--seed", "-1") == "--seed: found -1, expected 0 or more"
     assert refused(cabin, "--speed", "0 km/h").startswith("--speed: found '0 km/h'")

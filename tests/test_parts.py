@@ -70,8 +70,24 @@ def test_a_seed_repeats_its_samples(parts):
     assert not np.array_equal(parts.samples(9, 4), parts.samples(9, 5))
 
 
-@pytest.mark.parametrize("value", [0.0, 1.0, -0.1, np.nan])
+@pytest.mark.parametrize("value", [1.0, -0.1, np.nan])
 @pytest.mark.parametrize("name", ["rates", "loss_factor"])
 def test_a_tolerance_that_is_no_fraction_is_an_error(name, value):
     with pytest.raises(VehicleError, match=rf"tolerance of {name.replace('_', ' ')}: found {value:g}"):
         Tolerance(**{name: value})
+
+
+def test_what_has_no_tolerance_is_as_drawn(prepared):
+    drawn = prepared.mount_stiffness({})
+    (d,) = scattered_parts(prepared, {}, Tolerance()).samples(1, 0)
+    soft = scattered_parts(prepared, {}, Tolerance(0.2, 0.0)).stiffness(d)
+    np.testing.assert_allclose(soft.imag / soft.real, drawn.imag / drawn.real, rtol=1e-12)
+    assert (soft.real != drawn.real).all()
+    lossy = scattered_parts(prepared, {}, Tolerance(0.0, 0.2)).stiffness(d)
+    np.testing.assert_allclose(lossy.real, drawn.real, rtol=1e-12)
+    assert (lossy.imag != drawn.imag).all()
+
+
+def test_nothing_that_scatters_is_an_error():
+    with pytest.raises(VehicleError, match="tolerance: found 0 for all, which scatters nothing"):
+        Tolerance(0.0, 0.0)

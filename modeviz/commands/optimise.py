@@ -21,7 +21,14 @@ from modeviz.export.wording import significant
 from modeviz.tuning.cluster import runner_at
 from modeviz.tuning.control import Control
 from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.optimise import Optimum, Progress, optimise, search_globally, start_points
+from modeviz.tuning.optimise import (
+    MOST_STARTS,
+    Optimum,
+    Progress,
+    optimise,
+    search_globally,
+    start_points,
+)
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rate_files import rates_format, write_rates
 from modeviz.tuning.robust import robust_search
@@ -32,7 +39,7 @@ from modeviz.vehicle.files.disk import check_writable
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
-N_STARTS, MOST_STARTS = 20, 10_000
+N_STARTS = 20
 
 
 def optimise_rates(options: Namespace) -> None:

@@ -17,10 +17,6 @@ class Control:
         self._is_cancelled = False
 
     @property
-    def is_paused(self) -> bool:
-        return not self._may_run.is_set()
-
-    @property
     def is_cancelled(self) -> bool:
         return self._is_cancelled
 

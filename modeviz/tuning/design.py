@@ -74,10 +74,6 @@ class DesignSpace:
         fractions = qmc.LatinHypercube(self.n_variables, rng=seed).random(count)
         return np.array([self.sampled(row) for row in fractions]).reshape(count, self.n_variables)
 
-    def excess(self, x: Floats) -> float:
-        """By how much ln k or that of a ratio is beyond its limit, at worst; below 0 if none is."""
-        return float((self.rows @ x - self.values).max(initial=-np.inf))
-
     @property
     def rows(self) -> Floats:
         """(n_limits, n_variables): `rows` @ x <= `values`."""

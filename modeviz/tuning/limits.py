@@ -13,6 +13,9 @@ from modeviz.vehicle.problem import DesignGroup
 VERTICAL, *SHEAR = RATE_FIELDS
 """The ratios of the others to the vertical rate are limited."""
 
+SAME = 1e-12
+"""Logarithms of limits that leave one rate only may cross by so much, which is rounding."""
+
 
 @dataclass(frozen=True)
 class DesignVariable:
@@ -115,12 +118,12 @@ def reach(variables: Sequence[DesignVariable], limits: Sequence[Limit]) -> tuple
             far = lowest[limit.rate] if limit.sign > 0 else -highest[limit.rate]
             _tighten(lower, upper, limit.of, -limit.sign, limit.value - far)
     for variable, low, high in zip(variables, lower, upper, strict=True):
-        if low > high:
+        if low > high + SAME:
             raise VehicleError(
                 f"{variable.spoken}: bounds and ratio limits of {variable.group} contradict each "
                 "other: no rate meets them all; widen the bounds or the limits"
             )
-    return lower, upper
+    return lower, np.maximum(lower, upper)
 
 
 def _tighten(lower: Floats, upper: Floats, number: int, sign: int, value: float) -> None:
@@ -167,12 +170,12 @@ def _reach_within(
     least = [_rate(variable.group, softest, field, "softest") for field in variable.fields]
     most = [getattr(stiffest, field) for field in variable.fields]
     low, high = _log(np.max(least / start)), _log(np.min(most / start))
-    if low > high:
+    if low > high + SAME:
         raise VehicleError(
             f"{variable.spoken}: no rate keeps the bounds of every direction at fixed ratios; "
             "widen the bounds or free the ratios"
         )
-    return low, high
+    return low, max(low, high)
 
 
 def _sides(

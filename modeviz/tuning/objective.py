@@ -69,9 +69,7 @@ class _Term:
         return self.squares(power).sum(axis=(-2, -1))
 
     def slope(self, power: Floats) -> Floats:
-        """∂value/∂a², (n_lines, n_outputs): where nothing moves towards a target it has none, and is
-        0.
-        """
+        """∂value/∂a², (n_lines, n_outputs); 0 where nothing moves, for there it has none."""
         if not self.target:
             return self.weights
         a = np.sqrt(power)

@@ -18,7 +18,10 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 
 BUDGET = 5_000
-"""Evaluations that a search may take, all starts together."""
+"""Evaluations that a search may take, all starts together, besides those that choose these."""
+
+MOST_STARTS = 1_000
+"""More take minutes to choose, and an hour to search from."""
 
 SCREENED = 20
 """Designs of which the best is one to start from."""

@@ -15,7 +15,7 @@ from modeviz.vehicle.connections import Rates
 
 @dataclass(frozen=True)
 class Tolerance:
-    """How far a part may be from its drawing, as a fraction of what stands there."""
+    """How far a part may be from its drawing, as a fraction of what stands there; 0 is as drawn."""
 
     rates: float = 0.15
     """Of the three rates of a mount, which its hardness moves together."""
@@ -23,11 +23,13 @@ class Tolerance:
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            if not 0 < value < 1:
+            if not 0 <= value < 1:
                 raise VehicleError(
                     f"tolerance of {name.replace('_', ' ')}: found {value:g}, expected a fraction "
-                    "between 0 and 1, such as 0.15"
+                    "from 0 to below 1, such as 0.15"
                 )
+        if not any(vars(self).values()):
+            raise VehicleError("tolerance: found 0 for all, which scatters nothing")
 
 
 @dataclass(frozen=True, eq=False)

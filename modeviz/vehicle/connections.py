@@ -126,11 +126,11 @@ class MountRates:
         return self.fore_aft, self.lateral, self.vertical
 
 
-def check_bounds(where: str, bounds: tuple[MountRates, MountRates]) -> None:
-    """Raises VehicleError unless the softest rates are below the stiffest."""
+def check_bounds(where: str, bounds: tuple[MountRates, MountRates], may_be_same: bool = False) -> None:
+    """Raises VehicleError unless the softest rates are below the stiffest, or the same if they may."""
     softest, stiffest = (rates.as_tuple() for rates in bounds)
     for direction, low, high in zip(DIRECTIONS, softest, stiffest, strict=True):
-        if not low < high:
+        if not (low < high or (may_be_same and low == high)):
             raise VehicleError(
                 f"{where}: bounds: {direction}: found {low / 1e3:g} to {high / 1e3:g} N/mm, expected "
                 "the lower one first"

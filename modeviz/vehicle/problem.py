@@ -49,7 +49,7 @@ class DesignGroup:
                 "change all rates together; expected all directions or no fixed ratios"
             )
         if self.bounds is not None:
-            check_bounds(where, self.bounds)
+            check_bounds(where, self.bounds, may_be_same=True)
         low, high = self.ratio_limits or UNLIMITED
         if (low, high) != UNLIMITED and not (0 <= low <= high < np.inf and high > 0):
             raise VehicleError(
