@@ -208,6 +208,23 @@ def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path
     assert signal.getsignal(signal.SIGINT) is before
 
 
+def test_an_interrupt_before_the_robust_search_keeps_the_best_as_drawn(
+    monkeypatch, printed_json, cabin
+):
+    told = []
+
+    def interrupt(progress):
+        told.append(progress)
+        if len(told) == 1:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(command, "_tell", interrupt)
+    record = printed_json("optimise", cabin, "--robust")
+    assert record["reason"] == "cancelled"
+    assert record["percentile"] is None
+    assert record["objective"]["found"] == told[-1].value
+
+
 def test_a_second_interrupt_ends_the_program_and_writes_nothing(monkeypatch, capsys, cabin, tmp_path):
     def interrupt(_):
         signal.raise_signal(signal.SIGINT)

@@ -88,7 +88,7 @@ def _search(
     try:
         with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:
             optimum = _search_once(options, search, rates, runner, control)
-            if robustly is None:
+            if robustly is None or control.is_cancelled:
                 return search, optimum
             return robustly, optimise(robustly, [optimum.x], options.budget, control, _tell)
     finally:
