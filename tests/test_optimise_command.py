@@ -12,6 +12,7 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
 from modeviz.commands import optimise as command
+from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.optimise import optimise, search_globally, start_points
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rate_files import read_rates
@@ -20,6 +21,7 @@ from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import write_vehicle
 from modeviz.vehicle.files.problem_file import problem_text
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance
+from modeviz.viewer.planning.plan import first_plan, planned
 
 KEYS = {
     "goal", "normalised", "percentile", "objective", "rates", "converged", "reason", "evaluations",
@@ -271,8 +273,20 @@ def test_what_cannot_be_is_refused_in_a_sentence(refused, cabin):
     assert refused(cabin, "--speed", "0 km/h").startswith("--speed: found '0 km/h'")
 
 
-def test_a_vehicle_without_a_problem_says_what_its_file_needs(refused, folder):
-    assert refused(folder) == ("vehicle 'cabin' has no problem: give its vehicle.toml a [[problem]]")
+def test_a_vehicle_without_a_problem_gets_the_one_that_the_page_shows(printed_json, folder, tmp_path):
+    path = tmp_path / "rates.json"
+    record = printed_json("optimise", folder, "--starts", "1", "--output", str(path))
+    cabin = mounted_cabin()
+    goal = prepare_goal(cabin, planned(cabin, first_plan(cabin)), {}, cabin.speed)
+    found = goal.value(read_rates(path, cabin))
+    assert record["objective"]["found"] == pytest.approx(found, rel=1e-9)
+    assert record["objective"]["paper"] == pytest.approx(goal.value(cabin.rate_sets["soft"]), rel=1e-9)
+
+
+def test_a_vehicle_with_nothing_to_optimise_for_says_what_its_file_needs(refused, tmp_path_factory):
+    bare = tmp_path_factory.mktemp("vehicles") / "bare"
+    write_vehicle(replace(mounted_cabin(), roads=(), wheel_loads=()), bare)
+    assert "lacks a [[road]] or a [[wheel_load]]" in refused(str(bare))
 
 
 def test_limits_that_contradict_each_other_name_the_rate(refused, tmp_path):

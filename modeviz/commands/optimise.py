@@ -9,7 +9,6 @@ from modeviz.commands.interrupt import cancelled_by_interrupt
 from modeviz.commands.options import (
     chosen_problem,
     chosen_speed,
-    need,
     print_json,
     progress,
     say,
@@ -72,9 +71,6 @@ def optimise_rates(options: Namespace) -> None:
 def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
     """The problem that was asked for, as the vehicle has it but for what was changed."""
     problem = chosen_problem(options, vehicle)
-    if problem is None:
-        need(vehicle, "problem", vehicle.problems)
-        problem = vehicle.problems[0]
     if options.goal:
         problem = replace(problem, goal=options.goal)
     return replace(problem, is_normalised=problem.is_normalised and not options.plain)

@@ -13,6 +13,7 @@ import numpy as np
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record
 from modeviz.ride.roads import road_spectrum
+from modeviz.tuning.default_problem import problems
 from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
 from modeviz.tuning.rates import resolve_rates
 from modeviz.tuning.results import Conditions
@@ -63,14 +64,14 @@ def chosen_speed(options: Namespace, vehicle: Vehicle) -> float:
     return speed
 
 
-def chosen_problem(options: Namespace, vehicle: Vehicle) -> Problem | None:
-    """The problem of the vehicle or of the file that was named; None if none was.
+def chosen_problem(options: Namespace, vehicle: Vehicle) -> Problem:
+    """The problem of the vehicle or of the file that was named, or else the vehicle's usual one.
 
     Raises:
-        VehicleError: there is none of that name, or not in that file.
+        VehicleError: there is none of that name, or not in that file, or nothing to make one of.
     """
     if options.problem is None:
-        return None
+        return problems(vehicle)[0]
     path = Path(options.problem)
     return read_problem(path, vehicle) if path.suffix == ENDING else vehicle.problem(options.problem)
 

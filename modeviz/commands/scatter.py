@@ -26,7 +26,7 @@ from modeviz.tuning.results import Conditions
 from modeviz.tuning.scatter import Scatter, scatter
 from modeviz.tuning.spread import Spread, spread
 from modeviz.vehicle.connections import Rates
-from modeviz.vehicle.problem import DesignGroup, Problem
+from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 MOST_SAMPLES = 1_000_000
@@ -44,20 +44,12 @@ def scatter_mounts(options: Namespace) -> None:
     vehicle, rates = vehicle_and_rates(options)
     need(vehicle, "mount group", vehicle.mount_groups)
     chosen = conditions(options, vehicle)
-    problem = _problem(options, vehicle)
+    problem = chosen_problem(options, vehicle)
     told = _scattered(options, vehicle, rates, tolerance, chosen, problem)
     if options.json:
         print_json(scatter_record(told))
     else:
         print(scatter_table(told))
-
-
-def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
-    """The problem whose goal scatters; for a vehicle without one, that of a good rating."""
-    if (problem := chosen_problem(options, vehicle)) or vehicle.problems:
-        return problem or vehicle.problems[0]
-    groups = tuple(DesignGroup(group.name) for group in vehicle.mount_groups)
-    return Problem("rating", groups, goal="rating")
 
 
 def _scattered(

@@ -16,6 +16,15 @@ WHEEL_HZ = np.array([11.0, 13.25, 15.75])
 """The paper's frequencies."""
 
 
+def problems(vehicle: Vehicle) -> tuple[Problem, ...]:
+    """Those of a vehicle, the usual one first, or else the one that is made of what it has.
+
+    Raises:
+        VehicleError: it has none, and lacks what one is made of.
+    """
+    return vehicle.problems or (default_problem(vehicle),)
+
+
 def default_problem(vehicle: Vehicle) -> Problem:
     """Every rate that can change, for the first road and all wheel loads at every response point.
 

@@ -5,13 +5,12 @@ may ask for what cannot be, as while somebody types; the problem that is made of
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import VehicleError
-from modeviz.tuning.default_problem import default_problem
+from modeviz.tuning.default_problem import problems
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Goal, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.planning.group_plan import GroupPlan, group_plan
@@ -80,20 +79,10 @@ class Plan:
         return replace(self, loads=loads, shown_load=max(0, self.shown_load - 1))
 
 
-def problems(vehicle: Vehicle) -> Mapping[str, Problem]:
-    """The problems of a vehicle by name, or else one that is made of what it has.
-
-    Raises:
-        VehicleError: it has none, and lacks what one is made of.
-    """
-    found = vehicle.problems or (default_problem(vehicle),)
-    return {problem.name: problem for problem in found}
-
-
 def first_plan(vehicle: Vehicle) -> Plan | None:
     """To solve a vehicle's usual problem; None where there is none."""
     try:
-        return plan_of(vehicle, next(iter(problems(vehicle).values())))
+        return plan_of(vehicle, problems(vehicle)[0])
     except VehicleError:
         return None
 
@@ -125,7 +114,7 @@ def planned(vehicle: Vehicle, plan: Plan) -> Problem:
     Raises:
         VehicleError: nothing may change, or what that is, accelerations or a window cannot be.
     """
-    problem = problems(vehicle)[plan.problem]
+    problem = next(p for p in problems(vehicle) if p.name == plan.problem)
     if not plan.free:
         raise VehicleError("no group of mounts may change: choose one or more")
     return replace(

@@ -9,7 +9,9 @@ import viser
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import ModevizError
 from modeviz.export.wording import file_name, sentence_case
+from modeviz.tuning.default_problem import problems
 from modeviz.tuning.design import design_space
+from modeviz.tuning.optimise import MOST_STARTS
 from modeviz.tuning.results import Results
 from modeviz.vehicle.files.problem_file import problem_text
 from modeviz.vehicle.problem import Goal
@@ -21,7 +23,7 @@ from modeviz.viewer.panels.optimise.accelerations import AccelerationsEditor
 from modeviz.viewer.panels.optimise.bounds import BoundsEditor
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, may_change_hint
 from modeviz.viewer.panels.optimise.summary import summary
-from modeviz.viewer.planning.plan import Plan, plan_of, planned, problems
+from modeviz.viewer.planning.plan import Plan, plan_of, planned
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import ORIGINAL, State
 
@@ -35,7 +37,6 @@ WORDS: dict[Goal, str] = {
 GOALS = {WORDS.get(goal) or sentence_case(goal): goal for goal in get_args(Goal)}
 NO_MODE = "None"
 BANDS = {"Within": True, "Out of": False}
-MOST_STARTS = 200
 SAVE = "Save problem"
 
 
@@ -112,7 +113,7 @@ class ProblemEditor:
         """Whose problem it is, and what is to become small."""
         choose, put = self._controls.choose, self._controls.put
         if len(known := problems(self._session.vehicle)) > 1:
-            words = {sentence_case(name): name for name in known}
+            words = {sentence_case(problem.name): problem.name for problem in known}
             choose("Problem", words, lambda _, p: p.problem, self._take_problem, "Of this vehicle")
         choose(
             "Goal",
@@ -194,5 +195,5 @@ class ProblemEditor:
 
     def _take_problem(self, name: str) -> None:
         vehicle = self._session.vehicle
-        found = problems(vehicle)[name]
+        found = next(p for p in problems(vehicle) if p.name == name)
         self._controls.change(lambda _, plan: replace(plan_of(vehicle, found), n_starts=plan.n_starts))

@@ -7,6 +7,7 @@ from html import escape
 import viser
 
 from modeviz.errors import ModevizError, VehicleError
+from modeviz.tuning.default_problem import problems
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.html import block, span
@@ -14,7 +15,6 @@ from modeviz.viewer.optimiser import Look, Optimiser
 from modeviz.viewer.panels.optimise.editor import ProblemEditor
 from modeviz.viewer.panels.optimise.fall import FallChart
 from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, where
-from modeviz.viewer.planning.plan import problems
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import State
 
