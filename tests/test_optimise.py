@@ -27,9 +27,11 @@ from modeviz.tuning.optimise import (
     start_points,
     why_ended,
 )
+from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.runner import HERE
 from modeviz.tuning.search import prepare_search
 from modeviz.tuning.verification import verify
+from modeviz.tuning.windows import prepare_windows
 from modeviz.vehicle.problem import FrequencyWindow
 
 WELLS = np.array([-0.8, 0.5])
@@ -264,6 +266,19 @@ def test_the_end_that_is_told_is_why_not_all_was_searched():
     assert why_ended(descents, 3) == OUT_OF_BUDGET
     stopped = replace(descents[0], reason=OUT_OF_BUDGET)
     assert why_ended([stopped, descents[1]], 2) == OUT_OF_BUDGET
+
+
+def test_on_the_truck_a_window_that_the_best_design_keeps_by_itself_costs_nothing():
+    vehicle = mv.read_vehicle(mv.builtin_vehicle())
+    window = FrequencyWindow("cab yaw", high_hz=10.0)
+    free = prepare_search(vehicle, vehicle.problem("paper"), vehicle.rates, vehicle.speed)
+    held = replace(free, windows=prepare_windows(prepare_modes(vehicle), [window]))
+    start = start_points(free, {}, 2, 0)[1]
+    best = optimise(free, [start])
+    assert held.allows(best.x)
+    found = optimise(held, [start])
+    assert found.converged
+    assert found.value == pytest.approx(best.value, rel=1e-9)
 
 
 @pytest.mark.slow

@@ -131,7 +131,18 @@ def test_accelerations_are_changed_a_part_at_a_time(vehicle):
     assert (wheel.weight, wheel.target) == (2.0, 0.1)
     left = plan.without_load()
     assert (left.loads, left.shown_load) == (plan.loads[:1], 0)
-    assert left.without_load() is left
+
+
+def test_a_problem_without_accelerations_gets_some_if_asked(vehicle):
+    rated = replace(vehicle.problems[1], performance=(), goal="rating")
+    plan = plan_of(vehicle, rated)
+    vehicle = replace(vehicle, problems=(vehicle.problems[0], rated))
+    assert planned(vehicle, plan).performance == ()
+    assert plan.with_load(weight=3.0) == plan
+    (road,) = planned(vehicle, plan.with_one_more_load()).performance
+    assert (road.roads, road.points, road.directions) == (("flat",), (), ("lateral", "vertical"))
+    assert (road.frequency_hz == np.linspace(6, 14, 25)).all()
+    assert plan.with_one_more_load().without_load() == plan
 
 
 def test_some_of_the_points_are_named_and_all_are_not(vehicle):

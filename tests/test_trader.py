@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from cabin_session import SOON, Watcher, open_session
 
-from modeviz.errors import VehicleError
+from modeviz.errors import ModevizError, VehicleError
 from modeviz.viewer import trader as module
 from modeviz.viewer.trader import Trader
 
@@ -80,11 +80,25 @@ def test_cancel_keeps_the_designs_found_by_then(trader, monkeypatch):
     assert trader.job.found is found
 
 
-def test_where_nothing_can_be_traded_nothing_is_offered(session, trader):
+def test_of_a_plan_that_cannot_be_it_is_said_why(session, trader):
     session.update(lambda state: replace(state, plan=replace(state.plan, free=frozenset())))
+    for asked in (trader.offers, partial(trader.start, OFFER)):
+        with pytest.raises(VehicleError, match="no group of mounts may change"):
+            asked()
+
+
+def test_what_the_plan_no_longer_offers_is_refused(session, trader):
+    lateral = frozenset({"lateral"})
+
+    def only_lateral(state):
+        loads = tuple(replace(load, directions=lateral) for load in state.plan.loads)
+        return replace(state, plan=replace(state.plan, loads=loads))
+
+    session.update(only_lateral)
     assert trader.offers() == ()
-    with pytest.raises(VehicleError, match="no group of mounts may change"):
+    with pytest.raises(ModevizError, match="trade-off"):
         trader.start(OFFER)
+    assert trader.job is None
 
 
 def test_a_goal_without_sides_is_told(session, trader):

@@ -1,6 +1,7 @@
 """The search from one start: scipy's SLSQP with analytic derivatives, feasible at every step."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -53,7 +54,21 @@ def descend(
         SolveError: a design that cannot be solved, with its rates.
     """
     evaluator = Evaluator(search, budget, control or Control(), tell)
-    return evaluator.run(lambda: _restarted(search, evaluator, search.space.admitted(start)))
+    return evaluator.run(lambda: _past_windows(search, evaluator, search.space.admitted(start)))
+
+
+def _past_windows(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeResult:
+    """The end of the solver without windows if they allow it, else with them from the best they do.
+
+    On the way to a design that keeps to them modes may cross and change their names, where a window
+    jumps and would stop the solver.
+    """
+    if search.windows is None:
+        return _restarted(search, evaluator, start)
+    free = _restarted(replace(search, windows=None), evaluator, start)
+    if search.allows(search.space.admitted(free.x[: search.space.n_variables])):
+        return free
+    return _restarted(search, evaluator, start if evaluator.x is None else evaluator.x)
 
 
 def _restarted(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeResult:

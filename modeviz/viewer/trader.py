@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, unknown
 from modeviz.tuning.control import Control
 from modeviz.tuning.pareto import FrontProgress, find_front
 from modeviz.tuning.trade_off import Compromise, Side, prepare_trade_off, sides
@@ -51,22 +51,27 @@ class Trader:
         return self._beside.job
 
     def offers(self) -> tuple[str, ...]:
-        """What can be traded, as in "lateral against vertical"; nothing if the plan cannot be."""
-        try:
-            return tuple(sides(self._session.vehicle, self._problem(self._session.state)))
-        except ModevizError:
-            return ()
+        """What can be traded, as in "lateral against vertical".
+
+        Raises:
+            VehicleError: the plan asks for what cannot be.
+        """
+        return tuple(sides(self._session.vehicle, self._problem(self._session.state)))
 
     def start(self, name: str) -> None:
         """Begins with one of `offers`.
 
         Raises:
-            ModevizError: another one is running, or the plan asks for what cannot be.
+            ModevizError: another one is running, the plan asks for what cannot be, or no longer
+                offers that.
         """
         state, vehicle = self._session.state, self._session.vehicle
         problem = self._problem(state)
+        offers = sides(vehicle, problem)
+        if name not in offers:
+            raise ModevizError(unknown("trade-off", name, offers))
         known = (state.rates, *rate_sets(vehicle, state).values())
-        self._beside.start(Trade(problem, sides(vehicle, problem)[name], state, known))
+        self._beside.start(Trade(problem, offers[name], state, known))
 
     def cancel(self) -> None:
         """Ends what is running; the designs found by then are kept."""

@@ -29,9 +29,9 @@ def open_app(server: Server, vehicle: Vehicle, conditions: Conditions) -> Iterat
 
 
 @contextmanager
-def open_solved_cabin(server: Server) -> Iterator[App]:
-    """The small cabin's page with its first answer."""
-    with open_app(server, mounted_cabin(), Conditions("flat", 20.0)) as app:
+def open_solved_cabin(server: Server, cabin: Vehicle | None = None) -> Iterator[App]:
+    """The page of the small cabin, or of one much like it, with its first answer."""
+    with open_app(server, cabin or mounted_cabin(), Conditions("flat", 20.0)) as app:
         app.start()
         assert app.session.wait(SOLVE_S)
         yield app

@@ -8,11 +8,13 @@ import pytest
 from apps import SOLVE_S, open_solved_cabin
 from held_search import hold_searches
 from mounted_cabin import mounted_cabin
-from pages import wait_for, wait_until
+from pages import CLOSE_NOTICES, wait_for, wait_until
 
 from modeviz.export.wording import significant
+from modeviz.tuning.default_problem import problems
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files.problem_file import problem_text, read_problem
+from modeviz.vehicle.problem import Problem
 from modeviz.viewer import trader
 from modeviz.viewer.planning.plan import first_plan, planned
 
@@ -23,7 +25,10 @@ CHART = "document.querySelectorAll('.uplot').length"
 
 @pytest.fixture(scope="module")
 def app(server):
-    with open_solved_cabin(server) as app:
+    """The cabin with its usual problem, and one that is made of no accelerations."""
+    (usual,) = problems(mounted_cabin())
+    rated = Problem("rating", usual.groups, goal="rating")
+    with open_solved_cabin(server, replace(mounted_cabin(), problems=(usual, rated))) as app:
         yield app
 
 
@@ -114,6 +119,12 @@ def test_one_goes_back_to_the_rates_before(app, page):
     wait_until(page, lambda: app.session.state.rates == mounted_cabin().rates)
 
 
+def unfold(page, folder, label):
+    """Opens a folder unless a label in it can be seen."""
+    if not page.locator(f"xpath=//label[normalize-space()='{label}']").is_visible():
+        page.get_by_text(folder).click()
+
+
 def boxes(page, label):
     """The boxes beside a label; viser names only the first, and none of a text."""
     row = "ancestor::div[contains(@class, 'mantine-Flex-root')][1]"
@@ -121,7 +132,7 @@ def boxes(page, label):
 
 
 def test_bounds_and_ratios_of_a_group_are_changed_on_the_page(app, page):
-    page.get_by_text("Bounds and ratios").click()
+    unfold(page, "Bounds and ratios", "Mounts")
     page.get_by_label("Mounts", exact=True).click()
     page.get_by_role("option", name="B rear", exact=True).click()
     wait_until(page, lambda: app.session.state.plan.shown_group == "B")
@@ -146,7 +157,7 @@ def test_bounds_and_ratios_of_a_group_are_changed_on_the_page(app, page):
 def test_accelerations_are_changed_on_the_page(app, page):
     own = app.session.state.plan
     assert len(own.loads) == 2
-    page.get_by_text("Loads and points").click()
+    unfold(page, "Loads and points", "Terms")
     press(page, "Remove")
     wait_until(page, lambda: app.session.state.plan.loads == own.loads[1:])
     at = boxes(page, "At, Hz")
@@ -166,6 +177,27 @@ def test_accelerations_are_changed_on_the_page(app, page):
     first, second = app.session.state.plan.loads
     assert (first.roads, first.wheel_loads, first.weight) == ({"rough"}, frozenset(), 1)
     assert second == replace(first, weight=3, target=0.5)
+
+
+def test_a_problem_without_accelerations_gets_some_if_asked(app, page):
+    page.get_by_label("Problem", exact=True).click()
+    page.get_by_role("option", name="Rating", exact=True).click()
+    wait_for(page, f"{TEXT}.includes('Combined mean square at the driver')")
+    assert not app.session.state.plan.loads
+    unfold(page, "Loads and points", "Terms")
+    at = boxes(page, "At, Hz")
+    at.wait_for(state="detached")
+    press(page, "Add")
+    wait_until(page, lambda: at.count() and at.input_value() == "6 to 14 by 1/3")
+    assert app.session.wait(SOLVE_S)
+
+
+def test_a_front_of_what_cannot_be_is_refused_with_a_word(app, page):
+    app.session.update(lambda state: replace(state, plan=replace(state.plan, free=frozenset())))
+    wait_for(page, f"{TEXT}.includes('no group of mounts may change')")
+    press(page, "Find front")
+    page.locator(".mantine-Notification-root", has_text="no group of mounts may change").wait_for()
+    page.evaluate(CLOSE_NOTICES)
 
 
 def test_the_problem_is_changed_on_the_page(app, page):

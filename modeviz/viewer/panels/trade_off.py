@@ -1,6 +1,7 @@
 """Left column: a front of designs between two goals, on which a click loads one."""
 
 import threading
+from contextlib import suppress
 from html import escape
 
 import viser
@@ -17,6 +18,7 @@ from modeviz.viewer.session import Session
 from modeviz.viewer.trader import Designs, Trade, Trader
 
 FIND, CANCEL = "Find front", "Cancel"
+NOTHING = "Nothing"
 N_POINTS = 24
 MARGIN = 0.06
 """Of the axes' length, between the outermost points and the frame."""
@@ -29,15 +31,16 @@ class TradeOffPanel:
         """Builds the controls; nothing where nothing can be traded."""
         self._session, self._trader = session, trader
         self._lock = threading.Lock()
-        offers = trader.offers() if session.state.plan else ()
-        self._is_built = bool(offers)
+        self._is_built = session.state.plan is not None
         if not self._is_built:
             return
-        with gui.add_folder("Trade-off"):
+        self._names = {NOTHING: ""}
+        self._folder = gui.add_folder("Trade-off", visible=False)
+        with self._folder:
             self._points = HiddenButtons(gui, N_POINTS, trader.load)
             self._between = gui.add_dropdown(
                 "Between",
-                tuple(map(sentence_case, offers)),
+                (NOTHING,),
                 hint="Two goals out of the problem above; on their front neither can fall any more "
                 "unless the other rises",
             )
@@ -49,6 +52,7 @@ class TradeOffPanel:
             )
             self._buttons.on_click(lambda event: self._press(event))
             self._front = gui.add_html("")
+        self._offer()
 
     def follow(self) -> None:
         """Draws the front as far as it is found; may be called in any thread."""
@@ -56,20 +60,26 @@ class TradeOffPanel:
             return
         with self._lock:
             job = self._trader.job
-            offers = self._trader.offers()
-            if offers:
-                assign(self._between, options=tuple(map(sentence_case, offers)))
+            self._offer()
             assign(self._buttons, options=(CANCEL,) if job and job.is_running else (FIND,))
             if job:
                 assign(self._front, content=block(where(job), self._chart(job)))
+
+    def _offer(self) -> None:
+        """Offers what can be traded; what was offered stays while the plan cannot be."""
+        with suppress(ModevizError):
+            offers = self._trader.offers()
+            assign(self._folder, visible=bool(offers))
+            if offers:
+                self._names = {sentence_case(name): name for name in offers}
+                assign(self._between, options=tuple(self._names))
 
     def _press(self, event: viser.GuiEvent) -> None:
         if self._buttons.value == CANCEL:
             self._trader.cancel()
             return
-        names = {sentence_case(name): name for name in self._trader.offers()}
         try:
-            self._trader.start(names[self._between.value])
+            self._trader.start(self._names.get(self._between.value, ""))
         except ModevizError as error:
             if event.client:
                 event.client.add_notification("Not possible", str(error), color="red")

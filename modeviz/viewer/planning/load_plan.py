@@ -42,6 +42,19 @@ class LoadPlan:
         )
 
 
+def spare_load(vehicle: Vehicle) -> LoadPlan:
+    """What is added where there is none: the first road as in the paper, felt everywhere."""
+    return LoadPlan(
+        frozenset(road.name for road in vehicle.roads[:1]),
+        frozenset(),
+        "6 to 14 by 1/3",
+        frozenset(point.name for point in vehicle.response_points),
+        frozenset({"lateral", "vertical"}),
+        target=0.0,
+        weight=1.0,
+    )
+
+
 def load_plan(vehicle: Vehicle, performance: Performance) -> LoadPlan:
     """Performance variables as they are, for the page to change."""
     every = (point.name for point in vehicle.response_points)

@@ -14,7 +14,7 @@ from modeviz.tuning.default_problem import problems
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Goal, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.planning.group_plan import GroupPlan, group_plan
-from modeviz.viewer.planning.load_plan import LoadPlan, load_plan
+from modeviz.viewer.planning.load_plan import LoadPlan, load_plan, spare_load
 
 N_STARTS = 20
 
@@ -32,6 +32,8 @@ class Plan:
     groups: tuple[GroupPlan, ...]
     """Of every mount group, also while it is held."""
     loads: tuple[LoadPlan, ...]
+    spare: LoadPlan
+    """What is added where there is none."""
     shown_group: str
     """The one of which the page shows what it may become."""
     shown_load: int = 0
@@ -53,8 +55,8 @@ class Plan:
 
     @property
     def load(self) -> LoadPlan:
-        """The one that the page shows."""
-        return self.loads[self.shown_load]
+        """The one that the page shows or, where there is none, would add."""
+        return self.loads[self.shown_load] if self.loads else self.spare
 
     def with_group(self, **fields: Any) -> "Plan":
         """With something else in the group that is shown."""
@@ -63,8 +65,8 @@ class Plan:
 
     def with_load(self, **fields: Any) -> "Plan":
         """With something else in the accelerations that are shown."""
-        loads = list(self.loads)
-        loads[self.shown_load] = replace(self.load, **fields)
+        changed = replace(self.load, **fields)
+        loads = (changed if i == self.shown_load else load for i, load in enumerate(self.loads))
         return replace(self, loads=tuple(loads))
 
     def with_one_more_load(self) -> "Plan":
@@ -72,9 +74,7 @@ class Plan:
         return replace(self, loads=(*self.loads, self.load), shown_load=len(self.loads))
 
     def without_load(self) -> "Plan":
-        """Without the accelerations that are shown; the last ones stay."""
-        if len(self.loads) < 2:
-            return self
+        """Without the accelerations that are shown."""
         loads = (*self.loads[: self.shown_load], *self.loads[self.shown_load + 1 :])
         return replace(self, loads=loads, shown_load=max(0, self.shown_load - 1))
 
@@ -97,6 +97,7 @@ def plan_of(vehicle: Vehicle, problem: Problem) -> Plan:
         frozenset(own),
         tuple(group_plan(g, own.get(g.name) or DesignGroup(g.name)) for g in vehicle.mount_groups),
         tuple(load_plan(vehicle, performance) for performance in problem.performance),
+        spare_load(vehicle),
         problem.groups[0].group,
     )
     if not problem.windows:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import viser
@@ -9,17 +10,18 @@ import viser
 from modeviz.export.wording import sentence_case
 from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.viewer.assign import assign
-from modeviz.viewer.panels.optimise.controls import Pills, PlanControls
+from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint
 from modeviz.viewer.planning.load_plan import LoadPlan
 from modeviz.viewer.planning.plan import Plan
 from modeviz.viewer.session import Session
 from modeviz.viewer.state import State
 
 ADD, REMOVE = "Add", "Remove"
+NONE = "None"
 
 
 class AccelerationsEditor:
-    """The accelerations of the plan, a part of them at a time."""
+    """The accelerations of the plan, a term of them at a time."""
 
     def __init__(self, gui: viser.GuiApi, session: Session, plan: Plan) -> None:
         """Builds the controls, folded up.
@@ -29,59 +31,29 @@ class AccelerationsEditor:
             session: whose state has a plan.
             plan: that plan.
         """
-        vehicle = session.vehicle
-        self._gui, self._controls = gui, (controls := PlanControls(gui, session))
+        vehicle = self._vehicle = session.vehicle
+        self._gui, self._controls = gui, PlanControls(gui, session)
         self._roads = [road.name for road in vehicle.roads]
         self._wheel_loads = [load.name for load in vehicle.wheel_loads]
         self._points = [point.name for point in vehicle.response_points]
         with gui.add_folder("Loads and points", expand_by_default=False):
-            self._part = gui.add_dropdown(
-                "Part",
-                parts(plan),
-                initial_value=parts(plan)[plan.shown_load],
-                hint="Which part of the sum is shown here",
-            )
-            controls.bind(
-                self._part,
-                lambda _, plan: parts(plan)[plan.shown_load],
-                lambda word: controls.change(lambda _, plan: showing(plan, word)),
-            )
             self._edit = gui.add_button_group(
-                "Parts",
+                "Terms",
                 (ADD, REMOVE),
-                hint="One more part, as the one that is shown to begin with; or the shown one away",
+                hint="One more term of the sum, as the one that is shown to begin with; or the shown "
+                "one away",
             )
             self._edit.on_click(lambda _: self._add_or_remove(self._edit.value))
-            self._road_pills = self._pills("Roads", self._roads, "roads")
-            self._load_pills = self._pills("Wheels", self._wheel_loads, "wheel_loads")
-            controls.text(
-                "At, Hz",
-                lambda _, plan: plan.load.frequencies,
-                lambda text: self._put(frequencies=text),
-                "Frequencies: numbers and ranges, as in 11, 13.25 or 6 to 14 by 1/3",
-            )
-            self._point_pills = self._pills("Points", self._points, "points")
-            self._direction_pills = self._pills("Along", DIRECTIONS, "directions")
-            controls.number(
-                "Target",
-                (0.0, None),
-                lambda _, plan: plan.load.target,
-                lambda value: self._put(target=value),
-                "What each of them is wanted to be: g under a wheel load, g/√Hz on a road",
-            )
-            controls.number(
-                "Weight",
-                (0.0, None),
-                lambda _, plan: plan.load.weight,
-                lambda value: self._put(weight=value),
-                "Of this part in the sum",
-            )
+            self._shown = gui.add_folder(None)
+            with self._shown:
+                self._add_term(plan)
 
     def show(self, plan: Plan) -> None:
         """Brings the controls after the state."""
-        assign(self._part, options=parts(plan))
+        assign(self._edit, options=(ADD, REMOVE) if plan.loads else (ADD,))
+        assign(self._shown, visible=bool(plan.loads))
+        assign(self._term, options=terms(plan))
         self._controls.show()
-        assign(self._edit, options=(ADD, REMOVE) if len(plan.loads) > 1 else (ADD,))
         for pills, names, chosen in (
             (self._road_pills, self._roads, plan.load.roads),
             (self._load_pills, self._wheel_loads, plan.load.wheel_loads),
@@ -89,9 +61,50 @@ class AccelerationsEditor:
             (self._direction_pills, DIRECTIONS, plan.load.directions),
         ):
             pills.show([name in chosen for name in names], names)
+        assign(self._wrong, content=complaint(partial(plan.load.performance, self._vehicle)))
+
+    def _add_term(self, plan: Plan) -> None:
+        """The controls of the term that is shown."""
+        gui, controls = self._gui, self._controls
+        self._term = gui.add_dropdown(
+            "Term",
+            terms(plan),
+            initial_value=terms(plan)[plan.shown_load],
+            hint="Which term of the sum is shown here",
+        )
+        controls.bind(
+            self._term,
+            lambda _, plan: terms(plan)[plan.shown_load],
+            lambda word: controls.change(lambda _, plan: showing(plan, word)),
+        )
+        self._road_pills = self._pills("Roads", self._roads, "roads")
+        self._load_pills = self._pills("Wheels", self._wheel_loads, "wheel_loads")
+        controls.text(
+            "At, Hz",
+            lambda _, plan: plan.load.frequencies,
+            lambda text: self._put(frequencies=text),
+            "Frequencies: numbers and ranges, as in 11, 13.25 or 6 to 14 by 1/3",
+        )
+        self._point_pills = self._pills("Points", self._points, "points")
+        self._direction_pills = self._pills("Along", DIRECTIONS, "directions")
+        controls.number(
+            "Target",
+            (0.0, None),
+            lambda _, plan: plan.load.target,
+            lambda value: self._put(target=value),
+            "What each of them is wanted to be: g under a wheel load, g/√Hz on a road",
+        )
+        controls.number(
+            "Weight",
+            (0.0, None),
+            lambda _, plan: plan.load.weight,
+            lambda value: self._put(weight=value),
+            "Of this term in the sum",
+        )
+        self._wrong = gui.add_html("")
 
     def _pills(self, label: str, names: Sequence[str], field: str) -> Pills:
-        """Names of which some are in a field of the shown part."""
+        """Names of which some are in a field of the shown term."""
 
         def toggle(i: int) -> None:
             def toggled(_: State, plan: Plan) -> Plan:
@@ -109,14 +122,15 @@ class AccelerationsEditor:
         self._controls.change(lambda _, plan: plan.with_load(**fields))
 
 
-def parts(plan: Plan) -> tuple[str, ...]:
-    """What the parts are called: "1 Road 1", "2 12 wheel loads"."""
-    return tuple(f"{i}  {_loads(load)}" for i, load in enumerate(plan.loads, 1))
+def terms(plan: Plan) -> tuple[str, ...]:
+    """What the terms are called: "1 Road 1", "2 12 wheel loads"; a word where there is none."""
+    return tuple(f"{i}  {_loads(load)}" for i, load in enumerate(plan.loads, 1)) or (NONE,)
 
 
-def showing(plan: Plan, part: str) -> Plan:
-    """The plan with the part of that name shown."""
-    return replace(plan, shown_load=parts(plan).index(part)) if part in parts(plan) else plan
+def showing(plan: Plan, term: str) -> Plan:
+    """The plan with the term of that name shown."""
+    known = terms(plan)
+    return replace(plan, shown_load=known.index(term)) if term in known else plan
 
 
 def _loads(load: LoadPlan) -> str:

@@ -1,6 +1,7 @@
 """What a mount group may become: its free directions, bounds and ratios."""
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import viser
@@ -10,7 +11,7 @@ from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS
 from modeviz.vehicle.files.scaling import written
 from modeviz.viewer.assign import assign
-from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, may_change_hint
+from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint, may_change_hint
 from modeviz.viewer.planning.group_plan import Ratios
 from modeviz.viewer.planning.plan import Plan
 from modeviz.viewer.session import Session
@@ -29,6 +30,7 @@ class BoundsEditor:
             gui: where.
             session: whose state has a plan.
         """
+        self._vehicle = session.vehicle
         self._controls = controls = PlanControls(gui, session)
         with gui.add_folder("Bounds and ratios", expand_by_default=False):
             controls.choose(
@@ -57,6 +59,7 @@ class BoundsEditor:
                 "The least and the most that lateral and fore-aft may be of vertical",
             )
             assign(self._limits, step=0.05)
+            self._wrong = gui.add_html("")
 
     def show(self, state: State, plan: Plan) -> None:
         """Brings the controls after the state."""
@@ -66,6 +69,8 @@ class BoundsEditor:
         assign(self._limits, visible=plan.group.ratios == "limited")
         pressed = [direction in plan.group.directions for direction in DIRECTIONS]
         self._directions.show(pressed, [may_change_hint(on) for on in pressed])
+        mounts = self._vehicle.mount_group(plan.shown_group)
+        assign(self._wrong, content=complaint(partial(plan.group.design, mounts)))
 
     def _bound(self, field: str, direction: str) -> viser.GuiVector2Handle:
         """Boxes for the softest and the stiffest of one rate."""

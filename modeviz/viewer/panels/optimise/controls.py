@@ -7,9 +7,10 @@ from typing import Any, TypeVar
 
 import viser
 
+from modeviz.errors import VehicleError
 from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.html import HiddenButtons, block
+from modeviz.viewer.html import HiddenButtons, block, span
 from modeviz.viewer.panels.mounts.rows import DECIMALS
 from modeviz.viewer.planning.plan import Plan
 from modeviz.viewer.session import Session
@@ -133,3 +134,12 @@ class Pills:
 def may_change_hint(may_change: bool) -> str:
     """What a click does to a rate or a group of them."""
     return "may change; click to hold" if may_change else "held; click to free"
+
+
+def complaint(make: Callable[[], object]) -> str:
+    """Page text on why something cannot be made; nothing if it can."""
+    try:
+        make()
+    except VehicleError as error:
+        return block(span(escape(str(error)), "bad"))
+    return ""

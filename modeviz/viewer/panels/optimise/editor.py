@@ -75,7 +75,7 @@ class ProblemEditor:
                 "that differ is small, instead of the vehicle as drawn; takes some ten times as long",
             )
         self._bounds = BoundsEditor(gui, session)
-        self._accelerations = AccelerationsEditor(gui, session, plan) if plan.loads else None
+        self._accelerations = AccelerationsEditor(gui, session, plan)
         save = gui.add_button_group(
             "Keep",
             (SAVE,),
@@ -97,8 +97,7 @@ class ProblemEditor:
         self._pills.show([name in plan.free for name in self._groups], self._hints(plan))
         assign(self._summary, content=block(self._text(solved.state, plan)))
         self._bounds.show(state, plan)
-        if self._accelerations:
-            self._accelerations.show(plan)
+        self._accelerations.show(plan)
 
     def _text(self, state: State, plan: Plan) -> str:
         vehicle = self._session.vehicle
