@@ -1,107 +1,14 @@
 """A mode viewer and tuning bench for vehicle mounts."""
 
-from modeviz.dynamics.assembly import System as System
-from modeviz.dynamics.assembly import assemble as assemble
-from modeviz.dynamics.components import ComponentModes as ComponentModes
-from modeviz.dynamics.components import ComponentShare as ComponentShare
-from modeviz.dynamics.components import component_modes as component_modes
-from modeviz.dynamics.components import component_shares as component_shares
-from modeviz.dynamics.damped import DampedMode as DampedMode
-from modeviz.dynamics.energy import kinetic_energy as kinetic_energy
-from modeviz.dynamics.energy import strain_energy as strain_energy
-from modeviz.dynamics.modes import ComplexModes as ComplexModes
-from modeviz.dynamics.modes import Modes as Modes
-from modeviz.dynamics.modes import solve_complex_modes as solve_complex_modes
-from modeviz.dynamics.modes import solve_modes as solve_modes
-from modeviz.dynamics.naming import ModeName as ModeName
-from modeviz.dynamics.naming import name_modes as name_modes
-from modeviz.dynamics.naming import prepare_names as prepare_names
-from modeviz.dynamics.response import direct_response as direct_response
-from modeviz.dynamics.response import modal_response as modal_response
-from modeviz.dynamics.truncation import modes_only as modes_only
-from modeviz.errors import ModevizError as ModevizError
-from modeviz.errors import SolveError as SolveError
-from modeviz.errors import VehicleError as VehicleError
-from modeviz.ride.psd import acceleration_psd as acceleration_psd
-from modeviz.ride.psd import rms as rms
-from modeviz.ride.rating import Rating as Rating
-from modeviz.ride.rating import rate as rate
-from modeviz.ride.roads import road_spectrum as road_spectrum
-from modeviz.ride.roads import track_forces as track_forces
-from modeviz.ride.wheels import wheel_forces as wheel_forces
-from modeviz.tuning.batch import solve_many as solve_many
-from modeviz.tuning.check import check_exactly as check_exactly
-from modeviz.tuning.check import classic_error as classic_error
-from modeviz.tuning.cluster import runner_at as runner_at
-from modeviz.tuning.corner import worst_corner as worst_corner
-from modeviz.tuning.design import DesignSpace as DesignSpace
-from modeviz.tuning.design import design_space as design_space
-from modeviz.tuning.following import solve_followed as solve_followed
-from modeviz.tuning.goals import prepare_goal as prepare_goal
-from modeviz.tuning.objective import LoadCase as LoadCase
-from modeviz.tuning.objective import prepare_objective as prepare_objective
-from modeviz.tuning.optimise import Optimum as Optimum
-from modeviz.tuning.optimise import optimise as optimise
-from modeviz.tuning.optimise import search_globally as search_globally
-from modeviz.tuning.optimise import start_points as start_points
-from modeviz.tuning.pareto import Front as Front
-from modeviz.tuning.pareto import find_front as find_front
-from modeviz.tuning.parts import Tolerance as Tolerance
-from modeviz.tuning.parts import scattered_parts as scattered_parts
-from modeviz.tuning.preparation import Prepared as Prepared
-from modeviz.tuning.preparation import PreparedModes as PreparedModes
-from modeviz.tuning.preparation import prepare as prepare
-from modeviz.tuning.preparation import prepare_modes as prepare_modes
-from modeviz.tuning.rate_files import parse_rates as parse_rates
-from modeviz.tuning.rate_files import rates_text as rates_text
-from modeviz.tuning.rate_files import read_rates as read_rates
-from modeviz.tuning.rate_files import write_rates as write_rates
-from modeviz.tuning.rates import resolve_rates as resolve_rates
-from modeviz.tuning.results import Conditions as Conditions
-from modeviz.tuning.results import Results as Results
-from modeviz.tuning.results import solve as solve
-from modeviz.tuning.results import solve_modal as solve_modal
-from modeviz.tuning.results import solve_wheels as solve_wheels
-from modeviz.tuning.robust import robust as robust
-from modeviz.tuning.robust import robust_search as robust_search
-from modeviz.tuning.scatter import Scatter as Scatter
-from modeviz.tuning.scatter import scatter as scatter
-from modeviz.tuning.search import Search as Search
-from modeviz.tuning.search import prepare_search as prepare_search
-from modeviz.tuning.sensitivity import RateVariable as RateVariable
-from modeviz.tuning.sensitivity import frequency_sensitivity as frequency_sensitivity
-from modeviz.tuning.sensitivity import rate_variables as rate_variables
-from modeviz.tuning.sensitivity import ride_sensitivity as ride_sensitivity
-from modeviz.tuning.shown import complex_mode as complex_mode
-from modeviz.tuning.shown import road_shape as road_shape
-from modeviz.tuning.shown import wheel_shape as wheel_shape
-from modeviz.tuning.spread import spread as spread
-from modeviz.tuning.trade_off import Side as Side
-from modeviz.tuning.trade_off import TradeOff as TradeOff
-from modeviz.tuning.trade_off import prepare_trade_off as prepare_trade_off
-from modeviz.tuning.trade_off import sides as sides
-from modeviz.vehicle.bodies import AddedMass as AddedMass
-from modeviz.vehicle.bodies import Attachment as Attachment
-from modeviz.vehicle.bodies import FlexibleBody as FlexibleBody
-from modeviz.vehicle.bodies import Material as Material
-from modeviz.vehicle.bodies import MeshPart as MeshPart
-from modeviz.vehicle.bodies import RigidBody as RigidBody
-from modeviz.vehicle.connections import Bolt as Bolt
-from modeviz.vehicle.connections import Damper as Damper
-from modeviz.vehicle.connections import Mount as Mount
-from modeviz.vehicle.connections import MountGroup as MountGroup
-from modeviz.vehicle.connections import MountRates as MountRates
-from modeviz.vehicle.connections import Spring as Spring
-from modeviz.vehicle.connections import Tyre as Tyre
-from modeviz.vehicle.files import builtin_vehicle as builtin_vehicle
-from modeviz.vehicle.files import read_problem as read_problem
-from modeviz.vehicle.files import read_vehicle as read_vehicle
-from modeviz.vehicle.files import write_vehicle as write_vehicle
-from modeviz.vehicle.loads import ResponsePoint as ResponsePoint
-from modeviz.vehicle.loads import Road as Road
-from modeviz.vehicle.loads import WheelLoad as WheelLoad
-from modeviz.vehicle.problem import DesignGroup as DesignGroup
-from modeviz.vehicle.problem import FrequencyWindow as FrequencyWindow
-from modeviz.vehicle.problem import Performance as Performance
-from modeviz.vehicle.problem import Problem as Problem
-from modeviz.vehicle.vehicle import Vehicle as Vehicle
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from modeviz.public import *  # noqa: F403
+else:
+    # Not before a name is asked for: `modeviz.cli` is to have Ctrl+C in hand before anything slow.
+    def __getattr__(name):
+        return getattr(import_module("modeviz.public"), name)
+
+    def __dir__():
+        return dir(import_module("modeviz.public"))

@@ -147,6 +147,27 @@ def test_a_reader_that_has_enough_is_no_error(folder):
     assert run.returncode == 0
 
 
+INTERRUPTED_IMPORT = """
+import runpy, signal, sys
+
+class Interrupt:
+    def find_spec(self, name, path=None, target=None):
+        if name == module:
+            signal.raise_signal(signal.SIGINT)
+
+module = sys.argv.pop(1)
+sys.meta_path.insert(0, Interrupt())
+runpy.run_module("modeviz", run_name="__main__", alter_sys=True)
+"""
+
+
+@pytest.mark.parametrize("module", ["modeviz.commands.parser", "numpy", "scipy.optimize", "viser"])
+def test_an_interrupt_of_imports_ends_the_program_quietly(folder, module):
+    command = [sys.executable, "-c", INTERRUPTED_IMPORT, module, "view", folder]
+    run = subprocess.run(command, capture_output=True, text=True)
+    assert (run.returncode, run.stdout, run.stderr) == (130, "", "modeviz: interrupted\n")
+
+
 def test_the_program_ends_with_that_status_and_no_traceback(folder):
     command = [sys.executable, "-m", "modeviz", "modes", folder, "--rates", "hard"]
     run = subprocess.run(command, capture_output=True, text=True)

@@ -4,10 +4,11 @@ import ast
 import inspect
 
 import modeviz
+from modeviz import public
 
 REEXPORTS = [
     alias
-    for node in ast.parse(inspect.getsource(modeviz)).body
+    for node in ast.parse(inspect.getsource(public)).body
     if isinstance(node, ast.ImportFrom)
     for alias in node.names
 ]
@@ -23,8 +24,8 @@ def test_names_are_reexported_explicitly():
 
 
 def test_nothing_else_is_public():
-    public = {name for name, value in vars(modeviz).items() if not inspect.ismodule(value)}
-    assert {name for name in public if not name.startswith("_")} == {a.name for a in REEXPORTS}
+    names = {name for name in dir(modeviz) if not inspect.ismodule(getattr(modeviz, name))}
+    assert {name for name in names if not name.startswith("_")} == {a.name for a in REEXPORTS}
 
 
 def test_functions_and_classes_are_documented():

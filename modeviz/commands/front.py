@@ -3,7 +3,8 @@
 from argparse import Namespace
 
 from modeviz.commands.interrupt import cancelled_by_interrupt
-from modeviz.commands.options import json_text, print_json, progress, say
+from modeviz.commands.options import json_text, print_json
+from modeviz.commands.terminal import progress, say
 from modeviz.errors import ModevizError, unknown
 from modeviz.export.front import front_csv, front_record, front_table
 from modeviz.tuning.pareto import Front, FrontProgress, find_front

@@ -1,12 +1,38 @@
-"""Ctrl+C as a wish to end a long computation and keep what it has."""
+"""Ctrl+C: what it ends, and what is kept then."""
 
+import os
 import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from modeviz.commands.options import say
+from modeviz.commands.terminal import say
 from modeviz.tuning.control import Control
+
+INTERRUPTED = 130
+"""The exit status that shells have for it: 128 and the number of the signal."""
+
+
+def interrupted() -> int:
+    """Says that an interrupt ended the program, and returns its exit status."""
+    say("")
+    print("modeviz: interrupted", file=sys.stderr)
+    return INTERRUPTED
+
+
+@contextmanager
+def ended_by_interrupt() -> Iterator[None]:
+    """Ctrl+C ends the program at once: of an exception some imports lose track, and others fail."""
+
+    def end(_signal: int, _frame: FrameType | None) -> None:
+        os._exit(interrupted())
+
+    before = signal.signal(signal.SIGINT, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager

@@ -6,14 +6,8 @@ from math import inf
 
 from modeviz.commands.front import optimise_front
 from modeviz.commands.interrupt import cancelled_by_interrupt
-from modeviz.commands.options import (
-    chosen_problem,
-    chosen_speed,
-    print_json,
-    progress,
-    say,
-    vehicle_and_rates,
-)
+from modeviz.commands.options import chosen_problem, chosen_speed, print_json, vehicle_and_rates
+from modeviz.commands.terminal import progress, say
 from modeviz.errors import ModevizError
 from modeviz.export.optimum import optimum_record, optimum_table
 from modeviz.export.wording import significant

@@ -1,15 +1,14 @@
-"""What commands share: the vehicle, rates, road and speed that were asked for, and word of progress."""
+"""What commands share: the vehicle, rates, road and speed that were asked for."""
 
 import json
-import os
-import sys
 from argparse import Namespace
-from collections.abc import Callable, Sized
+from collections.abc import Sized
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from modeviz.commands.terminal import progress
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record
 from modeviz.ride.roads import road_spectrum
@@ -106,18 +105,6 @@ def prepare_telling(vehicle: Vehicle) -> Prepared:
     return prepare(vehicle, progress=progress("preparing"))
 
 
-def progress(what: str) -> Callable[[float], None]:
-    """Tells on a terminal how far something is, 0 to 1; nothing where errors go to a file."""
-    return lambda done: say(f"{what} {done:4.0%}" if done < 1 else "")
-
-
-def say(text: str) -> None:
-    """Puts a text in the place of the line before on a terminal; nothing where errors go to a file."""
-    if sys.stderr.isatty():
-        # Not through Python's buffer, which would refuse what an interrupt says while it is written to.
-        os.write(sys.stderr.fileno(), f"\r{text}\x1b[K".encode())
-
-
 def print_json(record: Record) -> None:
     """Prints what `--json` asks for."""
     print(json_text(record))
@@ -126,8 +113,3 @@ def print_json(record: Record) -> None:
 def json_text(record: Record) -> str:
     """A record as it is printed."""
     return json.dumps(record, indent=1, ensure_ascii=False)
-
-
-def tell(what: str, done: float) -> None:
-    """Tells on a terminal how far one of several things is, see `progress`."""
-    progress(what)(done)

@@ -3,16 +3,19 @@
 import math
 from argparse import Namespace
 
-from modeviz.commands.options import say, shown, tell, vehicle_and_rates
+from modeviz.commands.interrupt import ended_by_interrupt
+from modeviz.commands.options import shown, vehicle_and_rates
+from modeviz.commands.terminal import say, tell
 from modeviz.errors import ModevizError
 from modeviz.vehicle.files.disk import check_writable, write_bytes
 
 
 def render_file(options: Namespace) -> None:
     """Draws a vehicle in one of its modes and writes the file."""
-    from modeviz.viewer.pictures import Shot  # viser alone takes a second to import
-    from modeviz.viewer.rendering import KINDS, Wish, render
-    from modeviz.viewer.stage import DARK, FIELD_OF_VIEW, LIGHT
+    with ended_by_interrupt():
+        from modeviz.viewer.pictures import Shot  # viser alone takes a second to import
+        from modeviz.viewer.rendering import KINDS, Wish, render
+        from modeviz.viewer.stage import DARK, FIELD_OF_VIEW, LIGHT
 
     kind = KINDS.get(options.output.suffix.lower())
     if kind is None:

@@ -5,7 +5,9 @@ from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 
-from modeviz.commands.options import prepare_telling, progress, ride, say, tell, vehicle_and_rates
+from modeviz.commands.interrupt import ended_by_interrupt
+from modeviz.commands.options import prepare_telling, ride, vehicle_and_rates
+from modeviz.commands.terminal import progress, say, tell
 from modeviz.errors import ModevizError
 from modeviz.export.report import Picture, report
 from modeviz.tuning.check import Check, check_exactly
@@ -39,9 +41,10 @@ def _pictures(
     """The mode the page would open with, with both sets of rates; none of a vehicle without a road."""
     if conditions is None:
         return []
-    from modeviz.viewer.pictures import Shot  # viser alone takes a second to import
-    from modeviz.viewer.rendering import Wish, photographs
-    from modeviz.viewer.stage import FIELD_OF_VIEW, ISO, LIGHT
+    with ended_by_interrupt():
+        from modeviz.viewer.pictures import Shot  # viser alone takes a second to import
+        from modeviz.viewer.rendering import Wish, photographs
+        from modeviz.viewer.stage import FIELD_OF_VIEW, ISO, LIGHT
 
     wish = Wish("", ISO, "bodies", amplitude=1.0, phase=0.0, n_frames=1)
     shot = Shot(*PICTURE_SIZE, "white", LIGHT, FIELD_OF_VIEW)

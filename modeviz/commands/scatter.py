@@ -10,10 +10,9 @@ from modeviz.commands.options import (
     need,
     prepare_telling,
     print_json,
-    progress,
-    say,
     vehicle_and_rates,
 )
+from modeviz.commands.terminal import progress, say
 from modeviz.errors import ModevizError, SolveError
 from modeviz.export.scatter import Scattered, scatter_record, scatter_table
 from modeviz.tuning.cluster import runner_at

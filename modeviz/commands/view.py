@@ -2,12 +2,15 @@
 
 from argparse import Namespace
 
-from modeviz.commands.options import progress, shown, vehicle_and_rates
+from modeviz.commands.interrupt import ended_by_interrupt
+from modeviz.commands.options import shown, vehicle_and_rates
+from modeviz.commands.terminal import progress
 
 
 def view(options: Namespace) -> None:
     """Serves the page until it is stopped."""
-    from modeviz.viewer.app import serve  # viser alone takes a second to import
+    with ended_by_interrupt():
+        from modeviz.viewer.app import serve  # viser alone takes a second to import
 
     vehicle, start = vehicle_and_rates(options)
     vehicle, chosen = shown(options, vehicle)

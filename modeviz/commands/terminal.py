@@ -1,0 +1,23 @@
+"""Word of progress on a terminal."""
+
+import os
+import sys
+from collections.abc import Callable
+from functools import partial
+
+
+def progress(what: str) -> Callable[[float], None]:
+    """What tells on a terminal how far something is, 0 to 1; nothing where errors go to a file."""
+    return partial(tell, what)
+
+
+def tell(what: str, done: float) -> None:
+    """Tells how far one of several things is, see `progress`."""
+    say(f"{what} {done:4.0%}" if done < 1 else "")
+
+
+def say(text: str) -> None:
+    """Puts a text in the place of the line before on a terminal; nothing where errors go to a file."""
+    if sys.stderr.isatty():
+        # Not through Python's buffer, which would refuse what an interrupt says while it is written to.
+        os.write(sys.stderr.fileno(), f"\r{text}\x1b[K".encode())
