@@ -85,7 +85,7 @@ def test_its_tables_say_the_same_in_print_and_in_a_file(capsys, cabin, tmp_path)
 def test_an_interrupt_keeps_the_designs_so_far(monkeypatch, printed_json, cabin):
     told = []
 
-    def interrupt(progress):
+    def interrupt(_, progress):
         told.append(progress)
         if len(told) == 1:
             signal.raise_signal(signal.SIGINT)

@@ -11,6 +11,7 @@ from cabin_problem import PROBLEM, cabin_search
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
+from modeviz.commands import front as front_command
 from modeviz.commands import optimise as command
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.optimise import optimise, search_globally, start_points
@@ -192,7 +193,7 @@ def test_the_table_says_where_the_mode_of_a_window_is(capsys, tmp_path):
 def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path):
     told = []
 
-    def interrupt(progress):
+    def interrupt(_, progress):
         told.append(progress)
         if len(told) == 5:
             signal.raise_signal(signal.SIGINT)
@@ -215,7 +216,7 @@ def test_an_interrupt_before_the_robust_search_keeps_the_best_as_drawn(
 ):
     told = []
 
-    def interrupt(progress):
+    def interrupt(_, progress):
         told.append(progress)
         if len(told) == 1:
             signal.raise_signal(signal.SIGINT)
@@ -228,38 +229,54 @@ def test_an_interrupt_before_the_robust_search_keeps_the_best_as_drawn(
 
 
 def test_a_second_interrupt_ends_the_program_and_writes_nothing(monkeypatch, capsys, cabin, tmp_path):
-    def interrupt(_):
+    def interrupt(_, __):
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
 
     monkeypatch.setattr(command, "_tell", interrupt)
     assert main(["optimise", cabin, "--output", str(tmp_path / "rates.json")]) == 130
-    assert capsys.readouterr().err == "modeviz: interrupted\n"
+    said = capsys.readouterr().err.splitlines()
+    assert said == ["modeviz: ending; Ctrl+C again ends it at once", "modeviz: interrupted"]
     assert not list(tmp_path.iterdir())
 
 
-def test_a_terminal_is_told_of_an_interrupt_at_once_and_of_the_check(monkeypatch, cabin):
-    tell = command._tell
-
-    def interrupt(progress):
-        tell(progress)
-        if progress.evaluations == 5:
-            signal.raise_signal(signal.SIGINT)
-            tell(progress)
-
-    monkeypatch.setattr(command, "_tell", interrupt)
+def on_a_terminal(monkeypatch, *arguments):
+    """What a command says there, line for line; each takes the place of the one before."""
     reader, writer = pty.openpty()
     with open(reader, "rb", buffering=0) as terminal, open(writer, "w") as errors:
         monkeypatch.setattr("sys.stderr", errors)
-        assert main(["optimise", cabin, "--json"]) == 0
+        assert main(list(arguments)) == 0
         lines = terminal.read(100_000).decode().split("\r")
     assert lines[0] == ""
     assert lines[-1] == "\x1b[K"
-    told = [line.removesuffix("\x1b[K") for line in lines[1:-1]]
-    interrupted = told.index("ending; Ctrl+C again ends it at once")
-    assert told[interrupted - 1] == told[interrupted + 1]
-    assert told[interrupted - 1].startswith("search   1 of 20, objective")
+    return [line.removesuffix("\x1b[K") for line in lines[1:-1]]
+
+
+def test_a_terminal_is_told_of_the_search_and_of_the_check(monkeypatch, cabin):
+    told = on_a_terminal(monkeypatch, "optimise", cabin, "--starts", "1", "--json")
+    assert told[0].startswith("search   1 of 1, objective")
     assert told[-1] == "checking with the full model"
+
+
+@pytest.mark.parametrize(
+    ("module", "options", "before"),
+    [
+        (command, [], "search   1 of 20, objective"),
+        (front_command, ["--front", "lateral against vertical"], "searching, 1 designs on the front"),
+    ],
+)
+def test_word_of_an_interrupt_stays_on_a_terminal(monkeypatch, cabin, module, options, before):
+    tell = module._tell
+
+    def interrupt(control, progress):
+        tell(control, progress)
+        if not control.is_cancelled:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(module, "_tell", interrupt)
+    told = on_a_terminal(monkeypatch, "optimise", cabin, *options, "--json")
+    assert told[-1] == "ending; Ctrl+C again ends it at once"
+    assert told[-2].startswith(before)
 
 
 def test_what_cannot_be_is_refused_in_a_sentence(refused, cabin):

@@ -1,12 +1,14 @@
 """`modeviz optimise --front`: designs between two goals."""
 
 from argparse import Namespace
+from functools import partial
 
 from modeviz.commands.interrupt import cancelled_by_interrupt
 from modeviz.commands.options import json_text, print_json
 from modeviz.commands.terminal import progress, say
 from modeviz.errors import ModevizError, unknown
 from modeviz.export.front import front_csv, front_record, front_table
+from modeviz.tuning.control import Control
 from modeviz.tuning.pareto import Front, FrontProgress, find_front
 from modeviz.tuning.rate_files import rates_format
 from modeviz.tuning.trade_off import TradeOff, prepare_trade_off, sides
@@ -53,13 +55,15 @@ def _found(options: Namespace, trade_off: TradeOff, rates: Rates) -> Front:
                 seed=options.seed,
                 budget=options.budget,
                 control=control,
-                tell=_tell,
+                tell=partial(_tell, control),
             )
         finally:
             say("")
 
 
-def _tell(where: FrontProgress) -> None:
+def _tell(control: Control, where: FrontProgress) -> None:
+    if control.is_cancelled:
+        return
     n = len(where.designs)
     if where.done < 1:
         progress(f"searching, {n} designs on the front")(where.done)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from modeviz.commands.terminal import say
+from modeviz.commands.terminal import announce, say
 from modeviz.tuning.control import Control
 
 INTERRUPTED = 130
@@ -37,12 +37,15 @@ def ended_by_interrupt() -> Iterator[None]:
 
 @contextmanager
 def cancelled_by_interrupt() -> Iterator[Control]:
-    """A control that Ctrl+C cancels; a second Ctrl+C ends the program as ever."""
+    """A control that Ctrl+C cancels; a second Ctrl+C ends the program as ever.
+
+    That is said, and stays to be read if nothing is said of a computation once it is cancelled.
+    """
     control = Control()
 
     def cancel(_signal: int, _frame: FrameType | None) -> None:
         signal.signal(signal.SIGINT, before)
-        say("ending; Ctrl+C again ends it at once")
+        announce("ending; Ctrl+C again ends it at once")
         control.cancel()
 
     before = signal.signal(signal.SIGINT, cancel)

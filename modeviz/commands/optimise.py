@@ -1,7 +1,9 @@
 """The command that searches for better mount rates."""
 
 from argparse import Namespace
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from math import inf
 
 from modeviz.commands.front import optimise_front
@@ -77,26 +79,34 @@ def _search(
     robustly = robust_search(search, tolerance) if tolerance else None
     try:
         with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:
-            optimum = _search_once(options, search, rates, runner, control)
+            tell = partial(_tell, control)
+            optimum = _search_once(options, search, rates, runner, control, tell)
             if robustly is None or control.is_cancelled:
                 return search, optimum
-            return robustly, optimise(robustly, [optimum.x], options.budget, control, _tell)
+            return robustly, optimise(robustly, [optimum.x], options.budget, control, tell)
     finally:
         say("")
 
 
 def _search_once(
-    options: Namespace, search: Search, rates: Rates, runner: Runner, control: Control
+    options: Namespace,
+    search: Search,
+    rates: Rates,
+    runner: Runner,
+    control: Control,
+    tell: Callable[[Progress], None],
 ) -> Optimum:
     if options.everywhere:
-        return search_globally(search, options.seed, options.budget, control, _tell)
+        return search_globally(search, options.seed, options.budget, control, tell)
     starts = start_points(search, rates, options.starts or N_STARTS, options.seed, control)
     if options.scheduler:
-        return optimise_on(runner, search, starts, options.budget, control, _tell)
-    return optimise(search, starts, options.budget, control, _tell)
+        return optimise_on(runner, search, starts, options.budget, control, tell)
+    return optimise(search, starts, options.budget, control, tell)
 
 
-def _tell(where: Progress) -> None:
+def _tell(control: Control, where: Progress) -> None:
+    if control.is_cancelled:
+        return
     if where.is_checking:
         say("checking with the full model")
         return

@@ -16,6 +16,14 @@ def tell(what: str, done: float) -> None:
     say(f"{what} {done:4.0%}" if done < 1 else "")
 
 
+def announce(text: str) -> None:
+    """Says what is not to be missed: on a terminal as `say`, else in a line of its own."""
+    if sys.stderr.isatty():
+        say(text)
+    else:
+        print(f"modeviz: {text}", file=sys.stderr)
+
+
 def say(text: str) -> None:
     """Puts a text in the place of the line before on a terminal; nothing where errors go to a file."""
     if sys.stderr.isatty():
