@@ -199,19 +199,35 @@ SOFT_SIDES = MountRates(2e5, 1e3, 1e3), MountRates(4e6, 4e4, 1e6)
             replace(LIMITED, bounds=SOFT_SIDES),
             None,
             [],
-            "A vertical: bounds and ratio limits of A contradict each other",
+            "A: vertical is at least 200 N/mm, but lateral is at most 40 N/mm and at least 0.25",
         ),
         (
             replace(LIMITED, bounds=SOFT_SIDES),
             None,
             ["vertical"],
-            "A lateral: bounds and ratio limits of A contradict each other",
+            "A: vertical is kept at 800 N/mm, but lateral is at most 40 N/mm and at least 0.25",
         ),
         (
             LIMITED,
             {"A": MountRates(8e5, 3e6, 1e5)},
             ["lateral", "fore_aft"],
-            "A vertical: bounds and ratio limits of A contradict each other",
+            "A: lateral is kept at 3000 N/mm and at most 0.8 of vertical",
+        ),
+        (
+            replace(LIMITED, bounds=(MountRates(1e5, 5e5, 1e5), MountRates(2e5, 9e5, 1e5))),
+            None,
+            [],
+            "A: lateral is at least 500 N/mm and at most 0.8 of vertical, which asks for vertical at "
+            "least 625 N/mm, but vertical is at most 200 N/mm; widen the bounds or the ratio limits",
+        ),
+        # Neither contradicts the vertical rate alone.
+        (
+            replace(LIMITED, bounds=(MountRates(1e5, 5e5, 1e4), MountRates(9e5, 9e5, 1e5))),
+            None,
+            [],
+            "A: lateral is at least 500 N/mm and at most 0.8 of vertical, which asks for vertical at "
+            "least 625 N/mm, but fore-aft is at most 100 N/mm and at least 0.25 of vertical, which "
+            "asks for vertical at most 400 N/mm",
         ),
         (LIMITED, {"A": MountRates(8e5, 3e5, 0.0)}, [], "A fore-aft: rate: found 0 N/m, expected more"),
         (LIMITED, {"A": MountRates(0.0, 3e5, 3e5)}, [], "A vertical: rate: found 0 N/m, expected more"),

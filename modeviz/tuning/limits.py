@@ -6,15 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeviz.errors import VehicleError
+from modeviz.tuning.contradiction import SAME, check_ratios
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, MountRates
 from modeviz.vehicle.problem import DesignGroup
 
 VERTICAL, *SHEAR = RATE_FIELDS
 """The ratios of the others to the vertical rate are limited."""
-
-SAME = 1e-12
-"""Logarithms of limits that leave one rate only may cross by so much, which is rounding."""
 
 
 @dataclass(frozen=True)
@@ -92,22 +90,20 @@ def group_limits(
         first: the number of the first of those; the others follow.
 
     Raises:
-        VehicleError: a rate of zero, or fixed ratios that no bounds allow.
+        VehicleError: a rate of zero, or bounds that no rates meet with fixed or limited ratios.
     """
     numbered = dict(enumerate(variables, first))
-    limits = _bounds(group.bounds or mounts.bounds, base, numbered)
+    bounds = group.bounds or mounts.bounds
+    limits = _bounds(bounds, base, numbered)
     ratios = group.ratio_limits or mounts.ratio_limits
     if ratios and not group.fixed_ratios:
+        check_ratios(group.group, ratios, bounds, base, {v.lead for v in variables})
         limits += _ratio_limits(group.group, ratios, base, numbered)
     return limits
 
 
 def reach(variables: Sequence[DesignVariable], limits: Sequence[Limit]) -> tuple[Floats, Floats]:
-    """The least and the most that each number can be where all limits are met.
-
-    Raises:
-        VehicleError: limits that contradict each other, with the rate.
-    """
+    """The least and the most that each number can be where all limits are met, which is possible."""
     lower, upper = np.full(len(variables), -np.inf), np.full(len(variables), np.inf)
     for limit in limits:
         if len(limit.terms) == 1:
@@ -117,12 +113,6 @@ def reach(variables: Sequence[DesignVariable], limits: Sequence[Limit]) -> tuple
         if limit.rate is not None and limit.of is not None:
             far = lowest[limit.rate] if limit.sign > 0 else -highest[limit.rate]
             _tighten(lower, upper, limit.of, -limit.sign, limit.value - far)
-    for variable, low, high in zip(variables, lower, upper, strict=True):
-        if low > high + SAME:
-            raise VehicleError(
-                f"{variable.spoken}: bounds and ratio limits of {variable.group} contradict each "
-                "other: no rate meets them all; widen the bounds or the limits"
-            )
     return lower, np.maximum(lower, upper)
 
 
