@@ -247,7 +247,7 @@ def on_a_terminal(monkeypatch, *arguments):
         monkeypatch.setattr("sys.stderr", errors)
         assert main(list(arguments)) == 0
         said = b""
-        while not said.endswith(b"\r\x1b[K"):  # what was written comes bit by bit, at last an empty line
+        while not said.endswith(b"\r\x1b[K"):  # it comes bit by bit, at last an empty line
             said += terminal.read(4096)
     return [line.removesuffix("\x1b[K") for line in said.decode().split("\r")[1:-1]]
 
