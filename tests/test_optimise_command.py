@@ -112,6 +112,13 @@ def test_robust_needs_a_goal_that_scatters(refused, cabin):
     assert said.startswith("the goal does not scatter with parts: a robust search needs")
 
 
+@pytest.mark.parametrize("option", ["--tolerance", "--loss-tolerance"])
+def test_tolerances_are_of_a_robust_search(refused, cabin, option):
+    assert refused(cabin, option, "0.1") == (
+        "--tolerance and --loss-tolerance: expected them with --robust"
+    )
+
+
 def test_the_rates_it_writes_are_those_it_prints(printed_json, cabin, tmp_path):
     path = tmp_path / "rates.json"
     record = printed_json("optimise", cabin, "--starts", "1", "--output", str(path))

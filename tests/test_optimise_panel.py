@@ -69,6 +69,8 @@ def test_a_robust_search_says_that_it_goes_by_a_percentile():
     assert "95th percentile" in where(look)
     look = replace(look, progress=Progress(7, RATES, 0.4, 1, 1))
     assert "95th percentile, 7 evaluations" in where(look)
+    look = replace(look, progress=Progress(1, RATES, 0.4, 1, 1))
+    assert "95th percentile, 1 evaluation<" in where(look)
     said = summary(PROBLEM, cabin_search().space, is_robust=True)
     assert "95th percentile of parts, rates within ±15 %" in said
 

@@ -8,6 +8,7 @@ from mounted_cabin import mounted_cabin
 from toy_goals import logarithmic_search, paraboloid
 
 from modeviz.tuning.control import Control
+from modeviz.tuning.descent import descend
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.tuning.pareto import find_front
 from modeviz.tuning.trade_off import TradeOff, prepare_trade_off, sides
@@ -179,6 +180,21 @@ def test_cancelled_before_it_begins_it_has_no_designs(cabin):
     control.cancel()
     front = find_front(cabin[0], [{}], control=control)
     assert (front.reason, front.designs, front.evaluations) == (CANCELLED, (), 0)
+
+
+def test_a_budget_that_ends_with_a_search_ends_the_front(monkeypatch, cabin):
+    used = []
+
+    def counted(*arguments):
+        descent = descend(*arguments)
+        used.append(descent.evaluations)
+        return descent
+
+    monkeypatch.setattr("modeviz.tuning.pareto.descend", counted)
+    find_front(cabin[0], [{}], n_designs=2, n_starts=1)
+    front = find_front(cabin[0], [{}], n_designs=2, n_starts=1, budget=used[0])
+    assert front.evaluations == used[0]
+    assert front.reason == OUT_OF_BUDGET
 
 
 def test_it_ends_with_its_budget(cabin):

@@ -10,7 +10,7 @@ from modeviz.tuning.corner import goals
 from modeviz.tuning.descent import descend
 from modeviz.tuning.optimise import optimise
 from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.robust import percentile_weights, robust, robust_search
+from modeviz.tuning.robust import optimise_robustly, percentile_weights, robust, robust_search
 from modeviz.tuning.search import Search
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance
@@ -122,3 +122,23 @@ def test_a_change_does_not_scatter():
 def test_what_cannot_be_is_an_error(search, arguments, sentence):
     with pytest.raises(SolveError, match=sentence):
         robust(search.goal, TOLERANCE, **arguments)
+
+
+@pytest.mark.parametrize(("budget", "reason"), [(5_000, "converged"), (3, "out of budget")])
+def test_both_searches_count_and_share_one_budget(budget, reason):
+    search = cabin_search()
+    before = optimise(search, [search.space.to_x({})], budget)
+    robustly = robust_search(search, TOLERANCE)
+    found = optimise_robustly(robustly, before, budget)
+    assert found.reason == before.reason == reason
+    first, second = found.descents
+    assert found.evaluations == first.evaluations + second.evaluations
+    assert first is before.descents[0]
+    assert found.evaluations <= budget + 1
+    assert found.value == pytest.approx(robustly.value(found.x), rel=1e-12)
+
+
+def test_a_first_search_that_was_cut_short_leaves_the_whole_so():
+    search = cabin_search()
+    before = optimise(search, [search.space.to_x({})], 3)
+    assert optimise_robustly(robust_search(search, TOLERANCE), before, 5_000).reason == "out of budget"

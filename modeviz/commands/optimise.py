@@ -8,7 +8,13 @@ from math import inf
 
 from modeviz.commands.front import optimise_front
 from modeviz.commands.interrupt import cancelled_by_interrupt
-from modeviz.commands.options import chosen_problem, chosen_speed, print_json, vehicle_and_rates
+from modeviz.commands.options import (
+    chosen_problem,
+    chosen_speed,
+    chosen_tolerance,
+    print_json,
+    vehicle_and_rates,
+)
 from modeviz.commands.terminal import progress, say
 from modeviz.errors import ModevizError
 from modeviz.export.optimum import optimum_record, optimum_table
@@ -26,7 +32,7 @@ from modeviz.tuning.optimise import (
 )
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rate_files import rates_format, write_rates
-from modeviz.tuning.robust import robust_search
+from modeviz.tuning.robust import optimise_robustly, robust_search
 from modeviz.tuning.runner import Runner
 from modeviz.tuning.search import Search, prepare_search
 from modeviz.vehicle.connections import Rates
@@ -45,6 +51,8 @@ def optimise_rates(options: Namespace) -> None:
     _check("--seed", options.seed, 0, inf)
     if options.everywhere and options.scheduler:
         raise ModevizError("--global is one search: expected it without --scheduler")
+    if not options.robust and (options.tolerance, options.loss_tolerance) != (None, None):
+        raise ModevizError("--tolerance and --loss-tolerance: expected them with --robust")
     vehicle, rates = vehicle_and_rates(options)
     problem = _problem(options, vehicle)
     speed = chosen_speed(options, vehicle)
@@ -54,7 +62,7 @@ def optimise_rates(options: Namespace) -> None:
     if options.front:
         optimise_front(options, vehicle, problem, rates, speed)
         return
-    tolerance = Tolerance(options.tolerance, options.loss_tolerance) if options.robust else None
+    tolerance = chosen_tolerance(options) if options.robust else None
     search, optimum = _search(options, prepare_search(vehicle, problem, rates, speed), rates, tolerance)
     if options.output:
         write_rates(options.output, optimum.rates)
@@ -83,7 +91,7 @@ def _search(
             optimum = _search_once(options, search, rates, runner, control, tell)
             if robustly is None or control.is_cancelled:
                 return search, optimum
-            return robustly, optimise(robustly, [optimum.x], options.budget, control, tell)
+            return robustly, optimise_robustly(robustly, optimum, options.budget, control, tell)
     finally:
         say("")
 

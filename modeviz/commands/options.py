@@ -13,6 +13,7 @@ from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record
 from modeviz.ride.roads import road_spectrum
 from modeviz.tuning.default_problem import problems
+from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
 from modeviz.tuning.rates import resolve_rates
 from modeviz.tuning.results import Conditions
@@ -73,6 +74,12 @@ def chosen_problem(options: Namespace, vehicle: Vehicle) -> Problem:
         return problems(vehicle)[0]
     path = Path(options.problem)
     return read_problem(path, vehicle) if path.suffix == ENDING else vehicle.problem(options.problem)
+
+
+def chosen_tolerance(options: Namespace) -> Tolerance:
+    """That of the parts, as far as it is given, or else the usual one; raises as `Tolerance`."""
+    given = {"rates": options.tolerance, "loss_factor": options.loss_tolerance}
+    return Tolerance(**{name: value for name, value in given.items() if value is not None})
 
 
 def ride(options: Namespace, vehicle: Vehicle) -> Conditions | None:

@@ -205,14 +205,12 @@ def _add_tolerances(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--tolerance",
         type=float,
-        default=usual.rates,
         metavar="PART",
         help=f"of every mount's hardness, up and down; default {usual.rates:g}",
     )
     command.add_argument(
         "--loss-tolerance",
         type=float,
-        default=usual.loss_factor,
         metavar="PART",
         help=f"of every mount's loss factor; default {usual.loss_factor:g}",
     )

@@ -6,6 +6,7 @@ from math import inf
 from modeviz.commands.interrupt import cancelled_by_interrupt
 from modeviz.commands.options import (
     chosen_problem,
+    chosen_tolerance,
     conditions,
     need,
     prepare_telling,
@@ -34,7 +35,7 @@ MOST_SAMPLES = 1_000_000
 
 def scatter_mounts(options: Namespace) -> None:
     """Prints percentiles of ride and goal, the worst corner, and which mounts make the spread."""
-    tolerance = Tolerance(options.tolerance, options.loss_tolerance)
+    tolerance = chosen_tolerance(options)
     for name, least, most in (("samples", 2, MOST_SAMPLES), ("seed", 0, inf)):
         found = getattr(options, name)
         if not least <= found <= most:

@@ -1,5 +1,6 @@
 """A goal that holds for nearly all vehicles that are built: a percentile over parts that scatter."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -7,8 +8,11 @@ from scipy.stats import beta
 
 from modeviz.dynamics.assembly import mount_stiffness
 from modeviz.errors import SolveError
+from modeviz.tuning.control import Control
 from modeviz.tuning.corner import goals
+from modeviz.tuning.evaluator import CANCELLED, OUT_OF_BUDGET
 from modeviz.tuning.objective import Objective
+from modeviz.tuning.optimise import BUDGET, Optimum, Progress, optimise
 from modeviz.tuning.parts import Parts, Tolerance, scattered_parts
 from modeviz.tuning.search import Search
 from modeviz.tuning.sensitivity import spring_shares
@@ -124,6 +128,32 @@ def robust_search(search: Search, tolerance: Tolerance, percent: float = 95.0) -
             "accelerations, such as accelerations, peak or rating"
         )
     return replace(search, goal=robust(search.goal, tolerance, percent))
+
+
+def optimise_robustly(
+    robustly: Search,
+    before: Optimum,
+    budget: int = BUDGET,
+    control: Control | None = None,
+    tell: Callable[[Progress], None] = lambda _: None,
+) -> Optimum:
+    """The optimum for parts that scatter, from that for parts as drawn on.
+
+    Args:
+        robustly: see `robust_search`.
+        before: what was found as drawn; its evaluations and its end count, too.
+        budget: the most evaluations of both searches; the second has one at least.
+        control: as of `optimise`, as are `tell` and what it raises.
+        tell: told of the second search alone.
+    """
+    after = optimise(robustly, [before.x], max(1, budget - before.evaluations), control, tell)
+    was_cut_short = before.reason in (CANCELLED, OUT_OF_BUDGET)
+    return replace(
+        after,
+        reason=before.reason if after.converged and was_cut_short else after.reason,
+        evaluations=before.evaluations + after.evaluations,
+        descents=(*before.descents, *after.descents),
+    )
 
 
 def percentile_weights(n_samples: int, percent: float) -> Floats:

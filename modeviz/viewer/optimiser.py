@@ -14,7 +14,7 @@ from modeviz.errors import ModevizError
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.optimise import Optimum, Progress, optimise, start_points
 from modeviz.tuning.parts import Tolerance
-from modeviz.tuning.robust import robust_search
+from modeviz.tuning.robust import optimise_robustly, robust_search
 from modeviz.tuning.search import Search, prepare_search
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
@@ -134,7 +134,7 @@ class Pursuit:
         if robustly is None or control.is_cancelled:
             return optimum
         self._begin(robustly, is_robust=True, progress=None, falls=())
-        return optimise(robustly, [optimum.x], control=control, tell=self._note)
+        return optimise_robustly(robustly, optimum, control=control, tell=self._note)
 
     def _begin(self, search: Search, **news) -> None:
         """Says what its goal is with the rates compared with; raises CancelledError if it is over."""

@@ -37,7 +37,8 @@ def where(look: Look) -> str:
         return heading(_word(look), begun if look.is_running else "nothing found yet")
     n = f"{progress.evaluations:,}".replace(",", "\N{THIN SPACE}")
     which = PERCENTILE if look.is_robust else f"start {progress.start} of {progress.n_starts}"
-    return heading(_word(look), f"{which}, {n} evaluations")
+    noun = "evaluation" if progress.evaluations == 1 else "evaluations"
+    return heading(_word(look), f"{which}, {n} {noun}")
 
 
 def figures(look: Look) -> str:
