@@ -149,8 +149,6 @@ class _Walk:
             weights: (2,), of the goals.
         """
         for start in self._starts(weights):
-            if self.reason == CONVERGED and self.evaluations >= self._budget:
-                self.reason = OUT_OF_BUDGET
             if self.reason == CONVERGED:
                 self._keep(descend(search, start, self._budget - self.evaluations, self._control))
         self._n_done += 1
