@@ -173,7 +173,7 @@ def _is_same(value: object, shown: object) -> bool:
     if isinstance(value, tuple):  # the first of its boxes has the widget's name
         value = value[0]
     if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return bool(shown) and abs(float(str(shown)) - value) <= 1e-6 * max(1.0, abs(value))
+        return shown != "" and abs(float(str(shown)) - value) <= 1e-6 * max(1.0, abs(value))
     return value == shown
 
 
