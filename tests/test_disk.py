@@ -63,3 +63,9 @@ def test_a_device_is_not_replaced_by_a_file():
     with pytest.raises(VehicleError, match="found a folder or device"):
         write_bytes(Path(os.devnull), b"new")
     assert not Path(os.devnull).is_file()
+
+
+def test_a_refusal_names_no_scratch_folder():
+    with pytest.raises(VehicleError) as caught:
+        check_writable(Path("/proc/rates.json"))
+    assert str(caught.value) == "/proc/rates.json: cannot be written (No such file or directory)"

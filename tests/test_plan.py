@@ -163,7 +163,7 @@ def test_what_cannot_be_is_refused(vehicle):
         planned(vehicle, replace(plan, low_hz=9.0, high_hz=4.0))
     with pytest.raises(VehicleError, match="group 'A': bounds: lateral: found 10 to 5 N/mm"):
         planned(vehicle, plan.with_group(stiffest=replace(STIFF, lateral=5e3)))
-    with pytest.raises(VehicleError, match=r"ratio_limits: found 0\.9 to 0\.3"):
+    with pytest.raises(VehicleError, match=r"ratio limits: found 0\.9 to 0\.3"):
         planned(vehicle, plan.with_group(ratios="limited", ratio_limits=(0.9, 0.3)))
     with pytest.raises(VehicleError, match="found 'x', expected numbers and ranges in Hz"):
         planned(vehicle, plan.with_load(frequencies="x"))

@@ -31,15 +31,15 @@ def refused(value, **changes) -> str:
         ({"directions": ("lateral", "lateral")}, "found ['lateral', 'lateral'], expected some of"),
         (
             {"directions": ("vertical", "lateral"), "fixed_ratios": True},
-            "directions: found vertical, lateral with fixed_ratios",
+            "directions: found vertical, lateral with fixed ratios",
         ),
         ({"bounds": (STIFF, SOFT)}, "bounds: vertical: found 10000 to 10 N/mm, expected the"),
-        ({"ratio_limits": (0.8, 0.25)}, "ratio_limits: found 0.8 to 0.25, expected finite numbers"),
-        ({"ratio_limits": (-0.1, 0.8)}, "ratio_limits: found -0.1 to 0.8"),
-        ({"ratio_limits": (0.0, 0.0)}, "ratio_limits: found 0 to 0"),
-        ({"ratio_limits": (NAN, 0.8)}, "ratio_limits: found nan to 0.8"),
-        ({"ratio_limits": (0.25, NAN)}, "ratio_limits: found 0.25 to nan"),
-        ({"ratio_limits": (0.25, INF)}, "ratio_limits: found 0.25 to inf"),
+        ({"ratio_limits": (0.8, 0.25)}, "ratio limits: found 0.8 to 0.25, expected finite numbers"),
+        ({"ratio_limits": (-0.1, 0.8)}, "ratio limits: found -0.1 to 0.8"),
+        ({"ratio_limits": (0.0, 0.0)}, "ratio limits: found 0 to 0"),
+        ({"ratio_limits": (NAN, 0.8)}, "ratio limits: found nan to 0.8"),
+        ({"ratio_limits": (0.25, NAN)}, "ratio limits: found 0.25 to nan"),
+        ({"ratio_limits": (0.25, INF)}, "ratio limits: found 0.25 to inf"),
     ],
 )
 def test_a_design_group_that_cannot_be_is_refused(changes, words):
@@ -55,10 +55,13 @@ def test_a_ratio_may_be_held_by_equal_limits():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"frequency_hz": []}, "frequency_hz: found none, expected rising values above zero"),
-        ({"frequency_hz": [8.0, 6.0]}, "frequency_hz: found 8, 6, expected rising"),
-        ({"frequency_hz": [6.0, 6.0]}, "frequency_hz: found 6, 6, expected rising"),
-        ({"frequency_hz": [0.0, 6.0]}, "frequency_hz: found 0, 6, expected rising"),
+        (
+            {"frequency_hz": []},
+            "frequencies (frequency_hz): found none, expected rising values above zero",
+        ),
+        ({"frequency_hz": [8.0, 6.0]}, "frequencies (frequency_hz): found 8, 6, expected rising"),
+        ({"frequency_hz": [6.0, 6.0]}, "frequencies (frequency_hz): found 6, 6, expected rising"),
+        ({"frequency_hz": [0.0, 6.0]}, "frequencies (frequency_hz): found 0, 6, expected rising"),
         ({"frequency_hz": [1.0, NAN]}, "frequency_hz: found 1 values that are not finite"),
         ({"frequency_hz": 6.0}, "frequency_hz: found shape (), expected any"),
         ({"roads": ()}, "found neither roads nor wheel_loads, expected one or more"),

@@ -120,7 +120,7 @@ EDITS = {
     "limits the wrong way round": (
         "[0.25, 0.8]",
         "[0.8, 0.25]",
-        "problem[0].group[0]: design group 'A': ratio_limits: found 0.8 to 0.25",
+        "problem[0].group[0]: design group 'A': ratio limits: found 0.8 to 0.25",
     ),
     "three limits": (
         "[0.25, 0.8]",
@@ -130,7 +130,7 @@ EDITS = {
     "fixed and free": (
         "ratio_limits = [0.25, 0.8]",
         "fixed_ratios = true",
-        "problem[0].group[0]: design group 'A': directions: found lateral, fore-aft with fixed_ratios",
+        "problem[0].group[0]: design group 'A': directions: found lateral, fore-aft with fixed ratios",
     ),
     "unknown direction": ('"fore-aft"]', '"fore aft"]', "unknown direction 'fore aft': did you mean"),
     "unknown goal": (
@@ -156,7 +156,7 @@ EDITS = {
     "no frequencies": (
         "[11.0, 13.25, 15.666666666666666]",
         "[]",
-        "problem[0].performance[1]: performance: frequency_hz: found none, expected rising values",
+        "performance: frequencies (frequency_hz): found none, expected rising values above zero",
     ),
     "text for frequencies": (
         "[11.0, 13.25, 15.666666666666666]",

@@ -45,7 +45,7 @@ class DesignGroup:
         check_directions(where, self.directions)
         if self.fixed_ratios and len(self.directions) < len(DIRECTIONS):
             raise VehicleError(
-                f"{where}: directions: found {', '.join(self.directions)} with fixed_ratios, which "
+                f"{where}: directions: found {', '.join(self.directions)} with fixed ratios, which "
                 "change all rates together; expected all directions or no fixed ratios"
             )
         if self.bounds is not None:
@@ -53,7 +53,7 @@ class DesignGroup:
         low, high = self.ratio_limits or UNLIMITED
         if (low, high) != UNLIMITED and not (0 <= low <= high < np.inf and high > 0):
             raise VehicleError(
-                f"{where}: ratio_limits: found {low:g} to {high:g}, expected finite numbers from zero, "
+                f"{where}: ratio limits: found {low:g} to {high:g}, expected finite numbers from zero, "
                 "the lower one first"
             )
 
@@ -86,7 +86,8 @@ class Performance:
         if not len(f) or f[0] <= 0 or (np.diff(f) <= 0).any():
             found = ", ".join(f"{value:g}" for value in f[:9]) or "none"
             raise VehicleError(
-                f"performance: frequency_hz: found {found}, expected rising values above zero"
+                f"performance: frequencies (frequency_hz): found {found}, expected rising values "
+                "above zero"
             )
         if not self.roads and not self.wheel_loads:
             raise VehicleError("performance: found neither roads nor wheel_loads, expected one or more")

@@ -62,7 +62,7 @@ def _check_finite(data: Any, where: str) -> None:
         for index, value in enumerate(data):
             _check_finite(value, joined(where, index))
     elif isinstance(data, int | float) and not abs(data) < LARGEST:
-        raise VehicleError(f"{where}: found {brief(data)}, expected a finite number")
+        raise VehicleError(f"{where}: found {brief(data)}, expected a finite number below {LARGEST:g}")
 
 
 def _explain(message: str, data: Any, kind: Any, steps: list[str], where: str) -> str:

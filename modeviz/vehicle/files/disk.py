@@ -70,7 +70,7 @@ def _scratch_for(path: Path) -> Iterator[Path]:
         with TemporaryDirectory(prefix=".modeviz-", dir=folder) as scratch:
             yield Path(scratch)
     except OSError as error:
-        raise VehicleError(f"{path}: cannot be written ({error})") from None
+        raise VehicleError(f"{path}: cannot be written ({error.strerror or error})") from None
 
 
 def inside(folder: Path, name: str) -> Path:
