@@ -169,20 +169,69 @@ def test_cancel_answers_at_once_and_keeps_the_best(session, optimiser, gate):
     assert session.state.rates == look.optimum.rates
 
 
-def test_it_says_when_the_full_model_is_solved(optimiser, monkeypatch):
-    is_solved = threading.Event()
+@pytest.fixture
+def full_model(monkeypatch):
+    """Holds every exact check until it is set."""
+    may_solve = threading.Event()
 
     def held(*arguments):
-        is_solved.wait(SOON)
+        may_solve.wait(SOON)
         return verify(*arguments)
 
     monkeypatch.setattr("modeviz.tuning.optimise.verify", held)
+    monkeypatch.setattr(module, "TELL_EVERY", np.inf)  # the session follows no better design before
+    yield may_solve
+    may_solve.set()
+
+
+def test_it_says_when_the_full_model_is_solved_with_the_session_at_the_best(
+    session, optimiser, full_model
+):
     optimiser.start()
     optimiser.wait(lambda: optimiser.look.phase == "checking")
     assert optimiser.look.is_running
     assert optimiser.look.falls[-1][1] == optimiser.look.progress.value
-    is_solved.set()
+    best = optimiser.look.progress.rates
+    assert session.state.rates == best
+    full_model.set()
     optimiser.wait(lambda: optimiser.look.phase == "ended")
+    assert session.state.rates == best
+
+
+def test_cancel_brings_the_session_to_the_best_before_the_full_model_is_solved(
+    session, optimiser, full_model
+):
+    plan(session, n_starts=50)
+    optimiser.start()
+    deadline = time.monotonic() + SOON
+    while len(optimiser.look.falls) < 3 and time.monotonic() < deadline:
+        time.sleep(0.01)  # nothing is told
+    assert session.state.rates == optimiser.look.before
+    optimiser.cancel()
+    assert optimiser.look.phase == "checking"
+    assert session.state.rates != optimiser.look.before
+
+
+def test_cancel_between_a_search_and_its_robust_one_keeps_the_best(session, optimiser, monkeypatch):
+    robustly = module.robust_search
+
+    def cancelled(*arguments):
+        search = robustly(*arguments)
+        value = search.goal.value
+
+        def ended(rates):
+            optimiser.cancel()
+            return value(rates)
+
+        object.__setattr__(search.goal, "value", ended)
+        return search
+
+    monkeypatch.setattr(module, "robust_search", cancelled)
+    plan(session, n_starts=2, is_robust=True)
+    look = run(optimiser)
+    assert look.phase == "ended"
+    assert not look.is_robust
+    assert session.state.rates == look.optimum.rates
 
 
 def test_cancel_while_it_prepares_is_over_at_once_and_changes_nothing(session, optimiser, monkeypatch):

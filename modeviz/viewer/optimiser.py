@@ -96,10 +96,11 @@ class Pursuit:
             self._control.resume()
 
     def cancel(self) -> None:
-        """Ends it; the best design so far is kept. While it prepares it is over at once."""
+        """Ends it with the session at the best design so far; while it prepares it is over at once."""
         self._control.cancel()
         self._turn("ended", "preparing")
-        self._turn("checking", "searching", "paused")
+        if self._turn("checking", "searching", "paused"):
+            self._follow()
 
     def join(self) -> None:
         """Waits for the end of the thread, but not longer than anybody would."""
@@ -133,7 +134,10 @@ class Pursuit:
         optimum = optimise(search, starts, control=control, tell=self._note)
         if robustly is None or control.is_cancelled:
             return optimum
-        self._begin(robustly, is_robust=True, progress=None, falls=())
+        try:
+            self._begin(robustly, is_robust=True, progress=None, falls=())
+        except CancelledError:
+            return optimum
         return optimise_robustly(robustly, optimum, control=control, tell=self._note)
 
     def _begin(self, search: Search, **news) -> None:
@@ -153,6 +157,7 @@ class Pursuit:
         with self._lock:
             self.look = replace(self.look, progress=progress, falls=falls)
         if progress.is_checking:
+            self._follow()
             self._turn("checking", "searching", "paused")
         elif time.monotonic() - self._told > TELL_EVERY:
             self._follow()
