@@ -18,7 +18,7 @@ def wait_for(page: Page, expression: str, **arguments: Any) -> Any:
     return handle.json_value()
 
 
-def wait_until(page: Page, reached: Callable[[], Any], seconds: float = 30.0) -> None:
+def wait_until(page: Page, reached: Callable[[], Any], seconds: float = 90.0) -> None:
     """Waits until something is true here, while the page goes on."""
     deadline = time.monotonic() + seconds
     while not reached():
