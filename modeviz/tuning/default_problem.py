@@ -25,6 +25,11 @@ def problems(vehicle: Vehicle) -> tuple[Problem, ...]:
     return vehicle.problems or (default_problem(vehicle),)
 
 
+def problem_called(vehicle: Vehicle, name: str) -> Problem:
+    """The one of `problems` that has a name, which one of them has."""
+    return next(problem for problem in problems(vehicle) if problem.name == name)
+
+
 def default_problem(vehicle: Vehicle) -> Problem:
     """Every rate that can change, for the first road and all wheel loads at every response point.
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import VehicleError
-from modeviz.tuning.default_problem import problems
+from modeviz.tuning.default_problem import problem_called, problems
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Goal, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.planning.group_plan import GroupPlan, group_plan
@@ -115,7 +115,7 @@ def planned(vehicle: Vehicle, plan: Plan) -> Problem:
     Raises:
         VehicleError: nothing may change, or what that is, accelerations or a window cannot be.
     """
-    problem = next(p for p in problems(vehicle) if p.name == plan.problem)
+    problem = problem_called(vehicle, plan.problem)
     if not plan.free:
         raise VehicleError("no group of mounts may change: choose one or more")
     return replace(

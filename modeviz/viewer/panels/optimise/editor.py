@@ -9,7 +9,7 @@ import viser
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import ModevizError
 from modeviz.export.wording import file_name, sentence_case
-from modeviz.tuning.default_problem import problems
+from modeviz.tuning.default_problem import problem_called, problems
 from modeviz.tuning.design import design_space
 from modeviz.tuning.optimise import MOST_STARTS
 from modeviz.tuning.results import Results
@@ -194,5 +194,5 @@ class ProblemEditor:
 
     def _take_problem(self, name: str) -> None:
         vehicle = self._session.vehicle
-        found = next(p for p in problems(vehicle) if p.name == name)
+        found = problem_called(vehicle, name)
         self._controls.change(lambda _, plan: replace(plan_of(vehicle, found), n_starts=plan.n_starts))
