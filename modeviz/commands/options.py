@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from modeviz.commands.terminal import progress
+from modeviz.commands.terminal import progress, remark
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record
 from modeviz.ride.roads import road_spectrum
@@ -30,8 +30,10 @@ EVEN_HZ = np.array([1e-3, 1e3])
 
 
 def vehicle_and_rates(options: Namespace) -> tuple[Vehicle, Rates]:
-    """The vehicle with its own rates, and the rates chosen."""
+    """The vehicle with its own rates, and the rates chosen; says the notes on the vehicle."""
     vehicle = read_vehicle(options.vehicle or builtin_vehicle())
+    for note in vehicle.notes:
+        remark(note)
     return vehicle, resolve_rates(vehicle, options.rates, options.settings)
 
 

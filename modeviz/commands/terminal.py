@@ -24,6 +24,11 @@ def announce(text: str) -> None:
         print(f"modeviz: {text}", file=sys.stderr)
 
 
+def remark(text: str) -> None:
+    """Says in a line of its own what is to be known of the input, and that it is no error."""
+    print(f"modeviz: note: {text}", file=sys.stderr)
+
+
 def say(text: str) -> None:
     """Puts a text in the place of the line before on a terminal; nothing where errors go to a file."""
     if sys.stderr.isatty():

@@ -48,6 +48,10 @@ class Vehicle:
     """m/s."""
     problems: tuple[Problem, ...] = ()
     """What the mounts are to be optimised for; the first is the usual one."""
+    notes: tuple[str, ...] = ()
+    """What reading it had to say: what was taken otherwise than it stands, or is likely wrong.
+
+    A sentence each, which names what it is about."""
 
     def __post_init__(self) -> None:
         if not self.bodies:

@@ -203,7 +203,7 @@ class App:
             self._pictures = PicturePanel(
                 gui, self.server, theme, self._subject, self.offline, self._illustrated_report
             )
-        self._status = StatusPanel(gui)
+        self._status = StatusPanel(gui, session.vehicle.notes)
         self.guide = Guide(self.server, self._hotkeys)
 
         right = gui.add_panel()

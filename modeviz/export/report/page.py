@@ -18,6 +18,7 @@ from modeviz.tuning.check import Check
 from modeviz.tuning.comparison import Comparison
 from modeviz.tuning.results import AXIS
 from modeviz.units import factor
+from modeviz.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,7 @@ def report(
             participation(comparison),
             wheels(comparison),
             exactness(comparison, check),
+            _notes(comparison.vehicle),
         ]
     )
     style = files("modeviz.export.report").joinpath("style.css").read_text("utf-8")
@@ -103,6 +105,14 @@ def _counting(comparison: Comparison) -> Iterator[tuple[str, str, str, str]]:
 
 def _figure(what: str, now: str, base: str, difference: str) -> str:
     return f"<div><span>{what}</span><b>{now}</b><small>from {base} {difference}</small></div>"
+
+
+def _notes(vehicle: Vehicle) -> str:
+    """What reading the vehicle had to say."""
+    if not vehicle.notes:
+        return ""
+    items = "".join(f"<li>{escape(note)}</li>" for note in vehicle.notes)
+    return section("Notes on the vehicle", f"<ul>{items}</ul>")
 
 
 def _pictures(pictures: Sequence[Picture]) -> str:

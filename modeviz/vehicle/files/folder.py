@@ -5,6 +5,7 @@ are the fields of the records in `records`. FOLDER/bodies/NAME.npz has the modes
 flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a road's spectra; all in SI.
 """
 
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
@@ -33,6 +34,7 @@ from modeviz.vehicle.files.records import (
 )
 from modeviz.vehicle.files.roads import write_road
 from modeviz.vehicle.files.scaling import WRITTEN_UNITS, from_si
+from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.files.toml import to_toml
 from modeviz.vehicle.files.toml_file import read_toml
 from modeviz.vehicle.loads import Road
@@ -82,7 +84,7 @@ def read_vehicle(folder: Path) -> Vehicle:
         )
     record = read_toml(path, VehicleRecord)
     with located(path):
-        return _build(record, folder)
+        return _build(record, Source(folder))
 
 
 def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
@@ -106,21 +108,21 @@ def _replaceable(folder: Path) -> bool:
     return not names or ((folder / VEHICLE_FILE).is_file() and names <= CONTENT)
 
 
-def _build(record: VehicleRecord, folder: Path) -> Vehicle:
-    flexible = built(record.flexible_body, "flexible_body", lambda r: r.build(folder))
-    rigid = built(record.rigid_body, "rigid_body", lambda r: r.build(folder))
+def _build(record: VehicleRecord, source: Source) -> Vehicle:
+    flexible = built(record.flexible_body, "flexible_body", lambda r: r.build(source))
+    rigid = built(record.rigid_body, "rigid_body", lambda r: r.build(source))
     connections = [
         built(getattr(record, key), key, lambda r, kind=kind: kind(**r.arguments()))
         for key, kind in CONNECTION_KINDS.items()
     ]
-    return Vehicle(
+    vehicle = Vehicle(
         name=record.name,
         bodies=(*flexible, *rigid),
         connections=tuple(chain(*connections)),
         mount_groups=built(record.mount_group, "mount_group", MountGroupRecord.build),
         added_masses=built(record.added_mass, "added_mass", AddedMassRecord.build),
         response_points=built(record.response_point, "response_point", ResponsePointRecord.build),
-        roads=built(record.road, "road", lambda r: r.build(folder)),
+        roads=built(record.road, "road", lambda r: r.build(source)),
         wheel_loads=built(record.wheel_load, "wheel_load", WheelLoadRecord.build),
         rate_sets={
             name: {group: rates.build() for group, rates in groups.items()}
@@ -129,6 +131,7 @@ def _build(record: VehicleRecord, folder: Path) -> Vehicle:
         problems=built(record.problem, "problem", ProblemRecord.build),
         speed=record.speed,
     )
+    return replace(vehicle, notes=source.notes)
 
 
 def _write_content(vehicle: Vehicle, folder: Path) -> None:

@@ -1,12 +1,14 @@
 """The arrays of a flexible body as a file: what NumPy calls .npz, the same bytes every time."""
 
 import zipfile
+from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Mesh, Role
 from modeviz.vehicle.files.disk import read_bytes
 
@@ -21,13 +23,31 @@ KINDS = {
 }
 """The arrays of a body: what is in each, as `dtype.kind` has it, and how many dimensions it has."""
 
+NEAR_ZERO_HZ, NEAR_ZERO = 0.05, 0.01
+"""Of a free body's first modes, what is below this, or this part of the first elastic one, is rigid."""
+
 KIND_NAMES = {"f": "real numbers", "i": "whole numbers", "U": "text"}
 
 
 def read_flexible_body(
-    path: Path, name: str, role: Role, label: str, damping_ratio: float, mesh: Mesh
+    path: Path,
+    name: str,
+    role: Role,
+    label: str,
+    damping_ratio: float,
+    mesh: Mesh,
+    note: Callable[[str], None],
 ) -> FlexibleBody:
-    """The body whose arrays are in the file.
+    """The body whose arrays are in the file; frequencies near zero, as solvers give them, are zero.
+
+    Args:
+        path: of the file.
+        name: of the body, like what follows.
+        role: see `FlexibleBody`.
+        label: see `FlexibleBody`.
+        damping_ratio: see `FlexibleBody`.
+        mesh: see `FlexibleBody`.
+        note: told what was taken otherwise than it stands.
 
     Raises:
         VehicleError: no such file, a damaged one, or arrays that are missing, pickled or not a body's.
@@ -46,7 +66,7 @@ def read_flexible_body(
             name,
             role,
             label,
-            arrays["omega_n_squared"],
+            _with_zeros(arrays["omega_n_squared"], f"body {name!r}", note),
             int(arrays["n_residuals"]),
             damping_ratio,
             tuple(map(Attachment, names.tolist(), positions, shapes)),
@@ -71,6 +91,24 @@ def write_flexible_body(path: Path, body: FlexibleBody) -> None:
             "shapes": body.shapes,
         },
     )
+
+
+def _with_zeros(omega_n_squared: Floats, where: str, note: Callable[[str], None]) -> Floats:
+    """ω² with zeros for the rigid modes, to which solvers give 1e-4 Hz, or ω² a little below zero."""
+    frequency_hz = np.sqrt(np.abs(omega_n_squared)) / (2 * np.pi)
+    lowest_elastic = frequency_hz[FlexibleBody.N_RIGID : FlexibleBody.N_RIGID + 1]
+    limit = max(NEAR_ZERO_HZ, *(NEAR_ZERO * lowest_elastic))
+    rigid = frequency_hz[: FlexibleBody.N_RIGID]
+    near = np.flatnonzero((rigid > 0) & (rigid < limit))
+    if not near.size:
+        return omega_n_squared
+    note(
+        f"{where}: omega_n_squared: {len(near)} of the first {len(rigid)} modes are near zero, up to "
+        f"{rigid[near].max():.1g} Hz; taken for zero, as rigid modes"
+    )
+    result = omega_n_squared.copy()
+    result[near] = 0
+    return result
 
 
 def _read_arrays(path: Path) -> dict[str, np.ndarray]:

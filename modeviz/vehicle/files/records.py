@@ -5,7 +5,6 @@ part from it, `of` the record from the part.
 """
 
 from dataclasses import asdict, replace
-from pathlib import Path
 from typing import Annotated, Any, Self
 
 import msgspec
@@ -16,12 +15,12 @@ from modeviz.errors import VehicleError, located
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role
 from modeviz.vehicle.connections import Connection, Mount, MountGroup, MountRates
-from modeviz.vehicle.files.disk import inside
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.files.modal import read_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
 from modeviz.vehicle.files.record import Name, NonNegative, Positive, RatesRecord, Record
 from modeviz.vehicle.files.roads import read_road
+from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad, WheelLoadKind
 
 Vector = tuple[float, float, float]
@@ -44,11 +43,11 @@ class BodyRecord(Record, kw_only=True):
     color: tuple[int, int, int] = DEFAULT_COLOR
     """sRGB, of the mesh parts that have no material."""
 
-    def read_mesh(self, folder: Path) -> Mesh:
+    def read_mesh(self, source: Source) -> Mesh:
         if self.mesh is None:
             return ()
         with located("mesh"):
-            path = inside(folder, self.mesh)
+            path = source.path(self.mesh)
         return read_mesh(path, self.color)
 
 
@@ -74,11 +73,13 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
             damping_ratio=body.damping_ratio,
         )
 
-    def build(self, folder: Path) -> FlexibleBody:
+    def build(self, source: Source) -> FlexibleBody:
         with located("modes"):
-            path = inside(folder, self.modes)
-        mesh = self.read_mesh(folder)
-        body = read_flexible_body(path, self.name, self.role, self.label, self.damping_ratio, mesh)
+            path = source.path(self.modes)
+        mesh = self.read_mesh(source)
+        body = read_flexible_body(
+            path, self.name, self.role, self.label, self.damping_ratio, mesh, source.note
+        )
         n_normal = body.n_modes - body.n_residuals
         return body.truncated(self.keep_modes or n_normal, self.residual_vectors)
 
@@ -108,13 +109,13 @@ class RigidBodyRecord(BodyRecord, kw_only=True):
             inertia=(*moments, *products) if any(products) else tuple(moments),
         )
 
-    def build(self, folder: Path) -> RigidBody:
+    def build(self, source: Source) -> RigidBody:
         if len(self.inertia) not in (3, 6):
             raise VehicleError(f"inertia: found {len(self.inertia)} numbers, expected 3 or 6")
         inertia = np.diag(self.inertia[:3])
         for (row, column), product in zip(((0, 1), (0, 2), (1, 2)), self.inertia[3:], strict=False):
             inertia[row, column] = inertia[column, row] = 0.0 - product
-        mesh = self.read_mesh(folder)
+        mesh = self.read_mesh(source)
         return RigidBody(
             self.name, self.role, self.label, self.mass, np.array(self.center_of_gravity), inertia, mesh
         )
@@ -263,9 +264,9 @@ class RoadRecord(Record, kw_only=True):
     def of(cls, road: Road, file: str) -> Self:
         return cls(name=road.name, label=road.label, file=file, speed=road.speed)
 
-    def build(self, folder: Path) -> Road:
+    def build(self, source: Source) -> Road:
         with located("file"):
-            path = inside(folder, self.file)
+            path = source.path(self.file)
         return read_road(path, self.name, self.label, self.speed)
 
 

@@ -1,5 +1,6 @@
 """Left column, foot: how long an answer took, and how far it can be trusted."""
 
+from collections.abc import Sequence
 from html import escape
 
 import viser
@@ -20,14 +21,15 @@ ALARMING = 1e-3
 class StatusPanel:
     """Progress while the vehicle is prepared, then time, health and check of every answer."""
 
-    def __init__(self, gui: viser.GuiApi) -> None:
-        """Makes room."""
+    def __init__(self, gui: viser.GuiApi, notes: Sequence[str] = ()) -> None:
+        """Makes room; `notes` of the vehicle stand below everything else, always."""
+        self._notes = "".join(f'<div class="note">{escape(note)}</div>' for note in notes)
         self._content = gui.add_html("")
 
     def show_progress(self, fraction: float) -> None:
         """Says how far the preparation is."""
         bar = f'<div class="bar"><i style="width:{fraction:.0%};background:var(--mv-now)"></i></div>'
-        assign(self._content, content=block(heading("Preparing", f"{100 * fraction:.0f} %"), bar))
+        self._draw(heading("Preparing", f"{100 * fraction:.0f} %"), bar)
 
     def show(self, solved: Solved) -> None:
         """Says how an answer came about and how good it is."""
@@ -37,7 +39,10 @@ class StatusPanel:
         if solved.state.classic:
             lines.append(_classic(solved))
         text = "<br>".join(lines)
-        assign(self._content, content=block(_solved(solved), f'<div class="dim">{text}</div>'))
+        self._draw(_solved(solved), f'<div class="dim">{text}</div>')
+
+    def _draw(self, *content: str) -> None:
+        assign(self._content, content=block(*content, self._notes))
 
 
 def _solved(solved: Solved) -> str:

@@ -1,0 +1,37 @@
+"""The folder that a vehicle is read from, and what there is to say about it."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from modeviz.vehicle.files.disk import inside
+
+MOST_NOTES = 20
+"""Nobody reads more."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A vehicle folder that is being read."""
+
+    folder: Path
+    _notes: list[str] = field(default_factory=list)
+    """Grows while the folder is read."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What there is to say, see `Vehicle.notes`; of very much the first `MOST_NOTES`."""
+        more = len(self._notes) - MOST_NOTES
+        rest = (f"{more} more notes of this kind",) if more > 0 else ()
+        return (*self._notes[:MOST_NOTES], *rest)
+
+    def path(self, name: str) -> Path:
+        """The path of a file of the folder.
+
+        Raises:
+            VehicleError: the name leads out of the folder.
+        """
+        return inside(self.folder, name)
+
+    def note(self, sentence: str) -> None:
+        """Notes what was taken otherwise than it stands, or is likely wrong, with what it is about."""
+        self._notes.append(sentence)
