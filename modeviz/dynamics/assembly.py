@@ -13,13 +13,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.rigid_joints import RigidJoints, rigid_joints
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
-from modeviz.vehicle.connections import GROUND, Connection, Rates
+from modeviz.vehicle.connections import GROUND, MOTIONS, Connection, Rates
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
-
-RIGID_DOFS = ("x", "y", "z", "rx", "ry", "rz")
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +37,8 @@ class System:
     connection_motions: Floats
     """Rows (6 n_connections, n_dofs): how each of `vehicle.all_connections` is stretched and turned
     along its local axes, see `relative_motion`."""
+    rigid_joints: RigidJoints | None = None
+    """What is held without a spring; None without a rigid joint."""
 
     @property
     def n_dofs(self) -> int:
@@ -89,6 +90,28 @@ class System:
         by_mount = self.connection_motions.reshape(-1, 6, self.n_dofs)[: len(turns)]
         return np.vstack([by_mount[:, :3].reshape(-1, self.n_dofs), by_mount[:, 3:][turns]])
 
+    def condensed(self, matrix: NDArray) -> NDArray:
+        """TᵀAT, (n_free, n_free): a matrix for the motions that rigid joints leave."""
+        T = self._freedom
+        return matrix if T is None else T.T @ matrix @ T
+
+    def condensed_rows(self, rows: NDArray) -> NDArray:
+        """R T, (n_rows, n_free): rows that read the motions that rigid joints leave."""
+        return rows if self._freedom is None else rows @ self._freedom
+
+    def condensed_shapes(self, shapes: NDArray) -> NDArray:
+        """Shapes that keep the rigid joints, by the motions these leave: y, (n_free, n_shapes)."""
+        T = self._freedom
+        return shapes if T is None else T.T @ self.mass @ shapes
+
+    def expanded(self, shapes: NDArray) -> NDArray:
+        """T y, (n_dofs, n_shapes): what motions that rigid joints leave are in all coordinates."""
+        return shapes if self._freedom is None else self._freedom @ shapes
+
+    @property
+    def _freedom(self) -> Floats | None:
+        return self.rigid_joints and self.rigid_joints.freedom
+
     def with_rates(self, rates: Rates) -> "System":
         """The system of the same vehicle with other mount rates, K + RᵀΔkR.
 
@@ -132,6 +155,7 @@ def assemble(vehicle: Vehicle) -> System:
         np.concatenate(v)
         for v in zip(*map(connection_coefficients, vehicle.all_connections), strict=True)
     )
+    held = np.array([m in c.rigid for c in vehicle.all_connections for m in MOTIONS])
     return System(
         vehicle,
         dofs,
@@ -140,6 +164,7 @@ def assemble(vehicle: Vehicle) -> System:
         stiffness=K + (R.T * k) @ R,
         structural_damping=(R.T * (g * k)) @ R,
         connection_motions=R,
+        rigid_joints=rigid_joints(M, R[held]) if held.any() else None,
     )
 
 
@@ -177,7 +202,7 @@ def _n_coordinates(body: Body) -> int:
 
 def _coordinate_names(body: Body) -> list[str]:
     if not isinstance(body, FlexibleBody):
-        return list(RIGID_DOFS)
+        return list(MOTIONS)
     n_normal = body.n_modes - body.n_residuals
     return [f"mode {i + 1}" for i in range(n_normal)] + [
         f"residual {i + 1}" for i in range(body.n_residuals)

@@ -148,13 +148,14 @@ def _compliance_of(A: Floats, forces: Floats) -> Floats:
 def _exact(basis: EnrichedBasis, change: Floats) -> _Solution:
     """The modes of the full matrices."""
     system = basis.system
-    R, M = system.mount_motions, system.mass
-    K = system.stiffness + (R.T * change) @ R
-    _, phi = scipy.linalg.eigh(K, M, subset_by_value=(-np.inf, (1 + EDGE) * basis.top))
-    omega_squared, phi = _lowest(basis, system.stiffness, R, change, phi)
+    R, M = system.mount_motions, system.condensed(system.mass)
+    K = system.condensed(system.stiffness + (R.T * change) @ R)
+    _, y = scipy.linalg.eigh(K, M, subset_by_value=(-np.inf, (1 + EDGE) * basis.top))
+    omega_squared, phi = _lowest(basis, system.stiffness, R, change, system.expanded(y))
+    y = system.condensed_shapes(phi)
     residual = np.linalg.norm(
         scipy.linalg.solve_triangular(
-            scipy.linalg.cholesky(M, lower=True), K @ phi - omega_squared * (M @ phi), lower=True
+            scipy.linalg.cholesky(M, lower=True), K @ y - omega_squared * (M @ y), lower=True
         ),
         axis=0,
     )

@@ -100,16 +100,14 @@ def prepare_basis(system: System, top_hz: float = TOP_HZ) -> EnrichedBasis:
     """
     base = solve_modes(system, below_hz=REACH * top_hz)
     top = _clear_of(base.omega_n_squared, (2 * np.pi * top_hz) ** 2)
-    R = system.mount_motions
+    K, M = system.condensed(system.stiffness), system.condensed(system.mass)
+    R = system.condensed_rows(system.mount_motions)
     shift = (2 * np.pi * ZERO_HZ) ** 2
-    static, at_top = (
-        scipy.linalg.solve(system.stiffness + s * system.mass, R.T, assume_a="sym")
-        for s in (shift, -top)
-    )
-    L = scipy.linalg.cholesky(system.mass, lower=True)
-    V_L = _orthonormal(L.T @ base.shapes, L.T @ np.hstack([static, at_top]))
-    V = scipy.linalg.solve_triangular(L.T, V_L)
-    K_L = _whitened(system.stiffness, L)
+    static, at_top = (scipy.linalg.solve(K + s * M, R.T, assume_a="sym") for s in (shift, -top))
+    L = scipy.linalg.cholesky(M, lower=True)
+    V_L = _orthonormal(L.T @ system.condensed_shapes(base.shapes), L.T @ np.hstack([static, at_top]))
+    V = system.expanded(scipy.linalg.solve_triangular(L.T, V_L))
+    K_L = _whitened(K, L)
     R_L = scipy.linalg.solve_triangular(L, R.T, lower=True)
     left_out = R_L - V_L @ (V_L.T @ R_L)
     Q = _directions(left_out, DEPENDENT * float(np.linalg.norm(R_L)))
@@ -121,13 +119,13 @@ def prepare_basis(system: System, top_hz: float = TOP_HZ) -> EnrichedBasis:
         stiffness=V.T @ system.stiffness @ V,
         damping=V.T @ system.damping @ V,
         structural_damping=V.T @ system.structural_damping @ V,
-        spring_motions=R @ V,
+        spring_motions=system.mount_motions @ V,
         remainder=Q.T @ K_L @ V_L,
         spring_remainder=Q.T @ left_out,
         remainder_compliance=Q.T
         @ scipy.linalg.solve(K_L + shift * np.eye(len(K_L)), Q, assume_a="pos"),
         top_receptance=R @ at_top,
-        n_below=_n_negative(system.stiffness - top * system.mass),
+        n_below=_n_negative(K - top * M),
     )
 
 

@@ -62,15 +62,15 @@ def solve_modes(system: System, n_modes: int | None = None, below_hz: float | No
             drowns the slow modes.
     """
     _check_resolved(system)
-    subset: dict[str, Any] = {"subset_by_index": [0, min(n_modes or system.n_dofs, system.n_dofs) - 1]}
+    K, M = system.condensed(system.stiffness), system.condensed(system.mass)
+    subset: dict[str, Any] = {"subset_by_index": [0, min(n_modes or len(M), len(M)) - 1]}
     if below_hz is not None:
         subset = {"subset_by_value": [-np.inf, (2 * np.pi * below_hz) ** 2]}
     try:
-        omega_squared, phi = scipy.linalg.eigh(
-            system.stiffness, system.mass, check_finite=False, **subset
-        )
+        omega_squared, y = scipy.linalg.eigh(K, M, check_finite=False, **subset)
     except scipy.linalg.LinAlgError as error:
         raise SolveError(f"the modes cannot be found: {error}") from None
+    phi = system.expanded(y)
     omega = np.sqrt(np.maximum(omega_squared, 0.0))
     viscous = np.einsum("ij,ij->j", phi, system.damping @ phi)
     structural = np.einsum("ij,ij->j", phi, system.structural_damping @ phi)
@@ -95,7 +95,7 @@ def _check_resolved(system: System) -> None:
         raise SolveError(
             f"the slow modes drown in rounding: {system.dof_names[stiffest]!r} is held so stiffly that "
             f"alone it rings at {np.sqrt(omega_squared[stiffest]) / (2 * np.pi):.1g} Hz; soften the "
-            "stiffest connection there"
+            "stiffest connection there, or make it rigid (rigid = true)"
         )
 
 

@@ -9,8 +9,9 @@ are eliminated; some, u, are kept with the forces:
     [ Z_u              R_uᵀ             ] [u]   [       P_uᵀ       ]
     [ R_u   -(1/z + R_e Z_e⁻¹ R_eᵀ)     ] [λ] = [ -R_e Z_e⁻¹ P_eᵀ  ]
 
-z = k (1 + jg) + jωc for a connection, -ω²m for an added mass (D. de Klerk, D. J. Rixen, S. N.
-Voormeeren, "General framework for dynamic substructuring", AIAA Journal 46(5), 2008).
+z = k (1 + jg) + jωc for a connection, -ω²m for an added mass, 1/z = 0 for a rigid joint (D. de Klerk,
+D. J. Rixen, S. N. Voormeeren, "General framework for dynamic substructuring", AIAA Journal 46(5),
+2008).
 """
 
 import os
@@ -32,6 +33,9 @@ N_THREADS = min(4, os.cpu_count() or 1)
 SOFT = 1e-4
 """A coordinate is kept where by itself it is softer than this part of the stiffness its joints give
 it, as a rigid one at low frequency: eliminated, it would cost as many digits."""
+
+RIGID = 1e-30
+"""m/N: what yields less does not yield."""
 
 ACCURACY = 1e-9
 """What is promised of receptances, relative to the largest of their row; less is an error."""
@@ -70,15 +74,19 @@ def receptances(
 
 @dataclass(frozen=True, eq=False)
 class _Joints:
-    """What joins bodies or is carried by them: springs and dampers first, then added masses."""
+    """What joins bodies or is carried by them: springs and dampers, added masses, rigid joints."""
 
     stiffness: Complexes
     damping: Floats
     mass: Floats
     """(n_joints,) each."""
+    n_rigid: int
+    """How many more there are, the last, that do not yield."""
 
-    def dynamic_stiffness(self, omega: float) -> Complexes:
-        return self.stiffness + 1j * omega * self.damping - omega**2 * self.mass
+    def compliance(self, omega: float) -> Complexes:
+        """1/z, (n_joints + n_rigid,)."""
+        z = self.stiffness + 1j * omega * self.damping - omega**2 * self.mass
+        return np.concatenate([1 / z, np.zeros(self.n_rigid, complex)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,10 +124,10 @@ class _Disassembled:
 
     def _bordered(self, omega: float) -> tuple[Complexes, Floats]:
         """The matrix of u, λ and rows, and what scales the parts of its diagonal to one for u and λ."""
-        z = self.joints.dynamic_stiffness(omega)
+        compliance = self.joints.compliance(omega)
         Z = self.omega_n_squared - omega**2 + 1j * omega * self.damping
-        squares = self.motions[: len(z)] ** 2
-        kept = np.abs(Z) < SOFT * (self.omega_n_squared + np.abs(z) @ squares)
+        squares = self.motions[: len(compliance)] ** 2
+        kept = np.abs(Z) < SOFT * (self.omega_n_squared + self._held_by(compliance, squares))
         per_force = np.divide(1, Z, out=np.zeros_like(Z), where=~kept)
         n_kept = np.count_nonzero(kept)
         matrix = np.zeros((n_kept + len(self.motions),) * 2, complex)
@@ -127,11 +135,25 @@ class _Disassembled:
         matrix[n_kept:, :n_kept] = self.motions[:, kept]
         matrix[:n_kept, n_kept:] = self.motions[:, kept].T
         matrix[n_kept:, n_kept:] = -self._flexibility(per_force)
-        joints = np.arange(n_kept, n_kept + len(z))
-        matrix[joints, joints] -= 1 / z
+        joints = np.arange(n_kept, n_kept + len(compliance))
+        matrix[joints, joints] -= compliance
         own_parts = self.omega_n_squared + omega**2
-        joint_parts = 1 / np.abs(z) + squares @ (own_parts * np.abs(per_force) ** 2)
+        joint_parts = np.abs(compliance) + squares @ (own_parts * np.abs(per_force) ** 2)
+        rigid = compliance == 0
+        joint_parts[rigid] += squares[np.ix_(rigid, kept)] @ (1 / own_parts[kept])
         return matrix, 1 / np.sqrt(np.concatenate([own_parts[kept], joint_parts]))
+
+    def _held_by(self, compliance: Complexes, squares: Floats) -> Floats:
+        """How stiffly the joints hold each coordinate, (n_dofs,), rad²/s².
+
+        A rigid joint holds as the elastic modes behind it do, and without any there is no limit.
+        """
+        omega_n_squared = self.omega_n_squared
+        elastic = np.divide(
+            1, omega_n_squared, out=np.zeros_like(omega_n_squared), where=omega_n_squared > 0
+        )
+        yielding = np.where(compliance == 0, squares @ elastic, np.abs(compliance))
+        return (1 / np.maximum(yielding, RIGID)) @ squares
 
     def _flexibility(self, per_force: Complexes) -> Complexes:
         """R_e Z_e⁻¹ R_eᵀ, (n_directions, n_directions), from the diagonal of Z_e⁻¹."""
@@ -163,12 +185,14 @@ def _joints(system: System) -> tuple[Floats, _Joints]:
     carried = [system.motion(a.body, a.position)[:3] for a in vehicle.added_masses]
     mass = np.repeat([a.mass for a in vehicle.added_masses], 3)
     none = np.zeros(len(mass))
+    held = system.rigid_joints.held if system.rigid_joints else np.zeros((0, system.n_dofs))
     joints = _Joints(
         stiffness=np.r_[(k * (1 + 1j * g))[joined], none],
         damping=np.r_[c[joined], none],
         mass=np.r_[np.zeros(np.count_nonzero(joined)), mass],
+        n_rigid=len(held),
     )
-    return np.vstack([system.connection_motions[joined], *carried]), joints
+    return np.vstack([system.connection_motions[joined], *carried, held]), joints
 
 
 def _normalising(body: Body) -> Floats:

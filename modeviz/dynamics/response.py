@@ -49,11 +49,12 @@ def direct_shape(system: System, frequency_hz: float, forces: Complexes, outputs
     """
     omega = 2 * np.pi * frequency_hz
     K = system.stiffness + 1j * system.structural_damping
-    directions = np.hstack([forces, outputs.T], dtype=complex)
-    x = _solve(K - omega**2 * system.mass + 1j * omega * system.damping, directions, frequency_hz)
-    parts = np.abs(K) + omega**2 * np.abs(system.mass)
+    Z = system.condensed(K - omega**2 * system.mass + 1j * omega * system.damping)
+    directions = system.condensed_rows(np.vstack([forces.T, outputs], dtype=complex)).T
+    x = _solve(Z, directions, frequency_hz)
+    parts = np.abs(system.condensed(K)) + omega**2 * np.abs(system.condensed(system.mass))
     check_accuracy(parts, x, directions.T @ x, frequency_hz, DIRECT_ACCURACY)
-    return x[:, : forces.shape[1]]
+    return system.expanded(x[:, : forces.shape[1]])
 
 
 def check_frequencies(frequency_hz: Floats) -> None:
@@ -155,7 +156,7 @@ def drowned(frequency_hz: float) -> SolveError:
     """Says at which frequency rounding drowns the response, why, and what to do."""
     return SolveError(
         f"no accurate response at {frequency_hz} Hz: an undamped resonance lies there (give it damping "
-        "or shift the frequency) or a spring is too stiff beside the others (soften it)"
+        "or shift the frequency) or a spring is too stiff beside the others (soften it, make it rigid)"
     )
 
 

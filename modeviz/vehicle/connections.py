@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 
 GROUND = "ground"
@@ -17,6 +17,9 @@ GROUND = "ground"
 
 DIRECTIONS = ("vertical", "lateral", "fore-aft")
 """The directions of a mount's rates: local z, y and x."""
+
+MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
+"""The relative motions of a connection's ends: along its local axes, then about them."""
 
 RATE_FIELDS = ("vertical", "lateral", "fore_aft")
 """The fields of `MountRates` that are rates, in the order of `DIRECTIONS`."""
@@ -43,6 +46,8 @@ class Connection:
     """Structural damping: the stiffness is k (1 + j loss_factor)."""
     axes: Floats = field(default_factory=lambda: np.eye(3))
     """(3, 3): the local axes as rows."""
+    rigid: tuple[str, ...] = ()
+    """Which of `MOTIONS` there are none of, as if the stiffness were infinite."""
 
     def __post_init__(self) -> None:
         frozen(self, "points", self.points, (2, 3))
@@ -63,8 +68,23 @@ class Connection:
                 f"connection {self.name!r}: loss_factor: found {self.loss_factor}, "
                 "expected zero or more"
             )
+        self._check_rigid()
         if self.bodies[0] == self.bodies[1]:
             raise VehicleError(f"connection {self.name!r}: joins {self.bodies[0]!r} to itself")
+
+    def _check_rigid(self) -> None:
+        """Raises VehicleError unless what is rigid is some of `MOTIONS`, without a rate."""
+        rates = [*self.stiffness, *self.rotational_stiffness], [*self.damping, 0.0, 0.0, 0.0]
+        with_rate = {m for m, k, c in zip(MOTIONS, *rates, strict=True) if k or c}
+        for motion in self.rigid:
+            if motion not in MOTIONS:
+                raise VehicleError(
+                    f"connection {self.name!r}: rigid: " + unknown("motion", motion, MOTIONS)
+                )
+            if motion in with_rate:
+                raise VehicleError(
+                    f"connection {self.name!r}: {motion} is rigid and has a rate, expected one of them"
+                )
 
 
 class Spring(Connection):

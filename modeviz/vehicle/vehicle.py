@@ -189,6 +189,8 @@ class Vehicle:
         where = f"connection {connection.name!r}"
         if not isinstance(connection, Mount | Spring | Bolt | Damper | Tyre):
             raise VehicleError(f"{where}: expected a Spring, Bolt, Damper or Tyre")
+        if connection.rigid and not isinstance(connection, Spring | Bolt):
+            raise VehicleError(f"{where}: only a spring or a bolt can be rigid")
         if connection.bodies[0] == GROUND:
             raise VehicleError(f"{where}: {GROUND!r} must be the second of its bodies")
         for body, point in zip(connection.bodies, connection.points, strict=True):

@@ -14,7 +14,7 @@ from msgspec import Meta
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role
-from modeviz.vehicle.connections import Connection, Mount, MountGroup, MountRates
+from modeviz.vehicle.connections import MOTIONS, Connection, Mount, MountGroup, MountRates
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.files.modal import read_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
@@ -227,6 +227,17 @@ class ConnectionRecord(MountRecord, kw_only=True):
     group: Name
     stiffness: Vector = NO_RATES
     loss_factor: NonNegative = 0.0
+    rigid: bool | tuple[str, ...] = False
+    """Whether its ends do not move relative to each other, or in which of `MOTIONS` they do not."""
+
+    @classmethod
+    def of(cls, connection: Connection) -> Self:
+        rigid = connection.rigid == MOTIONS or connection.rigid or False
+        return msgspec.structs.replace(super().of(connection), rigid=rigid)
+
+    def arguments(self) -> dict[str, Any]:
+        rigid = (MOTIONS if self.rigid else ()) if isinstance(self.rigid, bool) else self.rigid
+        return {**super().arguments(), "rigid": rigid}
 
 
 class TyreRecord(ConnectionRecord, kw_only=True):

@@ -1,0 +1,48 @@
+"""Rigid joints: what they hold is eliminated, so no stiff spring has to stand for them.
+
+    B x = 0  ⇒  x = T y,  TᵀMT = I
+
+B are the relative motions that the joints hold, T is a basis of the motions that are left (multipoint
+constraints by elimination; R. D. Cook and others, "Concepts and Applications of Finite Element
+Analysis", 4th ed., section 13.2).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from modeviz.vehicle.arrays import Floats
+
+DEPENDENT = 1e-9
+"""A joint that holds nothing that others do not is left out: bodies may be bolted more often than
+needed. In mass-normalised coordinates, relative to what is held best."""
+
+
+@dataclass(frozen=True, eq=False)
+class RigidJoints:
+    """What the rigid joints of a system hold, and what they leave."""
+
+    held: Floats
+    """B, (n_held, n_dofs): independent rows that are zero in every motion."""
+    freedom: Floats
+    """T, (n_dofs, n_free): every motion is a sum of these columns, which are orthonormal in mass."""
+
+
+def rigid_joints(mass: Floats, rows: Floats) -> RigidJoints:
+    """The joints that hold some relative motions at zero.
+
+    Args:
+        mass: M, (n_dofs, n_dofs).
+        rows: (n_rows, n_dofs), one for each relative motion; some may repeat others.
+    """
+    L = scipy.linalg.cholesky(mass, lower=True)
+    of_unit_mass = scipy.linalg.solve_triangular(L, rows.T, lower=True).T
+    size = np.linalg.norm(of_unit_mass, axis=1)
+    moved = size > 0
+    _, singular, V = np.linalg.svd(of_unit_mass[moved] / size[moved, None])
+    n_held = int(np.count_nonzero(singular > DEPENDENT * singular.max(initial=0.0)))
+    return RigidJoints(
+        held=V[:n_held] @ L.T,
+        freedom=scipy.linalg.solve_triangular(L.T, V[n_held:].T),
+    )
