@@ -2,12 +2,12 @@
 
 import re
 from reprlib import repr as brief
-from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import msgspec
 
 from modeviz.errors import VehicleError, unknown
+from modeviz.vehicle.files.hints import fields_of, plain
 
 T = TypeVar("T")
 
@@ -72,24 +72,24 @@ def _explain(message: str, data: Any, kind: Any, steps: list[str], where: str) -
         data, where = data[key], joined(where, key)
     field = re.search(r"field `(.*)`", message)
     if field and "unknown" in message:
-        return f"{joined(where, field[1])}: " + unknown("key", field[1], get_type_hints(_plain(kind)))
+        return f"{joined(where, field[1])}: " + unknown("key", field[1], fields_of(plain(kind)))
     if field:
         return f"{joined(where, field[1])}: missing"
     prefix = f"{where}: " if where else ""
-    if get_origin(_plain(kind)) is Literal:
-        return prefix + unknown("value", str(data), get_args(_plain(kind)))
+    if get_origin(plain(kind)) is Literal:
+        return prefix + unknown("value", str(data), get_args(plain(kind)))
     return f"{prefix}found {brief(data)}, expected {_in_words(message)}"
 
 
 def _step(data: Any, kind: Any, step: str) -> tuple[str | int, Any]:
     """The next key of msgspec's path, and the type of what is there."""
-    kind = _plain(kind)
+    kind = plain(kind)
     if isinstance(data, list):
         return int(step), next(iter(get_args(kind)), kind)
     if get_origin(kind) is dict:  # of which msgspec does not say the key
         inner = get_args(kind)[1]
         return next(key for key, value in data.items() if not _fits(value, inner)), inner
-    return step, get_type_hints(kind, include_extras=True)[step]
+    return step, fields_of(kind)[step]
 
 
 def _fits(value: Any, kind: Any) -> bool:
@@ -110,12 +110,3 @@ def _in_words(message: str) -> str:
 
 def _kinds_in_words(kinds: re.Match[str]) -> str:
     return " or ".join(_WORDS.get(kind, kind) for kind in kinds[1].split(" | "))
-
-
-def _plain(kind: Any) -> Any:
-    """The type itself, without annotations and without being optional."""
-    if get_origin(kind) is Annotated:
-        return _plain(get_args(kind)[0])
-    if get_origin(kind) in (Union, UnionType):
-        return _plain(next(k for k in get_args(kind) if k is not NoneType))
-    return kind

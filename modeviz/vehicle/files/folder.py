@@ -138,7 +138,7 @@ def _write_content(vehicle: Vehicle, folder: Path) -> None:
     for name in sorted(CONTENT - {VEHICLE_FILE}):
         (folder / name).mkdir()
     content = msgspec.to_builtins(_record(vehicle, folder))
-    text = to_toml({"units": WRITTEN_UNITS} | from_si(content))
+    text = to_toml({"units": WRITTEN_UNITS} | from_si(content, VehicleRecord))
     write_text(folder / VEHICLE_FILE, text)
 
 

@@ -29,7 +29,7 @@ class ProblemFileRecord(Record, kw_only=True):
 def problem_text(problem: Problem) -> str:
     """The file of a problem; all but its first table can be put into a vehicle.toml in N/mm."""
     record = ProblemFileRecord(problem=[ProblemRecord.of(problem)])
-    return to_toml({"units": UNITS} | from_si(msgspec.to_builtins(record)))
+    return to_toml({"units": UNITS} | from_si(msgspec.to_builtins(record), ProblemFileRecord))
 
 
 def read_problem(path: Path, vehicle: Vehicle) -> Problem:

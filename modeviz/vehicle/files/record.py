@@ -8,6 +8,7 @@ from msgspec import Meta
 
 from modeviz.errors import ModevizError, VehicleError
 from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.files.quantities import Rate
 
 Name = Annotated[str, Meta(min_length=1)]
 Positive = Annotated[float, Meta(gt=0)]
@@ -24,9 +25,9 @@ class Record(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
 class RatesRecord(Record, kw_only=True):
     """The rates of a mount."""
 
-    vertical: NonNegative
-    lateral: NonNegative
-    fore_aft: NonNegative
+    vertical: Rate
+    lateral: Rate
+    fore_aft: Rate
 
     @classmethod
     def of(cls, rates: MountRates) -> Self:

@@ -18,15 +18,25 @@ from modeviz.vehicle.connections import MOTIONS, Connection, Mount, MountGroup, 
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.files.modal import read_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
-from modeviz.vehicle.files.record import Name, NonNegative, Positive, RatesRecord, Record
+from modeviz.vehicle.files.quantities import (
+    Amplitude,
+    Damping,
+    Inertia,
+    Length,
+    Mass,
+    Place,
+    Position,
+    RotationalStiffness,
+    Speed,
+    Stiffness,
+    Vector,
+)
+from modeviz.vehicle.files.record import Name, NonNegative, RatesRecord, Record
 from modeviz.vehicle.files.roads import read_road
 from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad, WheelLoadKind
 
-Vector = tuple[float, float, float]
 Axes = tuple[Vector, Vector, Vector]
-Place = Annotated[tuple[float | Vector, ...], Meta(min_length=2, max_length=3)]
-"""x, y, z; or two of those, where the ends of a connection are at different places."""
 
 NO_RATES = (0.0, 0.0, 0.0)
 VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -87,9 +97,9 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
 class RigidBodyRecord(BodyRecord, kw_only=True):
     """[[rigid_body]]."""
 
-    mass: Positive
-    center_of_gravity: Vector
-    inertia: Annotated[tuple[float, ...], Meta(min_length=3, max_length=6)]
+    mass: Mass
+    center_of_gravity: Position
+    inertia: Inertia
     """Ixx, Iyy, Izz about the centre of gravity and, if any, the products Ixy, Ixz, Iyz.
 
     Ixy = +∫ x y dm, so that it stands in the matrix as -Ixy.
@@ -126,8 +136,8 @@ class AddedMassRecord(Record, kw_only=True):
 
     name: Name
     body: str
-    at: Vector
-    mass: Positive
+    at: Position
+    mass: Mass
 
     @classmethod
     def of(cls, mass: AddedMass) -> Self:
@@ -156,8 +166,8 @@ class MountRecord(Record, kw_only=True):
     name: Name
     bodies: tuple[str, str]
     at: Place
-    rotational_stiffness: Vector = NO_RATES
-    damping: Vector = NO_RATES
+    rotational_stiffness: RotationalStiffness = NO_RATES
+    damping: Damping = NO_RATES
     axes: Axes = VEHICLE_AXES
 
     @classmethod
@@ -225,7 +235,7 @@ class ConnectionRecord(MountRecord, kw_only=True):
     """[[spring]], [[bolt]] or [[damper]]."""
 
     group: Name
-    stiffness: Vector = NO_RATES
+    stiffness: Stiffness = NO_RATES
     loss_factor: NonNegative = 0.0
     rigid: bool | tuple[str, ...] = False
     """Whether its ends do not move relative to each other, or in which of `MOTIONS` they do not."""
@@ -243,8 +253,8 @@ class ConnectionRecord(MountRecord, kw_only=True):
 class TyreRecord(ConnectionRecord, kw_only=True):
     """[[tyre]]."""
 
-    wheel_center: Vector
-    trail: float = 0.0
+    wheel_center: Position
+    trail: Length = 0.0
 
 
 class ResponsePointRecord(Record, kw_only=True):
@@ -252,7 +262,7 @@ class ResponsePointRecord(Record, kw_only=True):
 
     name: Name
     body: str
-    at: Vector
+    at: Position
 
     @classmethod
     def of(cls, point: ResponsePoint) -> Self:
@@ -269,7 +279,7 @@ class RoadRecord(Record, kw_only=True):
     label: str
     file: str
     """A file of the folder, .csv."""
-    speed: Positive
+    speed: Speed
 
     @classmethod
     def of(cls, road: Road, file: str) -> Self:
@@ -287,7 +297,7 @@ class WheelLoadRecord(Record, kw_only=True):
     name: Name
     kind: WheelLoadKind
     tyre: str
-    amplitude: NonNegative
+    amplitude: Amplitude
 
     @classmethod
     def of(cls, load: WheelLoad) -> Self:
@@ -301,7 +311,7 @@ class VehicleRecord(Record, kw_only=True):
     """The whole file, but for its `units`."""
 
     name: Name
-    speed: Positive
+    speed: Speed
     flexible_body: list[FlexibleBodyRecord] = msgspec.field(default_factory=list)
     rigid_body: list[RigidBodyRecord] = msgspec.field(default_factory=list)
     added_mass: list[AddedMassRecord] = msgspec.field(default_factory=list)

@@ -5,6 +5,7 @@ from typing import Any
 
 from modeviz.errors import VehicleError, located, unknown
 from modeviz.units import UNITS, factor
+from modeviz.vehicle.files.quantities import Quantity, each_quantity
 
 WRITTEN_UNITS = {
     "length": "m",
@@ -19,32 +20,13 @@ WRITTEN_UNITS = {
 }
 """The units of the files we write."""
 
-_QUANTITIES = {
-    "speed": "speed",
-    "mass": "mass",
-    "inertia": "inertia",
-    "center_of_gravity": "length",
-    "at": "length",
-    "wheel_center": "length",
-    "trail": "length",
-    "stiffness": "stiffness",
-    "rates": "stiffness",
-    "softest": "stiffness",
-    "stiffest": "stiffness",
-    "rotational_stiffness": "rotational_stiffness",
-    "damping": "damping",
-}
-"""The quantity that a key's numbers are; the numbers of other keys have no unit."""
 
-_AMPLITUDES = {"unbalance": "unbalance", "radial force": "force", "lateral force": "force"}
-"""The quantity of a wheel load's amplitude, by the kind of load."""
-
-
-def to_si(data: Any, units: Mapping[str, str]) -> Any:
-    """The content of a vehicle file with every number in SI.
+def to_si(data: Any, kind: type, units: Mapping[str, str]) -> Any:
+    """The content of a file with every number in SI.
 
     Args:
         data: what the file says.
+        kind: the record that it is.
         units: its `units` table, quantity to unit.
 
     Raises:
@@ -58,12 +40,12 @@ def to_si(data: Any, units: Mapping[str, str]) -> Any:
             raise VehicleError(f"units.{quantity}: missing, expected one of {known}")
         return value * factors[quantity]
 
-    return _converted(data, convert)
+    return _converted(data, kind, convert)
 
 
-def from_si(data: Any) -> Any:
-    """The content of a vehicle file, given in SI, in `WRITTEN_UNITS`."""
-    return _converted(data, lambda value, quantity: written(value, _factor(quantity)))
+def from_si(data: Any, kind: type) -> Any:
+    """The content of a file of that kind, given in SI, in `WRITTEN_UNITS`."""
+    return _converted(data, kind, lambda value, quantity: written(value, _factor(quantity)))
 
 
 def _factor(quantity: str, unit: str | None = None) -> float:
@@ -85,24 +67,12 @@ def written(value: float, unit: float) -> float:
     return short if short * unit == value else number
 
 
-def _converted(data: Any, convert: Callable[[float, str], float], quantity: str | None = None) -> Any:
-    """The data with `convert(value, quantity)` in place of each number that is a quantity."""
-    if isinstance(data, dict):
-        return {
-            key: _converted(value, convert, _quantity(key, data, quantity))
-            for key, value in data.items()
-        }
-    if isinstance(data, list | tuple):
-        return [_converted(value, convert, quantity) for value in data]
-    if quantity is None or isinstance(data, bool) or not isinstance(data, int | float):
-        return data
-    return convert(data, quantity)
+def _converted(data: Any, kind: type, convert: Callable[[float, str], float]) -> Any:
+    """The data with `convert(value, quantity)` in place of each number that has a unit."""
 
+    def change(value: Any, quantity: Quantity, table: Mapping[str, Any]) -> Any:
+        if isinstance(value, list | tuple):
+            return [change(inner, quantity, table) for inner in value]
+        return value if value is None else convert(value, quantity.named(table))
 
-def _quantity(key: str, table: Mapping[str, Any], whole: str | None) -> str | None:
-    """The quantity of the numbers at `key` of `table`, which may be of one `whole`."""
-    if key == "loss_factor" and not isinstance(table[key], dict):  # else a group of that name
-        return None
-    if whole:
-        return whole
-    return _AMPLITUDES.get(str(table.get("kind"))) if key == "amplitude" else _QUANTITIES.get(key)
+    return each_quantity(data, kind, change)

@@ -28,4 +28,4 @@ def read_toml(path: Path, kind: type[R]) -> R:
     with located(path):
         units = decode(data.pop("units", {}), dict[str, str], "units")
         decode(data, kind)  # before scaling, so that errors show the file's own numbers
-        return msgspec.convert(to_si(data, units), kind)
+        return msgspec.convert(to_si(data, kind, units), kind)

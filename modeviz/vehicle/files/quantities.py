@@ -1,0 +1,72 @@
+"""What the numbers of a key are: a quantity, which has a unit."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, get_args
+
+from msgspec import Meta
+
+from modeviz.vehicle.files.hints import annotation, fields_of, plain
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """The annotation of a field whose numbers have a unit."""
+
+    name: str = ""
+    """A key of `units`."""
+    by_kind: Mapping[str, str] = field(default_factory=dict)
+    """The name, where it depends on what the table has as its `kind`."""
+
+    def named(self, table: Mapping[str, Any]) -> str:
+        """What the quantity is in a table."""
+        return self.by_kind.get(str(table.get("kind")), self.name)
+
+
+Speed = Annotated[float, Meta(gt=0), Quantity("speed")]
+Mass = Annotated[float, Meta(gt=0), Quantity("mass")]
+Length = Annotated[float, Quantity("length")]
+Position = Annotated[Vector, Quantity("length")]
+Place = Annotated[tuple[float | Vector, ...], Meta(min_length=2, max_length=3), Quantity("length")]
+"""x, y, z; or two of those, where the ends of a connection are at different places."""
+Inertia = Annotated[tuple[float, ...], Meta(min_length=3, max_length=6), Quantity("inertia")]
+Rate = Annotated[float, Meta(ge=0), Quantity("stiffness")]
+Stiffness = Annotated[Vector, Quantity("stiffness")]
+RotationalStiffness = Annotated[Vector, Quantity("rotational_stiffness")]
+Damping = Annotated[Vector, Quantity("damping")]
+Amplitude = Annotated[
+    float,
+    Meta(ge=0),
+    Quantity(
+        by_kind={"unbalance": "unbalance", "radial force": "force", "lateral force": "force"},
+    ),
+]
+
+
+def each_quantity(
+    data: Any, kind: Any, change: Callable[[Any, Quantity, Mapping[str, Any]], Any]
+) -> Any:
+    """The data with `change(value, quantity, table)` in place of each value that is a quantity.
+
+    Args:
+        data: plain data that `decode` accepts as that kind.
+        kind: a record, or a container of records.
+        change: what becomes of a value that stands in a table.
+    """
+    kind = plain(kind)
+    if isinstance(data, dict) and hasattr(kind, "__struct_fields__"):
+        hints = fields_of(kind)
+        return {
+            key: change(value, quantity, data)
+            if (quantity := annotation(hints[key], Quantity))
+            else each_quantity(value, hints[key], change)
+            for key, value in data.items()
+        }
+    inner = get_args(kind) or (Any,)
+    if isinstance(data, dict):
+        return {key: each_quantity(value, inner[-1], change) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [each_quantity(value, inner[0], change) for value in data]
+    return data
