@@ -16,6 +16,7 @@ from folders import flexible_body, one_of_everything, part
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
+from modeviz.vehicle.connections import MountRates, usual_bounds
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.files.meshes import read_mesh, write_mesh
 from modeviz.vehicle.files.scaling import written
@@ -207,6 +208,34 @@ def test_number_in_another_unit_is_short_and_within_one_rounding():
     assert written(0.0123, 1e-3) == 12.3
     for value in np.random.default_rng(4).lognormal(size=1000):
         assert abs(written(value, 1e3) * 1e3 - value) <= np.spacing(value)
+
+
+def test_what_means_nothing_need_not_be_said(folder):
+    text = (folder / "vehicle.toml").read_text()
+    text = re.sub(r"^(role|label|group|speed = 8\d|softest|stiffest).*\n", "", text, flags=re.MULTILINE)
+    (folder / "vehicle.toml").write_text(text)
+    vehicle = read_vehicle(folder)
+    assert [(b.role, b.label) for b in vehicle.bodies] == [("other", b.name) for b in vehicle.bodies]
+    groups = [connection.group for connection in vehicle.connections]
+    assert groups == ["springs", "bolts", "dampers", "tyres"]
+    assert vehicle.roads[0].label == "road 1"
+    assert vehicle.speed == 20.0
+    (group,) = vehicle.mount_groups
+    own = np.array(group.rates.as_tuple())
+    softest, stiffest = (rates.as_tuple() for rates in group.bounds)
+    assert group.label == "C1"
+    np.testing.assert_allclose(softest, own / 4, rtol=1e-15)
+    np.testing.assert_allclose(stiffest, own * 4, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("rates", "stiffest"),
+    [((0.0, 1e5, 4e5), (16e5, 4e5, 16e5)), ((0.0, 0.0, 0.0), (4e6, 4e6, 4e6))],
+)
+def test_a_rate_of_zero_may_rise(rates, stiffest):
+    bounds = usual_bounds(MountRates(*rates))
+    assert bounds[0].as_tuple() == tuple(rate / 4 for rate in rates)
+    assert bounds[1].as_tuple() == stiffest
 
 
 @pytest.mark.parametrize(

@@ -8,12 +8,12 @@ import numpy as np
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 
-Role = Literal["cabin", "frame", "bed", "powertrain", "unsprung", "linkage"]
+Role = Literal["cabin", "frame", "bed", "powertrain", "unsprung", "linkage", "other"]
 """What a body is in the vehicle; modes are named from it.
 
 cabin: where people sit and what is rigidly joined to it. frame: the structure everything hangs on.
 bed: the load carrier. powertrain: engine and transmission. unsprung: moves with the wheels.
-linkage: light parts between the others.
+linkage: light parts between the others. other: nothing of these.
 """
 
 

@@ -24,6 +24,12 @@ MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 RATE_FIELDS = ("vertical", "lateral", "fore_aft")
 """The fields of `MountRates` that are rates, in the order of `DIRECTIONS`."""
 
+USUAL_RANGE = 4.0
+"""How many times its rate a mount can be softer or stiffer, where nothing is said."""
+
+UNKNOWN_RATE = 1e6
+"""N/m: of a mount that has no rates."""
+
 
 @dataclass(frozen=True, eq=False)
 class Connection:
@@ -155,6 +161,17 @@ def check_bounds(where: str, bounds: tuple[MountRates, MountRates], may_be_same:
                 f"{where}: bounds: {direction}: found {low / 1e3:g} to {high / 1e3:g} N/mm, expected "
                 "the lower one first"
             )
+
+
+def usual_bounds(rates: MountRates) -> tuple[MountRates, MountRates]:
+    """The softest and the stiffest of a mount of which only the rates are known.
+
+    A quarter of each rate and four times it; a rate of zero may rise to four times the largest.
+    """
+    k = rates.as_tuple()
+    highest = max(k) or UNKNOWN_RATE
+    softest, stiffest = (rate / USUAL_RANGE for rate in k), (USUAL_RANGE * (r or highest) for r in k)
+    return MountRates(*softest), MountRates(*stiffest)
 
 
 Rates = Mapping[str, MountRates]

@@ -27,6 +27,9 @@ from modeviz.vehicle.problem import Problem
 REACH = 0.10
 """m: how far from an attachment of a flexible body a connection may hold on to it."""
 
+USUAL_SPEED = 20.0
+"""m/s: 72 km/h."""
+
 
 @dataclass(frozen=True, eq=False)
 class Vehicle:
@@ -44,7 +47,7 @@ class Vehicle:
     wheel_loads: tuple[WheelLoad, ...] = ()
     rate_sets: Mapping[str, Rates] = field(default_factory=dict)
     """Named sets of rates besides the vehicle's own."""
-    speed: float = 20.0
+    speed: float = USUAL_SPEED
     """m/s."""
     problems: tuple[Problem, ...] = ()
     """What the mounts are to be optimised for; the first is the usual one."""

@@ -38,7 +38,7 @@ from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.files.toml import to_toml
 from modeviz.vehicle.files.toml_file import read_toml
 from modeviz.vehicle.loads import Road
-from modeviz.vehicle.vehicle import Vehicle
+from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle
 
 VEHICLE_FILE = "vehicle.toml"
 CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads"}
@@ -112,7 +112,7 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
     flexible = built(record.flexible_body, "flexible_body", lambda r: r.build(source))
     rigid = built(record.rigid_body, "rigid_body", lambda r: r.build(source))
     connections = [
-        built(getattr(record, key), key, lambda r, kind=kind: kind(**r.arguments()))
+        built(getattr(record, key), key, lambda r, kind=kind: r.build(kind))
         for key, kind in CONNECTION_KINDS.items()
     ]
     vehicle = Vehicle(
@@ -129,7 +129,7 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
             for name, groups in record.rates.items()
         },
         problems=built(record.problem, "problem", ProblemRecord.build),
-        speed=record.speed,
+        speed=record.speed or USUAL_SPEED,
     )
     return replace(vehicle, notes=source.notes)
 

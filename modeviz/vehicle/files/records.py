@@ -14,7 +14,14 @@ from msgspec import Meta
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role
-from modeviz.vehicle.connections import MOTIONS, Connection, Mount, MountGroup, MountRates
+from modeviz.vehicle.connections import (
+    MOTIONS,
+    Connection,
+    Mount,
+    MountGroup,
+    MountRates,
+    usual_bounds,
+)
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.files.modal import read_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
@@ -46,12 +53,18 @@ class BodyRecord(Record, kw_only=True):
     """What flexible and rigid bodies have in common."""
 
     name: Name
-    role: Role
-    label: str
+    role: Role = "other"
+    label: str = ""
+    """The name, if not given."""
     mesh: str | None = None
     """A file of the folder: .glb, .stl, .obj or .ply, in metres."""
     color: tuple[int, int, int] = DEFAULT_COLOR
     """sRGB, of the mesh parts that have no material."""
+
+    @property
+    def spoken(self) -> str:
+        """What a person calls it."""
+        return self.label or self.name
 
     def read_mesh(self, source: Source) -> Mesh:
         if self.mesh is None:
@@ -88,7 +101,7 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
             path = source.path(self.modes)
         mesh = self.read_mesh(source)
         body = read_flexible_body(
-            path, self.name, self.role, self.label, self.damping_ratio, mesh, source.note
+            path, self.name, self.role, self.spoken, self.damping_ratio, mesh, source.note
         )
         n_normal = body.n_modes - body.n_residuals
         return body.truncated(self.keep_modes or n_normal, self.residual_vectors)
@@ -126,9 +139,8 @@ class RigidBodyRecord(BodyRecord, kw_only=True):
         for (row, column), product in zip(((0, 1), (0, 2), (1, 2)), self.inertia[3:], strict=False):
             inertia[row, column] = inertia[column, row] = 0.0 - product
         mesh = self.read_mesh(source)
-        return RigidBody(
-            self.name, self.role, self.label, self.mass, np.array(self.center_of_gravity), inertia, mesh
-        )
+        center_of_gravity = np.array(self.center_of_gravity)
+        return RigidBody(self.name, self.role, self.spoken, self.mass, center_of_gravity, inertia, mesh)
 
 
 class AddedMassRecord(Record, kw_only=True):
@@ -197,11 +209,12 @@ class MountGroupRecord(Record, kw_only=True):
     """[[mount_group]]."""
 
     name: Name
-    label: str
+    label: str = ""
+    """The name, if not given."""
     rates: RatesRecord
     loss_factor: NonNegative
-    softest: RatesRecord
-    stiffest: RatesRecord
+    softest: RatesRecord | None = None
+    stiffest: RatesRecord | None = None
     ratio_limits: tuple[float, float] | None = None
     """The least and the most that lateral and fore-aft rates may be of the vertical one."""
     mount: list[MountRecord]
@@ -220,12 +233,17 @@ class MountGroupRecord(Record, kw_only=True):
         )
 
     def build(self) -> MountGroup:
+        rates = self.rates.build()
+        softest, stiffest = usual_bounds(rates)
         return MountGroup(
             self.name,
-            self.label,
-            self.rates.build(),
+            self.label or self.name,
+            rates,
             self.loss_factor,
-            (self.softest.build(), self.stiffest.build()),
+            (
+                self.softest.build() if self.softest else softest,
+                self.stiffest.build() if self.stiffest else stiffest,
+            ),
             tuple(Mount(group=self.name, **mount.arguments()) for mount in self.mount),
             self.ratio_limits,
         )
@@ -234,7 +252,8 @@ class MountGroupRecord(Record, kw_only=True):
 class ConnectionRecord(MountRecord, kw_only=True):
     """[[spring]], [[bolt]] or [[damper]]."""
 
-    group: Name
+    group: Name | None = None
+    """After the kind of connection, "springs", if not given."""
     stiffness: Stiffness = NO_RATES
     loss_factor: NonNegative = 0.0
     rigid: bool | tuple[str, ...] = False
@@ -248,6 +267,13 @@ class ConnectionRecord(MountRecord, kw_only=True):
     def arguments(self) -> dict[str, Any]:
         rigid = (MOTIONS if self.rigid else ()) if isinstance(self.rigid, bool) else self.rigid
         return {**super().arguments(), "rigid": rigid}
+
+    def build(self, kind: type[Connection]) -> Connection:
+        arguments: dict[str, Any] = {
+            **self.arguments(),
+            "group": self.group or f"{kind.__name__.lower()}s",
+        }
+        return kind(**arguments)
 
 
 class TyreRecord(ConnectionRecord, kw_only=True):
@@ -276,7 +302,8 @@ class RoadRecord(Record, kw_only=True):
     """[[road]]."""
 
     name: Name
-    label: str
+    label: str = ""
+    """The name, if not given."""
     file: str
     """A file of the folder, .csv."""
     speed: Speed
@@ -288,7 +315,7 @@ class RoadRecord(Record, kw_only=True):
     def build(self, source: Source) -> Road:
         with located("file"):
             path = source.path(self.file)
-        return read_road(path, self.name, self.label, self.speed)
+        return read_road(path, self.name, self.label or self.name, self.speed)
 
 
 class WheelLoadRecord(Record, kw_only=True):
@@ -311,7 +338,8 @@ class VehicleRecord(Record, kw_only=True):
     """The whole file, but for its `units`."""
 
     name: Name
-    speed: Speed
+    speed: Speed | None = None
+    """`USUAL_SPEED`, if not given."""
     flexible_body: list[FlexibleBodyRecord] = msgspec.field(default_factory=list)
     rigid_body: list[RigidBodyRecord] = msgspec.field(default_factory=list)
     added_mass: list[AddedMassRecord] = msgspec.field(default_factory=list)
