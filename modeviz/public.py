@@ -91,6 +91,7 @@ from modeviz.vehicle.connections import Damper as Damper
 from modeviz.vehicle.connections import Mount as Mount
 from modeviz.vehicle.connections import MountGroup as MountGroup
 from modeviz.vehicle.connections import MountRates as MountRates
+from modeviz.vehicle.connections import Rod as Rod
 from modeviz.vehicle.connections import Spring as Spring
 from modeviz.vehicle.connections import Tyre as Tyre
 from modeviz.vehicle.files import builtin_vehicle as builtin_vehicle

@@ -17,6 +17,7 @@ from modeviz.vehicle.connections import (
     Mount,
     MountGroup,
     MountRates,
+    Rod,
     Spring,
     Tyre,
 )
@@ -74,13 +75,22 @@ def mount_group() -> MountGroup:
     return MountGroup("C1", "cab front", rates, 0.15, bounds, mounts, (0.25, 0.8))
 
 
-def connections() -> tuple[Spring | Bolt | Damper | Tyre, ...]:
+def connections() -> tuple[Spring | Rod | Bolt | Damper | Tyre, ...]:
     """One of each kind, in the file's order, no quantity left out."""
     tilted = np.array([[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])
     apart = np.array([[0.0, 0.0, 0.0], [0.0, 0.1, 0.7]])
     ends = ("cab", "Engine & box")
     return (
-        Spring("arm", "bushings", ends, apart, np.array([1e5, 2e5, 1e5 / 3]), axes=tilted),
+        Spring(
+            "arm",
+            "bushings",
+            ends,
+            apart,
+            np.array([1e5, 2e5, 1e5 / 3]),
+            axes=tilted,
+            elastic_center=0.3,
+        ),
+        Rod.between("rod", "rods", ends, apart, 1.3e7, 55.5, 0.02),
         Bolt("bolt", "bolts", ends, ORIGIN, np.full(3, 1.7e8), np.full(3, 1e5 / 7), loss_factor=0.01),
         Damper("shock", "shocks", ends, ORIGIN, damping=np.array([0.0, 0.0, 1234.5])),
         Tyre(

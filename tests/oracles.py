@@ -71,7 +71,8 @@ def _element(h, ea, gj, ei_y, ei_z, m, polar):
 def direct_system(beams, vehicle: Vehicle):
     """Mass and stiffness of beams (by name) joined at nodes, in physical coordinates.
 
-    Only for vehicles of such beams whose connections hold on to nodes and have no offset.
+    Only for vehicles of such beams whose connections hold on to nodes; arms are the cross products of
+    textbooks, u + θ × r.
     """
     offsets = dict(zip(beams, np.cumsum([0] + [b.mass.shape[0] for b in beams.values()]), strict=False))
     mass = scipy.linalg.block_diag(*(b.mass for b in beams.values()))
@@ -83,7 +84,10 @@ def direct_system(beams, vehicle: Vehicle):
                 continue
             node = int(np.argmin(np.linalg.norm(beams[name].nodes - point, axis=1)))
             first = offsets[name] + 6 * node
-            rows[:, first : first + 6] = sign * np.eye(6)
+            arm = connection.center - point
+            turned = np.cross(np.eye(3), arm).T
+            rows[:, first : first + 6] = sign * np.block([[np.eye(3), turned], [0 * turned, np.eye(3)]])
+        rows = scipy.linalg.block_diag(connection.axes, connection.axes) @ rows
         k = np.r_[connection.stiffness, connection.rotational_stiffness]
         stiffness += rows.T @ np.diag(k) @ rows
     return mass, stiffness

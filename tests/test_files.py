@@ -159,6 +159,7 @@ def numbers(vehicle: Vehicle) -> dict[str, list[np.ndarray]]:
         "length": [
             body.center_of_gravity,
             joints[0].points,
+            joints[1].points,
             vehicle.added_masses[0].position,
             vehicle.response_points[0].position,
             tyre.wheel_center,
@@ -167,8 +168,8 @@ def numbers(vehicle: Vehicle) -> dict[str, list[np.ndarray]]:
         "mass": [body.mass, vehicle.added_masses[0].mass],
         "inertia": [body.inertia],
         "stiffness": [*(c.stiffness for c in joints), *(r.as_tuple() for r in rates)],
-        "rotational_stiffness": [joints[1].rotational_stiffness],
-        "damping": [joints[2].damping],
+        "rotational_stiffness": [joints[2].rotational_stiffness],
+        "damping": [joints[1].damping, joints[3].damping],
         "force": [vehicle.wheel_loads[1].amplitude],
         "unbalance": [vehicle.wheel_loads[0].amplitude],
         "speed": [vehicle.speed, vehicle.roads[0].speed],
@@ -217,7 +218,7 @@ def test_what_means_nothing_need_not_be_said(folder):
     vehicle = read_vehicle(folder)
     assert [(b.role, b.label) for b in vehicle.bodies] == [("other", b.name) for b in vehicle.bodies]
     groups = [connection.group for connection in vehicle.connections]
-    assert groups == ["springs", "bolts", "dampers", "tyres"]
+    assert groups == ["springs", "rods", "bolts", "dampers", "tyres"]
     assert vehicle.roads[0].label == "road 1"
     assert vehicle.speed == 20.0
     (group,) = vehicle.mount_groups
@@ -298,6 +299,21 @@ EDITS = {
         "at = [[0.0, 0.0, 0.0], [0.0, 0.1, 0.7]]",
         "at = [[0, 0, 0], 1]",
         "spring[0]: at: found [(0.0, 0.0, 0.0), 1.0], expected [x, y, z] or two of them",
+    ),
+    "beyond its ends": (
+        "elastic_center = 0.3",
+        "elastic_center = 1.3",
+        "spring[0]: connection 'arm': elastic_center: found 1.3, expected 0 (at the first of its ends)",
+    ),
+    "a rod of no length": (
+        "at = [[0.0, 0.0, 0.0], [0.0, 0.1, 0.7]]\nstiffness = 13000.0",
+        "at = [[0, 0, 0], [0, 0, 0]]\nstiffness = 13000.0",
+        "rod[0]: rod 'rod': found both ends at [0.0, 0.0, 0.0], expected two places",
+    ),
+    "a rod in one place": (
+        "at = [[0.0, 0.0, 0.0], [0.0, 0.1, 0.7]]\nstiffness = 13000.0",
+        "at = [0, 0, 0]\nstiffness = 13000.0",
+        "rod[0].at: found [0, 0, 0], expected a list",
     ),
     "four moments": (", 0.3, -1.7, 0.0]", ", 0.3]", "inertia: found 4 numbers, expected 3 or 6"),
     "impossible inertia": ("12.6, 49.6", "-1, 49.6", "rigid_body[0]: body 'Engine & box': inertia"),

@@ -187,9 +187,9 @@ def test_a_rigid_joint_is_written_and_read(tmp_path, rigid):
     assert ("rigid = true" in (tmp_path / "v" / "vehicle.toml").read_text()) == (rigid == MOTIONS)
 
 
-def test_only_springs_and_bolts_are_rigid():
+def test_only_springs_rods_and_bolts_are_rigid():
     damper = Damper("damper", "dampers", ("a", GROUND), np.zeros((2, 3)), rigid=("z",))
-    with pytest.raises(VehicleError, match="connection 'damper': only a spring or a bolt can be rigid"):
+    with pytest.raises(VehicleError, match="'damper': only a spring, a rod or a bolt can be rigid"):
         Vehicle("held", (block("a"),), (damper,))
 
 

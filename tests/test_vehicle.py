@@ -16,7 +16,7 @@ VEHICLE = one_of_everything()
 CAB = flexible_body()
 ENGINE = engine()
 GROUP = mount_group()
-SPRING, BOLT, DAMPER, TYRE = connections()
+SPRING, ROD, BOLT, DAMPER, TYRE = connections()
 ROAD = road()
 NAN = float("nan")
 INF = float("inf")
@@ -35,7 +35,7 @@ def refused(value, **changes) -> str:
         (ENGINE, {"mass": 0}, "mass: found 0 kg, expected more than 0"),
         (ENGINE, {"mass": NAN}, "mass: found nan"),
         (ENGINE, {"mass": INF}, "mass: found inf"),
-        (ENGINE, {"role": "motor"}, "unknown role 'motor': there are cabin, frame"),
+        (ENGINE, {"role": "motor"}, "unknown role 'motor'"),
         (ENGINE, {"center_of_gravity": [0, 0]}, "found shape (2,), expected 3"),
         (ENGINE, {"center_of_gravity": [0, 0, NAN]}, "found 1 values that are not finite"),
         (ENGINE, {"center_of_gravity": ["a", 0, 0]}, "expected an array of numbers"),
@@ -130,7 +130,7 @@ def test_part_that_cannot_be_is_refused(value, changes, words):
         ({"connections": (SPRING,)}, "unknown tyre 'tyre left': there are none"),
         (
             {"connections": (TYRE, Connection("link", "links", SPRING.bodies, SPRING.points))},
-            "connection 'link': expected a Spring, Bolt, Damper or Tyre",
+            "connection 'link': expected a Spring, Rod, Bolt, Damper or Tyre",
         ),
         (
             {"connections": (replace(SPRING, group="cab"), TYRE)},
@@ -221,6 +221,17 @@ def test_residual_compliance_is_what_the_residual_vectors_give():
         deflection += phi * (phi @ force) / CAB.omega_n_squared[mode]
     np.testing.assert_allclose(CAB.residual_compliance("floor link") @ force, deflection, rtol=1e-13)
     assert not CAB.truncated(9).residual_compliance("floor link").any()
+
+
+def test_residual_compliance_at_the_end_of_an_arm_has_the_arms_rotation_in_it():
+    at = CAB.attachment("floor link")
+    arm = np.array([0.3, -0.1, 0.2])
+    expected = np.zeros((3, 3))
+    for mode in (9, 10):
+        phi = at.shapes[:3, mode] + np.cross(at.shapes[3:, mode], arm)
+        expected += np.outer(phi, phi) / CAB.omega_n_squared[mode]
+    found = CAB.residual_compliance("floor link", at.position + arm)
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
 def test_smallest_parts_are_accepted():

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import GROUND, Bolt, Connection, Damper, Spring, Tyre
+from modeviz.vehicle.connections import GROUND, Bolt, Connection, Damper, Rod, Spring, Tyre
 from pickup import box
 from pickup.parameters import WHEELBASE, Parameters
 from pickup.sides import SIDES, Place, Side, on_side
@@ -107,14 +107,13 @@ def _front_suspension(p: Parameters, side: Side) -> Sequence[Connection]:
 def _steering(p: Parameters, side: Side) -> Sequence[Connection]:
     """The pitman arm on the left holds the relay rod better sideways than the right's idler arm."""
     asymmetry = p.relay_rod_asymmetry if side == "left" else -p.relay_rod_asymmetry
-    ends = np.array([on_side(end, side) for end in TIE_ROD_ENDS])
     return [
-        Spring(
+        Rod.between(
             f"tie rod {side}",
             "steering",
             (f"knuckle {side}", "steering linkage"),
-            ends,
-            stiffness=_xyz(0.0, 1.2e7, 0.0),
+            np.array([on_side(end, side) for end in TIE_ROD_ENDS]),
+            stiffness=1.2e7,
         ),
         Spring(
             f"relay rod {side}",

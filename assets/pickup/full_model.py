@@ -98,11 +98,12 @@ class _Builder:
         return sp.csr_array(sp.block_diag(masses)), sp.csr_array(sp.block_diag(stiffnesses))
 
     def relative_motion(self, connection: Connection) -> sp.csr_array:
-        """Rows (6, n_dofs): the first end's motion less the second's, along the local axes."""
-        (first, second), points = connection.bodies, connection.points
-        rows = self.motion(first, connection.name, points[0])
-        if second != GROUND:
-            rows = rows - self.motion(second, connection.name, points[1])
+        """Rows (6, n_dofs): how the bodies move apart at the elastic centre, along the local axes."""
+        rows = sp.csr_array((6, self._n_dofs))
+        for sign, body, end in zip((1, -1), connection.bodies, connection.points, strict=True):
+            if body != GROUND:
+                arm = sp.csr_array(rigid_motions(connection.center - end))
+                rows = rows + sign * arm @ self.motion(body, connection.name, end)
         return sp.csr_array(np.kron(np.eye(2), connection.axes)) @ rows
 
     def motion(self, body: str, name: str, position: Floats) -> sp.csr_array:

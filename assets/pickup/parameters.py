@@ -65,7 +65,7 @@ class Parameters:
     crossmember_bending_factor: float = fitted(4.35546, 0.7, 5.0)
     crossmember_torsion_factor: float = fitted(0.300312, 0.3, 5.0)
 
-    knuckle_mass: float = fitted(42.7151, 34, 52)
+    knuckle_mass: float = fitted(44.7, 34, 52)
     """With hub and wheel, one side."""
     axle_mass: float = fitted(168.378, 140, 200)
     """With both wheels."""

@@ -122,5 +122,6 @@ def attachments(
 
 def _pulling(joint: Connection) -> tuple[Axis, ...]:
     pulls = (joint.stiffness > 0) | (joint.damping > 0)
+    along = (np.abs(joint.axes[pulls]) > 1e-9).any(axis=0)
     axes: tuple[Axis, ...] = ("x", "y", "z")
-    return tuple(axes[i] for i in np.flatnonzero(pulls))
+    return tuple(axes[i] for i in np.flatnonzero(along))

@@ -3,7 +3,8 @@
     (-ω² M + jω C + jK_g + K) q = F
 
 q are the modal coordinates of the flexible bodies and the six coordinates of the rigid ones. A
-connection adds Rᵀ k R, where R are the rows that give the relative motion of its two ends.
+connection adds Rᵀ k R, where R are the rows that give the relative motion of its two bodies at its
+elastic centre.
 """
 
 from collections.abc import Mapping
@@ -71,10 +72,14 @@ class System:
         return rows
 
     def relative_motion(self, connection: Connection) -> Floats:
-        """Rows (6, n_dofs): the first end's motion less the second's, along the local axes."""
-        rows = self.motion(connection.bodies[0], connection.points[0])
-        if connection.bodies[1] != GROUND:
-            rows -= self.motion(connection.bodies[1], connection.points[1])
+        """Rows (6, n_dofs): the first body's motion less the second's, along the local axes.
+
+        Both are taken at the elastic centre, to which rigid arms carry the motion of the ends.
+        """
+        rows = np.zeros((6, self.n_dofs))
+        for sign, body, end in zip((1, -1), connection.bodies, connection.points, strict=True):
+            if body != GROUND:
+                rows += sign * rigid_motions(connection.center - end) @ self.motion(body, end)
         return np.kron(np.eye(2), connection.axes) @ rows
 
     @cached_property

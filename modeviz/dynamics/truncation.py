@@ -32,6 +32,7 @@ def _with_residual_compliance(connection: Connection, vehicle: Vehicle) -> Conne
     if not (isinstance(connection, Bolt) and isinstance(body, FlexibleBody)):
         return connection
     at = body.nearest_attachment(connection.points[0])
-    along_axes = connection.axes @ body.residual_compliance(at.name) @ connection.axes.T
+    compliance = body.residual_compliance(at.name, connection.center)
+    along_axes = connection.axes @ compliance @ connection.axes.T
     k = connection.stiffness
     return replace(connection, stiffness=k / (1 + k * np.diag(along_axes)))

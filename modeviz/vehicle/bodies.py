@@ -7,6 +7,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
+from modeviz.vehicle.rigid import rigid_motions
 
 Role = Literal["cabin", "frame", "bed", "powertrain", "unsprung", "linkage", "other"]
 """What a body is in the vehicle; modes are named from it.
@@ -191,15 +192,21 @@ class FlexibleBody:
             shapes=self.shapes[:, :, kept],
         )
 
-    def residual_compliance(self, attachment: str) -> Floats:
+    def residual_compliance(self, attachment: str, position: Floats | None = None) -> Floats:
         """What the truncated modes add to the flexibility of a point, (3, 3) in m/N.
 
         R = Σ φ φᵀ / ω² over the residual vectors: exact at zero frequency in the directions that have
         a residual vector (A. E. Duncan, after McClelland's residual compliance).
+
+        Args:
+            attachment: its name.
+            position: (3,), of a point that a rigid arm holds to the attachment; if not given, its own.
         """
         if not self.n_residuals:
             return np.zeros((3, 3))
-        phi = self.attachment(attachment).shapes[:3, -self.n_residuals :]
+        at = self.attachment(attachment)
+        arm = 0 * at.position if position is None else position - at.position
+        phi = (rigid_motions(arm) @ at.shapes)[:3, -self.n_residuals :]
         return (phi / self.omega_n_squared[-self.n_residuals :]) @ phi.T
 
 

@@ -1,11 +1,14 @@
 """Connections: what pulls between two bodies, or between a body and the ground.
 
 Every one is a set of one-dimensional springs and dampers along three local axes, as in the paper
-(Duncan, fig. 2); the kinds differ in what they are for.
+(Duncan, fig. 2); the kinds differ in what they are for. All of them act in one place, the elastic
+centre, to which rigid arms carry the motion of both ends: so a rigid motion of both bodies stretches
+nothing, and what pulls one body pulls the other back along the same line.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 
@@ -54,6 +57,8 @@ class Connection:
     """(3, 3): the local axes as rows."""
     rigid: tuple[str, ...] = ()
     """Which of `MOTIONS` there are none of, as if the stiffness were infinite."""
+    elastic_center: float = 0.5
+    """Where between its ends it acts: 0 at the first, 1 at the second."""
 
     def __post_init__(self) -> None:
         frozen(self, "points", self.points, (2, 3))
@@ -74,9 +79,20 @@ class Connection:
                 f"connection {self.name!r}: loss_factor: found {self.loss_factor}, "
                 "expected zero or more"
             )
+        if not 0 <= self.elastic_center <= 1:
+            raise VehicleError(
+                f"connection {self.name!r}: elastic_center: found {self.elastic_center}, expected 0 "
+                "(at the first of its ends) to 1 (at the second)"
+            )
         self._check_rigid()
         if self.bodies[0] == self.bodies[1]:
             raise VehicleError(f"connection {self.name!r}: joins {self.bodies[0]!r} to itself")
+
+    @property
+    def center(self) -> Floats:
+        """The elastic centre, (3,), m: where it acts on both bodies."""
+        first, second = self.points
+        return first + self.elastic_center * (second - first)
 
     def _check_rigid(self) -> None:
         """Raises VehicleError unless what is rigid is some of `MOTIONS`, without a rate."""
@@ -110,9 +126,60 @@ class Mount(Connection):
 
 
 @dataclass(frozen=True, eq=False)
-class Tyre(Connection):
-    """A tyre: the springs between a wheel and the road."""
+class Rod(Connection):
+    """A link with a hinge at each end: it only pulls and pushes along the line between its ends.
 
+    Its local x is that line, whatever `axes` it is given, and it has rates along no other: see
+    `between`.
+    """
+
+    def __post_init__(self) -> None:
+        frozen(self, "points", self.points, (2, 3))
+        object.__setattr__(self, "axes", _along(self.name, *self.points))
+        super().__post_init__()
+        across = *self.stiffness[1:], *self.damping[1:], *self.rotational_stiffness
+        if any(across) or not set(self.rigid) <= {"x"}:
+            raise VehicleError(
+                f"rod {self.name!r}: found rates across the rod or about it, expected only those along "
+                "it; a [[spring]] has the others"
+            )
+
+    @classmethod
+    def between(
+        cls,
+        name: str,
+        group: str,
+        bodies: tuple[str, str],
+        points: Floats,
+        stiffness: float = 0.0,
+        damping: float = 0.0,
+        loss_factor: float = 0.0,
+        rigid: bool = False,
+    ) -> Self:
+        """A rod of so much stiffness, N/m, and viscous damping, N s/m, or one of constant length.
+
+        Raises:
+            VehicleError: its ends are in one place, or something else is wrong with it.
+        """
+        along = np.array([1.0, 0.0, 0.0])
+        return cls(
+            name,
+            group,
+            bodies,
+            points,
+            stiffness=stiffness * along,
+            damping=damping * along,
+            loss_factor=loss_factor,
+            rigid=("x",) if rigid else (),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Tyre(Connection):
+    """A tyre: the springs between a wheel, its first end, and the road, its second."""
+
+    elastic_center: float = 1.0
+    """As any connection's, but at its patch unless told otherwise: there the road pushes."""
     wheel_center: Floats = field(default_factory=lambda: np.zeros(3))
     """(3,), m: where radial forces and unbalance act."""
     trail: float = 0.0
@@ -123,6 +190,25 @@ class Tyre(Connection):
         frozen(self, "wheel_center", self.wheel_center, (3,))
         if not np.isfinite(self.trail):
             raise VehicleError(f"tyre {self.name!r}: trail: found {self.trail} m")
+
+
+def _along(rod: str, first: Floats, second: Floats) -> Floats:
+    """Axes (3, 3) whose x runs from the first end of a rod to the second.
+
+    Raises:
+        VehicleError: they are in one place.
+    """
+    line = second - first
+    length = np.linalg.norm(line)
+    if not length > np.finfo(float).eps * np.abs([first, second]).max():
+        raise VehicleError(
+            f"rod {rod!r}: found both ends at {first.tolist()}, expected two places: it acts along the "
+            "line between them"
+        )
+    x = line / length
+    y = np.cross(np.eye(3)[np.argmin(np.abs(x))], x)
+    y /= np.linalg.norm(y)
+    return np.stack([x, y, np.cross(x, y)])
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from modeviz.vehicle.connections import (
     MountGroup,
     MountRates,
     Rates,
+    Rod,
     Spring,
     Tyre,
 )
@@ -190,10 +191,10 @@ class Vehicle:
 
     def _check_ends(self, connection: Connection) -> None:
         where = f"connection {connection.name!r}"
-        if not isinstance(connection, Mount | Spring | Bolt | Damper | Tyre):
-            raise VehicleError(f"{where}: expected a Spring, Bolt, Damper or Tyre")
-        if connection.rigid and not isinstance(connection, Spring | Bolt):
-            raise VehicleError(f"{where}: only a spring or a bolt can be rigid")
+        if not isinstance(connection, Mount | Spring | Rod | Bolt | Damper | Tyre):
+            raise VehicleError(f"{where}: expected a Spring, Rod, Bolt, Damper or Tyre")
+        if connection.rigid and not isinstance(connection, Spring | Rod | Bolt):
+            raise VehicleError(f"{where}: only a spring, a rod or a bolt can be rigid")
         if connection.bodies[0] == GROUND:
             raise VehicleError(f"{where}: {GROUND!r} must be the second of its bodies")
         for body, point in zip(connection.bodies, connection.points, strict=True):

@@ -48,7 +48,7 @@ class MountMarker:
         axes = SO3.from_matrix(mount.axes.T).wxyz
         path = f"/mounts/{mount.name.replace('/', '-')}"
         self._bodies = mount.bodies
-        self._frame = scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.points[0])
+        self._frame = scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.center)
         self._rubber = scene.add_cylinder(
             f"{path}/rubber", RADIUS, HEIGHT, color=RUBBER, cast_shadow=False
         )
@@ -190,7 +190,7 @@ class Markers:
             self._card.show("", np.zeros(3))
         else:
             text = card_text(group, rates[selected], unit, shares[selected], mode)
-            self._card.show(text, group.mounts[self._nearest[selected]].points[0])
+            self._card.show(text, group.mounts[self._nearest[selected]].center)
 
 
 def card_text(group: MountGroup, rates: MountRates, unit: str, share: float, mode: str) -> str:
@@ -211,7 +211,7 @@ def _short_name(mount: Mount, group: MountGroup) -> str:
 
 def _nearest_to_us(group: MountGroup) -> int:
     """Which mount of a group the card hangs on."""
-    return int(np.argmin([mount.points[0][1] for mount in group.mounts]))
+    return int(np.argmin([mount.center[1] for mount in group.mounts]))
 
 
 def _add_points(scene: viser.SceneApi, vehicle: Vehicle) -> Marks:

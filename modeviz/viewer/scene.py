@@ -75,7 +75,7 @@ class Scene:
         groups = {group.name: group for group in self._vehicle.mount_groups}
         if not state.follow or state.group not in groups:
             return self._box
-        return self._box.around(np.mean([m.points[0] for m in groups[state.group].mounts], axis=0))
+        return self._box.around(np.mean([m.center for m in groups[state.group].mounts], axis=0))
 
     def _hidden(self, solved: Solved) -> Collection[str]:
         """The bodies that are not drawn: all but the one that moves alone, or those chosen."""

@@ -13,7 +13,7 @@ import msgspec
 
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
-from modeviz.vehicle.connections import Bolt, Connection, Damper, Spring, Tyre
+from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring, Tyre
 from modeviz.vehicle.files.disk import file_stems, replace_folder, write_text
 from modeviz.vehicle.files.meshes import write_mesh
 from modeviz.vehicle.files.modal import write_flexible_body
@@ -28,6 +28,7 @@ from modeviz.vehicle.files.records import (
     ResponsePointRecord,
     RigidBodyRecord,
     RoadRecord,
+    RodRecord,
     TyreRecord,
     VehicleRecord,
     WheelLoadRecord,
@@ -46,6 +47,7 @@ CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads"}
 
 CONNECTION_KINDS: dict[str, type[Connection]] = {
     "spring": Spring,
+    "rod": Rod,
     "bolt": Bolt,
     "damper": Damper,
     "tyre": Tyre,
@@ -155,6 +157,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         added_mass=[AddedMassRecord.of(m) for m in vehicle.added_masses],
         mount_group=[MountGroupRecord.of(g) for g in vehicle.mount_groups],
         spring=[ConnectionRecord.of(c) for c in vehicle.connections if type(c) is Spring],
+        rod=[RodRecord.of(c) for c in vehicle.connections if isinstance(c, Rod)],
         bolt=[ConnectionRecord.of(c) for c in vehicle.connections if type(c) is Bolt],
         damper=[ConnectionRecord.of(c) for c in vehicle.connections if type(c) is Damper],
         tyre=[TyreRecord.of(c) for c in vehicle.tyres],

@@ -31,10 +31,12 @@ Length = Annotated[float, Quantity("length")]
 Position = Annotated[Vector, Quantity("length")]
 Place = Annotated[tuple[float | Vector, ...], Meta(min_length=2, max_length=3), Quantity("length")]
 """x, y, z; or two of those, where the ends of a connection are at different places."""
+Ends = Annotated[tuple[Vector, Vector], Quantity("length")]
 Inertia = Annotated[tuple[float, ...], Meta(min_length=3, max_length=6), Quantity("inertia")]
 Rate = Annotated[float, Meta(ge=0), Quantity("stiffness")]
 Stiffness = Annotated[Vector, Quantity("stiffness")]
 RotationalStiffness = Annotated[Vector, Quantity("rotational_stiffness")]
+DampingRate = Annotated[float, Meta(ge=0), Quantity("damping")]
 Damping = Annotated[Vector, Quantity("damping")]
 Amplitude = Annotated[
     float,

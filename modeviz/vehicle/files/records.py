@@ -4,6 +4,7 @@ A record is one table as it stands in the file, so its fields are the keys. `bui
 part from it, `of` the record from the part.
 """
 
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from typing import Annotated, Any, Self
 
@@ -20,6 +21,7 @@ from modeviz.vehicle.connections import (
     Mount,
     MountGroup,
     MountRates,
+    Rod,
     usual_bounds,
 )
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
@@ -28,11 +30,14 @@ from modeviz.vehicle.files.problems import ProblemRecord
 from modeviz.vehicle.files.quantities import (
     Amplitude,
     Damping,
+    DampingRate,
+    Ends,
     Inertia,
     Length,
     Mass,
     Place,
     Position,
+    Rate,
     RotationalStiffness,
     Speed,
     Stiffness,
@@ -181,17 +186,15 @@ class MountRecord(Record, kw_only=True):
     rotational_stiffness: RotationalStiffness = NO_RATES
     damping: Damping = NO_RATES
     axes: Axes = VEHICLE_AXES
+    elastic_center: float = 0.5
+    """Where between its ends it acts: 0 at the first, 1 at the second."""
 
     @classmethod
     def of(cls, connection: Connection) -> Self:
         first, second = map(_tuples, connection.points)
-        fields = {
-            field.name: value
-            for field in msgspec.structs.fields(cls)
-            if field.name != "at"
-            and (value := _tuples(getattr(connection, field.name))) != field.default
-        }
-        return cls(at=first if first == second else (first, second), **fields)
+        keys = (f for f in cls.__struct_fields__ if f != "at")
+        fields = {key: _tuples(getattr(connection, key)) for key in keys}
+        return cls(at=first if first == second else (first, second), **_said(cls, fields))
 
     def arguments(self) -> dict[str, Any]:
         """The constructor's arguments of a connection."""
@@ -276,9 +279,42 @@ class ConnectionRecord(MountRecord, kw_only=True):
         return kind(**arguments)
 
 
+class RodRecord(Record, kw_only=True):
+    """[[rod]]: a link between two places, hinged at both; it acts along the line between them."""
+
+    name: Name
+    group: Name = "rods"
+    bodies: tuple[str, str]
+    at: Ends
+    stiffness: Rate = 0.0
+    damping: DampingRate = 0.0
+    loss_factor: NonNegative = 0.0
+    rigid: bool = False
+    """Whether its length does not change."""
+
+    @classmethod
+    def of(cls, rod: Rod) -> Self:
+        fields = {
+            "name": rod.name,
+            "group": rod.group,
+            "bodies": rod.bodies,
+            "stiffness": float(rod.stiffness[0]),
+            "damping": float(rod.damping[0]),
+            "loss_factor": rod.loss_factor,
+            "rigid": bool(rod.rigid),
+        }
+        return cls(at=_tuples(rod.points), **_said(cls, fields))
+
+    def build(self, kind: type[Rod]) -> Rod:
+        fields = {f: getattr(self, f) for f in self.__struct_fields__ if f != "at"}
+        return kind.between(points=np.array(self.at), **fields)
+
+
 class TyreRecord(ConnectionRecord, kw_only=True):
     """[[tyre]]."""
 
+    elastic_center: float = 1.0
+    """As any connection's, but at the patch, its second end, unless told otherwise."""
     wheel_center: Position
     trail: Length = 0.0
 
@@ -345,6 +381,7 @@ class VehicleRecord(Record, kw_only=True):
     added_mass: list[AddedMassRecord] = msgspec.field(default_factory=list)
     mount_group: list[MountGroupRecord] = msgspec.field(default_factory=list)
     spring: list[ConnectionRecord] = msgspec.field(default_factory=list)
+    rod: list[RodRecord] = msgspec.field(default_factory=list)
     bolt: list[ConnectionRecord] = msgspec.field(default_factory=list)
     damper: list[ConnectionRecord] = msgspec.field(default_factory=list)
     tyre: list[TyreRecord] = msgspec.field(default_factory=list)
@@ -354,6 +391,12 @@ class VehicleRecord(Record, kw_only=True):
     rates: dict[str, dict[str, RateSetRecord]] = msgspec.field(default_factory=dict)
     """[rates.SET.GROUP]."""
     problem: list[ProblemRecord] = msgspec.field(default_factory=list)
+
+
+def _said(kind: type[Record], fields: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a record that differ from its defaults."""
+    default = {field.name: field.default for field in msgspec.structs.fields(kind)}
+    return {key: value for key, value in fields.items() if value != default[key]}
 
 
 def _tuples(value: Any) -> Any:
