@@ -29,6 +29,7 @@ def test_scaled_vehicle_has_the_size_that_was_asked_for(road_train):
     assert system.mount_motions.shape == (3 * 2 * 2, 3 * 40)
 
 
+@pytest.mark.bitwise
 def test_scaled_vehicle_is_the_same_every_time(road_train):
     again = assemble(scaled_vehicle(Size(n_wagons=3, n_modes=40, n_mounts=2)))
     np.testing.assert_array_equal(again.stiffness, assemble(road_train).stiffness)

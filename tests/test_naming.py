@@ -1,14 +1,17 @@
 """Naming on vehicles that are not the pickup, where what each mode is can be told from theory."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from mounted_cabin import mounted_cabin
 from oracles import Beam
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.naming import ModeName, name_modes, prepare_names
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import Spring, Tyre
+from modeviz.vehicle.connections import MountRates, Spring, Tyre
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -141,7 +144,23 @@ def test_names_below_25_hz_do_not_depend_on_how_many_modes_are_asked(truck, rate
 def test_one_namer_serves_whatever_the_rates_are(truck):
     optimised = truck.with_rates(truck.vehicle.rate_sets["optimised"])
     modes = solve_modes(optimised, 40)
-    assert name_modes(prepare_names(truck), modes) == name_modes(prepare_names(optimised), modes)
+    found, expected = (name_modes(prepare_names(system), modes) for system in (truck, optimised))
+    assert [n.name for n in found] == [n.name for n in expected]
+    assert [n.score for n in found] == pytest.approx([n.score for n in expected], abs=1e-9)
+
+
+def test_axles_that_are_alike_are_called_the_same_however_arithmetic_rounds():
+    """Both axles of a rigid chassis tramp at once, each with as much of the mode."""
+    soft = {"A": MountRates(2e5, 1e5, 1e5), "B": MountRates(8e5, 131e3, 4e5)}
+    system = assemble(mounted_cabin().with_rates(soft))
+    namer, modes, random = prepare_names(system), solve_modes(system), np.random.default_rng(1)
+    found = set()
+    for _ in range(20):
+        rounded = modes.shapes * (1 + 1e-14 * random.normal(size=modes.shapes.shape))
+        names = name_modes(namer, replace(modes, shapes=rounded))
+        found.add(tuple(n.name for n in names))
+    assert len(found) == 1
+    assert {"front tramp", "rear tramp"} & set(*found)
 
 
 def test_a_name_for_less_than_half_of_the_mode_is_spoken_as_a_guess():

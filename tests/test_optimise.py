@@ -8,6 +8,7 @@ import pytest
 from cabin_problem import cabin_search
 from limits_kept import excess
 from mounted_cabin import mounted_cabin
+from rounding import CABIN, EPSILON, SEARCHED
 from test_search import CENTER, MINIMUM
 from threadpoolctl import threadpool_limits
 from toy_goals import logarithmic_search, paraboloid
@@ -77,9 +78,9 @@ def test_starts_are_the_given_rates_and_the_best_of_many_designs():
     first, *others = start_points(search, rates, 4, seed=5)
     np.testing.assert_array_equal(first, search.space.to_x(rates))
     values = [search.value(x) for x in search.space.samples(3 * SCREENED, seed=5)]
-    assert [search.value(x) for x in others] == sorted(values)[:3]
+    assert [search.value(x) for x in others] == pytest.approx(sorted(values)[:3], rel=CABIN)
     again = start_points(search, rates, 4, seed=5)
-    np.testing.assert_array_equal(again, [first, *others])
+    np.testing.assert_allclose(again, [first, *others], rtol=0, atol=8 * EPSILON)
     assert len(start_points(search, rates, 1)) == 1
 
 
@@ -109,8 +110,12 @@ def test_a_population_keeps_all_limits_and_windows():
     assert all(excess(search.space, s.x) < 1e-12 for s in steps if s.x is not None)
     (f,) = search.windows.exact_frequencies(search.space.rates(descent.x))
     assert f <= 9.5
-    again = evolve(search, seed=0, budget=400)
-    np.testing.assert_array_equal(again.x, descent.x)
+
+
+@pytest.mark.bitwise
+def test_the_same_seed_evolves_the_same():
+    first, again = (evolve(cabin_search(), seed=0, budget=200) for _ in range(2))
+    np.testing.assert_array_equal(again.x, first.x)
 
 
 def test_a_global_search_ends_with_its_budget_or_when_it_is_cancelled():
@@ -213,7 +218,8 @@ def test_held_it_waits_and_then_finds_the_same():
     thread.join(60)
     (optimum,) = found
     assert optimum.reason == CONVERGED
-    assert optimum.value == optimise(search, start_points(search, {}, 20)).value
+    expected = optimise(search, start_points(search, {}, 20))
+    assert optimum.value == pytest.approx(expected.value, rel=SEARCHED)
 
 
 def test_without_a_design_that_keeps_the_windows_there_is_an_error():

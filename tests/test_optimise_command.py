@@ -2,6 +2,7 @@
 
 import json
 import pty
+import re
 import signal
 from dataclasses import replace
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 from cabin_problem import PROBLEM, cabin_search
 from mounted_cabin import mounted_cabin
+from rounding import SEARCHED, SEARCHED_X
 
 from modeviz.cli import main
 from modeviz.commands import front as front_command
@@ -73,11 +75,12 @@ def test_it_finds_what_python_finds(printed_json, cabin):
     assert record["objective"] == pytest.approx(expected, rel=1e-9)
     assert record["converged"] is best.converged is True
     assert record["reason"] == "converged"
-    assert record["evaluations"] == best.evaluations
     assert 0 <= record["exact_difference"] < 1e-9
-    named = [(c["name"], c["multiplier"], c["gain"]) for c in record["active_constraints"]]
-    assert named == [(c.name, c.multiplier, c.gain) for c in best.active]
-    assert named
+    named = {c["name"]: (c["multiplier"], c["gain"]) for c in record["active_constraints"]}
+    assert list(named) == [c.name for c in best.active]
+    largest = max(c.multiplier for c in best.active)
+    for c in best.active:
+        assert named[c.name] == pytest.approx((c.multiplier, c.gain), abs=SEARCHED_X * largest)
     vertical = record["rates"]["A"]["vertical"]
     assert vertical == pytest.approx(best.rates["A"].vertical / 1e3, rel=1e-9)
 
@@ -131,8 +134,7 @@ def test_the_rates_it_writes_are_those_it_prints(printed_json, cabin, tmp_path):
 def test_the_global_search_is_that_of_python(printed_json, cabin):
     record = printed_json("optimise", cabin, "--global", "--seed", "3", "--budget", "600")
     best = search_globally(cabin_search(), seed=3, budget=600)
-    assert record["objective"]["found"] == best.value
-    assert record["evaluations"] == best.evaluations
+    assert record["objective"]["found"] == pytest.approx(best.value, rel=SEARCHED)
 
 
 def test_it_starts_at_the_rates_that_are_chosen(printed_json, cabin):
@@ -165,7 +167,9 @@ def test_a_problem_is_taken_from_a_file(printed_json, cabin, folder, refused, tm
     path.write_text(problem_text(replace(PROBLEM, is_normalised=False)))
     plain = printed_json("optimise", cabin, "--plain", "--starts", "1")
     for vehicle in (cabin, folder):  # the other one has no problem of its own
-        assert printed_json("optimise", vehicle, "--problem", str(path), "--starts", "1") == plain
+        other = printed_json("optimise", vehicle, "--problem", str(path), "--starts", "1")
+        found, expected = (record["objective"]["found"] for record in (other, plain))
+        assert (other["normalised"], found) == (False, pytest.approx(expected, rel=SEARCHED))
     assert "nowhere.toml" in refused(cabin, "--problem", str(path.with_name("nowhere.toml")))
 
 
@@ -177,7 +181,7 @@ def test_the_table_says_what_was_found_and_which_sum_it_is(capsys, cabin):
     vertical = next(line for line in lines if line.startswith("A vertical"))
     assert float(vertical.split()[3]) == pytest.approx(best.rates["A"].vertical / 1e3, rel=1e-3)
     assert "objective: squared accelerations, each load case relative to the original" in lines
-    assert f"converged after {best.evaluations} evaluations in 3 searches" in lines
+    assert any(re.fullmatch(r"converged after \d+ evaluations in 3 searches", line) for line in lines)
     limit = next(line for line in lines if line.startswith(best.active[0].name))
     assert f"{100 * best.active[0].gain:.1f} %" in limit
     assert any(line.startswith("the full model's objective differs by") for line in lines)
@@ -341,6 +345,7 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_search(
     assert name in capsys.readouterr().err
 
 
+@pytest.mark.bitwise
 def test_the_same_seed_finds_the_same(printed_json, cabin):
     first, again = (printed_json("optimise", cabin, "--starts", "2", "--seed", "5") for _ in range(2))
     assert first == again

@@ -204,6 +204,7 @@ def test_it_ends_with_its_budget(cabin):
     assert front.designs
 
 
+@pytest.mark.bitwise
 def test_the_same_seed_finds_the_same(cabin):
     again = find_front(cabin[0], [{}], n_designs=7)
     assert [d.values for d in again.designs] == [d.values for d in cabin[1].designs]

@@ -124,6 +124,7 @@ def test_road_is_not_extrapolated():
         road_spectrum(table(np.array([0.2, 18.0]), 1e-5, 1e-5, 0.0), F, 40.0)
 
 
+@pytest.mark.bitwise
 def test_same_seed_gives_the_same_profile():
     road = uneven_road()
     first, again, other = (two_track_profile(road, 20.0, 4.0, 200.0, seed) for seed in (7, 7, 8))

@@ -78,6 +78,7 @@ def test_bands_are_percentiles_of_the_samples_psds(prepared, parts, result):
     assert (low < high).all()
 
 
+@pytest.mark.bitwise
 def test_a_seed_repeats_its_numbers_and_another_has_others(prepared, parts, objective, result):
     again = scatter(prepared, parts, FLAT, objective, N_SAMPLES, seed=3, points=("seat", "rear"))
     for name in ("rms", "psd", "goal", "deviations"):

@@ -22,6 +22,10 @@ TOLERANCE = 3e-5
 """What the frequencies left out may add to the sampled responses, relative to what they have."""
 
 
+ROUNDING = 1e-10
+"""Changes of the sampled responses below this, relative to what they are, are those of arithmetic."""
+
+
 @dataclass(frozen=True, eq=False)
 class FewLines:
     """Receptances at a few frequencies, and what they tell about all."""
@@ -78,7 +82,7 @@ def _interpolation(samples: Complexes) -> tuple[NDArray[np.intp], Complexes]:
     factors = scipy.linalg.qr(samples, mode="r", pivoting=True, check_finite=False)
     R, order = np.asarray(factors[0]), np.asarray(factors[-1], np.intp)
     size = np.abs(np.diag(R))
-    rank = int(np.count_nonzero(size > TOLERANCE * size[0]))
+    rank = int(np.count_nonzero(size > max(TOLERANCE * size[0], ROUNDING)))
     coefficients = np.zeros((samples.shape[1], rank), complex)
     coefficients[order[:rank]] = np.eye(rank)
     rest = np.linalg.solve(R[:rank, :rank], R[:rank, rank:])

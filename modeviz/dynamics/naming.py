@@ -34,6 +34,9 @@ MINIMUM_SCORE = 0.3
 WEAK_SCORE = 0.5
 """Below this most of the mode's energy is in other motions than the one it is called after."""
 
+ALIKE = 9
+"""Decimals of scores that count: axles that are alike are called the same however arithmetic rounds."""
+
 MOTION_WORDS = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
 
 
@@ -103,7 +106,7 @@ def name_modes(namer: Namer, modes: Modes) -> tuple[ModeName, ...]:
     catalogue = named_motions(shares)
     names = list(catalogue)
     scores = np.array([catalogue[n] for n in names]).reshape(len(names), len(described))
-    rows, columns = linear_sum_assignment(-scores)
+    rows, columns = linear_sum_assignment(-scores.round(ALIKE))
     given = {
         int(mode): ModeName(names[row], float(scores[row, mode]))
         for row, mode in zip(rows, columns, strict=True)
@@ -135,7 +138,7 @@ def _describe(shares: Shares) -> list[ModeName]:
 
     "engine yaw", or "box flexing" where less than half of the unit's energy is rigid.
     """
-    most = shares.energy.argmax(axis=0)
+    most = shares.energy.round(ALIKE).argmax(axis=0)
     each = np.arange(len(most))
     words = [
         "vehicle" if ride else shares.units[i].word for ride, i in zip(shares.ride, most, strict=True)
@@ -143,7 +146,7 @@ def _describe(shares: Shares) -> list[ModeName]:
     energy = np.where(shares.ride, 1.0, shares.energy[most, each])
     rigid = np.where(shares.ride, shares.whole, shares.rigid[most, :, each].T)
     flexes = rigid.sum(axis=0) < energy / 2
-    motions = np.where(flexes, "flexing", np.array(MOTION_WORDS)[rigid.argmax(axis=0)])
+    motions = np.where(flexes, "flexing", np.array(MOTION_WORDS)[rigid.round(ALIKE).argmax(axis=0)])
     scores = np.where(flexes, energy, rigid.max(axis=0))
     return [
         ModeName(f"{word} {motion}", float(score))

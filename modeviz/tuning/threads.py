@@ -14,7 +14,8 @@ def one_thread(function: Callable[P, T]) -> Callable[P, T]:
     """The same function with BLAS on one thread.
 
     A second one helps no system this small, beside other programs it is up to a hundred times slower,
-    and it rounds otherwise: so the same seed finds the same to the last digit on any machine.
+    and it rounds otherwise: so the same seed finds the same to the last digit, however many threads a
+    processor of one kind has. Another kind rounds otherwise too.
     """
 
     @wraps(function)

@@ -90,7 +90,9 @@ def read_vehicle(folder: Path) -> Vehicle:
 
 
 def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
-    """Writes the vehicle as a folder, in place of a vehicle that is there; the same bytes every time.
+    """Writes the vehicle as a folder, in place of a vehicle that is there.
+
+    The same numbers give the same bytes on any machine.
 
     Raises:
         VehicleError: the folder holds something else, or cannot be written.
