@@ -7,7 +7,7 @@ import numpy as np
 
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.reanalysis import Receptances
-from modeviz.ride.roads import track_amplitudes
+from modeviz.ride.roads import track_amplitudes, tyre_directions
 from modeviz.tuning.preparation import Prepared
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
@@ -34,7 +34,7 @@ class Work:
     @property
     def input_rows(self) -> Floats:
         """(n_rows, n_dofs): along which the tyres push."""
-        return self.prepared.input_directions[self.prepared.tyre_inputs]
+        return tyre_directions(self.prepared.system)
 
     @cached_property
     def amplitudes(self) -> Complexes:
@@ -65,7 +65,8 @@ class Work:
     @cached_property
     def receptances(self) -> Receptances:
         """Of the base vehicle to the two tracks."""
-        return self.prepared.receptances.driven(self.amplitudes, self.prepared.tyre_inputs)
+        prepared = self.prepared
+        return prepared.excited([prepared.vehicle.roads[0]], prepared.vehicle.speed)
 
     @property
     def n_operations(self) -> float:

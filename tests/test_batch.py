@@ -135,5 +135,5 @@ def test_an_undamped_resonance_is_named_with_its_set():
 
 
 def test_a_road_that_is_not_there_is_an_error(prepared):
-    with pytest.raises(VehicleError, match=r"unknown road 'moon'"):
+    with pytest.raises(VehicleError, match=r"unknown random load 'moon'"):
         next(solve_many(prepared, np.ones((1, 12), complex), Conditions("moon", 20.0)))

@@ -100,7 +100,7 @@ def test_tables_name_points_and_directions(capsys, folder, command):
         (["modes", "{}", "--set", "A.lateral=131 N/furlong"], "unit of stiffness"),
         (["modes", "{}", "--set", "A.lateral=-5 N/mm"], "zero or more"),
         (["modes", "{}", "--set", "A.lateral=nan N/mm"], "expected a number"),
-        (["psd", "{}", "--road", "moon"], "unknown road 'moon'"),
+        (["psd", "{}", "--road", "moon"], "unknown random load 'moon'"),
         (["psd", "{}", "--speed", "0 km/h"], "more than zero"),
         (["psd", "{}", "--speed", "fast"], "--speed: found 'fast'"),
         (["psd", "{}", "--speed", "9000 km/h"], "its table holds"),

@@ -77,7 +77,7 @@ def test_the_plain_sum_is_the_papers():
 
     f = road.frequency_hz
     H = mv.direct_response(system, f, mv.track_forces(system, f, vehicle.speed), outputs)
-    S = mv.road_spectrum(vehicle.road("flat"), f, vehicle.speed)
+    S = mv.road_spectrum(vehicle.random_load("flat"), f, vehicle.speed)
     powers = np.einsum("foi,fij,foj->fo", H, S, H.conj()).real
     expected = ((2 * np.pi * f)[:, None] ** 4 * powers).sum() / STANDARD_GRAVITY**2
 
@@ -160,7 +160,7 @@ def test_a_case_that_is_silent_with_the_original_rates_counts_as_it_is():
 
 
 def test_names_that_are_not_there_and_missing_roads_are_errors():
-    with pytest.raises(VehicleError, match="unknown road 'moon'"):
+    with pytest.raises(VehicleError, match="unknown random load 'moon'"):
         goal_of(performance=(Performance(np.array([9.0]), ("moon",)),))
     bare = replace(mounted_cabin(), roads=())
     with pytest.raises(VehicleError, match=r"goal 'rating' needs a \[\[road\]\]"):

@@ -16,7 +16,7 @@ from modeviz.dynamics.band import band_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.dynamics.trust import count_below
 from modeviz.ride.psd import acceleration_psd
-from modeviz.ride.roads import road_spectrum, track_amplitudes, track_forces
+from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.ride.wheels import wheel_forces
 from modeviz.tuning.batch import solve_many
 from modeviz.tuning.check import check_exactly, classic_error
@@ -121,16 +121,14 @@ def true_psd(prepared, road, rates, lines, displacements=direct_displacements):
     """PSD of all 12 outputs at some lines."""
     f = prepared.frequency_hz[lines]
     forces = track_forces(prepared.system, f, road.speed)
-    spectrum = road_spectrum(prepared.vehicle.road(road.road), f, road.speed)
+    spectrum = road_spectrum(prepared.vehicle.random_load(road.road), f, road.speed)
     return acceleration_psd(f, displacements(prepared, rates, f, forces), spectrum)
 
 
 def live_psd(prepared, road, rates):
     f = prepared.frequency_hz
-    driven = prepared.receptances.driven(
-        track_amplitudes(prepared.vehicle, f, road.speed), prepared.tyre_inputs
-    )
-    spectrum = road_spectrum(prepared.vehicle.road(road.road), f, road.speed)
+    driven = prepared.excited([prepared.vehicle.random_load(road.road)], road.speed)
+    spectrum = road_spectrum(prepared.vehicle.random_load(road.road), f, road.speed)
     return acceleration_psd(f, driven.response(rates), spectrum)
 
 

@@ -82,5 +82,5 @@ def test_the_frequencies_of_a_case_are_checked(frequency_hz, found):
 
 
 def test_a_road_that_is_not_there_is_an_error():
-    with pytest.raises(VehicleError, match=r"unknown road 'moon'.*flat, rough"):
+    with pytest.raises(VehicleError, match=r"unknown random load 'moon'.*flat, rough"):
         prepare_objective(mounted_cabin(), [LoadCase(Conditions("moon", 20.0), (1.0,))])

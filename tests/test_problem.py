@@ -132,9 +132,12 @@ def test_only_accelerations_need_performance_variables(goal):
         ({"groups": (DesignGroup("C"),)}, "unknown mount group 'C': there are A, B"),
         (
             {"performance": (ON_ROAD, replace(ON_ROAD, roads=("flat", "rogh")))},
-            "unknown road 'rogh': did you mean 'rough'? there are flat, rough",
+            "unknown random load 'rogh': did you mean 'rough'? there are flat, rough",
         ),
-        ({"performance": (Performance(HZ, wheel_loads=("x",)),)}, "unknown wheel load 'x': there are"),
+        (
+            {"performance": (Performance(HZ, wheel_loads=("x",)),)},
+            "unknown harmonic load 'x': there are",
+        ),
         (
             {"performance": (replace(ON_ROAD, points=("toe",)),)},
             "unknown response point 'toe': there are",

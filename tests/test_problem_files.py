@@ -192,7 +192,7 @@ EDITS = {
     "unknown road": (
         '"rough"',
         '"rugh"',
-        "problem 'everything': unknown road 'rugh': did you mean 'rough'? there are flat, rough",
+        "problem 'everything': unknown random load 'rugh': did you mean 'rough'? there are flat, rough",
     ),
     "unknown set": (
         'reference = "soft"',

@@ -108,7 +108,7 @@ def test_a_vehicle_without_roads_and_loads_has_a_report_of_its_modes(folder, tmp
         (["--output", "{tmp}"], "expected a file or a new name"),
         (["--output", "{tmp}/no/such/report.html"], "cannot be written (there is no folder"),
         (["--against", "hard", "--output", "{tmp}/out.html"], "there are original, soft, or give"),
-        (["--road", "moon", "--output", "{tmp}/out.html"], "unknown road 'moon'"),
+        (["--road", "moon", "--output", "{tmp}/out.html"], "unknown random load 'moon'"),
     ],
 )
 def test_what_is_wrong_is_said_before_anything_is_solved(

@@ -29,7 +29,7 @@ def test_the_ride_is_the_direct_solution_of_the_tuned_vehicle(results):
     f = FREQUENCY_HZ[::37]
     seat = tuned.motion("cab", np.array([1.2, -0.4, 0.9]))[:3]
     H = direct_response(tuned, f, track_forces(tuned, f, 20.0), seat)
-    S = road_spectrum(tuned.vehicle.road("flat"), f, 20.0)
+    S = road_spectrum(tuned.vehicle.random_load("flat"), f, 20.0)
     np.testing.assert_allclose(results.psd[::37, 0], acceleration_psd(f, H, S), rtol=1e-8)
 
 
@@ -45,7 +45,7 @@ def test_loss_factors_are_those_of_the_direct_solution(vehicle):
     f = FREQUENCY_HZ[::37]
     tuned = assemble(vehicle.with_rates(LOSS))
     seat = tuned.motion("cab", np.array([1.2, -0.4, 0.9]))[:3]
-    S = road_spectrum(tuned.vehicle.road("flat"), f, 20.0)
+    S = road_spectrum(tuned.vehicle.random_load("flat"), f, 20.0)
     psd = acceleration_psd(f, direct_response(tuned, f, track_forces(tuned, f, 20.0), seat), S)
     forces = wheel_forces(tuned, tuned.vehicle.wheel_loads, f)
     g = (
@@ -107,7 +107,7 @@ def test_wheel_loads_are_the_direct_solution():
 
 
 def test_a_road_that_is_not_there_is_an_error():
-    with pytest.raises(VehicleError, match=r"unknown road 'moon'.*flat, rough"):
+    with pytest.raises(VehicleError, match=r"unknown random load 'moon'.*flat, rough"):
         solve(prepare(mounted_cabin()), {}, Conditions("moon", 20.0))
 
 

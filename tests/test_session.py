@@ -140,7 +140,7 @@ def test_a_failure_is_told_and_the_session_goes_on(session):
     session.expects_failure = True
     session.change(conditions=Conditions("moon", 20.0))
     assert session.wait(20)
-    assert "unknown road 'moon'" in str(session.failures[-1])
+    assert "unknown random load 'moon'" in str(session.failures[-1])
     session.change(conditions=FLAT)
     assert session.wait(20)
     assert session.answers[-1].now.conditions == FLAT

@@ -76,7 +76,7 @@ def test_all_coordinates_move_as_a_plain_solve_says(results):
     np.testing.assert_allclose(shape, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
 
     H = flexibility @ track_forces(system, f, results.conditions.speed)[0]
-    S = road_spectrum(system.vehicle.road(results.conditions.road), f, results.conditions.speed)[0]
+    S = road_spectrum(results.drive.load, f, results.conditions.speed)[0]
     seat = system.vehicle.response_points[0]
     row = system.motion(seat.body, seat.position)[AXIS["lateral"]]
     G = H @ S @ H.conj().T
@@ -96,7 +96,7 @@ def test_a_frequency_out_of_the_band_is_an_error(cabin, frequency_hz):
 
 
 def test_a_load_that_is_not_there_is_an_error(cabin):
-    with pytest.raises(VehicleError, match=r"unknown wheel load 'moon'.*front left radial force"):
+    with pytest.raises(VehicleError, match=r"unknown harmonic load 'moon'.*front left radial force"):
         wheel_shape(cabin, "moon", 8.0)
 
 

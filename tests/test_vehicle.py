@@ -137,8 +137,8 @@ def test_part_that_cannot_be_is_refused(value, changes, words):
             "connection 'arm': group 'cab' is the name of a body",
         ),
         ({"mount_groups": (GROUP, GROUP)}, "'C1 left' is there twice"),
-        ({"roads": (ROAD, ROAD)}, "road 'road 1' is there twice"),
-        ({"wheel_loads": VEHICLE.wheel_loads[:1] * 2}, "wheel load 'unbalance left' is there twice"),
+        ({"roads": (ROAD, ROAD)}, "random load 'road 1' is there twice"),
+        ({"wheel_loads": VEHICLE.wheel_loads[:1] * 2}, "harmonic load 'unbalance left' is there twice"),
         ({"added_masses": VEHICLE.added_masses * 2}, "added mass 'driver' is there twice"),
         ({"added_masses": (AddedMass("tank", "cob", np.zeros(3), 1.0),)}, "did you mean 'cab'"),
         ({"response_points": VEHICLE.response_points * 2}, "'seat track left' is there twice"),
@@ -167,7 +167,10 @@ def test_connection_may_hold_on_as_far_as_it_reaches():
     ("ask", "words"),
     [
         (lambda: VEHICLE.body("Cab"), "unknown body 'Cab': did you mean 'cab'?"),
-        (lambda: VEHICLE.road("road 2"), "unknown road 'road 2': did you mean 'road 1'?"),
+        (
+            lambda: VEHICLE.random_load("road 2"),
+            "unknown random load 'road 2': did you mean 'road 1'?",
+        ),
         (lambda: VEHICLE.mount_group("F"), "unknown mount group 'F': there are C1"),
         (lambda: VEHICLE.with_rates({"F": RATES}), "unknown mount group 'F': there are C1"),
         (lambda: CAB.attachment("seat"), "body 'cab': unknown attachment 'seat': there are origin"),

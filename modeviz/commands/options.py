@@ -11,7 +11,7 @@ import numpy as np
 from modeviz.commands.terminal import progress, remark
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record
-from modeviz.ride.roads import road_spectrum
+from modeviz.ride.excitation import input_spectrum
 from modeviz.tuning.default_problem import problems
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
@@ -43,12 +43,12 @@ def conditions(options: Namespace, vehicle: Vehicle) -> Conditions:
     Raises:
         ModevizError: there is no such road, or nothing to drive or to feel it with.
     """
-    need(vehicle, "road", vehicle.roads)
+    need(vehicle, "road", vehicle.random_loads)
     need(vehicle, "response point", vehicle.response_points)
     speed = chosen_speed(options, vehicle)
-    road = vehicle.road(options.road or vehicle.roads[0].name)
-    road_spectrum(road, FREQUENCY_HZ, speed)  # what is wrong there is better said before a preparation
-    return Conditions(road.name, speed)
+    load = vehicle.random_load(options.road or vehicle.random_loads[0].name)
+    input_spectrum(load, FREQUENCY_HZ, speed)  # what is wrong there is better said before a preparation
+    return Conditions(load.name, speed)
 
 
 def chosen_speed(options: Namespace, vehicle: Vehicle) -> float:
@@ -87,7 +87,7 @@ def chosen_tolerance(options: Namespace) -> Tolerance:
 def ride(options: Namespace, vehicle: Vehicle) -> Conditions | None:
     """As `conditions`; None for a vehicle without road or response point, unless they are asked for."""
     asked = options.road is not None or options.speed is not None
-    if asked or (vehicle.roads and vehicle.response_points):
+    if asked or (vehicle.random_loads and vehicle.response_points):
         return conditions(options, vehicle)
     return None
 

@@ -47,7 +47,7 @@ def wheels(options: Namespace) -> None:
     """Prints the response to every wheel load."""
     vehicle, rates = vehicle_and_rates(options)
     need(vehicle, "response point", vehicle.response_points)
-    need(vehicle, "wheel load", vehicle.wheel_loads)
+    need(vehicle, "wheel load", vehicle.harmonic_loads)
     results = solve_wheels(prepare_telling(vehicle), rates)
     tuned = vehicle.with_rates(rates)
     if options.json:

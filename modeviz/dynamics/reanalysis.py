@@ -47,7 +47,7 @@ class Receptances:
     outputs: Complexes
     """(n_freqs, n_springs, n_outputs): stretch per unit force along an output; also the reverse."""
     inputs: Complexes
-    """(n_freqs, n_springs, n_inputs): stretch per unit of input."""
+    """(n_freqs, n_springs, n_inputs): stretch per unit of input, of a spring between moving ends."""
     direct: Complexes
     """(n_freqs, n_outputs, n_inputs): displacement of each output per unit of input."""
 
@@ -56,21 +56,16 @@ class Receptances:
         """The memory that the arrays take."""
         return sum(a.nbytes for a in (self.springs, self.outputs, self.inputs, self.direct))
 
-    def driven(self, amplitudes: Complexes, inputs: slice = slice(None)) -> "Receptances":
-        """The same with other inputs: each a sum of some of the present ones.
+    def driven(self, forces: Complexes, ground: Complexes) -> "Receptances":
+        """The same with other inputs: each a sum of the present ones and of motions of the ground.
 
         Args:
-            amplitudes: (n_freqs, n_inputs, n_loads), of these inputs in each load.
-            inputs: which of the present ones.
+            forces: (n_freqs, n_inputs, n_loads), of the present inputs in each load; what the ground
+                does through mounts is in them with the present mount rates.
+            ground: (n_freqs, n_springs, n_loads), m, how far the ground end of each spring moves along
+                it, which its stretch does not know.
         """
-        return Receptances(
-            self.frequency_hz,
-            self.mount_stiffness,
-            self.springs,
-            self.outputs,
-            self.inputs[:, :, inputs] @ amplitudes,
-            self.direct[:, :, inputs] @ amplitudes,
-        )
+        return replace(self, inputs=self.inputs @ forces - ground, direct=self.direct @ forces)
 
     def modified(self, stiffness: Complexes) -> "Receptances":
         """The same at other mount rates, all of it.

@@ -12,6 +12,7 @@ from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import RATE_FIELDS, MountGroup
+from modeviz.vehicle.loads import BaseMotion, Force, HarmonicLoad, WheelLoad
 from modeviz.vehicle.vehicle import Vehicle
 
 Record = dict[str, Any]
@@ -77,7 +78,7 @@ def _origin_record(followed: Followed, i: int) -> Record:
 
 
 def psd_record(results: Results) -> Record:
-    """Accelerations on a road.
+    """Accelerations on a road, or under another random load, whose name is then the road's.
 
     `{"vehicle", "rates", "road", "speed_m_per_s", "frequency_hz": [...], "responses": [{"point",
     "direction", "psd_g2_per_hz": [...], "rms_g"}], "rating": the fields of ride.rating.Rating}`.
@@ -104,31 +105,15 @@ def psd_record(results: Results) -> Record:
 
 
 def wheels_record(vehicle: Vehicle, results: WheelResults) -> Record:
-    """Harmonic response to each wheel load.
+    """Response to each wheel load and other harmonic load.
 
-    `{"vehicle", "rates", "frequency_hz": [...], "loads": [{"load", "kind", "tyre", "amplitude",
+    `{"vehicle", "rates", "frequency_hz": [...], "loads": [{"load", "kind", "tyre" or null, "amplitude",
     "responses": [{"point", "direction", "acceleration_g": [...peak], "acceleration_db": [...re 1 g]}]
-    }]}`; the amplitude is in N, of an unbalance in kg m.
+    }]}`; the amplitude is in N, of an unbalance in kg m, of a base motion in m or m/s².
     """
-    decibels = amplitude_decibels(results.acceleration_g)
     loads = [
-        {
-            "load": load.name,
-            "kind": load.kind,
-            "tyre": load.tyre,
-            "amplitude": load.amplitude,
-            "responses": [
-                {
-                    "point": point.name,
-                    "direction": direction,
-                    "acceleration_g": results.acceleration_g[:, i, j, axis].tolist(),
-                    "acceleration_db": decibels[:, i, j, axis].tolist(),
-                }
-                for j, point in enumerate(vehicle.response_points)
-                for direction, axis in AXIS.items()
-            ],
-        }
-        for i, load in enumerate(vehicle.wheel_loads)
+        {**_load_record(load), "responses": _wheel_responses(vehicle, results, i)}
+        for i, load in enumerate(vehicle.harmonic_loads)
     ]
     return {
         "vehicle": vehicle.name,
@@ -136,6 +121,32 @@ def wheels_record(vehicle: Vehicle, results: WheelResults) -> Record:
         "frequency_hz": results.frequency_hz.tolist(),
         "loads": loads,
     }
+
+
+def _load_record(load: HarmonicLoad) -> Record:
+    match load:
+        case WheelLoad():
+            kind, tyre = load.kind, load.tyre
+        case Force():
+            kind, tyre = "force", None
+        case BaseMotion():
+            kind, tyre = f"base {load.quantity}", None
+    return {"load": load.name, "kind": kind, "tyre": tyre, "amplitude": load.amplitude}
+
+
+def _wheel_responses(vehicle: Vehicle, results: WheelResults, load: int) -> list[Record]:
+    g = results.acceleration_g[:, load]
+    decibels = amplitude_decibels(g)
+    return [
+        {
+            "point": point.name,
+            "direction": direction,
+            "acceleration_g": g[:, i, axis].tolist(),
+            "acceleration_db": decibels[:, i, axis].tolist(),
+        }
+        for i, point in enumerate(vehicle.response_points)
+        for direction, axis in AXIS.items()
+    ]
 
 
 def _shares(energy: Mapping[str, Floats], mode: int) -> dict[str, float]:

@@ -116,7 +116,7 @@ def wheels_table(vehicle: Vehicle, results: WheelResults) -> str:
                     load.name,
                     *(f"{means[i, j, axis]:.2f} ({highest[i, j, axis]:.1f})" for axis in AXIS.values()),
                 ]
-                for i, load in enumerate(vehicle.wheel_loads)
+                for i, load in enumerate(vehicle.harmonic_loads)
             ],
         )
         for j, point in enumerate(vehicle.response_points)

@@ -6,7 +6,7 @@ from modeviz.dynamics.assembly import System
 from modeviz.errors import ModevizError
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Tyre
-from modeviz.vehicle.loads import Road
+from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.vehicle import Vehicle
 
 LEFT, RIGHT = 0, 1
@@ -96,6 +96,23 @@ def road_spectrum(road: Road, frequency_hz: Floats, speed: float) -> Complexes:
             "its table holds at that speed"
         )
     return _interpolate(road, at_table_speed) * road.speed / speed
+
+
+def interpolated_power(what: str, spectrum: Spectrum, frequency_hz: Floats) -> Floats:
+    """A PSD between the values of its table, (n_freqs,), where it is a power law.
+
+    Raises:
+        ModevizError: the table does not reach that far.
+    """
+    f, known = np.asarray(frequency_hz), spectrum.frequency_hz
+    slack = 1e-9 * known[-1]
+    if f.size and not (known[0] - slack <= f.min() and f.max() <= known[-1] + slack):
+        raise ModevizError(
+            f"{what}: found {f.min():g} to {f.max():g} Hz, expected frequencies from {known[0]:g} to "
+            f"{known[-1]:g} Hz, which its table holds"
+        )
+    power = np.maximum(spectrum.power, NO_POWER)
+    return np.exp(np.interp(np.log(f), np.log(known), np.log(power)))
 
 
 def _interpolate(road: Road, frequency_hz: Floats) -> Complexes:

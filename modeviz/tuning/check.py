@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import SolveError
+from modeviz.ride.excitation import generalised_forces, input_spectrum
 from modeviz.ride.psd import FLOOR, acceleration_psd
-from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.tuning.results import Results, solve_modal
 from modeviz.vehicle.arrays import Floats
 
@@ -54,18 +54,17 @@ def check_exactly(results: Results) -> Iterator[Check]:
     check = Check(_frequency_error(results.modes, exact.modes), 0.0, 0, len(results.frequency_hz))
     yield check
     system = results.prepared.system.with_rates(results.rates)
+    load, speed = results.drive.load, results.conditions.speed
     largest = results.psd.max(axis=0, initial=FLOOR)
     for lines in _coarse_first(len(results.frequency_hz)):
         f = results.frequency_hz[lines]
-        forces = track_forces(system, f, results.conditions.speed)
+        forces = generalised_forces(system, load, f, speed)
         try:
             H = direct_response(system, f, forces, results.prepared.outputs)
         except SolveError as error:
             yield replace(check, impossible=str(error))
             return
-        road = system.vehicle.road(results.conditions.road)
-        spectrum = road_spectrum(road, f, results.conditions.speed)
-        psd = acceleration_psd(f, H, spectrum).reshape(len(f), -1, 3)
+        psd = acceleration_psd(f, H, input_spectrum(load, f, speed)).reshape(len(f), -1, 3)
         relative = np.abs(psd - results.psd[lines]) / largest
         psd_error = float(relative.max(initial=check.psd_error))
         check = replace(check, psd_error=psd_error, n_lines=check.n_lines + len(f))

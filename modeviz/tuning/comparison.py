@@ -56,7 +56,7 @@ class Comparison:
     track: Track
     """Where the modes of `base` went."""
     wheels: tuple[WheelResults, WheelResults] | None
-    """The response to wheel loads, if there are any."""
+    """The response to harmonic loads, if there are any."""
     worth: Worth | None
     """By the vehicle's usual problem, its first; None if it has none."""
 
@@ -95,7 +95,7 @@ def compare(
         first, second = (solve_on(road, s.rates) for s in (base, now))
     vehicle = prepared.vehicle
     wheels = None
-    if vehicle.wheel_loads and vehicle.response_points:
+    if vehicle.harmonic_loads and vehicle.response_points:
         wheels = solve_wheels(prepared, base.rates), solve_wheels(prepared, now.rates)
     track = follow_rates(accept(first), first, second)
     worth = _worth(vehicle, base.rates, now.rates, conditions.speed if conditions else vehicle.speed)

@@ -68,7 +68,7 @@ def _reference(vehicle: Vehicle) -> str:
 
 
 def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
-    loads = tuple(load.name for load in vehicle.wheel_loads)
+    loads = tuple(load.name for load in vehicle.harmonic_loads)
     shaken = [Performance(WHEEL_HZ, wheel_loads=loads)] if loads else []
     for road in vehicle.roads[:1]:
         f = _held(road, vehicle.speed)

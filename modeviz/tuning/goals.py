@@ -126,7 +126,7 @@ def _integrated(vehicle: Vehicle, problem: Problem, road: str) -> Floats:
 def _cases(vehicle: Vehicle, performance: Performance, speed: float) -> list[LoadCase]:
     """One for each of its loads."""
     roads = [Conditions(road, speed) for road in performance.roads]
-    wheels = [vehicle.wheel_load(load) for load in performance.wheel_loads]
+    wheels = [vehicle.harmonic_load(load) for load in performance.wheel_loads]
     f = tuple(performance.frequency_hz.tolist())
     pattern = np.broadcast_to(
         _selected(vehicle, performance), (len(f), len(vehicle.response_points), 3)
@@ -152,6 +152,8 @@ def _everything(road: str) -> Performance:
 def _roads(vehicle: Vehicle, problem: Problem) -> list[str]:
     """The roads that the problem names, each once, else the vehicle's first."""
     named = list(dict.fromkeys(road for p in problem.performance for road in p.roads))
-    if not named and not vehicle.roads:
-        raise VehicleError(f"problem {problem.name!r}: goal {problem.goal!r} needs a [[road]]")
-    return named or [vehicle.roads[0].name]
+    if not named and not vehicle.random_loads:
+        raise VehicleError(
+            f"problem {problem.name!r}: goal {problem.goal!r} needs a [[road]] or another random load"
+        )
+    return named or [vehicle.random_loads[0].name]

@@ -11,15 +11,14 @@ from modeviz.dynamics.assembly import System
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.response import check_frequencies, direct_response
 from modeviz.errors import SolveError
+from modeviz.ride.excitation import Excitation, Load, excitation, input_spectrum, together
 from modeviz.ride.psd import acceleration_psd
-from modeviz.ride.roads import road_spectrum, track_amplitudes
-from modeviz.ride.wheels import wheel_amplitudes
 from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import AXIS, Conditions
 from modeviz.tuning.sensitivity import psd_gradient, spring_shares
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
-from modeviz.vehicle.loads import WheelLoad
+from modeviz.vehicle.loads import HarmonicLoad, Road
 from modeviz.vehicle.vehicle import Vehicle
 
 DIRECTIONS = ("lateral", "vertical")
@@ -32,7 +31,7 @@ SAME_HZ = 1e-9
 class LoadCase:
     """A load whose accelerations at some frequencies are to be small."""
 
-    load: Conditions | WheelLoad
+    load: Conditions | HarmonicLoad
     frequency_hz: Sequence[float]
     """Rising, above zero."""
     weight: float = 1.0
@@ -118,8 +117,8 @@ class Objective:
     """At the frequencies of all cases together."""
     driven: Receptances
     """With the inputs of all cases, one case after the other, and those outputs that have a weight."""
-    amplitudes: Complexes
-    """(n_freqs, n_directions, n_inputs): of these inputs along `prepared.input_directions`."""
+    loads: tuple[tuple[Load, float], ...]
+    """Those of the cases, and the speed, m/s."""
     outputs: NDArray[np.intp]
     """Which rows of `prepared.outputs` have a weight."""
     terms: tuple[_Term, ...]
@@ -148,12 +147,19 @@ class Objective:
             VehicleError: a group that the vehicle does not have.
             SolveError: as `direct_response`.
         """
-        return self.exact_response_of(self.prepared.system.with_rates(rates))
+        system = self.prepared.system.with_rates(rates)
+        return self.exact_response_of(system, self.prepared.mount_stiffness(rates))
 
-    def exact_response_of(self, system: System) -> Complexes:
-        """The same of a system that differs from the prepared one; raises as `direct_response`."""
+    def exact_response_of(self, system: System, stiffness: Complexes) -> Complexes:
+        """The same of a system that differs from the prepared one; raises as `direct_response`.
+
+        Args:
+            system: with its mounts.
+            stiffness: (n_springs,), their complex rates, N/m.
+        """
         prepared = self.prepared
-        forces = prepared.input_directions.T @ self.amplitudes
+        inputs = _inputs(prepared, self.loads, stiffness)
+        forces = prepared.input_directions.T @ inputs.forces
         return direct_response(system, prepared.frequency_hz, forces, prepared.outputs[self.outputs])
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
@@ -229,17 +235,19 @@ def prepare_objective(
         check_frequencies(np.asarray(case.frequency_hz, float))
     every = np.sort(np.concatenate([np.asarray(c.frequency_hz, float) for c in cases]))
     prepared = prepare(vehicle, every[np.diff(every, prepend=0.0) > SAME_HZ])
-    by_case = [_amplitudes(prepared, case.load) for case in cases]
-    ends = np.cumsum([0] + [a.shape[2] for a in by_case])
+    loads = tuple(_load(vehicle, case.load) for case in cases)
+    widths = [2 if isinstance(load, Road) else 1 for load, _ in loads]
+    ends = np.cumsum([0, *widths])
     weights = [_weights(vehicle, case) for case in cases]
     outputs = np.flatnonzero(sum(w.sum(axis=0) for w in weights))
     terms = tuple(
         _term(prepared, case, its[:, outputs], slice(*own))
         for case, its, own in zip(cases, weights, pairwise(ends), strict=True)
     )
-    amplitudes = np.concatenate(by_case, axis=2)
-    driven = prepared.receptances.with_outputs(outputs).driven(amplitudes)
-    return kind(prepared, driven, amplitudes, outputs, terms)
+    receptances = prepared.receptances.with_outputs(outputs)
+    inputs = _inputs(prepared, loads, receptances.mount_stiffness)
+    driven = receptances.driven(inputs.forces, inputs.ground)
+    return kind(prepared, driven, loads, outputs, terms)
 
 
 def _weights(vehicle: Vehicle, case: LoadCase) -> Floats:
@@ -256,24 +264,21 @@ def _term(prepared: Prepared, case: LoadCase, weights: Floats, inputs: slice) ->
     """A case among the frequencies of all cases, given which of all inputs it has."""
     lines = np.searchsorted(prepared.frequency_hz, np.subtract(case.frequency_hz, SAME_HZ))
     f = prepared.frequency_hz[lines]
-    spectrum = _spectrum(prepared.vehicle, case.load, f)
+    load, speed = _load(prepared.vehicle, case.load)
+    spectrum = input_spectrum(load, f, speed)
     return _Term(weights, case.target, lines, inputs, spectrum)
 
 
-def _amplitudes(prepared: Prepared, load: Conditions | WheelLoad) -> Complexes:
-    """Of a load's two tracks or one force along all input directions, (n_freqs, n_inputs, 2 or 1)."""
+def _load(vehicle: Vehicle, load: Conditions | HarmonicLoad) -> tuple[Load, float]:
+    """The load of a case and its speed, m/s, which only a road minds."""
+    if isinstance(load, Conditions):
+        return vehicle.random_load(load.road), load.speed
+    return load, vehicle.speed
+
+
+def _inputs(
+    prepared: Prepared, loads: Sequence[tuple[Load, float]], stiffness: Complexes
+) -> Excitation:
+    """All inputs of some loads with the mount rates given."""
     vehicle, f = prepared.vehicle, prepared.frequency_hz
-    if isinstance(load, WheelLoad):
-        own, inputs = wheel_amplitudes(vehicle, [load], f), prepared.wheel_inputs
-    else:
-        own, inputs = track_amplitudes(vehicle, f, load.speed), prepared.tyre_inputs
-    amplitudes = np.zeros((len(f), len(prepared.input_directions), own.shape[2]), complex)
-    amplitudes[:, inputs] = own
-    return amplitudes
-
-
-def _spectrum(vehicle: Vehicle, load: Conditions | WheelLoad, frequency_hz: Floats) -> Complexes:
-    """The spectrum of a load's inputs: of a road, or one of a harmonic load."""
-    if isinstance(load, WheelLoad):
-        return np.ones((len(frequency_hz), 1, 1), complex)
-    return road_spectrum(vehicle.road(load.road), frequency_hz, load.speed)
+    return together([excitation(vehicle, load, f, speed, stiffness) for load, speed in loads])

@@ -1,6 +1,6 @@
 """What is computed once for a vehicle, so that any mount rates are answered at once."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,8 +11,7 @@ from modeviz.dynamics.assembly import System, assemble, mount_stiffness, mounts_
 from modeviz.dynamics.basis import TOP_HZ, EnrichedBasis, prepare_basis
 from modeviz.dynamics.naming import Namer, prepare_names
 from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
-from modeviz.ride.roads import tyre_directions
-from modeviz.ride.wheels import wheel_directions
+from modeviz.ride.excitation import Load, excitation, input_directions, together
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -78,9 +77,9 @@ class Prepared(PreparedModes):
     """A vehicle made ready for the modes and responses of any mount rates."""
 
     receptances: Receptances
-    """Of x, y, z at every response point, to forces along `tyre_directions` and `wheel_directions`."""
+    """Of x, y, z at every response point, to forces along the input directions."""
     input_directions: Floats
-    """Both of these, (n_inputs, n_dofs)."""
+    """(n_directions, n_dofs), see `ride.excitation`."""
     outputs: Floats
     """Rows (3 n_points, n_dofs) that read x, y, z of every response point."""
 
@@ -95,15 +94,16 @@ class Prepared(PreparedModes):
         own = self.input_directions.nbytes + self.outputs.nbytes
         return super().n_bytes + self.receptances.n_bytes + own
 
-    @property
-    def tyre_inputs(self) -> slice:
-        """The inputs along `tyre_directions`."""
-        return slice(0, 3 * len(self.vehicle.tyres))
-
-    @property
-    def wheel_inputs(self) -> slice:
-        """The inputs along `wheel_directions`."""
-        return slice(3 * len(self.vehicle.tyres), None)
+    def excited(self, loads: Sequence[Load], speed: float) -> Receptances:
+        """Receptances of every output per unit of each input of some loads, see `ride.excitation`."""
+        at = self.receptances
+        inputs = together(
+            [
+                excitation(self.vehicle, load, at.frequency_hz, speed, at.mount_stiffness)
+                for load in loads
+            ]
+        )
+        return at.driven(inputs.forces, inputs.ground)
 
     def near(self, rates: Rates) -> "Prepared":
         """The same with receptances at other rates, where these are soft: answers close by cost less.
@@ -158,7 +158,7 @@ def prepare(
     """
     modal = prepare_modes(vehicle, top_hz)
     softest = modal.system.with_rates(_soft({g.name: g.bounds[0] for g in vehicle.mount_groups}))
-    inputs = np.vstack([tyre_directions(softest), wheel_directions(softest)])
+    inputs = input_directions(softest)
     rows = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
     outputs = np.vstack([np.zeros((0, softest.n_dofs)), *rows])
     receptances = prepare_receptances(softest, frequency_hz, outputs, inputs, progress)

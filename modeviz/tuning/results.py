@@ -17,14 +17,14 @@ from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.response import direct_response, modal_coordinates
 from modeviz.dynamics.trust import Trust
 from modeviz.errors import ModevizError
+from modeviz.ride.excitation import Load, excitation, input_spectrum, together
 from modeviz.ride.participation import Peak, participation, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
-from modeviz.ride.roads import road_spectrum, track_amplitudes
-from modeviz.ride.wheels import wheel_amplitudes
 from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
+from modeviz.vehicle.loads import RandomLoad
 from modeviz.vehicle.vehicle import Vehicle
 
 AXIS: dict[str, int] = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
@@ -33,11 +33,12 @@ AXIS: dict[str, int] = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
 
 @dataclass(frozen=True)
 class Conditions:
-    """What the vehicle drives over."""
+    """What shakes the vehicle at random."""
 
     road: str
+    """The name of a road, or of another random load."""
     speed: float
-    """m/s."""
+    """On a road, m/s."""
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.speed) and self.speed > 0):
@@ -50,12 +51,12 @@ class Drive:
 
     prepared: Prepared
     conditions: Conditions
+    load: RandomLoad
+    """That of the conditions."""
     receptances: Receptances
-    """Of every output, per unit displacement of the left and the right track."""
-    amplitudes: Complexes
-    """(n_freqs, 3 n_tyres, 2), see `track_amplitudes`."""
+    """Of every output, per unit of each input of the load: of a road, the left and the right track."""
     spectrum: Complexes
-    """(n_freqs, 2, 2), m²/Hz: of the tracks."""
+    """(n_freqs, n_inputs, n_inputs): of these, m²/Hz of a road."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,24 +175,27 @@ class Results(ModalResults):
         """
         at = np.asarray(self.peak_lines(point, direction) if lines is None else lines, int)
         output = self.prepared.outputs[3 * point + AXIS[direction]] @ self.modes.shapes
-        parts = participation(output, self._modal_coordinates(at), self.drive.spectrum[at])
+        coordinates = self.modal_coordinates(self.drive.load, self.frequency_hz[at])
+        parts = participation(output, coordinates, self.drive.spectrum[at])
         return peaks(self.frequency_hz[at], self.response(point, direction)[at], parts, count)
 
-    @cached_property
-    def _tyre_stretches(self) -> Floats:
-        """How far each mode moves along `tyre_directions`, (3 n_tyres, n_modes)."""
-        return self.prepared.input_directions[self.prepared.tyre_inputs] @ self.modes.shapes
-
-    def _modal_coordinates(self, lines: NDArray[np.intp]) -> Complexes:
-        """How much of each mode the two tracks make, (n_lines, n_modes, 2)."""
-        band = self.band
+    def modal_coordinates(self, load: Load, frequency_hz: Floats) -> Complexes:
+        """How much of each mode each input of a load makes, (n_freqs, n_modes, n_inputs)."""
+        band, prepared = self.band, self.prepared
+        stiffness = prepared.mount_stiffness(self.rates)
+        inputs = excitation(prepared.vehicle, load, frequency_hz, self.conditions.speed, stiffness)
         return modal_coordinates(
             band.modes.omega_n_squared,
             band.damping,
             band.structural_damping,
-            self.frequency_hz[lines],
-            self._tyre_stretches.T @ self.drive.amplitudes[lines],
+            frequency_hz,
+            self._stretches.T @ inputs.forces,
         )
+
+    @cached_property
+    def _stretches(self) -> Floats:
+        """How far each mode moves along the input directions, (n_directions, n_modes)."""
+        return self.prepared.input_directions @ self.modes.shapes
 
 
 def solve_modal(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> ModalResults:
@@ -229,43 +233,42 @@ def solve(
 
 def drive(prepared: Prepared, conditions: Conditions) -> Drive:
     """A prepared vehicle on a road; for several sets of rates with `solve_on`. Raises as `solve`."""
-    f = prepared.frequency_hz
-    spectrum = road_spectrum(prepared.vehicle.road(conditions.road), f, conditions.speed)
-    amplitudes = track_amplitudes(prepared.vehicle, f, conditions.speed)
-    driven = prepared.receptances.driven(amplitudes, prepared.tyre_inputs)
-    return Drive(prepared, conditions, driven, amplitudes, spectrum)
+    load, speed = prepared.vehicle.random_load(conditions.road), conditions.speed
+    spectrum = input_spectrum(load, prepared.frequency_hz, speed)
+    return Drive(prepared, conditions, load, prepared.excited([load], speed), spectrum)
 
 
 def solve_on(drive: Drive, rates: Rates, method: Method = "enriched") -> Results:
     """Modes and ride on a road with other mount rates; arguments and errors as `solve`."""
     prepared = drive.prepared
     modal = solve_modal(prepared, rates, method)
-    H = _response(prepared, drive.receptances, prepared.tyre_inputs, drive.amplitudes, modal.rates)
+    H = _response(prepared, drive.receptances, [drive.load], drive.conditions.speed, modal.rates)
     f = prepared.frequency_hz
     psd = acceleration_psd(f, H, drive.spectrum).reshape(len(f), H.shape[1] // 3, 3)
     return Results(prepared, modal.rates, modal.band, drive, psd)
 
 
 def _response(
-    prepared: Prepared, driven: Receptances, inputs: slice, amplitudes: Complexes, rates: Rates
+    prepared: Prepared, excited: Receptances, loads: Sequence[Load], speed: float, rates: Rates
 ) -> Complexes:
-    """Displacement of every output in each load, (n_freqs, n_outputs, n_loads), the cheaper way.
+    """Displacement of every output per input, (n_freqs, n_outputs, n_inputs), the cheaper way.
 
     Structural modification solves for the springs that change, the equations of motion for all
     coordinates: that is cheaper only where these are fewer, a few rigid bodies on many mounts.
     """
     stiffness = prepared.mount_stiffness(rates)
-    n_changed = np.count_nonzero(stiffness != driven.mount_stiffness)
+    n_changed = np.count_nonzero(stiffness != excited.mount_stiffness)
     if n_changed <= prepared.system.n_dofs:
-        return driven.response(stiffness)
-    forces = prepared.input_directions[inputs].T @ amplitudes
-    system = prepared.system.with_rates(rates)
-    return direct_response(system, prepared.frequency_hz, forces, prepared.outputs)
+        return excited.response(stiffness)
+    vehicle, f = prepared.vehicle, prepared.frequency_hz
+    inputs = together([excitation(vehicle, load, f, speed, stiffness) for load in loads])
+    forces = prepared.input_directions.T @ inputs.forces
+    return direct_response(prepared.system.with_rates(rates), f, forces, prepared.outputs)
 
 
 @dataclass(frozen=True, eq=False)
 class WheelResults:
-    """Harmonic response to each of a vehicle's wheel loads."""
+    """Harmonic response to each of a vehicle's wheel and other harmonic loads."""
 
     frequency_hz: Floats
     """(n_freqs,)."""
@@ -280,12 +283,11 @@ class WheelResults:
 
 
 def solve_wheels(prepared: Prepared, rates: Rates) -> WheelResults:
-    """The response to every wheel load of the vehicle; arguments and errors as `solve`."""
+    """The response to every harmonic load of the vehicle; arguments and errors as `solve`."""
     vehicle, f = prepared.vehicle, prepared.frequency_hz
-    amplitudes = wheel_amplitudes(vehicle, vehicle.wheel_loads, f)
-    inputs = prepared.wheel_inputs
-    driven = prepared.receptances.driven(amplitudes, inputs)
-    H = _response(prepared, driven, inputs, amplitudes, prepared.all_rates(rates))
+    loads = vehicle.harmonic_loads
+    excited = prepared.excited(loads, vehicle.speed)
+    H = _response(prepared, excited, loads, vehicle.speed, prepared.all_rates(rates))
     g = harmonic_acceleration(f, H).transpose(0, 2, 1)
-    n_loads, n_points = len(vehicle.wheel_loads), len(vehicle.response_points)
+    n_loads, n_points = len(loads), len(vehicle.response_points)
     return WheelResults(f, g.reshape(len(f), n_loads, n_points, 3))

@@ -83,7 +83,9 @@ class Robust:
         """The objective of parts, from the full model."""
         system = self.objective.prepared.system
         system = system.with_springs(stiffness - mount_stiffness(system.vehicle))
-        return float(self.objective.criterion.total(self.objective.exact_response_of(system)))
+        return float(
+            self.objective.criterion.total(self.objective.exact_response_of(system, stiffness))
+        )
 
 
 def robust(

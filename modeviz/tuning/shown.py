@@ -9,9 +9,8 @@ from modeviz.dynamics.assembly import System
 from modeviz.dynamics.damped import DampedMode, damped_mode
 from modeviz.dynamics.response import direct_shape
 from modeviz.errors import SolveError
+from modeviz.ride.excitation import generalised_forces, input_spectrum
 from modeviz.ride.operating import operating_shape
-from modeviz.ride.roads import road_spectrum, track_forces
-from modeviz.ride.wheels import wheel_forces
 from modeviz.tuning.results import AXIS, ModalResults, Results
 from modeviz.vehicle.arrays import Complexes
 
@@ -32,7 +31,9 @@ def complex_mode(results: ModalResults, mode: int) -> DampedMode:
 
 
 def road_shape(results: Results, frequency_hz: float, point: int, direction: str) -> Complexes:
-    """How the vehicle moves on its road at one frequency, as seen from a response point.
+    """How the vehicle moves on its road, or under another random load, at one frequency.
+
+    As seen from a response point.
 
     Solved for all coordinates of the full model; see `operating_shape`.
 
@@ -50,31 +51,33 @@ def road_shape(results: Results, frequency_hz: float, point: int, direction: str
             or an undamped resonance lies there.
     """
     system, f = _system(results, frequency_hz), np.array([frequency_hz])
-    road, speed = system.vehicle.road(results.conditions.road), results.conditions.speed
+    load, speed = results.drive.load, results.conditions.speed
     outputs = results.prepared.outputs
-    H = direct_shape(system, frequency_hz, track_forces(system, f, speed)[0], outputs)
+    forces = generalised_forces(system, load, f, speed)[0]
+    H = direct_shape(system, frequency_hz, forces, outputs)
     reference = outputs[3 * point + AXIS[direction]]
-    return operating_shape(H, road_spectrum(road, f, speed)[0], reference)
+    return operating_shape(H, input_spectrum(load, f, speed)[0], reference)
 
 
 def wheel_shape(results: Results, load: str, frequency_hz: float) -> Complexes:
-    """How the vehicle moves under one wheel load at one frequency, the wheel's revolutions per second.
+    """How the vehicle moves under one harmonic load at one frequency: a wheel's revolutions per second.
 
     Args:
         results: with its rates.
-        load: name of one of the vehicle's wheel loads.
+        load: name of one of the vehicle's harmonic loads.
         frequency_hz: within the band of the results.
 
     Returns:
         (n_dofs,), peak, m, at the load's own amplitude; its phase is to the load's.
 
     Raises:
-        VehicleError: no wheel load has that name.
+        VehicleError: no harmonic load has that name.
         SolveError: the frequency is out of the band, or an undamped resonance lies there.
     """
     system = _system(results, frequency_hz)
-    loads = [system.vehicle.wheel_load(load)]
-    forces = wheel_forces(system, loads, np.array([frequency_hz]))[0]
+    vehicle = system.vehicle
+    f = np.array([frequency_hz])
+    forces = generalised_forces(system, vehicle.harmonic_load(load), f, vehicle.speed)[0]
     return direct_shape(system, frequency_hz, forces, results.prepared.outputs)[:, 0]
 
 

@@ -4,9 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeviz.dynamics.response import modal_coordinates
 from modeviz.ride.participation import Peak, participation, peak_lines, peaks
-from modeviz.ride.wheels import wheel_amplitudes
 from modeviz.tuning.results import AXIS, Results, WheelResults
 
 
@@ -29,7 +27,7 @@ def wheel_peaks(
     Args:
         results: the modes with the same rates.
         wheels: the responses.
-        load: number of the vehicle's wheel load.
+        load: number of the vehicle's harmonic load.
         point: number of the response point.
         direction: one of `DIRECTIONS`.
         count: how many modes to name.
@@ -37,11 +35,8 @@ def wheel_peaks(
     """
     found = wheel_peak_lines(wheels, load, point, direction) if lines is None else lines
     at = np.asarray(found, int)
-    prepared, band, f = results.prepared, results.band, results.frequency_hz[at]
-    shapes = band.modes.shapes
-    amplitudes = wheel_amplitudes(prepared.vehicle, [prepared.vehicle.wheel_loads[load]], f)
-    forces = (prepared.input_directions[prepared.wheel_inputs] @ shapes).T @ amplitudes
-    q = modal_coordinates(band.modes.omega_n_squared, band.damping, band.structural_damping, f, forces)
-    output = prepared.outputs[3 * point + AXIS[direction]] @ shapes
+    prepared, f = results.prepared, results.frequency_hz[at]
+    q = results.modal_coordinates(prepared.vehicle.harmonic_loads[load], f)
+    output = prepared.outputs[3 * point + AXIS[direction]] @ results.modes.shapes
     parts = participation(output, q, np.ones((len(at), 1, 1), complex))
     return peaks(f, wheels.acceleration_g[at, load, point, AXIS[direction]], parts, count)

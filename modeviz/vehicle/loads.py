@@ -5,7 +5,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from modeviz.errors import VehicleError, unknown
+from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Complexes, Floats, frozen
 
 WheelLoadKind = Literal["unbalance", "radial force", "lateral force"]
@@ -68,6 +68,102 @@ class WheelLoad:
             raise VehicleError(
                 f"wheel load {self.name!r}: amplitude: found {self.amplitude}, expected zero or more"
             )
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """A one-sided PSD, its unit that of what it is of, squared per Hz."""
+
+    frequency_hz: Floats
+    """(n_freqs,), rising, above zero."""
+    power: Floats
+    """(n_freqs,)."""
+
+    def __post_init__(self) -> None:
+        frozen(self, "frequency_hz", self.frequency_hz, (None,))
+        frozen(self, "power", self.power, (len(self.frequency_hz),))
+        f = self.frequency_hz
+        if len(f) < 2 or f[0] <= 0 or (np.diff(f) <= 0).any():
+            raise VehicleError("frequency_hz: expected two or more rising values above zero")
+        if (self.power < 0).any():
+            raise VehicleError(f"psd: found {self.power.min():g}, expected no negative power")
+
+
+@dataclass(frozen=True, eq=False)
+class Force:
+    """A force on a point of a body: harmonic, or random where its amplitude is a spectrum."""
+
+    name: str
+    body: str
+    position: Floats
+    """(3,), m; on a flexible body an attachment must be near."""
+    direction: Floats
+    """(3,), along which it acts; stored with length one."""
+    amplitude: float | Spectrum
+    """Peak, N, at every frequency; or N²/Hz."""
+
+    @property
+    def label(self) -> str:
+        return self.name
+
+    def __post_init__(self) -> None:
+        frozen(self, "position", self.position, (3,))
+        _check_load(self, f"force {self.name!r}")
+
+
+BaseQuantity = Literal["displacement", "acceleration"]
+
+
+@dataclass(frozen=True, eq=False)
+class BaseMotion:
+    """A motion of the ground under some connections, all alike; without rotation.
+
+    Harmonic, or random where its amplitude is a spectrum.
+    """
+
+    name: str
+    direction: Floats
+    """(3,), along which the ground moves; stored with length one."""
+    quantity: BaseQuantity
+    """What the amplitude is of."""
+    amplitude: float | Spectrum
+    """Peak, m or m/s², at every frequency; or m²/Hz or (m/s²)²/Hz."""
+    connections: tuple[str, ...] = ()
+    """The names of those whose ground ends move; none is every connection to the ground."""
+
+    @property
+    def label(self) -> str:
+        return self.name
+
+    def __post_init__(self) -> None:
+        where = f"base motion {self.name!r}"
+        if self.quantity not in get_args(BaseQuantity):
+            raise VehicleError(
+                f"{where}: " + unknown("quantity", self.quantity, get_args(BaseQuantity))
+            )
+        check_unique(f"{where}: connection", self.connections)
+        _check_load(self, where)
+
+
+def _check_load(load: Force | BaseMotion, where: str) -> None:
+    """Raises VehicleError unless it has a direction, made a unit vector here, and an amplitude."""
+    frozen(load, "direction", load.direction, (3,))
+    length = float(np.linalg.norm(load.direction))
+    if length == 0:
+        raise VehicleError(
+            f"{where}: direction: found three zeros, expected a vector that points somewhere"
+        )
+    frozen(load, "direction", load.direction / length, (3,))
+    amplitude = load.amplitude
+    if not isinstance(amplitude, Spectrum) and not (np.isfinite(amplitude) and amplitude >= 0):
+        raise VehicleError(f"{where}: amplitude: found {amplitude}, expected zero or more")
+
+
+RandomLoad = Road | Force | BaseMotion
+"""What has a spectrum."""
+
+HarmonicLoad = WheelLoad | Force | BaseMotion
+"""What has one frequency at a time, and a peak amplitude."""
 
 
 @dataclass(frozen=True, eq=False)

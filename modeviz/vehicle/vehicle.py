@@ -22,7 +22,16 @@ from modeviz.vehicle.connections import (
     Spring,
     Tyre,
 )
-from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad
+from modeviz.vehicle.loads import (
+    BaseMotion,
+    Force,
+    HarmonicLoad,
+    RandomLoad,
+    ResponsePoint,
+    Road,
+    Spectrum,
+    WheelLoad,
+)
 from modeviz.vehicle.problem import Problem
 
 REACH = 0.10
@@ -52,6 +61,8 @@ class Vehicle:
     """m/s."""
     problems: tuple[Problem, ...] = ()
     """What the mounts are to be optimised for; the first is the usual one."""
+    forces: tuple[Force, ...] = ()
+    base_motions: tuple[BaseMotion, ...] = ()
     notes: tuple[str, ...] = ()
     """What reading it had to say: what was taken otherwise than it stands, or is likely wrong.
 
@@ -69,6 +80,8 @@ class Vehicle:
             self._check_place(f"added mass {mass.name!r}", mass.body, mass.position)
         for point in self.response_points:
             self._check_place(f"response point {point.name!r}", point.body, point.position)
+        for force in self.forces:
+            self._check_place(f"force {force.name!r}", force.body, force.position)
         self._check_references()
 
     @cached_property
@@ -109,13 +122,33 @@ class Vehicle:
         """
         return _named("body", name, self.bodies)
 
-    def road(self, name: str) -> Road:
-        """The road of that name; raises VehicleError as `body` does."""
-        return _named("road", name, self.roads)
+    @cached_property
+    def random_loads(self) -> tuple[RandomLoad, ...]:
+        """What has a spectrum: roads first, then forces, then motions of the ground."""
+        others = (*self.forces, *self.base_motions)
+        return (*self.roads, *(load for load in others if isinstance(load.amplitude, Spectrum)))
 
-    def wheel_load(self, name: str) -> WheelLoad:
-        """The wheel load of that name; raises VehicleError as `body` does."""
-        return _named("wheel load", name, self.wheel_loads)
+    @cached_property
+    def harmonic_loads(self) -> tuple[HarmonicLoad, ...]:
+        """What has an amplitude at every frequency: wheel loads, then forces, motions of the ground."""
+        others = (*self.forces, *self.base_motions)
+        return (
+            *self.wheel_loads,
+            *(load for load in others if not isinstance(load.amplitude, Spectrum)),
+        )
+
+    def random_load(self, name: str) -> RandomLoad:
+        """The road or other random load of that name; raises VehicleError as `body` does."""
+        return _named("random load", name, self.random_loads)
+
+    def harmonic_load(self, name: str) -> HarmonicLoad:
+        """The wheel load or other harmonic load of that name; raises VehicleError as `body` does."""
+        return _named("harmonic load", name, self.harmonic_loads)
+
+    def moved_connections(self, motion: BaseMotion) -> tuple[Connection, ...]:
+        """The connections whose ground ends a base motion moves, in the order of `all_connections`."""
+        grounded = (c for c in self.all_connections if c.bodies[1] == GROUND)
+        return tuple(c for c in grounded if not motion.connections or c.name in motion.connections)
 
     def mount_group(self, name: str) -> MountGroup:
         """The mount group of that name; raises VehicleError as `body` does."""
@@ -145,9 +178,9 @@ class Vehicle:
             raise VehicleError(f"goal {problem.goal!r} needs a [[response_point]]")
         for performance in problem.performance:
             for road in performance.roads:
-                self.road(road)
+                self.random_load(road)
             for load in performance.wheel_loads:
-                self.wheel_load(load)
+                self.harmonic_load(load)
             for point in performance.points:
                 if point not in points:
                     raise VehicleError(unknown("response point", point, points))
@@ -161,8 +194,8 @@ class Vehicle:
             ("mount group", self.mount_groups),
             ("added mass", self.added_masses),
             ("response point", self.response_points),
-            ("road", self.roads),
-            ("wheel load", self.wheel_loads),
+            ("random load", self.random_loads),
+            ("harmonic load", self.harmonic_loads),
             ("problem", self.problems),
         ):
             check_unique(kind, (item.name for item in items))
@@ -181,6 +214,8 @@ class Vehicle:
         for load in self.wheel_loads:
             if load.tyre not in tyres:
                 raise VehicleError(f"wheel load {load.name!r}: " + unknown("tyre", load.tyre, tyres))
+        for motion in self.base_motions:
+            self._check_base_motion(motion)
         for name, rates in self.rate_sets.items():
             for group in rates:
                 if group not in self.rates:
@@ -188,6 +223,23 @@ class Vehicle:
         for problem in self.problems:
             with located(f"problem {problem.name!r}"):
                 self.check_problem(problem)
+
+    def _check_base_motion(self, motion: BaseMotion) -> None:
+        """Raises VehicleError unless what it moves holds on to the ground, and yields."""
+        where = f"base motion {motion.name!r}"
+        grounded = [c.name for c in self.all_connections if c.bodies[1] == GROUND]
+        for name in motion.connections:
+            if name not in grounded:
+                raise VehicleError(f"{where}: " + unknown("connection to the ground", name, grounded))
+        moved = self.moved_connections(motion)
+        if not moved:
+            raise VehicleError(f"{where}: nothing is connected to the ground, so nothing moves")
+        for connection in moved:
+            if connection.rigid:
+                raise VehicleError(
+                    f"{where}: {connection.name!r} is rigid; expected a connection with a stiffness, "
+                    "through which the ground's motion becomes a force"
+                )
 
     def _check_ends(self, connection: Connection) -> None:
         where = f"connection {connection.name!r}"

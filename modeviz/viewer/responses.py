@@ -86,8 +86,8 @@ class Responses:
 
 
 def load_number(vehicle: Vehicle, name: str) -> int | None:
-    """The number of the wheel load of that name; None for the road."""
-    return next((i for i, load in enumerate(vehicle.wheel_loads) if load.name == name), None)
+    """The number of the harmonic load of that name; None for the road."""
+    return next((i for i, load in enumerate(vehicle.harmonic_loads) if load.name == name), None)
 
 
 def curve_label(vehicle: Vehicle, curve: Curve) -> str:

@@ -18,6 +18,7 @@ from modeviz.tuning.check import Check
 from modeviz.tuning.comparison import Comparison
 from modeviz.tuning.results import AXIS
 from modeviz.units import factor
+from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -71,12 +72,15 @@ def _about(comparison: Comparison, made: date) -> str:
     items = [("Vehicle", escape(comparison.vehicle.name))]
     if comparison.rides is not None:
         conditions = comparison.rides[1].conditions
-        road = comparison.vehicle.road(conditions.road)
+        load = comparison.rides[1].drive.load
         kilometres_per_hour = conditions.speed / factor("km/h", "speed")
-        items += [
-            ("Road", f"{escape(road.name)} <small>{escape(road.label)}</small>"),
-            ("Speed", f"{kilometres_per_hour:.4g} km/h"),
-        ]
+        if isinstance(load, Road):
+            items += [
+                ("Road", f"{escape(load.name)} <small>{escape(load.label)}</small>"),
+                ("Speed", f"{kilometres_per_hour:.4g} km/h"),
+            ]
+        else:
+            items.append(("Load", escape(load.name)))
     items += [("Date", made.isoformat()), ("Made with", f"modeviz {version('modeviz')}")]
     return f"<dl>{''.join(f'<div><dt>{k}</dt><dd>{v}</dd></div>' for k, v in items)}</dl>"
 

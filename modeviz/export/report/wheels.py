@@ -13,6 +13,7 @@ from modeviz.tuning.comparison import Comparison
 from modeviz.tuning.results import AXIS
 from modeviz.tuning.wheel_peaks import wheel_peak_lines
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.loads import WheelLoad
 from modeviz.vehicle.vehicle import Vehicle
 
 DRIVER = 0
@@ -27,7 +28,7 @@ def wheels(comparison: Comparison) -> str:
         return ""
     vehicle = comparison.vehicle
     base, now = (1000 * w.mean(WHEEL_BAND) for w in comparison.wheels)
-    loads = [load.name for load in vehicle.wheel_loads]
+    loads = [load.name for load in vehicle.harmonic_loads]
     tables = (
         f"<h3>{title(point.name)}</h3>"
         + by_direction(comparison, loads, base[:, i], now[:, i], 2, common=float(base.max()))
@@ -52,7 +53,7 @@ def _harmonic(comparison: Comparison, direction: str) -> str:
     load = _drawn_load(vehicle)
     levels = [amplitude_decibels(w.acceleration_g[:, load, DRIVER, axis]) for w in comparison.wheels]
     peaks = [wheel_peak_lines(w, load, DRIVER, direction) for w in comparison.wheels]
-    point, name = vehicle.response_points[DRIVER].name, vehicle.wheel_loads[load].name
+    point, name = vehicle.response_points[DRIVER].name, vehicle.harmonic_loads[load].name
     heading = f"{direction.capitalize()} acceleration at {point} under {name}"
     return chart(
         comparison, comparison.wheels[0].frequency_hz, levels, peaks, heading, "dB re 1 g, peak"
@@ -65,11 +66,13 @@ def _drawn_load(vehicle: Vehicle) -> int:
     side = vehicle.response_points[DRIVER].position[1]
 
     def likeness(number: int) -> tuple[bool, bool, float]:
-        load = vehicle.wheel_loads[number]
+        load = vehicle.harmonic_loads[number]
+        if not isinstance(load, WheelLoad):
+            return False, False, 0.0
         x, y, _ = centers[load.tyre]
         return load.kind == "radial force", y * side > 0, x
 
-    return max(range(len(vehicle.wheel_loads)), key=likeness)
+    return max(range(len(vehicle.harmonic_loads)), key=likeness)
 
 
 def _largest(comparison: Comparison, base: Floats) -> str:
@@ -77,7 +80,7 @@ def _largest(comparison: Comparison, base: Floats) -> str:
     vehicle = comparison.vehicle
     load, point, axis = np.unravel_index(base.argmax(), base.shape)
     direction = next(d for d in DIRECTIONS if AXIS[d] == axis)
-    where = f"{vehicle.response_points[point].name}, {direction}, {vehicle.wheel_loads[load].name}"
+    where = f"{vehicle.response_points[point].name}, {direction}, {vehicle.harmonic_loads[load].name}"
     return (
         f"the largest mean of {escape(comparison.names[0])}, {number(float(base.max()), 2)} "
         f"({escape(within_sentence(where))})"

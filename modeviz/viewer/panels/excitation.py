@@ -36,7 +36,7 @@ class ExcitationPanel:
         self._session = session
         self._bindings: list[Binding] = []
         vehicle = session.vehicle
-        loads = {ROAD: ""} | {sentence_case(load.name): load.name for load in vehicle.wheel_loads}
+        loads = {ROAD: ""} | {sentence_case(load.name): load.name for load in vehicle.harmonic_loads}
         self._add_choice(
             gui,
             "Excitation",

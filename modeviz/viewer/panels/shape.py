@@ -208,5 +208,5 @@ def _first_response(solved: Solved) -> Floats:
     state, curve = solved.state, solved.state.curves[0]
     if not state.load:
         return solved.now.response(curve.point, curve.direction)
-    load = [load.name for load in solved.now.vehicle.wheel_loads].index(state.load)
+    load = [load.name for load in solved.now.vehicle.harmonic_loads].index(state.load)
     return np.square(solved.wheels[""].acceleration_g[:, load, curve.point, AXIS[curve.direction]])

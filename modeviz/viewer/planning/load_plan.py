@@ -33,8 +33,8 @@ class LoadPlan:
         points = tuple(p.name for p in vehicle.response_points)
         return Performance(
             parse_frequencies(self.frequencies),
-            tuple(road.name for road in vehicle.roads if road.name in self.roads),
-            tuple(load.name for load in vehicle.wheel_loads if load.name in self.wheel_loads),
+            tuple(road.name for road in vehicle.random_loads if road.name in self.roads),
+            tuple(load.name for load in vehicle.harmonic_loads if load.name in self.wheel_loads),
             () if self.points >= set(points) else tuple(p for p in points if p in self.points),
             tuple(d for d in reversed(DIRECTIONS) if d in self.directions),
             self.target,
@@ -45,7 +45,7 @@ class LoadPlan:
 def spare_load(vehicle: Vehicle) -> LoadPlan:
     """What is added where there is none: the first road as in the paper, felt everywhere."""
     return LoadPlan(
-        frozenset(road.name for road in vehicle.roads[:1]),
+        frozenset(road.name for road in vehicle.random_loads[:1]),
         frozenset(),
         "6 to 14 by 1/3",
         frozenset(point.name for point in vehicle.response_points),

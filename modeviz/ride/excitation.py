@@ -1,0 +1,168 @@
+"""Every load of a vehicle as forces along directions that do not depend on it.
+
+A motion z of the ground under a connection of dynamic stiffness k (1 + jg) + jωc is the force of the
+connection stretched by it. Where that connection is a mount, the force changes with the mount's rates;
+its stretch does not contain the ground's motion, so what the mount feels is the stretch less z.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeviz.dynamics.assembly import System, connection_coefficients, mount_stiffness
+from modeviz.ride.roads import interpolated_power, road_spectrum, track_amplitudes, tyre_directions
+from modeviz.ride.wheels import wheel_amplitudes, wheel_directions
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.connections import Connection
+from modeviz.vehicle.loads import BaseMotion, Force, HarmonicLoad, RandomLoad, Road, Spectrum, WheelLoad
+from modeviz.vehicle.vehicle import Vehicle
+
+Load = RandomLoad | HarmonicLoad
+
+
+@dataclass(frozen=True, eq=False)
+class Excitation:
+    """What inputs do to a vehicle, per unit of each."""
+
+    forces: Complexes
+    """(n_freqs, n_directions, n_inputs), N along each of `input_directions`."""
+    ground: Complexes
+    """(n_freqs, n_springs, n_inputs), m: how far the ground end of each mount spring moves along it."""
+
+
+def input_directions(system: System) -> Floats:
+    """Rows (n_directions, n_dofs) along which loads act.
+
+    `tyre_directions` and `wheel_directions`, then one for each force, then the three local axes of each
+    connection whose ground end some base motion moves.
+    """
+    vehicle = system.vehicle
+    forces = [f.direction @ system.motion(f.body, f.position)[:3] for f in vehicle.forces]
+    moved = [system.relative_motion(c)[:3] for c in _moved(vehicle)]
+    return np.vstack([tyre_directions(system), wheel_directions(system), *forces, *moved])
+
+
+def excitation(
+    vehicle: Vehicle,
+    load: Load,
+    frequency_hz: Floats,
+    speed: float,
+    mount_stiffness: Complexes,
+) -> Excitation:
+    """The inputs of a load.
+
+    A road has two, the displacements of its tracks; every other random load has one, of which its
+    spectrum is; a harmonic load has one, of its own amplitude.
+
+    Args:
+        vehicle: whose tyres and connections.
+        load: one of its loads.
+        frequency_hz: (n_freqs,).
+        speed: on a road, m/s.
+        mount_stiffness: (n_springs,), complex rates of the mounts, N/m, at which the forces hold.
+    """
+    f = np.asarray(frequency_hz, float)
+    slots = _Slots(vehicle)
+    n_inputs = 2 if isinstance(load, Road) else 1
+    forces = np.zeros((len(f), slots.n_directions, n_inputs), complex)
+    ground = np.zeros((len(f), len(mount_stiffness), n_inputs), complex)
+    match load:
+        case Road():
+            forces[:, slots.tyres] = track_amplitudes(vehicle, f, speed)
+        case WheelLoad():
+            forces[:, slots.wheels] = wheel_amplitudes(vehicle, [load], f)
+        case Force():
+            forces[:, slots.forces[load.name]] = _peak(load)
+        case BaseMotion():
+            displacement = _peak(load) * _displacement(load, f)
+            for connection in vehicle.moved_connections(load):
+                along = np.outer(displacement, connection.axes @ load.direction)
+                springs = _springs(vehicle, connection)
+                z = _dynamic_stiffness(connection, f, mount_stiffness[springs])
+                forces[:, slots.moved[connection.name], 0] = z * along
+                ground[:, springs, 0] = along[:, : len(mount_stiffness[springs])]
+    return Excitation(forces, ground)
+
+
+def together(excitations: Sequence[Excitation]) -> Excitation:
+    """The inputs of several loads, one load after the other."""
+    return Excitation(
+        np.concatenate([e.forces for e in excitations], axis=2),
+        np.concatenate([e.ground for e in excitations], axis=2),
+    )
+
+
+def generalised_forces(system: System, load: Load, frequency_hz: Floats, speed: float) -> Complexes:
+    """Forces on a system's coordinates per unit of each input of a load, (n_freqs, n_dofs, n_inputs).
+
+    Arguments as of `excitation`.
+    """
+    stiffness = mount_stiffness(system.vehicle)
+    inputs = excitation(system.vehicle, load, frequency_hz, speed, stiffness)
+    return input_directions(system).T @ inputs.forces
+
+
+def input_spectrum(load: Load, frequency_hz: Floats, speed: float) -> Complexes:
+    """The one-sided spectrum of a load's inputs, (n_freqs, n_inputs, n_inputs).
+
+    Of a harmonic load, whose inputs have its amplitude, it is one.
+
+    Raises:
+        ModevizError: its table does not reach that far.
+    """
+    if isinstance(load, Road):
+        return road_spectrum(load, frequency_hz, speed)
+    power = np.ones(len(frequency_hz))
+    if not isinstance(load, WheelLoad) and isinstance(load.amplitude, Spectrum):
+        power = interpolated_power(load.name, load.amplitude, frequency_hz)
+    return power.reshape(-1, 1, 1).astype(complex)
+
+
+class _Slots:
+    """Where in `input_directions` each load has its own."""
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        n = 3 * len(vehicle.tyres)
+        self.tyres, self.wheels = slice(0, n), slice(n, 2 * n)
+        self.forces = {force.name: 2 * n + i for i, force in enumerate(vehicle.forces)}
+        start = 2 * n + len(vehicle.forces)
+        moved = _moved(vehicle)
+        self.moved = {c.name: slice(start + 3 * i, start + 3 * i + 3) for i, c in enumerate(moved)}
+        self.n_directions = start + 3 * len(moved)
+
+
+def _moved(vehicle: Vehicle) -> list[Connection]:
+    """The connections whose ground ends some base motion moves."""
+    names = {c.name for motion in vehicle.base_motions for c in vehicle.moved_connections(motion)}
+    return [c for c in vehicle.all_connections if c.name in names]
+
+
+def _springs(vehicle: Vehicle, connection: Connection) -> slice:
+    """Which mount springs are along the axes of a connection, none if it is no mount."""
+    names = [mount.name for mount in vehicle.mounts]
+    if connection.name not in names:
+        return slice(0, 0)
+    first = 3 * names.index(connection.name)
+    return slice(first, first + 3)
+
+
+def _dynamic_stiffness(
+    connection: Connection, frequency_hz: Floats, mount_stiffness: Complexes
+) -> Complexes:
+    """Complex k (1 + jg) + jωc along the local axes, (n_freqs, 3), N/m; of a mount with rates given."""
+    k, c, g = (part[:3] for part in connection_coefficients(connection))
+    stiffness = mount_stiffness if len(mount_stiffness) else k * (1 + 1j * g)
+    return stiffness + 2j * np.pi * frequency_hz[:, None] * c
+
+
+def _peak(load: Force | BaseMotion) -> float:
+    """The amplitude of a harmonic load; one, where a spectrum has it."""
+    return 1.0 if isinstance(load.amplitude, Spectrum) else load.amplitude
+
+
+def _displacement(motion: BaseMotion, frequency_hz: Floats) -> Floats:
+    """Displacement of the ground per unit of what the amplitude is of, (n_freqs,)."""
+    if motion.quantity == "displacement":
+        return np.ones(len(frequency_hz))
+    return -1 / (2 * np.pi * frequency_hz) ** 2

@@ -1,0 +1,259 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+from small_vehicles import tyre, wheel
+
+import modeviz as mv
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.response import direct_response
+from modeviz.errors import VehicleError
+from modeviz.ride.excitation import generalised_forces
+from modeviz.tuning.check import check_exactly
+from modeviz.tuning.goals import prepare_goal
+from modeviz.tuning.results import AXIS, Conditions, solve_wheels
+from modeviz.tuning.shown import road_shape, wheel_shape
+from modeviz.tuning.wheel_peaks import wheel_peaks
+from modeviz.units import STANDARD_GRAVITY
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.connections import GROUND, Damper, Mount, MountGroup, MountRates, Spring
+from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum
+from modeviz.vehicle.problem import DesignGroup, Performance, Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+F = np.arange(1, 401) / 10
+UP = np.array([0.0, 0.0, 1.0])
+FLAT = Spectrum(np.array([0.01, 100.0]), np.array([2e-3, 2e-3]))
+MASS, RATE, LOSS, DASHPOT = 50.0, 2e5, 0.1, 300.0
+
+
+def shaken_block(*loads, rate=RATE):
+    """A block on one mount and a dashpot to the ground, its seat above them."""
+    block = RigidBody("block", "linkage", "block", MASS, np.zeros(3), np.eye(3))
+    bounds = MountRates(1e3, 1e3, 1e3), MountRates(1e6, 1e6, 1e6)
+    mount = Mount("mount", "M", ("block", GROUND), np.zeros((2, 3)))
+    group = MountGroup("M", "mount", MountRates(rate, 1e5, 1e5), LOSS, bounds, (mount,))
+    dashpot = Damper(
+        "dashpot", "dampers", ("block", GROUND), np.zeros((2, 3)), damping=np.full(3, DASHPOT)
+    )
+    turned = Spring(
+        "turns", "springs", ("block", GROUND), np.zeros((2, 3)), rotational_stiffness=np.full(3, 1e4)
+    )
+    return Vehicle(
+        "block", (block,), (dashpot, turned), (group,),
+        response_points=(ResponsePoint("seat", "block", np.zeros(3)),),
+        forces=tuple(load for load in loads if isinstance(load, Force)),
+        base_motions=tuple(load for load in loads if isinstance(load, BaseMotion)),
+    )  # fmt: skip
+
+
+def stiffness_of(rate, f):
+    return rate * (1 + 1j * LOSS) + 2j * np.pi * f * DASHPOT
+
+
+def vertical_peaks(vehicle, rates=None):
+    """Peak accelerations of the seat, m/s², (n_freqs, n_loads)."""
+    found = solve_wheels(mv.prepare(vehicle), rates or {})
+    return found.acceleration_g[:, :, 0, AXIS["vertical"]] * STANDARD_GRAVITY
+
+
+def softer(rate):
+    return {"M": MountRates(rate, 1e5, 1e5)}
+
+
+@pytest.mark.parametrize("rate", [RATE, 4e4, 9e5])
+def test_a_shaken_ground_is_transmitted_as_the_textbook_says_at_any_rate(rate):
+    z = 1e-3
+    found = vertical_peaks(shaken_block(BaseMotion("shaker", UP, "displacement", z)), softer(rate))
+    omega, k = 2 * np.pi * F, stiffness_of(rate, F)
+    expected = np.abs(k / (k - MASS * omega**2)) * z * omega**2
+    np.testing.assert_allclose(found[:, 0], expected, rtol=1e-9)
+
+
+def test_a_ground_acceleration_is_the_displacement_twice_differentiated():
+    loads = (
+        BaseMotion("by displacement", UP, "displacement", 1e-3),
+        BaseMotion("by acceleration", UP, "acceleration", 1.0),
+    )
+    by_displacement, by_acceleration = vertical_peaks(shaken_block(*loads)).T
+    expected = by_displacement / (1e-3 * (2 * np.pi * F) ** 2)
+    np.testing.assert_allclose(by_acceleration, expected, rtol=1e-12)
+
+
+def test_only_the_named_connections_are_shaken():
+    z = 1e-3
+    found = vertical_peaks(shaken_block(BaseMotion("shaker", UP, "displacement", z, ("dashpot",))))
+    omega = 2 * np.pi * F
+    expected = np.abs(1j * omega * DASHPOT / (stiffness_of(RATE, F) - MASS * omega**2)) * z * omega**2
+    np.testing.assert_allclose(found[:, 0], expected, rtol=1e-9)
+
+
+def test_a_force_acts_along_its_direction_at_any_rate():
+    slanted = Force("slanted", "block", np.zeros(3), np.array([0.0, 3.0, 4.0]), 10.0)
+    found = vertical_peaks(shaken_block(slanted), softer(5e5))
+    omega = 2 * np.pi * F
+    expected = 8.0 * omega**2 / np.abs(stiffness_of(5e5, F) - MASS * omega**2)
+    np.testing.assert_allclose(found[:, 0], expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        Force("random", "block", np.zeros(3), UP, FLAT),
+        BaseMotion("random", UP, "acceleration", FLAT),
+        BaseMotion("random", UP, "displacement", FLAT),
+    ],
+    ids=lambda load: f"{type(load).__name__} {getattr(load, 'quantity', '')}",
+)
+def test_a_random_load_has_the_spectrum_of_its_transfer(load):
+    prepared = mv.prepare(shaken_block(load))
+    found = mv.solve(prepared, softer(6e4), Conditions("random", 20.0)).response(0, "vertical")
+    omega, k = 2 * np.pi * F, stiffness_of(6e4, F)
+    transfer = 1 / (k - MASS * omega**2)
+    if isinstance(load, BaseMotion):
+        transfer = transfer * k / (omega**2 if load.quantity == "acceleration" else 1)
+    expected = np.abs(omega**2 * transfer) ** 2 * 2e-3 / STANDARD_GRAVITY**2
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
+def test_a_spectrum_is_a_power_law_between_its_values():
+    table = Spectrum(np.array([0.1, 1.0, 50.0]), np.array([4.0, 1e-2, 1e-2]))
+    vehicle = shaken_block(Force("random", "block", np.zeros(3), UP, table))
+    found = mv.solve(mv.prepare(vehicle), {}, Conditions("random", 20.0)).drive.spectrum[:, 0, 0]
+    np.testing.assert_allclose(found[F == 0.2], 4.0 * 2 ** np.log10(1e-2 / 4.0), rtol=1e-9)
+    np.testing.assert_allclose(found[F == 20.0], 1e-2, rtol=1e-12)
+
+
+def coherent_road():
+    """Both tracks the same, met by all wheels at once as fast as it is driven."""
+    f = np.array([0.05, 100.0])
+    return Road("even", "even", 1e9, f, np.full((2, 2, 2), 1e-4, complex))
+
+
+def test_shaking_all_tyres_is_driving_over_both_tracks_at_once():
+    wheels = wheel("left", y=-0.7), wheel("right", y=0.7)
+    tyres = tuple(
+        tyre(w, stiffness=np.array([1e4, 2e4, 2e5]), damping=np.full(3, 90.0)) for w in wheels
+    )
+    vehicle = Vehicle(
+        "axle", wheels, tyres, roads=(coherent_road(),), speed=1e9,
+        base_motions=(BaseMotion("posts", UP, "displacement", Spectrum([0.05, 100.0], [1e-4, 1e-4])),),
+        response_points=(ResponsePoint("hub", "left", wheels[0].center_of_gravity),),
+    )  # fmt: skip
+    prepared = mv.prepare(vehicle)
+    on_road, on_posts = (mv.solve(prepared, {}, Conditions(n, 1e9)).psd for n in ("even", "posts"))
+    np.testing.assert_allclose(on_posts, on_road, rtol=1e-9, atol=1e-12 * on_road.max())
+
+
+def shaken_cabin():
+    """The cabin with mounts to the ground, too, which is shaken along a slanted axis."""
+    cabin = mounted_cabin()
+    group, *others = cabin.mount_groups
+    body = cabin.bodies[0]
+    place = body.center_of_gravity + np.array([0.2, -0.1, -0.3])
+    axes = np.array([[0.8, 0.6, 0.0], [-0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
+    grounded = Mount("grounded", group.name, (body.name, GROUND), np.tile(place, (2, 1)), axes=axes,
+                     damping=np.array([40.0, 50.0, 60.0]))  # fmt: skip
+    direction = np.array([0.3, -0.5, 0.8])
+    return replace(
+        cabin,
+        mount_groups=(replace(group, mounts=(*group.mounts, grounded)), *others),
+        base_motions=(
+            BaseMotion("random floor", direction, "acceleration", FLAT),
+            BaseMotion("floor", direction, "displacement", 1e-3),
+        ),
+        forces=(Force("fan", body.name, place, direction, 20.0),),
+    )
+
+
+def changed(vehicle):
+    factors = 0.4, 2.5
+    return {
+        g.name: MountRates(*(x * k for k in g.rates.as_tuple()))
+        for g, x in zip(vehicle.mount_groups, factors, strict=False)
+    }
+
+
+def test_every_way_to_solve_agrees_where_the_ground_moves_mounts():
+    vehicle = shaken_cabin()
+    prepared, rates = mv.prepare(vehicle), changed(vehicle)
+    system = assemble(vehicle.with_rates(rates))
+    for near in (prepared, prepared.near(rates)):
+        found = solve_wheels(near, rates).acceleration_g
+        for i, load in enumerate(vehicle.harmonic_loads):
+            forces = generalised_forces(system, load, F, vehicle.speed)
+            H = direct_response(system, F, forces, prepared.outputs)[:, :, 0]
+            expected = np.abs(H) * (2 * np.pi * F[:, None]) ** 2 / STANDARD_GRAVITY
+            error = np.abs(found[:, i].reshape(len(F), -1) - expected).max()
+            assert error < 1e-9 * expected.max()
+    results = mv.solve(prepared, rates, Conditions("random floor", 20.0))
+    *_, check = check_exactly(results)
+    assert check.error < 1e-8
+
+
+def test_what_is_shown_moving_is_what_the_spectrum_is_of():
+    vehicle = shaken_cabin()
+    rates = changed(vehicle)
+    prepared = mv.prepare(vehicle)
+    results = mv.solve(prepared, rates, Conditions("random floor", 20.0))
+    omega, line = 2 * np.pi * 9.0, 89
+    shape = road_shape(results, 9.0, 0, "vertical")
+    row = prepared.outputs[AXIS["vertical"]]
+    expected = results.response(0, "vertical")[line]
+    assert np.abs(omega**2 * row @ shape / STANDARD_GRAVITY) ** 2 == pytest.approx(expected, rel=1e-8)
+    moved = wheel_shape(results, "floor", 9.0)
+    number = [load.name for load in vehicle.harmonic_loads].index("floor")
+    g = solve_wheels(prepared, rates).acceleration_g[line, number, 0, AXIS["vertical"]]
+    assert np.abs(omega**2 * row @ moved) / STANDARD_GRAVITY == pytest.approx(g, rel=1e-8)
+
+
+def test_the_modes_of_a_peak_are_those_that_the_load_makes():
+    vehicle = shaken_block(BaseMotion("shaker", UP, "displacement", 1e-3))
+    prepared = mv.prepare(replace(vehicle, roads=(coherent_road(),)))
+    results = mv.solve(prepared, {}, Conditions("even", 1e9))
+    (peak, *_) = wheel_peaks(results, solve_wheels(prepared, {}), 0, 0, "vertical")
+    bounce = np.sqrt(RATE / MASS) / (2 * np.pi)
+    assert results.modes.frequency_hz[peak.contributors[0].mode] == pytest.approx(bounce, rel=1e-6)
+
+
+def test_a_goal_under_a_moving_ground_has_its_true_derivatives():
+    vehicle = shaken_cabin()
+    groups = tuple(DesignGroup(g.name) for g in vehicle.mount_groups)
+    performance = Performance(np.arange(2.0, 20.0), ("random floor",), ("floor", "fan"))
+    goal = prepare_goal(vehicle, Problem("p", groups, (performance,)), vehicle.rates, 20.0)
+    rates = changed(vehicle)
+    value, gradient = goal.value_and_gradient(rates)
+    assert goal.exact_value(rates) == pytest.approx(value, rel=1e-8)
+    group = vehicle.mount_groups[0].name
+    step = 1e-5 * rates[group].vertical
+    high, low = (
+        goal.value({**rates, group: replace(rates[group], vertical=rates[group].vertical + s)})
+        for s in (step, -step)
+    )
+    # Central differences lose half the digits of 1e-16/1e-5.
+    assert gradient[0] == pytest.approx((high - low) / (2 * step), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("load", "words"),
+    [
+        (
+            BaseMotion("b", UP, "displacement", 1.0, ("turn",)),
+            "connection to the ground 'turn'",
+        ),
+        (Force("f", "bloc", np.zeros(3), UP, 1.0), "unknown body 'bloc'"),
+    ],
+)
+def test_a_load_on_what_is_not_there_is_refused(load, words):
+    with pytest.raises(VehicleError, match=words):
+        shaken_block(load)
+
+
+def test_loads_that_are_none_are_refused():
+    with pytest.raises(VehicleError, match="force 'f': direction: found three zeros"):
+        Force("f", "block", np.zeros(3), np.zeros(3), 1.0)
+    with pytest.raises(VehicleError, match="amplitude: found -1"):
+        BaseMotion("b", UP, "displacement", -1.0)
+    with pytest.raises(VehicleError, match="psd: found -2, expected no negative power"):
+        Spectrum(np.array([1.0, 2.0]), np.array([1.0, -2.0]))
