@@ -22,6 +22,7 @@ from modeviz.vehicle.connections import (
     Tyre,
 )
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad
+from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 
 ORIGIN = np.zeros((2, 3))
@@ -38,14 +39,20 @@ def part(name: str, rng: np.random.Generator, opacity: float = 1.0) -> MeshPart:
 
 
 def flexible_body(name: str = "cab") -> FlexibleBody:
-    """Random shapes: files don't mind."""
+    """Random shapes but for the rigid modes: files don't mind."""
     rng = np.random.default_rng(1)
     omega_n_squared = np.r_[np.zeros(6), np.sort(rng.uniform(1e4, 1e6, N_MODES - 6))]
+
+    def motions(places):
+        rigid = rigid_motions(places) / np.sqrt([300.0, 300.0, 300.0, 200.0, 250.0, 280.0])
+        elastic = rng.normal(size=(*np.shape(places)[:-1], 6, N_MODES - 6))
+        return np.concatenate([rigid, elastic], axis=-1)
+
     attachments = tuple(
-        Attachment(where, position, rng.normal(size=(6, N_MODES)))
+        Attachment(where, position, motions(position))
         for where, position in (("origin", np.zeros(3)), ("floor link", np.array([0.1, 0.2, 0.3])))
     )
-    shapes = rng.normal(size=(5, 6, N_MODES))
+    nodes = rng.normal(size=(5, 3))
     mesh = (part("skin", rng), part("door, left", rng, 0.4))
     return FlexibleBody(
         name,
@@ -55,14 +62,14 @@ def flexible_body(name: str = "cab") -> FlexibleBody:
         N_RESIDUALS,
         0.03,
         attachments,
-        rng.normal(size=(5, 3)),
-        shapes,
+        nodes,
+        motions(nodes),
         mesh,
     )
 
 
 def engine() -> RigidBody:
-    inertia = np.array([[12.6, -0.3, 1.7], [-0.3, 49.6, 0.0], [1.7, 0.0, 20.3]])
+    inertia = np.array([[12.6, -0.3, 1.7], [-0.3, 29.6, 0.0], [1.7, 0.0, 20.3]])
     return RigidBody("Engine & box", "powertrain", "engine", 240.5, np.array([0.1, 0, 0.58]), inertia)
 
 

@@ -51,7 +51,7 @@ def refused(value, **changes) -> str:
         (CAB, {"omega_n_squared": np.full(11, NAN)}, "found 11 values that are not finite"),
         (CAB, {"omega_n_squared": -np.arange(11.0)}, "expected six zeros, then positive values"),
         (CAB, {"omega_n_squared": np.zeros(11)}, "expected six zeros, then positive values"),
-        (CAB, {"shapes": CAB.shapes * INF}, "values that are not finite"),
+        (CAB, {"shapes": np.full_like(CAB.shapes, INF)}, "values that are not finite"),
         (CAB, {"shapes": CAB.shapes[:, :, :-1]}, "found shape (5, 6, 10), expected 5 x 6 x 11"),
         (CAB, {"nodes": CAB.nodes[:-1]}, "found shape (5, 6, 11), expected 4 x 6 x 11"),
         (
@@ -240,6 +240,6 @@ def test_residual_compliance_at_the_end_of_an_arm_has_the_arms_rotation_in_it():
 def test_smallest_parts_are_accepted():
     MeshPart("triangle", np.eye(3), np.array([[0, 1, 2]]), Material((0, 0, 255), 0.0, 1.0, 0.0))
     RigidBody("a", "linkage", "", 1e-9, np.zeros(3), np.eye(3))
-    FlexibleBody("b", "bed", "", np.zeros(6), 0, 0.0, (), np.zeros((0, 3)), np.zeros((0, 6, 6)))
+    FlexibleBody("b", "bed", "", np.zeros(6), 0, 0.0, (), np.zeros((1, 3)), np.eye(6)[None])
     Spring("c", "springs", ("a", GROUND), np.zeros((2, 3)))
     Vehicle("d", (ENGINE,), ())

@@ -145,11 +145,11 @@ def assemble(vehicle: Vehicle) -> System:
     """The system matrices of a vehicle with the mount rates it has."""
     dofs = _number(vehicle)
     n_dofs = max(s.stop for s in dofs.values())
-    M, C, K = np.zeros((3, n_dofs, n_dofs))
+    M, C, K, K_g = np.zeros((4, n_dofs, n_dofs))
     for body in vehicle.bodies:
         own = dofs[body.name], dofs[body.name]
-        M[own], C[own], K[own] = _body_matrices(body)
-    bare = System(vehicle, dofs, M, C, K, np.zeros_like(K), np.zeros((0, n_dofs)))
+        M[own], C[own], K[own], K_g[own] = _body_matrices(body)
+    bare = System(vehicle, dofs, M, C, K, K_g, np.zeros((0, n_dofs)))
     for added in vehicle.added_masses:
         R = bare.motion(added.body, added.position)[:3]
         M += added.mass * R.T @ R
@@ -167,7 +167,7 @@ def assemble(vehicle: Vehicle) -> System:
         mass=M,
         damping=C + (R.T * c) @ R,
         stiffness=K + (R.T * k) @ R,
-        structural_damping=(R.T * (g * k)) @ R,
+        structural_damping=K_g + (R.T * (g * k)) @ R,
         connection_motions=R,
         rigid_joints=rigid_joints(M, R[held]) if held.any() else None,
     )
@@ -208,25 +208,27 @@ def _n_coordinates(body: Body) -> int:
 def _coordinate_names(body: Body) -> list[str]:
     if not isinstance(body, FlexibleBody):
         return list(MOTIONS)
-    n_normal = body.n_modes - body.n_residuals
-    return [f"mode {i + 1}" for i in range(n_normal)] + [
+    return [f"mode {i + 1}" for i in range(body.n_normal)] + [
         f"residual {i + 1}" for i in range(body.n_residuals)
     ]
 
 
-def _body_matrices(body: Body) -> tuple[Floats, Floats, Floats]:
-    """Mass, damping and stiffness of one body on its own."""
+def _body_matrices(body: Body) -> tuple[Floats, Floats, Floats, Floats]:
+    """Mass, damping, stiffness and structural damping of one body on its own."""
     if isinstance(body, FlexibleBody):
-        omega_n = np.sqrt(body.omega_n_squared)
-        return (
-            np.eye(body.n_modes),
-            np.diag(2 * body.damping_ratio * omega_n),
-            np.diag(body.omega_n_squared),
-        )
+        damping, stiffness, structural = map(np.diag, modal_coefficients(body))
+        return np.eye(body.n_modes), damping, stiffness, structural
     M = np.zeros((6, 6))
     M[:3, :3] = body.mass * np.eye(3)
     M[3:, 3:] = body.inertia
-    return M, np.zeros((6, 6)), np.zeros((6, 6))
+    none = np.zeros((6, 6))
+    return M, none, none, none
+
+
+def modal_coefficients(body: FlexibleBody) -> tuple[Floats, Floats, Floats]:
+    """Damping 2ζω_n, stiffness ω_n² and structural damping gω_n² of each mode, (n_modes,) each."""
+    squares = body.omega_n_squared
+    return 2 * body.damping_ratios * np.sqrt(squares), squares, body.loss_factor * squares
 
 
 def _local_motion(body: Body, position: Floats) -> Floats:
@@ -240,5 +242,5 @@ def _local_motion(body: Body, position: Floats) -> Floats:
 def connection_coefficients(connection: Connection) -> tuple[Floats, Floats, Floats]:
     """Stiffness, damping and loss factor of the six relative motions, (6,) each."""
     k = np.concatenate([connection.stiffness, connection.rotational_stiffness])
-    c = np.concatenate([connection.damping, np.zeros(3)])
+    c = np.concatenate([connection.damping, connection.rotational_damping])
     return k, c, np.full(6, connection.loss_factor)

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.linalg
 
 from modeviz.dynamics.assembly import System, assemble
-from modeviz.dynamics.motions import center_of_gravity, rigid_coordinates
+from modeviz.dynamics.motions import MASSLESS, center_of_gravity, rigid_coordinates
 from modeviz.dynamics.naming import MOTION_WORDS
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
@@ -18,7 +18,7 @@ class ComponentModes:
     """A body's free-free modes, mass-normalised without the masses that the vehicle adds to it."""
 
     names: tuple[str, ...]
-    """Six rigid motions, "fore-aft" to "yaw", then "mode 7" and on."""
+    """Six rigid motions, "fore-aft" to "yaw", then "mode 7" and on; a rod's five, then "mode 6"."""
     frequency_hz: Floats
     """(n_modes,), zero for the rigid ones."""
     shapes: Floats
@@ -38,7 +38,7 @@ class ComponentShare:
 
 
 def component_modes(system: System, body: str) -> ComponentModes:
-    """The free-free modes of one body: six rigid ones and, if it is flexible, its elastic ones.
+    """The free-free modes of one body: the rigid ones and, if it is flexible, its elastic ones.
 
     The rigid ones are motions along and about the vehicle's axes through the body's own centre of
     gravity. Where products of inertia couple these they are changed as little as makes them orthogonal
@@ -54,14 +54,16 @@ def component_modes(system: System, body: str) -> ComponentModes:
     """
     its = system.vehicle.body(body)
     elastic = _elastic(its)
-    shapes = np.zeros((system.n_dofs, 6 + len(elastic)))
+    words, rigid = _rigid_modes(_alone(its))
+    n_rigid = len(words)
+    shapes = np.zeros((system.n_dofs, n_rigid + len(elastic)))
     own = system.dofs[body]
-    shapes[own, :6] = _rigid_modes(_alone(its))
-    shapes[own.start + elastic, 6 + np.arange(len(elastic))] = 1
+    shapes[own, :n_rigid] = rigid
+    shapes[own.start + elastic, n_rigid + np.arange(len(elastic))] = 1
     frequency_hz = np.zeros(shapes.shape[1])
     if isinstance(its, FlexibleBody):
-        frequency_hz[6:] = its.natural_frequency_hz[elastic]
-    names = (*MOTION_WORDS, *(f"mode {i + 1}" for i in elastic))
+        frequency_hz[n_rigid:] = its.natural_frequency_hz[elastic]
+    names = (*words, *(f"mode {i + 1}" for i in elastic))
     return ComponentModes(names, frequency_hz, shapes)
 
 
@@ -109,12 +111,26 @@ def _elastic(body: Body) -> np.ndarray:
     """Which of a body's coordinates are its elastic normal modes."""
     if not isinstance(body, FlexibleBody):
         return np.arange(0)
-    return np.arange(body.N_RIGID, body.n_modes - body.n_residuals)
+    return np.arange(body.n_rigid, body.n_normal)
 
 
-def _rigid_modes(alone: System) -> Floats:
-    """The body's six rigid modes in its own coordinates, (n_coordinates, 6)."""
+def _rigid_modes(alone: System) -> tuple[tuple[str, ...], Floats]:
+    """What a body's rigid modes are called, and their shapes in its coordinates, (n_dofs, n_rigid)."""
     bodies = alone.vehicle.bodies
     X = rigid_coordinates(alone, bodies, center_of_gravity(alone, bodies))
+    kept = _independent(X.T @ alone.mass @ X)
+    X = X[:, kept]
     X /= np.sqrt(np.einsum("ij,ij->j", X, alone.mass @ X))
-    return X @ scipy.linalg.fractional_matrix_power(X.T @ alone.mass @ X, -0.5)
+    return tuple(MOTION_WORDS[i] for i in kept), X @ scipy.linalg.fractional_matrix_power(
+        X.T @ alone.mass @ X, -0.5
+    )
+
+
+def _independent(rigid_mass: Floats) -> list[int]:
+    """Which of six rigid motions a body can do: all but the one closest to what has no inertia."""
+    scale = np.sqrt(np.maximum(np.diag(rigid_mass), MASSLESS * np.trace(rigid_mass)))
+    inertia, motions = np.linalg.eigh(rigid_mass / np.outer(scale, scale))
+    kept = list(range(6))
+    for motion in motions[:, inertia < MASSLESS].T:
+        kept.remove(max(kept, key=lambda i: abs(motion[i])))
+    return kept

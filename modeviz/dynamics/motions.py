@@ -13,18 +13,18 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.rigid import rigid_motions
 
+MASSLESS = 1e-12
+"""A motion with less than this part of the mass of another has none but for rounding."""
+
 
 def rigid_coordinates(system: System, bodies: Sequence[Body], center: Floats) -> Floats:
     """The coordinates (n_dofs, 6) of bodies moving as one rigid body, per motion of `center`."""
     X = np.zeros((system.n_dofs, 6))
     for body in bodies:
         if isinstance(body, FlexibleBody):
-            at = body.attachments[0]
-            rigid_modes = at.shapes[:, : body.N_RIGID]
             start = system.dofs[body.name].start
-            X[start : start + body.N_RIGID] = np.linalg.solve(
-                rigid_modes, rigid_motions(at.position - center)
-            )
+            own = slice(start, start + body.n_rigid)
+            X[own] = body.rigid_fit.coordinates @ rigid_motions(-center)
         else:
             X[system.dofs[body.name]] = rigid_motions(body.center_of_gravity - center)
     return X
@@ -41,11 +41,14 @@ def share_rows(system: System, motions: Floats) -> Floats:
     """Rows (n_motions, n_dofs) that, times a shape and squared, give its energy in each motion.
 
     xᵀM / √(xᵀMx) for each column x of `motions`, so that (rows φ)² is its share of the kinetic energy
-    of a mass-normalised shape φ; the shares of motions that are orthogonal in mass add up.
+    of a mass-normalised shape φ; the shares of motions that are orthogonal in mass add up. What has no
+    mass, as a rod's turning about itself, has no share.
     """
     momentum = motions.T @ system.mass
     motion_mass = np.einsum("ij,ji->i", momentum, motions)
-    return momentum / np.sqrt(motion_mass)[:, None]
+    has_mass = motion_mass > MASSLESS * motion_mass.max(initial=0.0)
+    size = np.sqrt(np.where(has_mass, motion_mass, np.inf))
+    return momentum / size[:, None]
 
 
 def rigid_rows(system: System, bodies: Sequence[Body]) -> Floats:
@@ -75,7 +78,7 @@ def end_rows(system: System, ends_x: tuple[float, float]) -> Floats:
     """Rows (2, n_dofs): vertical motion of the whole vehicle's best rigid motion at two stations x."""
     X = rigid_coordinates(system, system.vehicle.bodies, np.zeros(3))
     momentum = X.T @ system.mass
-    motion = np.linalg.solve(momentum @ X, momentum)
+    motion = np.linalg.lstsq(momentum @ X, momentum, rcond=MASSLESS)[0]
     return np.stack([motion[2] - x * motion[4] for x in ends_x])
 
 

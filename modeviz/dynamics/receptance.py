@@ -3,8 +3,8 @@
     G(ω) = P Z(ω)⁻¹ Pᵀ,  Z = K + jK_g + jωC - ω²M
 
 Dual assembly: each body stands alone in mass-normalised modal coordinates, where its dynamic stiffness
-Z_b = ω_n² - ω² + jωc is diagonal, and what joins the bodies enters by its forces λ. Most coordinates e
-are eliminated; some, u, are kept with the forces:
+Z_b = ω_n² (1 + jg) - ω² + jωc is diagonal, and what joins the bodies enters by its forces λ. Most
+coordinates e are eliminated; some, u, are kept with the forces:
 
     [ Z_u              R_uᵀ             ] [u]   [       P_uᵀ       ]
     [ R_u   -(1/z + R_e Z_e⁻¹ R_eᵀ)     ] [λ] = [ -R_e Z_e⁻¹ P_eᵀ  ]
@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from modeviz.dynamics.assembly import System, connection_coefficients
+from modeviz.dynamics.assembly import System, connection_coefficients, modal_coefficients
 from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
@@ -99,6 +99,7 @@ class _Disassembled:
     joints: _Joints
     omega_n_squared: Floats
     damping: Floats
+    structural_damping: Floats
     """(n_dofs,) each."""
     motions: Floats
     """(n_directions, n_dofs)."""
@@ -125,7 +126,7 @@ class _Disassembled:
     def _bordered(self, omega: float) -> tuple[Complexes, Floats]:
         """The matrix of u, λ and rows, and what scales the parts of its diagonal to one for u and λ."""
         compliance = self.joints.compliance(omega)
-        Z = self.omega_n_squared - omega**2 + 1j * omega * self.damping
+        Z = self.omega_n_squared - omega**2 + 1j * (omega * self.damping + self.structural_damping)
         squares = self.motions[: len(compliance)] ** 2
         kept = np.abs(Z) < SOFT * (self.omega_n_squared + self._held_by(compliance, squares))
         per_force = np.divide(1, Z, out=np.zeros_like(Z), where=~kept)
@@ -171,9 +172,9 @@ def _disassemble(system: System, rows: Floats) -> _Disassembled:
     for body in bodies:
         own = system.dofs[body.name]
         motions[:, own] = motions[:, own] @ _normalising(body)
-    omega_n_squared, damping = np.hstack([_modal_coefficients(b) for b in bodies])
+    damping, omega_n_squared, structural = np.hstack([_modal_coefficients(b) for b in bodies])
     moved = [(own, np.flatnonzero(motions[:, own].any(axis=1))) for own in system.dofs.values()]
-    return _Disassembled(joints, omega_n_squared, damping, motions, tuple(moved))
+    return _Disassembled(joints, omega_n_squared, damping, structural, motions, tuple(moved))
 
 
 def _joints(system: System) -> tuple[Floats, _Joints]:
@@ -205,8 +206,6 @@ def _normalising(body: Body) -> Floats:
     return T
 
 
-def _modal_coefficients(body: Body) -> tuple[Floats, Floats]:
-    """ω_n² and the viscous damping 2ζω_n of each mass-normalised coordinate, (n,) each."""
-    if isinstance(body, FlexibleBody):
-        return body.omega_n_squared, 2 * body.damping_ratio * np.sqrt(body.omega_n_squared)
-    return np.zeros(6), np.zeros(6)
+def _modal_coefficients(body: Body) -> Floats:
+    """`modal_coefficients` of each mass-normalised coordinate, (3, n)."""
+    return np.array(modal_coefficients(body)) if isinstance(body, FlexibleBody) else np.zeros((3, 6))

@@ -5,9 +5,7 @@ Nothing here knows a particular vehicle: bodies enter by their role, wheels by t
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from modeviz.vehicle.bodies import Body, FlexibleBody, Role
+from modeviz.vehicle.bodies import Body, Role
 from modeviz.vehicle.vehicle import Vehicle
 
 AXLE_LENGTH = 0.3
@@ -52,7 +50,7 @@ def unit_of_role(vehicle: Vehicle, role: Role) -> Unit | None:
     bodies = tuple(b for b in vehicle.bodies if b.role == role)
     if not bodies:
         return None
-    return Unit(max(bodies, key=_mass).label, bodies)
+    return Unit(max(bodies, key=lambda body: body.mass).label, bodies)
 
 
 def units(vehicle: Vehicle) -> tuple[Unit, ...]:
@@ -82,11 +80,3 @@ def _axle_words(n_axles: int) -> list[str]:
     if n_axles < 2:
         return ["wheel"] * n_axles
     return ["front", *(f"axle {i}" for i in range(2, n_axles)), "rear"]
-
-
-def _mass(body: Body) -> float:
-    """Mass in kg; a flexible body's follows from its rigid modes."""
-    if not isinstance(body, FlexibleBody):
-        return body.mass
-    to_modes = np.linalg.inv(body.attachments[0].shapes[:, : body.N_RIGID])
-    return float(to_modes[:, 0] @ to_modes[:, 0])

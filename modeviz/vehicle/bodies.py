@@ -1,6 +1,7 @@
 """Bodies: what has mass. Flexible ones carry modes, rigid ones an inertia."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, get_args
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.rigid import rigid_motions
+from modeviz.vehicle.rigid_fit import RigidFit, fit_rigid
 
 Role = Literal["cabin", "frame", "bed", "powertrain", "unsprung", "linkage", "other"]
 """What a body is in the vehicle; modes are named from it.
@@ -82,9 +84,9 @@ class Attachment:
 class FlexibleBody:
     """A free-free elastic body in mass-normalised modal coordinates.
 
-    The columns of every shape array are, in this order: 6 rigid modes, the elastic normal modes, and
-    residual vectors, which are made orthogonal in mass and stiffness and used like more modes. The
-    modal mass is one, the modal stiffness `omega_n_squared`.
+    The columns of every shape array are, in this order: 6 rigid modes (5 of a rod, which has no inertia
+    about itself), the elastic normal modes, and residual vectors, which are made orthogonal in mass and
+    stiffness and used like more modes. The modal mass is one, the modal stiffness `omega_n_squared`.
     """
 
     name: str
@@ -95,16 +97,23 @@ class FlexibleBody:
     """(n_modes,), rad²/s²; zero for the rigid modes."""
     n_residuals: int
     """How many of the last columns are residual vectors."""
-    damping_ratio: float
-    """Viscous, the same fraction of critical for every mode."""
+    damping_ratio: float | tuple[float, ...]
+    """Viscous, fractions of critical: one for all modes, or those of the elastic ones in turn.
+
+    The last of these holds for all modes above it too."""
     attachments: tuple[Attachment, ...]
     nodes: Floats
     """(n_nodes, 3), m: the points that carry the mesh."""
     shapes: np.ndarray
     """(n_nodes, 6, n_modes), single precision: translations and rotations of the nodes."""
     mesh: Mesh = ()
+    loss_factor: float = 0.0
+    """Structural damping: the stiffness is K (1 + j loss_factor)."""
+    stated_mass: float | None = None
+    """kg, if it is known otherwise than from the modes."""
 
     N_RIGID = 6
+    """How many rigid modes a body has that is no rod."""
 
     def __post_init__(self) -> None:
         _check_role(self.role)
@@ -113,21 +122,8 @@ class FlexibleBody:
         frozen(self, "omega_n_squared", self.omega_n_squared, (None,))
         frozen(self, "nodes", self.nodes, (None, 3))
         frozen(self, "shapes", self.shapes, (len(self.nodes), 6, self.n_modes), np.float32)
-        if not 0 <= self.n_residuals <= self.n_modes - self.N_RIGID:
-            raise VehicleError(
-                f"body {self.name!r}: n_residuals: found {self.n_residuals} with {self.n_modes} modes, "
-                f"expected 0 to {max(self.n_modes - self.N_RIGID, 0)} (6 modes are rigid)"
-            )
-        rigid, elastic = np.split(self.omega_n_squared, [self.N_RIGID])
-        if rigid.any() or (elastic <= 0).any():
-            raise VehicleError(
-                f"body {self.name!r}: omega_n_squared: expected six zeros, then positive values"
-            )
-        if not 0 <= self.damping_ratio < 1:
-            raise VehicleError(
-                f"body {self.name!r}: damping_ratio: found {self.damping_ratio}, expected a fraction "
-                "of critical from 0 to below 1"
-            )
+        self._check_frequencies()
+        self._check_damping()
         for attachment in self.attachments:
             if attachment.shapes.shape[1] != self.n_modes:
                 raise VehicleError(
@@ -135,9 +131,70 @@ class FlexibleBody:
                     f"{attachment.shapes.shape[1]} modes, the body has {self.n_modes}"
                 )
 
+        if np.linalg.matrix_rank(self.rigid_fit.coordinates[:, :3]) < 3:
+            raise VehicleError(
+                f"body {self.name!r}: its rigid modes move neither attachments nor nodes along all of "
+                "x, y and z, so it cannot be told how heavy it is; give it the shapes of some places"
+            )
+
+    def _check_frequencies(self) -> None:
+        elastic = self.omega_n_squared[self.n_rigid :]
+        if not self.N_RIGID - 1 <= self.n_rigid <= self.N_RIGID or (elastic <= 0).any():
+            raise VehicleError(
+                f"body {self.name!r}: omega_n_squared: expected six zeros, then positive values (five "
+                "of a rod, which has no inertia about itself)"
+            )
+        if not 0 <= self.n_residuals <= len(elastic):
+            raise VehicleError(
+                f"body {self.name!r}: n_residuals: found {self.n_residuals} with {self.n_modes} modes, "
+                f"expected 0 to {len(elastic)} ({self.n_rigid} modes are rigid)"
+            )
+
+    def _check_damping(self) -> None:
+        ratios = np.atleast_1d(self.damping_ratio)
+        if not ratios.size or not ((ratios >= 0) & (ratios < 1)).all():
+            raise VehicleError(
+                f"body {self.name!r}: damping_ratio: found {self.damping_ratio}, expected a fraction "
+                "of critical from 0 to below 1, or one for each elastic mode"
+            )
+        if not (np.isfinite(self.loss_factor) and self.loss_factor >= 0):
+            raise VehicleError(
+                f"body {self.name!r}: loss_factor: found {self.loss_factor}, expected zero or more"
+            )
+
     @property
     def n_modes(self) -> int:
         return len(self.omega_n_squared)
+
+    @property
+    def n_rigid(self) -> int:
+        """How many of the first modes are rigid: the zeros that `omega_n_squared` begins with."""
+        return int((np.cumsum(self.omega_n_squared != 0) == 0).sum())
+
+    @property
+    def n_normal(self) -> int:
+        """How many modes are normal modes, rigid or elastic, and no residual vectors."""
+        return self.n_modes - self.n_residuals
+
+    @property
+    def damping_ratios(self) -> Floats:
+        """The damping ratio of every mode, (n_modes,), zero of the rigid ones."""
+        ratios = np.atleast_1d(self.damping_ratio)
+        number = np.minimum(np.arange(self.n_modes - self.n_rigid), len(ratios) - 1)
+        return np.concatenate([np.zeros(self.n_rigid), ratios[number]])
+
+    @cached_property
+    def rigid_fit(self) -> RigidFit:
+        """The rigid motions closest to its rigid modes."""
+        shapes = np.array([a.shapes for a in self.attachments]).reshape(-1, 6, self.n_modes)
+        positions = np.array([a.position for a in self.attachments]).reshape(-1, 3)
+        n = self.n_rigid
+        return fit_rigid(positions, shapes[:, :, :n], self.nodes, self.shapes[:, :, :n].astype(float))
+
+    @property
+    def mass(self) -> float:
+        """kg, as its rigid modes say."""
+        return float(np.trace(self.rigid_fit.mass[:3, :3]) / 3)
 
     @property
     def natural_frequency_hz(self) -> Floats:
@@ -171,17 +228,17 @@ class FlexibleBody:
         """The same body in its lowest `n_modes` normal modes, rigid ones included.
 
         Args:
-            n_modes: 6 up to the number of normal modes.
+            n_modes: from the rigid ones up to the number of normal modes.
             residual_vectors: whether to keep them too.
 
         Raises:
             VehicleError: `n_modes` is out of that range.
         """
-        n_normal = self.n_modes - self.n_residuals
-        if not self.N_RIGID <= n_modes <= n_normal:
+        n_normal = self.n_normal
+        if not self.n_rigid <= n_modes <= n_normal:
             raise VehicleError(
                 f"body {self.name!r}: modes to keep: found {n_modes}, "
-                f"expected {self.N_RIGID} to {n_normal}"
+                f"expected {self.n_rigid} to {n_normal}"
             )
         kept = np.r_[0:n_modes, n_normal : self.n_modes] if residual_vectors else np.arange(n_modes)
         return replace(

@@ -51,6 +51,8 @@ class Connection:
     """(3,) about the local x, y, z, N m/rad."""
     damping: Floats = field(default_factory=lambda: np.zeros(3))
     """(3,) viscous, along the local x, y, z, N s/m."""
+    rotational_damping: Floats = field(default_factory=lambda: np.zeros(3))
+    """(3,) viscous, about the local x, y, z, N m s/rad."""
     loss_factor: float = 0.0
     """Structural damping: the stiffness is k (1 + j loss_factor)."""
     axes: Floats = field(default_factory=lambda: np.eye(3))
@@ -62,7 +64,7 @@ class Connection:
 
     def __post_init__(self) -> None:
         frozen(self, "points", self.points, (2, 3))
-        for name in ("stiffness", "rotational_stiffness", "damping"):
+        for name in ("stiffness", "rotational_stiffness", "damping", "rotational_damping"):
             frozen(self, name, getattr(self, name), (3,))
             if (getattr(self, name) < 0).any():
                 raise VehicleError(
@@ -96,7 +98,7 @@ class Connection:
 
     def _check_rigid(self) -> None:
         """Raises VehicleError unless what is rigid is some of `MOTIONS`, without a rate."""
-        rates = [*self.stiffness, *self.rotational_stiffness], [*self.damping, 0.0, 0.0, 0.0]
+        rates = [*self.stiffness, *self.rotational_stiffness], [*self.damping, *self.rotational_damping]
         with_rate = {m for m, k, c in zip(MOTIONS, *rates, strict=True) if k or c}
         for motion in self.rigid:
             if motion not in MOTIONS:
@@ -137,7 +139,8 @@ class Rod(Connection):
         frozen(self, "points", self.points, (2, 3))
         object.__setattr__(self, "axes", _along(self.name, *self.points))
         super().__post_init__()
-        across = *self.stiffness[1:], *self.damping[1:], *self.rotational_stiffness
+        turning = *self.rotational_stiffness, *self.rotational_damping
+        across = *self.stiffness[1:], *self.damping[1:], *turning
         if any(across) or not set(self.rigid) <= {"x"}:
             raise VehicleError(
                 f"rod {self.name!r}: found rates across the rod or about it, expected only those along "

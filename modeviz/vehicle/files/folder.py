@@ -14,6 +14,7 @@ import msgspec
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring, Tyre
+from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.files.disk import file_stems, replace_folder, write_text
 from modeviz.vehicle.files.meshes import write_mesh
 from modeviz.vehicle.files.modal import write_flexible_body
@@ -135,6 +136,8 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         problems=built(record.problem, "problem", ProblemRecord.build),
         speed=record.speed or USUAL_SPEED,
     )
+    for doubt in doubts(vehicle):
+        source.note(doubt)
     return replace(vehicle, notes=source.notes)
 
 

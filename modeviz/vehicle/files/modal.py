@@ -1,15 +1,17 @@
 """The arrays of a flexible body as a file: what NumPy calls .npz, the same bytes every time."""
 
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import Attachment, FlexibleBody, Mesh, Role
+from modeviz.vehicle.bodies import Attachment, FlexibleBody
 from modeviz.vehicle.files.disk import read_bytes
 
 KINDS = {
@@ -30,23 +32,17 @@ KIND_NAMES = {"f": "real numbers", "i": "whole numbers", "U": "text"}
 
 
 def read_flexible_body(
-    path: Path,
-    name: str,
-    role: Role,
-    label: str,
-    damping_ratio: float,
-    mesh: Mesh,
-    note: Callable[[str], None],
+    path: Path, name: str, properties: Mapping[str, Any], note: Callable[[str], None]
 ) -> FlexibleBody:
-    """The body whose arrays are in the file; frequencies near zero, as solvers give them, are zero.
+    """The body whose arrays are in the file.
+
+    Frequencies near zero, as solvers give them, are zero. Rotations that are left out, as by solid
+    elements and tests in three directions, are those of the rigid modes, and none of the others.
 
     Args:
         path: of the file.
-        name: of the body, like what follows.
-        role: see `FlexibleBody`.
-        label: see `FlexibleBody`.
-        damping_ratio: see `FlexibleBody`.
-        mesh: see `FlexibleBody`.
+        name: of the body.
+        properties: what else it takes to make a `FlexibleBody`.
         note: told what was taken otherwise than it stands.
 
     Raises:
@@ -62,18 +58,16 @@ def read_flexible_body(
             f"{names.shape}, {positions.shape} and {shapes.shape}, expected one row for each attachment"
         )
     with located(path):
-        return FlexibleBody(
-            name,
-            role,
-            label,
-            _with_zeros(arrays["omega_n_squared"], f"body {name!r}", note),
-            int(arrays["n_residuals"]),
-            damping_ratio,
-            tuple(map(Attachment, names.tolist(), positions, shapes)),
-            arrays["nodes"],
-            arrays["shapes"],
-            mesh,
+        body = FlexibleBody(
+            name=name,
+            omega_n_squared=_with_zeros(arrays["omega_n_squared"], f"body {name!r}", note),
+            n_residuals=int(arrays["n_residuals"]),
+            attachments=tuple(map(Attachment, names.tolist(), positions, _with_six_rows(shapes))),
+            nodes=arrays["nodes"],
+            shapes=_with_six_rows(arrays["shapes"]),
+            **properties,
         )
+    return _turned(body, note)
 
 
 def write_flexible_body(path: Path, body: FlexibleBody) -> None:
@@ -97,7 +91,7 @@ def _with_zeros(omega_n_squared: Floats, where: str, note: Callable[[str], None]
     """ω² with zeros for the rigid modes, to which solvers give 1e-4 Hz, or ω² a little below zero."""
     frequency_hz = np.sqrt(np.abs(omega_n_squared)) / (2 * np.pi)
     lowest_elastic = frequency_hz[FlexibleBody.N_RIGID : FlexibleBody.N_RIGID + 1]
-    limit = max(NEAR_ZERO_HZ, *(NEAR_ZERO * lowest_elastic))
+    limit = max(NEAR_ZERO_HZ, NEAR_ZERO * float(lowest_elastic.max(initial=0.0)))
     rigid = frequency_hz[: FlexibleBody.N_RIGID]
     near = np.flatnonzero((rigid > 0) & (rigid < limit))
     if not near.size:
@@ -109,6 +103,29 @@ def _with_zeros(omega_n_squared: Floats, where: str, note: Callable[[str], None]
     result = omega_n_squared.copy()
     result[near] = 0
     return result
+
+
+def _with_six_rows(shapes: np.ndarray) -> np.ndarray:
+    """Motions of places, (n_places, 6, n_modes), with no rotations where the file has none."""
+    if shapes.shape[1] != 3:
+        return shapes
+    return np.concatenate([shapes, np.zeros_like(shapes)], axis=1)
+
+
+def _turned(body: FlexibleBody, note: Callable[[str], None]) -> FlexibleBody:
+    """The body with rotations in its rigid modes where it has none in any mode."""
+    turn = np.zeros((6, body.n_modes))
+    turn[3:, : body.n_rigid] = body.rigid_fit.motions[3:]
+    if body.attachments and not any(a.shapes[3:].any() for a in body.attachments):
+        note(
+            f"body {body.name!r}: its attachments have no rotations: taken to turn as the body does in "
+            "its rigid modes, and not as it deforms"
+        )
+        attachments = tuple(replace(a, shapes=a.shapes + turn) for a in body.attachments)
+        body = replace(body, attachments=attachments)
+    if body.shapes[:, 3:].any():
+        return body
+    return replace(body, shapes=body.shapes + turn)
 
 
 def _read_arrays(path: Path) -> dict[str, np.ndarray]:

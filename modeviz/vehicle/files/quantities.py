@@ -38,6 +38,7 @@ Stiffness = Annotated[Vector, Quantity("stiffness")]
 RotationalStiffness = Annotated[Vector, Quantity("rotational_stiffness")]
 DampingRate = Annotated[float, Meta(ge=0), Quantity("damping")]
 Damping = Annotated[Vector, Quantity("damping")]
+RotationalDamping = Annotated[Vector, Quantity("rotational_damping")]
 Amplitude = Annotated[
     float,
     Meta(ge=0),

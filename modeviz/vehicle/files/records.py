@@ -38,6 +38,7 @@ from modeviz.vehicle.files.quantities import (
     Place,
     Position,
     Rate,
+    RotationalDamping,
     RotationalStiffness,
     Speed,
     Stiffness,
@@ -84,8 +85,12 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
 
     modes: str
     """A file of the folder, .npz."""
-    damping_ratio: float
-    keep_modes: Annotated[int, Meta(ge=FlexibleBody.N_RIGID)] | None = None
+    damping_ratio: float | tuple[float, ...]
+    """Of all modes, or of the elastic ones in turn; the last holds for all above it too."""
+    loss_factor: NonNegative = 0.0
+    mass: Mass | None = None
+    """What it is known to weigh: its modes are held against it."""
+    keep_modes: Annotated[int, Meta(ge=FlexibleBody.N_RIGID - 1)] | None = None
     """How many of the lowest normal modes, rigid ones included; all, if not given."""
     residual_vectors: bool = True
     """Whether to keep them."""
@@ -99,17 +104,29 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
             mesh=mesh,
             modes=modes,
             damping_ratio=body.damping_ratio,
+            loss_factor=body.loss_factor,
+            mass=body.stated_mass,
         )
 
     def build(self, source: Source) -> FlexibleBody:
         with located("modes"):
             path = source.path(self.modes)
-        mesh = self.read_mesh(source)
-        body = read_flexible_body(
-            path, self.name, self.role, self.spoken, self.damping_ratio, mesh, source.note
-        )
-        n_normal = body.n_modes - body.n_residuals
-        return body.truncated(self.keep_modes or n_normal, self.residual_vectors)
+        properties = {
+            "role": self.role,
+            "label": self.spoken,
+            "mesh": self.read_mesh(source),
+            "damping_ratio": self.damping_ratio,
+            "loss_factor": self.loss_factor,
+            "stated_mass": self.mass,
+        }
+        body = read_flexible_body(path, self.name, properties, source.note)
+        n_elastic, n_ratios = body.n_normal - body.n_rigid, np.size(self.damping_ratio)
+        if n_ratios > max(n_elastic, 1):
+            raise VehicleError(
+                f"damping_ratio: found {n_ratios} for {n_elastic} elastic modes, expected one for all "
+                "or one for each; rigid modes have none"
+            )
+        return body.truncated(self.keep_modes or body.n_normal, self.residual_vectors)
 
 
 class RigidBodyRecord(BodyRecord, kw_only=True):
@@ -185,6 +202,7 @@ class MountRecord(Record, kw_only=True):
     at: Place
     rotational_stiffness: RotationalStiffness = NO_RATES
     damping: Damping = NO_RATES
+    rotational_damping: RotationalDamping = NO_RATES
     axes: Axes = VEHICLE_AXES
     elastic_center: float = 0.5
     """Where between its ends it acts: 0 at the first, 1 at the second."""

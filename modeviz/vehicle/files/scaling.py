@@ -14,6 +14,7 @@ WRITTEN_UNITS = {
     "stiffness": "N/mm",
     "rotational_stiffness": "N m/rad",
     "damping": "N s/m",
+    "rotational_damping": "N m s/rad",
     "force": "N",
     "unbalance": "g m",
     "speed": "km/h",

@@ -150,7 +150,11 @@ class ShapePanel:
         name, hertz = title(share.name), ""
         if share.mode is not None:
             name = self._buttons.label(i, name)
-            hertz = f"{modes.frequency_hz[share.mode]:.1f} Hz" if share.mode > 5 else "rigid"
+            hertz = (
+                f"{modes.frequency_hz[share.mode]:.1f} Hz"
+                if modes.frequency_hz[share.mode]
+                else "rigid"
+            )
         bar = f'<i style="width:{100 * share.share:.1f}%;background:var(--mv-now)"></i>'
         percent = f"{100 * share.share:.1f} %"
         return [name, span(hertz, "dim"), f'<div class="bar">{bar}</div>', percent]
@@ -165,8 +169,8 @@ class ShapePanel:
 
     def _to_body(self, name: str) -> None:
         """Shows a body in its first elastic mode, or a rigid one in its first."""
-        is_flexible = isinstance(self._session.vehicle.body(name), FlexibleBody)
-        first = FlexibleBody.N_RIGID if is_flexible else 0
+        body = self._session.vehicle.body(name)
+        first = body.n_rigid if isinstance(body, FlexibleBody) else 0
         self._session.change(component=name, component_mode=first)
 
 
@@ -179,9 +183,9 @@ ABOUT: dict[Motion, str] = {
 
 
 def n_free_modes(vehicle: Vehicle, body: str) -> int:
-    """How many free modes a body has: six rigid ones, and its elastic ones."""
+    """How many free modes a body has: its rigid ones, and its elastic ones."""
     its = vehicle.body(body)
-    return its.n_modes - its.n_residuals if isinstance(its, FlexibleBody) else 6
+    return its.n_normal if isinstance(its, FlexibleBody) else 6
 
 
 def own_mode(vehicle: Vehicle, state: State) -> int:
