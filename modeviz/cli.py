@@ -1,10 +1,10 @@
 """The command line: `modeviz [view|modes|psd|wheels|render|report|optimise|scatter] [VEHICLE]`."""
 
-import os
 import sys
 from collections.abc import Sequence
 
 from modeviz.commands.interrupt import ended_by_interrupt, interrupted
+from modeviz.commands.streams import printed_plainly
 from modeviz.errors import ModevizError
 
 
@@ -13,16 +13,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     That is 0, or 2 for what the user can put right, or 130 after an interrupt.
     """
-    try:
-        _run(sys.argv[1:] if arguments is None else arguments)
-    except ModevizError as error:
-        print(f"modeviz: {error}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:
-        # Whoever reads, such as `head`, has enough; Python would fail again when it flushes at its end.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except KeyboardInterrupt:
-        return interrupted()
+    with printed_plainly():
+        try:
+            _run(sys.argv[1:] if arguments is None else arguments)
+        except ModevizError as error:
+            print("modeviz:", " ".join(str(error).splitlines()), file=sys.stderr)
+            return 2
+        except KeyboardInterrupt:
+            return interrupted()
     return 0
 
 

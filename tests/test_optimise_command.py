@@ -4,6 +4,8 @@ import json
 import pty
 import re
 import signal
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -15,10 +17,12 @@ from rounding import SEARCHED, SEARCHED_X
 from modeviz.cli import main
 from modeviz.commands import front as front_command
 from modeviz.commands import optimise as command
+from modeviz.commands.interrupt import ENDINGS
+from modeviz.errors import VehicleError
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.optimise import optimise, search_globally, start_points
 from modeviz.tuning.parts import Tolerance
-from modeviz.tuning.rate_files import read_rates
+from modeviz.tuning.rate_files import read_rates, write_rates
 from modeviz.tuning.robust import robust
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import write_vehicle
@@ -201,16 +205,25 @@ def test_the_table_says_where_the_mode_of_a_window_is(capsys, tmp_path):
     assert said.endswith("Hz in the full model")
 
 
-def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path):
+@pytest.fixture(autouse=True)
+def usual_interrupt():
+    """Ctrl+C as on a terminal, also where the tests run behind a script that has it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path, ending):
     told = []
 
     def interrupt(_, progress):
         told.append(progress)
         if len(told) == 5:
-            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(ending)
 
     monkeypatch.setattr(command, "_tell", interrupt)
-    before = signal.getsignal(signal.SIGINT)
+    before = signal.getsignal(ending)
     path = tmp_path / "rates.csv"
     assert main(["optimise", cabin, "--output", str(path), "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
@@ -219,7 +232,74 @@ def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path
     assert record["evaluations"] == 6  # and the best design among the other starts
     assert record["objective"]["found"] == told[-1].value < 1
     assert read_rates(path, mounted_cabin())["A"].vertical == told[-1].rates["A"].vertical
-    assert signal.getsignal(signal.SIGINT) is before
+    assert signal.getsignal(ending) is before
+
+
+@pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGHUP])
+def test_what_batch_systems_send_keeps_the_best_in_print_and_in_a_file(cabin, tmp_path, ending):
+    path = tmp_path / "rates.json"
+    arguments = ["optimise", cabin, "--starts", "1000", "--json", "--output", str(path)]
+    with subprocess.Popen(
+        [sys.executable, "-c", TELLING, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as run:
+        assert run.stdout
+        assert run.stderr
+        assert run.stderr.readline() == b"searching\n"
+        run.send_signal(ending)
+        record, said = json.loads(run.stdout.read()), run.stderr.read().decode()
+    assert said == f"modeviz: ending; {ending.name} again ends it at once\n"
+    assert (run.returncode, record["reason"]) == (0, "cancelled")
+    vertical = read_rates(path, mounted_cabin())["A"].vertical
+    assert vertical == pytest.approx(1e3 * record["rates"]["A"]["vertical"], rel=1e-12)
+
+
+TELLING = """
+import sys
+from itertools import count
+from modeviz.cli import main
+from modeviz.commands import optimise
+
+n = count()
+optimise._tell = lambda *_: print("searching", file=sys.stderr) if next(n) == 3 else None
+sys.exit(main())
+"""
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_a_signal_that_is_ignored_stays_so(monkeypatch, printed_json, cabin, ending):
+    monkeypatch.setattr(command, "_tell", lambda *_: signal.raise_signal(ending))
+    before = signal.signal(ending, signal.SIG_IGN)
+    try:
+        assert printed_json("optimise", cabin, "--starts", "1")["reason"] == "converged"
+    finally:
+        signal.signal(ending, before)
+
+
+def test_a_signal_while_results_are_written_waits(monkeypatch, printed_json, cabin, tmp_path):
+    def interrupted(path, rates):
+        signal.raise_signal(signal.SIGTERM)
+        write_rates(path, rates)
+
+    monkeypatch.setattr(command, "write_rates", interrupted)
+    path = tmp_path / "rates.json"
+    record = printed_json("optimise", cabin, "--starts", "1", "--output", str(path))
+    assert record["converged"]
+    assert read_rates(path, mounted_cabin())
+
+
+@pytest.mark.parametrize("options", [[], ["--front", "lateral against vertical"]])
+def test_what_cannot_be_written_at_the_end_is_printed(monkeypatch, capsys, cabin, tmp_path, options):
+    def full(path, _):
+        raise VehicleError(f"{path}: cannot be written (No space left on device)")
+
+    monkeypatch.setattr(command, "write_rates", full)
+    monkeypatch.setattr(front_command, "write_text", full)
+    path = tmp_path / "rates.json"
+    arguments = ["optimise", cabin, "--starts", "1", *options, "--json", "--output", str(path)]
+    assert main(arguments) == 2
+    out, err = capsys.readouterr()
+    assert "rates" in json.loads(out).get("designs", [json.loads(out)])[0]
+    assert err == f"modeviz: {path}: cannot be written (No space left on device)\n"
 
 
 def test_an_interrupt_before_the_robust_search_keeps_the_best_as_drawn(

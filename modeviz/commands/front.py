@@ -2,12 +2,15 @@
 
 from argparse import Namespace
 from functools import partial
+from pathlib import Path
 
 from modeviz.commands.interrupt import cancelled_by_interrupt
 from modeviz.commands.options import json_text, print_json
+from modeviz.commands.results import keep
 from modeviz.commands.terminal import progress, say
 from modeviz.errors import ModevizError, unknown
 from modeviz.export.front import front_csv, front_record, front_table
+from modeviz.export.records import Record
 from modeviz.tuning.control import Control
 from modeviz.tuning.pareto import Front, FrontProgress, find_front
 from modeviz.tuning.rate_files import rates_format
@@ -33,32 +36,36 @@ def optimise_front(
     if options.front not in offers:
         raise ModevizError("--front: " + unknown("trade-off", options.front, offers))
     trade_off = prepare_trade_off(vehicle, problem, offers[options.front], rates, speed)
-    front = _found(options, trade_off, rates)
-    record = front_record(problem, trade_off, front)
-    if options.output:
-        is_csv = rates_format(options.output) == "csv"
-        write_text(options.output, front_csv(problem, front) if is_csv else json_text(record) + "\n")
-    if options.json:
-        print_json(record)
-    else:
-        print(front_table(problem, trade_off, front))
-
-
-def _found(options: Namespace, trade_off: TradeOff, rates: Rates) -> Front:
-    """The front as far as it is found until its end, or until Ctrl+C."""
     with cancelled_by_interrupt() as control:
-        try:
-            return find_front(
-                trade_off,
-                [rates],
-                n_starts=options.starts or N_STARTS,
-                seed=options.seed,
-                budget=options.budget,
-                control=control,
-                tell=partial(_tell, control),
-            )
-        finally:
-            say("")
+        front = _found(options, trade_off, rates, control)
+        record = front_record(problem, trade_off, front)
+        keep(
+            lambda: _write(options.output, problem, front, record) if options.output else None,
+            lambda: (
+                print_json(record) if options.json else print(front_table(problem, trade_off, front))
+            ),
+        )
+
+
+def _write(path: Path, problem: Problem, front: Front, record: Record) -> None:
+    is_csv = rates_format(path) == "csv"
+    write_text(path, front_csv(problem, front) if is_csv else json_text(record) + "\n")
+
+
+def _found(options: Namespace, trade_off: TradeOff, rates: Rates, control: Control) -> Front:
+    """The front as far as it is found until its end, or until it is cancelled."""
+    try:
+        return find_front(
+            trade_off,
+            [rates],
+            n_starts=options.starts or N_STARTS,
+            seed=options.seed,
+            budget=options.budget,
+            control=control,
+            tell=partial(_tell, control),
+        )
+    finally:
+        say("")
 
 
 def _tell(control: Control, where: FrontProgress) -> None:

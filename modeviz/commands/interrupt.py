@@ -1,4 +1,4 @@
-"""Ctrl+C: what it ends, and what is kept then."""
+"""Ctrl+C and its like: what they end, and what is kept then."""
 
 import os
 import signal
@@ -12,6 +12,9 @@ from modeviz.tuning.control import Control
 
 INTERRUPTED = 130
 """The exit status that shells have for it: 128 and the number of the signal."""
+
+ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""What ends a program: Ctrl+C, batch systems, a terminal that is closed."""
 
 
 def interrupted() -> int:
@@ -37,19 +40,25 @@ def ended_by_interrupt() -> Iterator[None]:
 
 @contextmanager
 def cancelled_by_interrupt() -> Iterator[Control]:
-    """A control that Ctrl+C cancels; a second Ctrl+C ends the program as ever.
+    """A control that a signal to end cancels; a second one ends the program as ever.
 
-    That is said, and stays to be read if nothing is said of a computation once it is cancelled.
+    That is said, and stays to be read if nothing is said of a computation once it is cancelled. A
+    signal that is ignored, as `nohup` has it, stays so.
     """
     control = Control()
 
-    def cancel(_signal: int, _frame: FrameType | None) -> None:
-        signal.signal(signal.SIGINT, before)
-        announce("ending; Ctrl+C again ends it at once")
+    def cancel(number: int, _frame: FrameType | None) -> None:
+        for ending, handler in before.items():
+            signal.signal(ending, handler)
+        again = "Ctrl+C" if number == signal.SIGINT else signal.Signals(number).name
+        announce(f"ending; {again} again ends it at once")
         control.cancel()
 
-    before = signal.signal(signal.SIGINT, cancel)
+    before = {n: h for n in ENDINGS if (h := signal.getsignal(n)) is not signal.SIG_IGN}
+    for number in before:
+        signal.signal(number, cancel)
     try:
         yield control
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -15,6 +15,7 @@ from modeviz.commands.options import (
     print_json,
     vehicle_and_rates,
 )
+from modeviz.commands.results import keep
 from modeviz.commands.terminal import progress, say
 from modeviz.errors import ModevizError
 from modeviz.export.optimum import optimum_record, optimum_table
@@ -63,9 +64,16 @@ def optimise_rates(options: Namespace) -> None:
         optimise_front(options, vehicle, problem, rates, speed)
         return
     tolerance = chosen_tolerance(options) if options.robust else None
-    search, optimum = _search(options, prepare_search(vehicle, problem, rates, speed), rates, tolerance)
-    if options.output:
-        write_rates(options.output, optimum.rates)
+    search = prepare_search(vehicle, problem, rates, speed)
+    with cancelled_by_interrupt() as control:
+        search, optimum = _search(options, search, rates, tolerance, control)
+        keep(
+            lambda: write_rates(options.output, optimum.rates) if options.output else None,
+            lambda: _print(options, problem, search, optimum),
+        )
+
+
+def _print(options: Namespace, problem: Problem, search: Search, optimum: Optimum) -> None:
     if options.json:
         print_json(optimum_record(problem, search, optimum))
     else:
@@ -81,12 +89,12 @@ def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
 
 
 def _search(
-    options: Namespace, search: Search, rates: Rates, tolerance: Tolerance | None
+    options: Namespace, search: Search, rates: Rates, tolerance: Tolerance | None, control: Control
 ) -> tuple[Search, Optimum]:
-    """The last search and the best that it found until its end, or until Ctrl+C."""
+    """The last search and the best that it found until its end, or until it is cancelled."""
     robustly = robust_search(search, tolerance) if tolerance else None
     try:
-        with runner_at(options.scheduler) as runner, cancelled_by_interrupt() as control:
+        with runner_at(options.scheduler) as runner:
             tell = partial(_tell, control)
             optimum = _search_once(options, search, rates, runner, control, tell)
             if robustly is None or control.is_cancelled:

@@ -1,6 +1,7 @@
 """What commands share: the vehicle, rates, road and speed that were asked for."""
 
 import json
+import sys
 from argparse import Namespace
 from collections.abc import Sized
 from dataclasses import replace
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from modeviz.commands.streams import plain
 from modeviz.commands.terminal import progress, remark
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record
@@ -115,8 +117,10 @@ def prepare_telling(vehicle: Vehicle) -> Prepared:
 
 
 def print_json(record: Record) -> None:
-    """Prints what `--json` asks for."""
-    print(json_text(record))
+    """Prints what `--json` asks for; names to the letter, whatever letters the terminal has."""
+    text = json_text(record)
+    encoding = sys.stdout.encoding or "utf-8"
+    print(text if plain(text, encoding) == text else json.dumps(record, indent=1))
 
 
 def json_text(record: Record) -> str:

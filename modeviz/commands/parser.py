@@ -34,6 +34,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="modeviz",
         description="Modes, ride and mount tuning of a vehicle. Without a command: view.",
     )
+    vars(parser)["color"] = False  # by escape sequences, since Python 3.14
     parser.add_argument("--version", action="version", version=f"modeviz {version('modeviz')}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 

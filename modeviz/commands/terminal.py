@@ -3,7 +3,10 @@
 import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
+
+from modeviz.commands.streams import plain, printable
 
 
 def progress(what: str) -> Callable[[float], None]:
@@ -32,5 +35,7 @@ def remark(text: str) -> None:
 def say(text: str) -> None:
     """Puts a text in the place of the line before on a terminal; nothing where errors go to a file."""
     if sys.stderr.isatty():
+        clean = plain(printable(text), sys.stderr.encoding or "utf-8")
         # Not through Python's buffer, which would refuse what an interrupt says while it is written to.
-        os.write(sys.stderr.fileno(), f"\r{text}\x1b[K".encode())
+        with suppress(OSError):  # a terminal that was closed
+            os.write(sys.stderr.fileno(), f"\r{clean}\x1b[K".encode(errors="replace"))
