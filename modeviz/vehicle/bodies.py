@@ -20,6 +20,10 @@ linkage: light parts between the others. other: nothing of these.
 """
 
 
+FURTHEST_VERTEX = 1e5
+"""m: from the origin; no vehicle is as large, and a page draws with fewer digits."""
+
+
 @dataclass(frozen=True, eq=False)
 class Material:
     """How a surface looks."""
@@ -56,6 +60,12 @@ class MeshPart:
             raise VehicleError(f"mesh part {self.name!r}: has no faces")
         if not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices):
             raise VehicleError(f"mesh part {self.name!r}: a face names a vertex that does not exist")
+        furthest = np.abs(self.vertices).max()
+        if furthest > FURTHEST_VERTEX:
+            raise VehicleError(
+                f"mesh part {self.name!r}: found a vertex {furthest:.3g} m from the origin, "
+                f"expected at most {FURTHEST_VERTEX:g} m; meshes are in metres"
+            )
 
 
 Mesh = tuple[MeshPart, ...]

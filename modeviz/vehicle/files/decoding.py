@@ -77,7 +77,7 @@ def _explain(message: str, data: Any, kind: Any, steps: list[str], where: str) -
         return f"{joined(where, field[1])}: missing"
     prefix = f"{where}: " if where else ""
     if get_origin(plain(kind)) is Literal:
-        return prefix + unknown("value", str(data), get_args(plain(kind)))
+        return prefix + unknown("value", str(data), map(str, get_args(plain(kind))))
     return f"{prefix}found {brief(data)}, expected {_in_words(message)}"
 
 

@@ -4,11 +4,14 @@ from functools import cache
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
+import msgspec
+
 
 @cache
 def fields_of(record: type) -> dict[str, Any]:
-    """The hints of a record's keys, with their annotations."""
-    return get_type_hints(record, include_extras=True)
+    """The hints of a record's keys, with their annotations, by their names in the file."""
+    hints = get_type_hints(record, include_extras=True)
+    return {field.encode_name: hints[field.name] for field in msgspec.structs.fields(record)}
 
 
 def plain(hint: Any) -> Any:

@@ -1,7 +1,6 @@
 """Display meshes as files, in metres and vehicle coordinates."""
 
-import json
-from io import BytesIO
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +11,21 @@ from trimesh.exchange.gltf import export_glb
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 from modeviz.vehicle.files.disk import read_bytes
-from modeviz.vehicle.srgb import linear_to_srgb, srgb_to_linear
+from modeviz.vehicle.files.mesh_formats.glb import read_glb
+from modeviz.vehicle.files.mesh_formats.limits import LARGEST_FILE, check_size
+from modeviz.vehicle.files.mesh_formats.obj import read_obj
+from modeviz.vehicle.files.mesh_formats.parts import RawPart, mesh
+from modeviz.vehicle.files.mesh_formats.ply import read_ply
+from modeviz.vehicle.files.mesh_formats.stl import read_stl
+from modeviz.vehicle.srgb import srgb_to_linear
 
-MESH_SUFFIXES = (".glb", ".stl", ".obj", ".ply")
+READERS: Mapping[str, Callable[[bytes, Material], list[RawPart]]] = {
+    ".glb": read_glb,
+    ".stl": read_stl,
+    ".obj": read_obj,
+    ".ply": read_ply,
+}
+"""By the ending of a file."""
 
 Color = tuple[int, int, int]
 
@@ -23,38 +34,31 @@ DEFAULT_COLOR: Color = (150, 156, 164)
 
 
 def read_mesh(path: Path, color: Color = DEFAULT_COLOR) -> Mesh:
-    """The parts of a mesh file, with their vertices in the file's order.
+    """The parts of a mesh file, without the vertices that no face names, the others in their order.
 
     Args:
         path: binary glTF with its materials, STL, OBJ or PLY.
         color: of the parts without a material.
 
     Raises:
-        VehicleError: not such a file, not there, damaged or empty.
+        VehicleError: not such a file, not there, damaged, empty or too large.
     """
     suffix = path.suffix.lower()
-    if suffix not in MESH_SUFFIXES:
-        raise VehicleError(f"{path}: found {suffix!r}, expected one of {', '.join(MESH_SUFFIXES)}")
-    content = read_bytes(path)
-    try:
-        materials = _materials(content) if suffix == ".glb" else {}
-        scene = trimesh.load_scene(BytesIO(content), file_type=suffix[1:], process=False)
-        surfaces = _surfaces(scene)
-    except Exception as error:  # damaged files make trimesh raise almost anything
-        raise VehicleError(f"{path}: not a whole {suffix} file ({error})") from None
-    if not surfaces:
-        raise VehicleError(f"{path}: found no triangles")
-    plain = Material(color)
+    if suffix not in READERS:
+        raise VehicleError(f"{path}: found {suffix!r}, expected one of {', '.join(READERS)}")
+    content = _content(path)
     with located(path):
-        return tuple(
-            MeshPart(
-                str(surface.metadata["node"]),
-                surface.vertices,
-                surface.faces,
-                materials.get(_material_name(surface), plain),
-            )
-            for surface in surfaces
-        )
+        parts = READERS[suffix](content, Material(color))
+        if not parts:
+            raise VehicleError("found no triangles")
+        return mesh(parts)
+
+
+def _content(path: Path) -> bytes:
+    if path.is_file():
+        with located(path):
+            check_size("bytes", path.stat().st_size, LARGEST_FILE)
+    return read_bytes(path)
 
 
 def write_mesh(path: Path, mesh: Mesh) -> None:
@@ -73,32 +77,6 @@ def write_mesh(path: Path, mesh: Mesh) -> None:
     path.write_bytes(export_glb(scene, tree_postprocessor=set_materials))
 
 
-def _surfaces(scene: trimesh.Scene) -> list[trimesh.Trimesh]:
-    """What of the scene has faces, where its node puts it, in the file's order."""
-    order = {name: index for index, name in enumerate(scene.geometry)}
-    placed = [g for g in scene.dump() if isinstance(g, trimesh.Trimesh)]
-    return sorted(placed, key=lambda g: (order[g.metadata["name"]], g.metadata["node"]))
-
-
-def _materials(content: bytes) -> dict[str, Material]:
-    """The named materials of a binary glTF."""
-    length = int.from_bytes(content[12:16], "little")
-    tree = json.loads(content[20 : 20 + length])
-    return {m["name"]: _material(m) for m in tree.get("materials", []) if "name" in m}
-
-
-def _material(data: dict[str, Any]) -> Material:
-    surface = data.get("pbrMetallicRoughness", {})
-    *linear, opacity = surface.get("baseColorFactor", [1.0, 1.0, 1.0, 1.0])
-    red, green, blue = np.rint(255 * linear_to_srgb(linear)).astype(int).tolist()
-    return Material(
-        (red, green, blue),
-        opacity,
-        surface.get("roughnessFactor", 1.0),
-        surface.get("metallicFactor", 1.0),
-    )
-
-
 def _gltf_material(part: MeshPart) -> dict[str, Any]:
     material = part.material
     return {
@@ -114,7 +92,3 @@ def _gltf_material(part: MeshPart) -> dict[str, Any]:
         "alphaMode": "BLEND" if material.opacity < 1 else "OPAQUE",
         "doubleSided": True,
     }
-
-
-def _material_name(surface: trimesh.Trimesh) -> str:
-    return str(getattr(getattr(surface.visual, "material", None), "name", ""))

@@ -1,0 +1,99 @@
+"""From the triangles of a file to the parts of a display mesh."""
+
+import warnings
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import count
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modeviz.errors import VehicleError
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import Material, Mesh, MeshPart
+
+
+@dataclass(frozen=True, eq=False)
+class RawPart:
+    """What a file has of one material."""
+
+    name: str
+    vertices: NDArray
+    """(n_vertices, 3), m."""
+    faces: NDArray
+    """(n_faces, 3), indices of vertices."""
+    material: Material
+
+
+def mesh(parts: Sequence[RawPart]) -> Mesh:
+    """The parts as a display mesh, each with a name of its own: "door", "door 2"."""
+    names = _told_apart([part.name or "part" for part in parts])
+    return tuple(
+        MeshPart(name, part.vertices, part.faces, part.material)
+        for name, part in zip(names, parts, strict=True)
+    )
+
+
+def _told_apart(names: Sequence[str]) -> list[str]:
+    """The names, those that were there before with a number that makes them new."""
+    taken, seen, found = set(names), set[str](), []
+    numbers: defaultdict[str, Iterator[int]] = defaultdict(lambda: count(2))
+    for name in names:
+        new = name
+        while new in seen or (new != name and new in taken):
+            new = f"{name} {next(numbers[name])}"
+        seen.add(new)
+        found.append(new)
+    return found
+
+
+def used(vertices: NDArray, faces: NDArray) -> tuple[NDArray, NDArray]:
+    """The vertices that faces name, in their order, and the faces that name them.
+
+    Args:
+        vertices: (n_vertices, ...).
+        faces: (n_faces, 3), indices of vertices that exist.
+    """
+    kept, inverse = np.unique(faces, return_inverse=True)
+    return vertices[kept], inverse.reshape(-1, 3)
+
+
+def fans(counts: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The triangles of polygons, each a fan around its first corner, (n_faces, 3).
+
+    Args:
+        counts: (n_polygons,), how many corners each has; those with fewer than three have no face.
+        corners: the indices of vertices, polygon after polygon.
+    """
+    n_faces = np.maximum(counts - 2, 0)
+    first = np.repeat(np.cumsum(counts) - counts, n_faces)
+    number = np.arange(n_faces.sum()) - np.repeat(np.cumsum(n_faces) - n_faces, n_faces)
+    places = np.stack([first, first + number + 1, first + number + 2], axis=1)
+    return corners[places]
+
+
+def merged(corners: Floats) -> tuple[Floats, NDArray[np.intp]]:
+    """The different ones of many corners, (n_vertices, 3), and the faces of each three of them."""
+    bits = (corners + 0.0).view(np.uint64)  # makes -0 the same as 0
+    bits ^= bits >> np.uint64(29)  # numbers of single precision have no lower bits
+    keys = bits @ np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+    vertices, faces = corners[first], inverse.reshape(-1, 3)
+    if np.array_equal(vertices[faces.ravel()], corners):
+        return vertices, faces
+    return corners, np.arange(len(corners)).reshape(-1, 3)  # two places share a key, by a rare chance
+
+
+def numbers(text: bytes) -> Floats:
+    """The numbers of a text with nothing but white space between them.
+
+    Raises:
+        VehicleError: there is something else.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", DeprecationWarning)  # NumPy's way to say that it stopped
+        try:
+            return np.fromstring(text, sep=" ") if text.strip() else np.zeros(0)
+        except (DeprecationWarning, ValueError):
+            raise VehicleError("found something that is not a number among the numbers") from None
