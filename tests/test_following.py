@@ -1,33 +1,76 @@
-"""Modes followed from one set of rates to another."""
+"""Modes of one set of rates recognised with another: the same on every way there and back."""
 
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.dynamics import band
-from modeviz.tuning import following
-from modeviz.tuning.following import accept, follow_rates, solve_followed
+from modeviz.dynamics.tracking import EQUAL, MAJORITY
+from modeviz.tuning.following import follow, solve_followed
 from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.results import solve_modal
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.connections import RATE_FIELDS
+from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 
-START = {"A": MountRates(8e5, 3e5, 0.0, loss_factor=0.0), "B": MountRates(1e5, 1e5, 1e5)}
-END = {"A": MountRates(2e5, 3e5, 2e4, loss_factor=0.3), "B": MountRates(1e7, 1e7, 1e7)}
+TRUCK = read_vehicle(builtin_vehicle())
+RATES = [(group.name, field) for group in TRUCK.mount_groups for field in RATE_FIELDS]
+FACTORS = np.geomspace(0.1, 10, 25)
 
 
-def test_rates_go_in_equal_ratios_and_from_nothing_in_equal_steps(monkeypatch):
-    asked = []
-    monkeypatch.setattr(
-        following, "band_modes", lambda *args: asked.append(args[1]) or band.band_modes(*args)
-    )
-    prepared = prepare_modes(mounted_cabin())
-    before, now = (solve_modal(prepared, rates) for rates in (START, END))
-    follow_rates(accept(before), before, now)
-    halfway = next(k for k in asked if np.isclose(k[2].real, 4e5))
-    np.testing.assert_allclose(halfway[:3].real, [1e4, 3e5, 4e5], rtol=1e-12)
-    np.testing.assert_allclose(halfway[:3].imag, [3e3, 4.5e4, 3e4], rtol=1e-12)
-    np.testing.assert_allclose(halfway[6:], 1e6 * (1 + 0.15j), rtol=1e-12)
+@pytest.fixture(scope="module")
+def prepared():
+    return prepare_modes(TRUCK)
+
+
+@pytest.fixture(scope="module")
+def original(prepared):
+    return solve_modal(prepared, {})
+
+
+def at(prepared, group, field, factor):
+    """The modes with one rate multiplied."""
+    own = TRUCK.rates[group]
+    return solve_modal(prepared, {group: replace(own, **{field: getattr(own, field) * factor})})
+
+
+@pytest.mark.parametrize(("group", "field"), RATES)
+def test_along_every_rate_no_identity_has_less_than_half_of_what_another_has(
+    prepared, original, group, field
+):
+    for factor in FACTORS:
+        now = at(prepared, group, field, factor)
+        found = follow(original, now)
+        # From the mass matrix alone.
+        mac = (original.modes.shapes.T @ prepared.system.mass @ now.modes.shapes) ** 2
+        start = np.flatnonzero(found.index >= 0)
+        own = mac[start, found.index[start]]
+        assert (own >= mac[start].max(axis=1) / 2 - EQUAL).all()
+        assert (own >= mac[:, found.index[start]].max(axis=0) / 2 - EQUAL).all()
+        majority, holder = np.nonzero(mac > MAJORITY + EQUAL)
+        np.testing.assert_array_equal(found.index[majority], holder)
+
+
+@pytest.mark.parametrize(("group", "field"), RATES)
+def test_along_every_rate_the_way_back_is_the_way_there(prepared, original, group, field):
+    for factor in FACTORS[::3]:
+        now = at(prepared, group, field, factor)
+        there, back = follow(original, now), follow(now, original)
+        start = np.flatnonzero(there.index >= 0)
+        np.testing.assert_array_equal(back.index[there.index[start]], start)
+        assert (back.index >= 0).sum() == len(start)
+
+
+@pytest.mark.parametrize(("group", "field"), RATES)
+def test_along_every_rate_rounding_decides_nothing(prepared, original, group, field):
+    for factor in FACTORS[::3]:
+        found = [
+            follow(original, at(prepared, group, field, factor * (1 + disturbed)))
+            for disturbed in (0.0, 1e-12, -1e-12)
+        ]
+        for other in found[1:]:
+            np.testing.assert_array_equal(other.index, found[0].index)
+            np.testing.assert_allclose(other.shares, found[0].shares, atol=1e-6)
 
 
 def test_a_loss_factor_alone_moves_no_mode():

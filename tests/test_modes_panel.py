@@ -9,9 +9,11 @@ import pytest
 import viser
 from mounted_cabin import mounted_cabin
 
+from modeviz.dynamics.tracking import WEAK_MAC
+from modeviz.export.wording import sentence_case, signed
 from modeviz.tuning.results import Conditions
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.viewer.ladder import MARGIN
 from modeviz.viewer.panels.energy import MOVES_FREELY, EnergyPanel
 from modeviz.viewer.panels.modes import NONE_LISTED, ModesPanel, scale
 from modeviz.viewer.panels.side_by_side import side_by_side
@@ -92,34 +94,78 @@ def test_everything_is_against_the_set_compared_with(gui, answer):
     assert "riginal" not in html
 
 
-@pytest.fixture
-def stiffer(answer):
-    """The built-in truck with C1 at 1900 N/mm vertical and 1905 N/mm lateral."""
-    truck = read_vehicle(builtin_vehicle())
-    rates = {"C1": replace(truck.rates["C1"], vertical=1.9e6, lateral=1.905e6)}
-    return answer(rates, truck, conditions=Conditions("road 1", truck.speed))
+TWO_LATERAL = {"A": MountRates(4.49e5, 1.2e4, 4.2e4), "B": MountRates(2.21e5, 3.5e5, 2.4e4)}
+"""There is a "cab lateral" and a "cab lateral 2", which is like the only one before in part."""
 
 
-def test_namesakes_are_compared_by_shape_and_what_has_no_partner_says_what_it_was(gui, stiffer):
-    """From the shapes alone: see the MACs of `test_pairing`."""
-    html = modes_table(gui, *stiffer)
-    changes = {(cells[0], cells[1]): cells[2] for cells in rows(html, "modes")}
-    assert changes["Rear axle fore-aft", "17.88"].strip("+−") == "0.00"
-    assert changes["~Front wheels yaw 2", "20.26"] == "~+0.41"
-    assert changes["~Front wheels yaw", "18.98"] == changes["~Cab fore-aft", "15.19"] == "–"
-    assert changes["~Cab yaw", "12.17"] == "+0.48"
-    assert "its shape was the cab roll of Original, 17.34 Hz" in html
-    assert "its shape was the rear axle fore-aft of Original, 15.12 Hz" in html
-    assert "new" not in changes.values()
+def frequency(results, name):
+    return results.modes.frequency_hz[results.mode_index(name)]
 
 
-def test_side_by_side_compares_the_same_modes_as_the_table(stiffer):
-    html = side_by_side(stiffer[1])
-    found = rows(html, "")
-    assert ["~Front wheels yaw", "–", "18.98", "–"] in found
-    assert ["~Front wheels yaw 2", "19.84", "20.26", "~+0.41"] in found
-    assert ["~Rear axle fore-aft", "15.12", "–", ""] in found
-    assert not any("17.88" in cells for cells in found)
+def test_namesakes_are_compared_by_shape_and_what_has_no_partner_says_what_it_was(gui, answer):
+    session, solved = answer(TWO_LATERAL)
+    base, now = solved.base, solved.now
+    html = modes_table(gui, session, solved)
+    changes = {cells[0]: cells[2] for cells in rows(html, "modes")}
+    moved = frequency(now, "cab lateral 2") - frequency(base, "cab lateral")
+    assert changes["~Cab lateral 2"] == f"~{signed(moved, 2)}"
+    tramp = new_in(solved)
+    assert changes["~Cab lateral"] == changes[sentence_case(now.names[tramp].spoken)] == "–"
+    was = f"its shape was in part the roll of Original, {frequency(base, 'roll'):.2f} Hz"
+    assert f"Nothing there moves like this; {was}" in html
+    sources = [base.names[i].name for i, _ in solved.track.sources(tramp)]
+    both = (f"the {n} of Original, {frequency(base, n):.2f} Hz" for n in sources)
+    assert len(sources) > 1
+    assert f"its shape was in part {' and '.join(both)}" in html
+
+
+def new_in(solved):
+    """The tramp that an axle has only now."""
+    (mode,) = [i for i, n in enumerate(solved.now.names) if n.motion.endswith("tramp")]
+    assert not any(n.motion.endswith("tramp") for n in solved.base.names)
+    return mode
+
+
+def test_side_by_side_compares_the_same_modes_as_the_table(answer):
+    _, solved = answer(TWO_LATERAL)
+    found = {cells[0]: cells[1:] for cells in rows(side_by_side(solved), "")}
+    old, first, second = (
+        f"{frequency(results, name):.2f}"
+        for results, name in (
+            (solved.base, "cab lateral"), (solved.now, "cab lateral"), (solved.now, "cab lateral 2")
+        )
+    )  # fmt: skip
+    assert found["~Cab lateral"] == ["–", first, "–"]
+    assert found["~Cab lateral 2"][:2] == [old, second]
+    gone = solved.base.names[solved.base.mode_index("cab fore-aft")].spoken
+    new = sentence_case(solved.now.names[new_in(solved)].spoken)
+    assert found[new][0] == found[sentence_case(gone)][1] == "–"
+
+
+def rails(html):
+    """(from, to, dashed) of each, percent."""
+    found = re.findall(r'<line x1="([\d.]+)%" y1="8" x2="([\d.]+)%" y2="44"([^>]*)>', html)
+    return [(float(a), float(b), "dasharray" in more) for a, b, more in found if "soft" not in more]
+
+
+def test_a_shape_that_several_modes_share_is_joined_to_each_of_them(gui, answer):
+    session, solved = answer(TWO_LATERAL)
+    track = solved.track
+    low, high = scale(solved.base)
+
+    def x(f):
+        return MARGIN + (100 - 2 * MARGIN) * (min(max(f, low), high) - low) / (high - low)
+
+    f, f_now = solved.base.modes.frequency_hz, solved.now.modes.frequency_hz
+    expected = [
+        (x(f[i]), x(f_now[j]), float(share < WEAK_MAC))
+        for i in range(len(f))
+        for j, share in track.holders(i)
+        if low <= f[i] <= high or low <= f_now[j] <= high
+    ]
+    found = rails(modes_table(gui, session, solved))
+    np.testing.assert_allclose(np.sort(found, axis=0), np.sort(expected, axis=0), atol=0.006)
+    assert len(found) > len({a for a, _, _ in found})
 
 
 def test_the_ladder_spans_what_the_mounts_hold(answer):

@@ -7,7 +7,7 @@ from mounted_cabin import mounted_cabin
 from rounding import CABIN, assert_near
 
 from modeviz.errors import SolveError
-from modeviz.tuning.following import solve_followed
+from modeviz.tuning.following import follow, solve_followed
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve, solve_wheels
 from modeviz.vehicle.connections import MountRates
@@ -158,9 +158,7 @@ def test_while_rates_move_details_come_now_and_then_and_always_at_the_end(sessio
     last = moved[-1]
     assert last.is_detailed
     assert last.state.rates["A"].vertical == 4e5
-    assert last.track.frequency_hz[last.track.index >= 0] == pytest.approx(
-        last.now.modes.frequency_hz[last.track.index[last.track.index >= 0]]
-    )
+    np.testing.assert_allclose(last.track.shares, follow(last.base, last.now).shares, atol=1e-12)
 
 
 def test_an_answer_at_rest_is_checked_against_the_full_model(session):
@@ -172,17 +170,87 @@ def test_an_answer_at_rest_is_checked_against_the_full_model(session):
     assert check.error < 1e-9
 
 
-def test_the_track_is_that_of_the_straight_way_from_the_bases_modes(session):
+def test_the_track_is_that_from_the_bases_modes_whatever_came_between(session):
     session.start()
     target = {"A": MountRates(4e5, 2e5, 2e5)}
     for rates in ({"A": MountRates(8e5, 6e5, 1e5)}, {"A": MountRates(2e5, 3e5, 9e5)}, target):
         session.set_rates(rates)
         assert session.wait(20)
-    assert session.wait_checked(60)
     expected = solve_followed(prepare(mounted_cabin()), target).track
     found = session.answers[-1].track
     np.testing.assert_array_equal(found.index, expected.index)
     np.testing.assert_allclose(found.mac, expected.mac, atol=1e-6)
+
+
+SIDEWAYS_RIGID = dict.fromkeys("AB", MountRates(1e4, 1e7, 1e4))
+"""No mode is a yaw of the cab alone."""
+
+TWO_LATERAL = {"A": MountRates(4.49e5, 1.2e4, 4.2e4), "B": MountRates(2.21e5, 3.73e5, 2.4e4)}
+"""There is a "cab lateral" and a "cab lateral 2"."""
+
+
+def go(session, *ways):
+    """Which mode is shown at the end."""
+    for rates in ways:
+        session.set_rates(rates)
+        assert session.wait(20)
+    return session.answers[-1].mode
+
+
+def in_steps(start, end, count):
+    """Rates on the way in equal ratios, the end included."""
+    for part in np.arange(1, count + 1) / count:
+        yield {
+            group: MountRates(
+                *(np.array(start[group].as_tuple()) ** (1 - part) * np.array(r.as_tuple()) ** part)
+            )
+            for group, r in end.items()
+        }
+
+
+@pytest.mark.parametrize("end", [SIDEWAYS_RIGID, TWO_LATERAL])
+@pytest.mark.parametrize("name", ["cab yaw", "cab lateral", "cab roll"])
+def test_which_mode_is_shown_depends_on_the_rates_and_not_on_the_way(session, name, end):
+    session.start()
+    session.show_mode(name)
+    own = session.vehicle.rates
+    at_once = go(session, end)
+    assert go(session, own, *in_steps(own, end, 7)) == at_once
+    assert go(session, *in_steps(end, own, 4)) == go(session, own)
+    assert session.answers[-1].name.name == name
+    assert go(session, {"A": MountRates(1e7, 1e4, 1e7), "B": MountRates(1e4, 1e6, 1e7)}, end) == at_once
+
+
+def test_a_namesake_is_followed_by_its_shape_and_not_by_its_number(session):
+    session.start()
+    own = session.vehicle.rates
+    go(session, TWO_LATERAL)
+    session.show_mode("cab lateral 2")
+    assert session.wait(20)
+    solved = session.answers[-1]
+    assert solved.name.name == "cab lateral 2"
+    chosen, start = solved.mode, solved.now
+    go(session, own)
+    solved = session.answers[-1]
+    mac = (start.momentum[:, chosen] @ solved.now.modes.shapes) ** 2
+    assert solved.name.name == "cab lateral"
+    assert solved.mode == mac.argmax()
+    session.show_mode("cab roll")
+    session.undo()
+    session.undo()
+    assert session.wait(20)
+    assert session.answers[-1].name.name == "cab lateral 2"
+    session.redo()
+    assert session.wait(20)
+    assert session.answers[-1].mode == solved.mode
+
+
+@pytest.mark.parametrize("rate", [1e16, 1e22])
+def test_a_mode_that_is_chosen_with_rates_without_an_answer_is_looked_for_in_the_present(session, rate):
+    session.start()
+    session.show_mode("cab yaw", {"A": MountRates(rate, rate, rate)})
+    assert session.wait(20)
+    assert session.answers[-1].name.name == "cab yaw"
 
 
 def test_the_classic_error_is_found_only_if_it_is_asked_for(session):
@@ -233,9 +301,7 @@ def test_all_is_compared_with_the_set_chosen(session):
     prepared = prepare(mounted_cabin())
     expected = solve(prepared, session.vehicle.rate_sets["soft"], FLAT)
     np.testing.assert_allclose(solved.base.psd, expected.psd, rtol=1e-9)
-    np.testing.assert_allclose(
-        solved.track.frequency_hz, solved.now.modes.frequency_hz[solved.track.index]
-    )
+    np.testing.assert_allclose(solved.track.shares, follow(solved.base, solved.now).shares, atol=1e-12)
 
 
 def test_a_pinned_set_is_solved_and_forgotten(session):

@@ -119,6 +119,31 @@ def test_of_modes_with_one_motion_those_with_most_of_it_are_held(
     np.testing.assert_allclose(gradients[1], -slopes[yaw] / 12, rtol=1e-9)
 
 
+def test_a_namesake_is_held_by_its_shape_and_not_by_its_number(prepared, monkeypatch):
+    """Of two with one name at the vehicle's own rates, the lower one is called something else later."""
+    own = solve_modal(prepared, {})
+    lateral, fore_aft = (own.mode_index(f"cab {motion}") for motion in ("lateral", "fore-aft"))
+
+    def called(*new):
+        def renamed(*arguments):
+            results = solve_modal(*arguments)
+            names = list(results.names)
+            for mode, name in zip((lateral, fore_aft), new, strict=True):
+                names[mode] = ModeName(name, 0.9)
+            vars(results)["names"] = tuple(names)
+            return results
+
+        monkeypatch.setattr("modeviz.tuning.windows.solve_modal", renamed)
+
+    called("cab sway", "cab sway 2")
+    held = [FrequencyWindow(name, 1.0, 30.0) for name in ("cab sway", "cab sway 2")]
+    windows = prepare_windows(prepared, held)
+    for later in (("cab sway", "cab sway 2"), ("cab tilt", "cab sway"), ("cab sway", "cab tilt")):
+        called(*later)
+        expected = own.modes.frequency_hz[[lateral, fore_aft]]
+        np.testing.assert_allclose(windows.exact_frequencies({}), expected, rtol=1e-6)
+
+
 @pytest.mark.parametrize("limits", [(0.0, 45.0), (30.0, 45.0, False), (45.0, np.inf)])
 def test_what_lies_above_all_modes_that_are_known_is_refused(prepared, limits):
     with pytest.raises(VehicleError, match="'cab yaw': found 45 Hz, expected 40 Hz at most, up to"):

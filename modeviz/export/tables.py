@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.dynamics.tracking import WEAK_MAC
 from modeviz.export.wording import scientific
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import amplitude_decibels, power_decibels
@@ -31,9 +32,9 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def modes_table(followed: Followed, below_hz: float) -> str:
-    """Name, frequency, damping, what moves and is strained most, and where each mode came from.
+    """Name, frequency, damping, what moves and is strained most, and which mode each was.
 
-    A "~" marks a name that fits weakly, or a shape that is only in part the one it came from.
+    A "~" marks a name that fits weakly; percent stand where a shape was in several modes.
     """
     results = followed.now
     rows = [
@@ -53,13 +54,12 @@ def modes_table(followed: Followed, below_hz: float) -> str:
 
 
 def _came_from(followed: Followed, mode: int) -> str:
-    """Name and frequency of the mode with the vehicle's own rates that has become this one."""
-    origin = followed.track.origin(mode)
-    if origin is None:
-        return "-"
-    mark = "~" if followed.track.weak[origin] else ""
-    base = followed.base
-    return f"{mark}{base.names[origin].name} {base.modes.frequency_hz[origin]:.2f}"
+    """Names and frequencies of the modes with the vehicle's own rates that had this one's shape."""
+    base, sources = followed.base, followed.track.sources(mode)
+    said = [f"{base.names[i].name} {base.modes.frequency_hz[i]:.2f}" for i, _ in sources]
+    if not sources or sources[0][1] >= WEAK_MAC:
+        return ", ".join(said) or "-"
+    return ", ".join(f"{100 * m:.0f} % {was}" for (_, m), was in zip(sources, said, strict=True))
 
 
 def health(results: ModalResults) -> str:

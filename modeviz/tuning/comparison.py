@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from modeviz.dynamics.tracking import Track
-from modeviz.tuning.following import accept, follow_rates
+from modeviz.tuning.following import follow
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.preparation import Prepared
 from modeviz.tuning.results import (
@@ -97,7 +97,7 @@ def compare(
     wheels = None
     if vehicle.harmonic_loads and vehicle.response_points:
         wheels = solve_wheels(prepared, base.rates), solve_wheels(prepared, now.rates)
-    track = follow_rates(accept(first), first, second)
+    track = follow(first, second)
     worth = _worth(vehicle, base.rates, now.rates, conditions.speed if conditions else vehicle.speed)
     return Comparison((base.name, now.name), first, second, track, wheels, worth)
 

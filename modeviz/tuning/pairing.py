@@ -9,15 +9,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from modeviz.dynamics.naming import ModeName
-from modeviz.dynamics.tracking import WEAK_MAC, Track
+from modeviz.dynamics.tracking import Track
+from modeviz.tuning.following import follow
 from modeviz.tuning.results import ModalResults
-from modeviz.vehicle.arrays import Floats
-
-TRACKED = 2.0
-"""More than what two namesakes can be alike otherwise, so that none outvotes the track."""
 
 
 @dataclass(frozen=True)
@@ -35,9 +31,9 @@ class Pair:
 def pair_modes(base: ModalResults, now: ModalResults, track: Track) -> tuple[Pair, ...]:
     """Every mode of both sets of rates, once.
 
-    A name that stands once in both sets is one mode. Namesakes are paired among themselves: where the
-    track leads from one to the other, or else where one has most of the other's shape; those whose
-    shapes are nowhere clearly, if there are as many before as now, by rising frequency.
+    A name that stands once in both sets is one mode. Namesakes are paired among themselves, where the
+    track leads from one to the other; those whose shapes are nowhere clearly, if there are as many
+    before as now, by rising frequency.
 
     Args:
         base: with the rates compared with.
@@ -52,17 +48,10 @@ def pair_modes(base: ModalResults, now: ModalResults, track: Track) -> tuple[Pai
     )
 
 
-def same_mode(results: ModalResults, name: ModeName, shape: Floats) -> int | None:
-    """The mode of a set of rates that another set's is: that of its name, of namesakes the most alike.
-
-    Args:
-        results: with the set of rates in which to look.
-        name: of the other set's mode.
-        shape: of the other set's mode, (n_dofs,).
-    """
-    namesakes = _by_motion(results.names).get(name.motion, [])
-    momentum = results.prepared.system.mass @ shape
-    return max(namesakes, key=lambda i: abs(results.modes.shapes[:, i] @ momentum), default=None)
+def same_mode(results: ModalResults, mode: int, other: ModalResults) -> int | None:
+    """The mode of another set of rates that one is compared with; None if there is none."""
+    pairs = pair_modes(results, other, follow(results, other))
+    return next(pair.after for pair in pairs if pair.before == mode)
 
 
 def _by_motion(names: Iterable[ModeName]) -> dict[str, list[int]]:
@@ -77,7 +66,7 @@ def _pair_namesakes(old: Sequence[int], new: Sequence[int], track: Track) -> Ite
     if len(old) == len(new) == 1:
         yield Pair(old[0], new[0])
         return
-    pairs = _by_shape(old, new, track)
+    pairs = [Pair(i, int(track.index[i]), bool(track.weak[i])) for i in old if track.index[i] in new]
     old_rest = [i for i in old if i not in {p.before for p in pairs}]
     new_rest = [i for i in new if i not in {p.after for p in pairs}]
     yield from pairs
@@ -86,17 +75,6 @@ def _pair_namesakes(old: Sequence[int], new: Sequence[int], track: Track) -> Ite
     else:
         yield from (Pair(i, None) for i in old_rest)
         yield from (Pair(None, i) for i in new_rest)
-
-
-def _by_shape(old: Sequence[int], new: Sequence[int], track: Track) -> list[Pair]:
-    tracked = track.index[list(old), None] == np.array(new, int)
-    likeness = np.where(tracked, TRACKED, track.shares[np.ix_(old, new)])
-    rows, columns = linear_sum_assignment(-likeness)
-    return [
-        Pair(old[r], new[c], is_weak=bool(track.weak[old[r]] or not tracked[r, c]))
-        for r, c in zip(rows, columns, strict=True)
-        if likeness[r, c] >= WEAK_MAC
-    ]
 
 
 def _are_elsewhere(old: Sequence[int], new: Sequence[int], track: Track) -> bool:

@@ -97,6 +97,11 @@ class ModalResults:
         return damped_modes(self.band)
 
     @cached_property
+    def momentum(self) -> Floats:
+        """M φ of each mode, (n_dofs, n_modes)."""
+        return self.prepared.system.momentum(self.modes.shapes)
+
+    @cached_property
     def _mount_rates(self) -> Floats:
         return np.real(self.prepared.mount_stiffness(self.rates)).astype(np.float64)
 

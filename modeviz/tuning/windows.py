@@ -17,11 +17,31 @@ MARGIN = 2e-6
 """How far within a window a search aims, relative to its ends; frequencies are within 4e-7 of exact."""
 
 ALIKE = 0.98
-"""Of the motion that a mode is called after: with so much of what the one with most of it has, another
-mode has to be in the window too, so that a search does not end where the full model finds that one."""
+"""Of the motion that a mode is called after, or of its shape: with so much of what the one with most of
+it has, another mode has to be in the window too, so that a search does not end where the full model
+finds that one."""
 
 SLACK = 1e-6
 """By how much a design may miss that and still counts: a search comes to it from both sides."""
+
+
+@dataclass(frozen=True, eq=False)
+class HeldMode:
+    """What tells the mode of a window from others, whatever the rates."""
+
+    motion: str
+    """That it is called after with the vehicle's own rates; "" if another is too: then its number says
+    nothing with other rates."""
+    momentum: Floats
+    """M φ with the vehicle's own rates, (n_dofs,)."""
+
+    def found_in(self, results: ModalResults) -> list[int]:
+        """The mode that has most of the motion, or of the shape where none has, and those alike."""
+        likeness = {i: n.score for i, n in enumerate(results.names) if n.motion == self.motion}
+        if not likeness:
+            likeness = dict(enumerate(((self.momentum @ results.modes.shapes) ** 2).tolist()))
+        best_first = sorted(likeness, key=lambda i: -likeness[i])
+        return [i for i in best_first if likeness[i] >= ALIKE * likeness[best_first[0]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,9 +50,8 @@ class Windows:
 
     prepared: PreparedModes
     windows: tuple[FrequencyWindow, ...]
-    shapes: tuple[Floats, ...]
-    """(n_dofs,), of each window's mode at the vehicle's own rates: what it is where no mode has its
-    name."""
+    held: tuple[HeldMode, ...]
+    """The mode of each."""
 
     @property
     def spoken(self) -> list[str]:
@@ -49,8 +68,8 @@ class Windows:
         results = solve_modal(self.prepared, rates)
         slopes = frequency_sensitivity(results)
         values, gradients = [], []
-        for window, shape in zip(self.windows, self.shapes, strict=True):
-            modes = _alike(results, window.mode, shape)
+        for window, held in zip(self.windows, self.held, strict=True):
+            modes = held.found_in(results)
             by_mode = [_margins(window, f) for f in results.modes.frequency_hz[modes].tolist()]
             for end in zip(*by_mode, strict=True):
                 closest = int(np.argmin([value for value, _ in end]))
@@ -62,11 +81,7 @@ class Windows:
     def exact_frequencies(self, rates: Rates) -> Floats:
         """Where the mode of each window is in the full eigenproblem, (n_windows,), Hz."""
         results = solve_modal(self.prepared, rates, "exact")
-        modes = [
-            _alike(results, window.mode, shape)[0]
-            for window, shape in zip(self.windows, self.shapes, strict=True)
-        ]
-        return results.modes.frequency_hz[modes]
+        return results.modes.frequency_hz[[held.found_in(results)[0] for held in self.held]]
 
 
 def prepare_windows(prepared: PreparedModes, windows: Sequence[FrequencyWindow]) -> Windows:
@@ -77,7 +92,7 @@ def prepare_windows(prepared: PreparedModes, windows: Sequence[FrequencyWindow])
             above the band in which modes are known.
     """
     results, top_hz = solve_modal(prepared, {}), prepared.basis.top_hz
-    shapes = []
+    held = []
     for window in windows:
         ends = [f for f in (window.low_hz, window.high_hz) if np.isfinite(f)]
         if max(ends) > top_hz:
@@ -89,20 +104,14 @@ def prepare_windows(prepared: PreparedModes, windows: Sequence[FrequencyWindow])
         if mode is None:
             names = [name.name for name in results.names]
             raise VehicleError("window: " + unknown("mode", window.mode, names))
-        shapes.append(results.modes.shapes[:, mode])
-    return Windows(prepared, tuple(windows), tuple(shapes))
+        held.append(_held_mode(results, mode))
+    return Windows(prepared, tuple(windows), tuple(held))
 
 
-def _alike(results: ModalResults, name: str, shape: Floats) -> list[int]:
-    """The mode that a name fits best and those it fits as well, else the one most like a shape.
-
-    Of "cab yaw" and "cab yaw 2" that is the one with more of the motion, not the lower one.
-    """
-    scores = {i: n.score for i, n in enumerate(results.names) if name in (n.name, n.motion)}
-    if not scores:
-        return [int(np.abs(results.modes.shapes.T @ results.prepared.system.mass @ shape).argmax())]
-    best_first = sorted(scores, key=lambda i: -scores[i])
-    return [i for i in best_first if scores[i] >= ALIKE * scores[best_first[0]]]
+def _held_mode(results: ModalResults, mode: int) -> HeldMode:
+    motion = results.names[mode].motion
+    is_alone = sum(name.motion == motion for name in results.names) == 1
+    return HeldMode(motion if is_alone else "", results.momentum[:, mode])
 
 
 def _ends(window: FrequencyWindow) -> list[str]:

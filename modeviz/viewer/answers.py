@@ -6,32 +6,37 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modeviz.dynamics.naming import ModeName
-from modeviz.dynamics.tracking import STEP_MAC, Track
+from modeviz.dynamics.tracking import Track
 from modeviz.errors import ModevizError, SolveError
 from modeviz.tuning.check import Check, ClassicError, classic_error
-from modeviz.tuning.following import accept, follow_rates
-from modeviz.tuning.pairing import Pair, pair_modes
+from modeviz.tuning.following import follow
+from modeviz.tuning.pairing import Pair, pair_modes, same_mode
 from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import (
     Conditions,
     Drive,
+    ModalResults,
     Results,
     WheelResults,
     drive,
+    solve_modal,
     solve_on,
     solve_wheels,
 )
 from modeviz.tuning.sensitivity import Sensitivity
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.movement import Movement, ShownMode, asks, movement
 from modeviz.viewer.state import State, Variant, rate_sets
 
 FREE_HZ = 0.5
 """Below, something moves freely."""
+
+SAME_MAC = 0.9
+"""Of the shape shown last with so much of it a mode is shown on, until details are drawn again."""
 
 DETAILS_EVERY = 0.1
 """s between two looks at tables while rates move; curves, figures and shape follow every move."""
@@ -123,9 +128,9 @@ class Answers:
         self._named_for: tuple[Mapping[str, Variant], Conditions] | None = None
         self._wheels: dict[str, tuple[Results, WheelResults]] = {}
         self._last: Solved | None = None
-        self._track: Track
-        self._tracked: Results
-        self._straight: tuple[Results, Results] | None = None
+        self._chosen_by: tuple[str, Rates] | None = None
+        self._chosen: tuple[ModalResults, int]
+        """The mode that was chosen to be shown, where it is called so."""
         self._detailed_at = -np.inf
 
     def prepare(self, state: State, progress: Callable[[float], None] | None = None) -> None:
@@ -140,9 +145,7 @@ class Answers:
         """
         self.prepared = prepare(self._vehicle, progress=progress)
         self._drive = self._home = drive(self.prepared, state.conditions)
-        named = self._solve_named(state)
-        base = named[_answerable(state, named).against]
-        self._track, self._tracked = accept(base), base
+        self._solve_named(state)
 
     def rebase(self, state: State) -> Prepared:
         """Makes answers close to a state cheap; gives the vehicle prepared there."""
@@ -165,22 +168,18 @@ class Answers:
         asked, state = state, _answerable(state, named)
         base = named[state.against]
         if last and asks_for_the_same(last.state, state):
-            now = last.now
-            self._straighten_track(base, now)
-            mode = None
+            now, mode = last.now, None
         else:
             now = solve_on(self._drive_on(state.conditions), state.rates)
             mode = self._recognised(now, state, begin)
             self._detailed_at = begin if mode is None else self._detailed_at
-        is_detailed = mode is None
-        if is_detailed:
-            mode = self._follow(now, state.mode)
-            self._lead_track_to(base, now)
-        if is_detailed or last is None:
-            name, pairs = now.names[mode], pair_modes(base, now, self._track)
+        is_detailed = mode is None or last is None
+        if mode is None or last is None:
+            mode, track = self._follow(now, state), follow(base, now)
+            name, pairs = now.names[mode], pair_modes(base, now, track)
             same = next(pair.before for pair in pairs if pair.after == mode)
         else:
-            name, pairs, same = last.name, last.pairs, last.same
+            name, track, pairs, same = last.name, last.track, last.pairs, last.same
         shape = self._in_phase(now.modes.shapes[:, mode])
         wheels = self._solve_wheels(state, named, now)
         moving = self._move(state, ShownMode(now, mode, name, shape, base, same))
@@ -191,7 +190,7 @@ class Answers:
             named=named,
             unsolved=self._unsolved,
             now=now,
-            track=self._track,
+            track=track,
             pairs=pairs,
             mode=mode,
             same=same,
@@ -262,39 +261,47 @@ class Answers:
             self._drive = found = drive(found.prepared, conditions)
         return found
 
-    def _lead_track_to(self, base: Results, now: Results) -> None:
-        """Follows the base's modes on from where they were last seen, or anew at the base's rates."""
-        is_other_base = self._straight is None or self._straight[0] is not base
-        if now.rates == base.rates or is_other_base:
-            self._straighten_track(base, now)
-        elif now is not self._tracked:
-            self._track = follow_rates(self._track, self._tracked, now)
-            self._tracked = now
-
-    def _straighten_track(self, base: Results, now: Results) -> None:
-        """Follows the base's modes anew on the straight way, so that no detour of a slider counts."""
-        if self._straight != (base, now):
-            self._track = follow_rates(accept(base), base, now)
-            self._tracked, self._straight = now, (base, now)
-
     def _recognised(self, now: Results, state: State, begin: float) -> int | None:
         """The mode that clearly is the one shown last, while details need not be drawn; else None."""
         last = self._last
         is_due = begin - self._detailed_at >= DETAILS_EVERY
         if last is None or is_due or _shows_something_else(last.state, state):
             return None
-        mode, mac = _most_alike(now, last.shape)
-        return mode if mac > STEP_MAC else None
+        likeness = (now.modes.shapes.T @ now.prepared.system.mass @ last.shape) ** 2
+        mode = int(likeness.argmax())
+        return mode if likeness[mode] > SAME_MAC else None
 
-    def _follow(self, now: Results, name: str) -> int:
-        """The mode of that name, else the one most like the last shown, at first the slowest."""
-        named = now.mode_index(name)
-        if named is not None:
-            return named
-        if self._last is None:
-            f = now.modes.frequency_hz
-            return min(int(np.searchsorted(f, FREE_HZ)), len(f) - 1)
-        return _most_alike(now, self._last.shape)[0]
+    def _follow(self, now: Results, state: State) -> int:
+        """The mode that the chosen one is compared with, else the one with most of its shape.
+
+        Whatever was shown between: the same rates show the same mode.
+        """
+        chosen, mode = self._choice(now, state)
+        same = same_mode(chosen, mode, now)
+        return follow(chosen, now).split(mode)[0][0] if same is None else same
+
+    def _choice(self, now: Results, state: State) -> tuple[ModalResults, int]:
+        """The mode that a state asks for, where it has its name; the slowest if it has it nowhere."""
+        wanted = state.mode, state.mode_rates
+        if self._chosen_by != wanted:
+            self._chosen_by, self._chosen = wanted, self._named_mode(now, state)
+        return self._chosen
+
+    def _named_mode(self, now: Results, state: State) -> tuple[ModalResults, int]:
+        for results in (self._results_with(state.mode_rates, now), now):
+            mode = results.mode_index(state.mode)
+            if mode is not None:
+                return results, mode
+        f = now.modes.frequency_hz
+        return now, min(int(np.searchsorted(f, FREE_HZ)), len(f) - 1)
+
+    def _results_with(self, rates: Rates, now: Results) -> ModalResults:
+        """The modes with other rates, or the present ones if those have none."""
+        try:
+            known = self.prepared.all_rates(rates) == now.rates
+            return now if known else solve_modal(self.prepared, rates)
+        except SolveError:
+            return now
 
     def _move(self, state: State, shown: ShownMode) -> Movement:
         """What moves; if that cannot be, what moved before, and why."""
@@ -329,11 +336,7 @@ def asks_for_the_same(one: State, other: State) -> bool:
 
 def _shows_something_else(before: State, now: State) -> bool:
     """Whether more than rates changed, so that all has to be drawn."""
-    return before.mode != now.mode or before.against != now.against or before.motion != now.motion
-
-
-def _most_alike(now: Results, shape: NDArray) -> tuple[int, float]:
-    """The mode whose shape is most like another, and their MAC."""
-    likeness = (now.modes.shapes.T @ now.prepared.system.mass @ shape) ** 2
-    mode = int(likeness.argmax())
-    return mode, float(likeness[mode])
+    return any(
+        getattr(before, field) != getattr(now, field)
+        for field in ("mode", "mode_rates", "against", "motion")
+    )

@@ -286,20 +286,23 @@ class App:
         self.session.change(group=group)
 
     def _step_mode(self, step: int) -> None:
-        names = [name.name for name, _ in listed(self._last.now).values()] if self._last else []
-        if not names:
-            return
-
-        def stepped(state: State) -> State:
-            at = names.index(state.mode) + step if state.mode in names else 0
-            return state.with_mode(names[at % len(names)])
-
-        self.session.update(stepped)
+        last = self._last
+        if last and listed(last.now):
+            self.session.update(lambda state: _stepped(state, last, step))
 
     def _subject(self) -> str:
         """What is to be seen: "Pickup cab yaw"."""
         moving = self._last.movement.subject if self._last else ""
         return f"{self.session.vehicle.name} {moving}"
+
+
+def _stepped(state: State, last: Solved, step: int) -> State:
+    """Showing a mode further down the list of the last answer, from the one that is asked for."""
+    names, modes = last.now.names, list(listed(last.now))
+    is_answered = (state.mode, state.mode_rates) == (last.state.mode, last.state.mode_rates)
+    shown = last.mode if is_answered else last.now.mode_index(state.mode)
+    at = modes.index(shown) + step if shown in modes else 0
+    return state.with_mode(names[modes[at % len(modes)]].name, last.now.rates)
 
 
 def serve(

@@ -123,9 +123,15 @@ class Session:
         kind = ("rate", group, direction)
         self.update(lambda state: state.with_rate(group, direction, rate), kind)
 
-    def show_mode(self, name: str, group: str | None = None) -> None:
-        """Asks for another mode, to see it if something else moves, and for a mount group if given."""
-        self.update(lambda state: state.with_mode(name, group))
+    def show_mode(self, name: str, rates: Rates | None = None, group: str | None = None) -> None:
+        """Asks for another mode, to see it if something else moves, and for a mount group if given.
+
+        Args:
+            name: what it is called.
+            rates: with which it is called so; the present ones if None.
+            group: to be selected.
+        """
+        self.update(lambda state: state.with_mode(name, rates or state.rates, group))
 
     def show_body(self, name: str, drawn: bool) -> None:
         """Asks to draw a body, or not to."""

@@ -57,9 +57,11 @@ class State:
     """Of every mount group."""
     conditions: Conditions
     mode: str
-    """The name of the shown mode: it is followed by what moves, wherever that goes."""
+    """The name of the shown mode with `mode_rates`; with others it may be called something else."""
     group: str
     """The selected mount group, or none: ""."""
+    mode_rates: Rates = field(default_factory=dict)
+    """With which it is called so, of the groups that differ from the vehicle's own."""
 
     variants: Mapping[str, Variant] = field(default_factory=dict)
     """The sets that were pinned, by name; see `rate_sets` for all there are."""
@@ -125,10 +127,14 @@ class State:
         after = replace(before, **{**scaled, direction: rate})
         return replace(self.with_rates({group: after}), group=group)
 
-    def with_mode(self, name: str, group: str | None = None) -> "State":
-        """Showing another mode, to see it if something else moves, and a mount group if given."""
+    def with_mode(self, name: str, rates: Rates, group: str | None = None) -> "State":
+        """Showing the mode that has a name with some rates, and a mount group if given.
+
+        To see it, if something else moves.
+        """
         motion = self.motion if self.motion == "damped mode" else "mode"
-        return replace(self, mode=name, motion=motion, group=self.group if group is None else group)
+        group = self.group if group is None else group
+        return replace(self, mode=name, mode_rates=rates, motion=motion, group=group)
 
     def with_ghost(self, ghost: Ghost) -> "State":
         """With other outlines, and those before remembered while the compared set's are drawn."""
@@ -170,6 +176,7 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
         conditions,
         mode,
         group,
+        mode_rates=every,
         plan=first_plan(vehicle),
         curves=curves,
         component=vehicle.bodies[0].name,

@@ -12,12 +12,14 @@ from modeviz.export.report.sides import SHOWN_HZ
 from modeviz.export.wording import number, percent_change, signed, significant
 from modeviz.ride.psd import power_decibels
 from modeviz.tuning.comparison import Comparison
-from modeviz.tuning.following import FOLLOWED_HZ
 from modeviz.tuning.pairing import Pair, pair_modes
 from modeviz.tuning.results import ModalResults, Results
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup
 from modeviz.vehicle.vehicle import Vehicle
+
+LISTED_HZ = 25.0
+"""Above, mounts do little."""
 
 
 def rates(comparison: Comparison) -> str:
@@ -97,12 +99,12 @@ def frequencies(comparison: Comparison) -> str:
     groups = [("", 1), ("Frequency, Hz", 2), ("Change", 2), ("Damping, %", 2), ("", 1)]
     header = ["Mode", first, second, "Hz", "%", first, second, "The shape went to"]
     return section(
-        f"Natural frequencies below {FOLLOWED_HZ:g} Hz",
+        f"Natural frequencies below {LISTED_HZ:g} Hz",
         table(header, rows, groups, words={7}),
         note(
             "Modes are called after what moves; “~” says that a name fits weakly. Where the shape of a "
-            f"mode of “{first}” has gone to one of another name, the last column says which and how "
-            "much of the shape that has (MAC)."
+            f"mode of “{first}” has gone to one of another name, or to several, the last column says "
+            "which and how much of the shape each has (MAC)."
         ),
     )
 
@@ -154,15 +156,18 @@ def _frequency(results: ModalResults, mode: int | None) -> str:
 
 
 def _went_to(comparison: Comparison, before: int, after: int | None) -> str:
-    """Which mode a shape has become, where that is not clear from the name."""
+    """Which modes may be called a shape's now, where that is not clear from the name."""
     track, now = comparison.track, comparison.now
-    went = int(track.index[before])
-    if went < 0:
+    holders = track.holders(before)
+    if not holders:
         return "above the band"
-    if went == after and not track.weak[before]:
+    if track.index[before] == after and not track.weak[before]:
         return ""
-    f, mac = now.modes.frequency_hz[went], track.mac[before]
-    return f"{escape(now.names[went].spoken)}, {f:.2f} Hz <small>(MAC {mac:.2f})</small>"
+    return "; ".join(
+        f"{escape(now.names[i].spoken)}, {now.modes.frequency_hz[i]:.2f} Hz "
+        f"<small>(MAC {mac:.2f})</small>"
+        for i, mac in holders
+    )
 
 
 def participation(comparison: Comparison) -> str:
@@ -202,4 +207,4 @@ def _change(now: float, base: float) -> str:
 def _below(results: ModalResults) -> list[int]:
     """The modes that are listed; what moves freely is none that mounts change."""
     f = results.modes.frequency_hz
-    return np.flatnonzero((f > RESOLVED_HZ) & (f < FOLLOWED_HZ)).tolist()
+    return np.flatnonzero((f > RESOLVED_HZ) & (f < LISTED_HZ)).tolist()

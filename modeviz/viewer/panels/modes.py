@@ -7,8 +7,10 @@ import numpy as np
 import viser
 
 from modeviz.dynamics.naming import ModeName
+from modeviz.dynamics.tracking import WEAK_MAC
 from modeviz.export.wording import signed
 from modeviz.tuning.results import Results
+from modeviz.vehicle.connections import Rates
 from modeviz.viewer.answers import FREE_HZ, Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.html import HiddenButtons, block, heading, hinted, legend, row, span, table, title
@@ -40,6 +42,7 @@ class ModesPanel:
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Builds the table; `show` fills it."""
         self._names: list[str] = []
+        self._rates: Rates = {}
         self._labels = {body.name: body.label for body in session.vehicle.bodies}
         self._buttons = HiddenButtons(gui, N_ROWS, lambda i: self._select(session, i))
         self._content = gui.add_html("")
@@ -47,12 +50,13 @@ class ModesPanel:
     def _select(self, session: Session, i: int) -> None:
         names = self._names
         if i < len(names):  # else a shorter list came between the click and here
-            session.show_mode(names[i])
+            session.show_mode(names[i], self._rates)
 
     def show(self, solved: Solved) -> None:
         """Lists the modes of an answer."""
         modes = listed(solved.now)
         self._names = [name.name for name, _ in modes.values()][:N_ROWS]
+        self._rates = solved.now.rates
         content = block(_ladder(solved), _old_shape(solved), self._table(solved, list(modes)))
         assign(self._content, content=content)
 
@@ -96,21 +100,31 @@ def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
 
 def moved_by(solved: Solved, mode: int) -> str:
     """How far a mode moved; where there is none to compare it with, what its shape was, as a hint."""
-    base, now, track = solved.base, solved.now, solved.track
+    base, now = solved.base, solved.now
     pair = next(p for p in solved.pairs if p.after == mode)
-    before = track.origin(mode) if pair.before is None else pair.before
-    if before is None:
-        return span("new", "dim")
-    name, old = base.names[before].name, float(base.modes.frequency_hz[before])
-    was = f"the {escape(name)} of {escape(solved.state.against)}, {old:.2f} Hz"
     if pair.before is None:
-        part = " in part" if track.weak[before] else ""
-        return hinted(span("–", "dim"), f"Nothing there moves like this; its shape was{part} {was}")
+        return _without_partner(solved, mode)
+    name, old = base.names[pair.before].name, float(base.modes.frequency_hz[pair.before])
+    was = f"the {escape(name)} of {escape(solved.state.against)}, {old:.2f} Hz"
     change = float(now.modes.frequency_hz[mode]) - old
     text = span(("~" if pair.is_weak else "") + signed(change, 2), "" if change else "dim")
     if pair.is_weak:
         return hinted(text, f"Against {was}, which is alike only in part")
     return text if name == now.names[mode].name else hinted(text, f"Against {was}")
+
+
+def _without_partner(solved: Solved, mode: int) -> str:
+    """A dash, with what a mode's shape was as a hint."""
+    sources, base = solved.track.sources(mode), solved.base
+    if not sources:
+        return span("new", "dim")
+    part = " in part" if sources[0][1] < WEAK_MAC else ""
+    were = " and ".join(
+        f"the {escape(base.names[i].name)} of {escape(solved.state.against)}, "
+        f"{base.modes.frequency_hz[i]:.2f} Hz"
+        for i, _ in sources
+    )
+    return hinted(span("–", "dim"), f"Nothing there moves like this; its shape was{part} {were}")
 
 
 def scale(base: Results) -> Scale | None:
@@ -128,17 +142,20 @@ def scale(base: Results) -> Scale | None:
 
 
 def _ladder(solved: Solved) -> str:
-    """The ladder of all modes, joined where the shapes of the modes compared with went."""
+    """The ladder of all modes, joined where the shapes of the modes compared with went.
+
+    A shape that several modes share is joined to each of them.
+    """
     base, now, track = solved.base, solved.now, solved.track
     drawn = scale(base)
     if drawn is None:
         return ""
     old = solved.same
-    before, weak = base.modes.frequency_hz.tolist(), track.weak.tolist()
+    after = now.modes.frequency_hz.tolist()
     rails = [
-        Rail(before[i], after, weak[i], strong=i == old)
-        for i, after in enumerate(track.frequency_hz.tolist())
-        if track.index[i] >= 0
+        Rail(before, after[i], share < WEAK_MAC, strong=mode == old)
+        for mode, before in enumerate(base.modes.frequency_hz.tolist())
+        for i, share in track.holders(mode)
     ]
     drawing = ladder(_by_name(base), _by_name(now), rails, solved.name.name, drawn)
     return _heading(solved, old) + drawing

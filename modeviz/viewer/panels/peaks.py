@@ -87,8 +87,8 @@ class PeaksPanel:
     def _select(self, i: int) -> None:
         contributors = self._contributors
         if i < len(contributors):  # else another answer came between the click and here
-            chosen = contributors[i]
-            self._session.show_mode(chosen.results.names[chosen.mode].name, chosen.group)
+            chosen, results = contributors[i], contributors[i].results
+            self._session.show_mode(results.names[chosen.mode].name, results.rates, chosen.group)
 
 
 def strongest(responses: Responses, curve: Curve, solved: Solved) -> list[int]:

@@ -203,7 +203,7 @@ def _shown_mode(results: Results, solved: Solved) -> int | None:
     """Which mode of a set of rates the shown one is."""
     if results is solved.now:
         return solved.mode
-    return solved.same if results is solved.base else same_mode(results, solved.name, solved.shape)
+    return solved.same if results is solved.base else same_mode(solved.now, solved.mode, results)
 
 
 def _mark(number: int, name: str, state: State) -> str:
