@@ -108,6 +108,7 @@ def connections() -> tuple[Spring | Rod | Bolt | Damper | Tyre, ...]:
             np.array([1e5, 7e4, 2.4908e5]),
             wheel_center=np.array([0.0, -0.8, 0.355]),
             trail=0.035869,
+            track="left",
         ),
     )
 

@@ -177,7 +177,7 @@ def test_mount_rates_are_those_of_table_4():
 
 def test_the_paper_optimises_for_its_rough_road_and_every_wheel_load():
     problem = truck().problem("paper")
-    built = paper_problem(truck().road("road 1"), truck().wheel_loads)
+    built = paper_problem(truck().random_load("road 1"), truck().wheel_loads)
     assert ProblemRecord.of(problem) == ProblemRecord.of(built)
     on_road, on_wheels = problem.performance
     assert on_road.roads == ("road 1",)

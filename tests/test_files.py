@@ -575,3 +575,11 @@ def test_a_group_may_be_called_loss_factor(tmp_path):
     rates = {"vertical": 1000 / 3, "lateral": 131.0, "fore_aft": 0.0, "loss_factor": 0.1}
     assert data["rates"]["optimised"]["loss_factor"] == rates
     assert read_vehicle(tmp_path / "a").rate_sets == sets
+
+
+def test_a_tyre_between_the_tracks_is_noted_unless_it_says_its_track(folder):
+    path = folder / "vehicle.toml"
+    assert not any("neither side" in note for note in read_vehicle(folder).notes)
+    path.write_text(path.read_text().replace('track = "left"\n', ""))
+    (note,) = read_vehicle(folder).notes
+    assert note.startswith("tyre 'tyre left' stands on neither side, so it follows the mean of both")

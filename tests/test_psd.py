@@ -75,7 +75,7 @@ def test_oscillator_shaken_by_white_acceleration_has_the_closed_form_rms(zeta):
     omega_n = np.sqrt(k / m)
     f_n = omega_n / (2 * np.pi)
     f = f_n * np.geomspace(1e-3, 1e3, 6000)
-    system = on_tyres(wheel("wheel", mass=m), damping=np.array([0, 0, 2 * zeta * m * omega_n]))
+    system = on_tyres(wheel("wheel", y=0.7, mass=m), damping=np.array([0, 0, 2 * zeta * m * omega_n]))
     heave = system.motion("wheel", np.zeros(3))[[2]]
     response = direct_response(system, f, track_forces(system, f, 20.0), heave)[:, :, 1:]
     ground = W * STANDARD_GRAVITY**2 / (2 * np.pi * f) ** 4

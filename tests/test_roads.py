@@ -5,7 +5,7 @@ from scipy.integrate import trapezoid
 from small_vehicles import on_tyres, wheel
 
 from modeviz.dynamics.response import direct_response
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, VehicleError
 from modeviz.ride.roads import LEFT, RIGHT, road_spectrum, track_forces, two_track_profile
 from modeviz.vehicle.loads import Road
 
@@ -50,9 +50,23 @@ def test_wheels_are_pushed_by_their_own_track():
     assert not forces[:, system.dofs["left"], RIGHT].any()
 
 
+@pytest.mark.parametrize(("y", "named", "shares"), [
+    (-0.7, None, (1, 0)), (0.7, None, (0, 1)), (0.0, None, (0.5, 0.5)),
+    (0.0, "left", (1, 0)), (-0.7, "right", (0, 1)), (0.7, "both", (0.5, 0.5)),
+])  # fmt: skip
+def test_a_tyre_follows_its_track_and_between_them_the_mean(y, named, shares):
+    system = on_tyres(wheel("wheel", y=y), track=named)
+    np.testing.assert_allclose(track_forces(system, F, 20.0)[:, 2], 2e5 * np.ones((len(F), 1)) * shares)
+
+
+def test_a_track_that_no_road_has_is_refused():
+    with pytest.raises(VehicleError, match=r"unknown track 'middle': there are left, right"):
+        on_tyres(wheel("wheel"), track="middle")
+
+
 def test_rear_wheel_meets_the_road_a_wheelbase_later():
     wheelbase, speed = 2.98, 20.0
-    system = on_tyres(wheel("front", x=-0.1), wheel("rear", x=wheelbase - 0.1))
+    system = on_tyres(wheel("front", x=-0.1, y=0.7), wheel("rear", x=wheelbase - 0.1, y=0.7))
     forces = track_forces(system, F, speed)[:, :, RIGHT]
     front, rear = forces[:, system.dofs["front"]][:, 2], forces[:, system.dofs["rear"]][:, 2]
     assert front == pytest.approx(np.full(len(F), 2e5), rel=1e-12)
@@ -71,7 +85,7 @@ def test_tilted_tyre_pushes_along_its_own_axis():
     tilt = np.radians(20.0)
     axis = np.array([0.0, np.sin(tilt), np.cos(tilt)])
     axes = np.array([[1.0, 0.0, 0.0], np.cross(axis, [1.0, 0.0, 0.0]), axis])
-    system = on_tyres(wheel("wheel"), axes=axes)
+    system = on_tyres(wheel("wheel", y=0.7), axes=axes)
     force = track_forces(system, F, 20.0)[0, :3, RIGHT]
     assert force == pytest.approx(2e5 * np.cos(tilt) * axis, rel=1e-12)
 

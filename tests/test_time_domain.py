@@ -15,7 +15,7 @@ from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.response import modal_response
 from modeviz.ride.psd import response_psd
-from modeviz.ride.roads import lag, road_spectrum, track, track_forces, two_track_profile
+from modeviz.ride.roads import lag, road_spectrum, track_forces, track_shares, two_track_profile
 from modeviz.vehicle.connections import Connection, Tyre
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
@@ -51,7 +51,9 @@ def viscous(vehicle: Vehicle, equal_at_hz: float = 11.0) -> Vehicle:
 def heights(profile: np.ndarray, tyres: tuple[Tyre, ...], sample_rate: float) -> np.ndarray:
     """Height and climb rate under every tyre, (n_samples, 2 n_tyres); the profile is periodic."""
     delays = [round(lag(t, tyres, SPEED) * sample_rate) for t in tyres]
-    z = np.column_stack([np.roll(profile[:, track(t)], d) for t, d in zip(tyres, delays, strict=True)])
+    z = np.column_stack(
+        [np.roll(profile @ track_shares(t), d) for t, d in zip(tyres, delays, strict=True)]
+    )
     omega = 2 * np.pi * np.fft.rfftfreq(len(z), 1 / sample_rate)
     climb = np.fft.irfft(1j * omega[:, None] * np.fft.rfft(z, axis=0), len(z), axis=0)
     return np.hstack([z, climb])
@@ -102,7 +104,7 @@ class Drive:
 @pytest.fixture(scope="module")
 def drive() -> Drive:
     truck = viscous(read_vehicle(builtin_vehicle()))
-    road, seat = truck.road("road 1"), truck.response_points[0]
+    road, seat = truck.random_load("road 1"), truck.response_points[0]
     system = assemble(truck)
     modes = vibrating(solve_modes(system, N_MODES))
     outputs = system.motion(seat.body, seat.position)[1:3]

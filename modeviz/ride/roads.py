@@ -57,13 +57,18 @@ def track_amplitudes(vehicle: Vehicle, frequency_hz: Floats, speed: float) -> Co
     for i, tyre in enumerate(tyres):
         push = tyre.stiffness * (1 + 1j * tyre.loss_factor) + 1j * omega * tyre.damping
         delay = np.exp(-1j * omega * lag(tyre, tyres, speed))
-        amplitudes[:, i, :, track(tyre)] = push * tyre.axes[:, 2] * delay
+        along = push * tyre.axes[:, 2] * delay
+        amplitudes[:, i] = along[:, :, None] * track_shares(tyre)
     return amplitudes.reshape(len(omega), 3 * len(tyres), 2)
 
 
-def track(tyre: Tyre) -> int:
-    """The track a tyre runs in: `LEFT` where y < 0, else `RIGHT`."""
-    return LEFT if tyre.points[1, 1] < 0 else RIGHT
+def track_shares(tyre: Tyre) -> tuple[float, float]:
+    """What a tyre's patch follows of the left and of the right track; they add up to one.
+
+    That of its side, left where y < 0; between the tracks the mean of both.
+    """
+    side = "both" if tyre.is_in_the_middle else "left" if tyre.points[1, 1] < 0 else "right"
+    return {"left": (1.0, 0.0), "right": (0.0, 1.0), "both": (0.5, 0.5)}[tyre.track or side]
 
 
 def lag(tyre: Tyre, tyres: tuple[Tyre, ...], speed: float) -> float:

@@ -8,7 +8,7 @@ nothing, and what pulls one body pulls the other back along the same line.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Self
+from typing import Literal, Self, get_args
 
 import numpy as np
 
@@ -23,6 +23,11 @@ DIRECTIONS = ("vertical", "lateral", "fore-aft")
 
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 """The relative motions of a connection's ends: along its local axes, then about them."""
+
+Track = Literal["left", "right", "both"]
+
+MIDDLE = 1e-3
+"""m: a tyre that stands nearer to y = 0 is on neither side."""
 
 RATE_FIELDS = ("vertical", "lateral", "fore_aft")
 """The fields of `MountRates` that are rates, in the order of `DIRECTIONS`."""
@@ -187,12 +192,22 @@ class Tyre(Connection):
     """(3,), m: where radial forces and unbalance act."""
     trail: float = 0.0
     """Pneumatic trail, m: how far behind the wheel centre a lateral force acts on the ground."""
+    track: Track | None = None
+    """Which track of a road it runs in, "both" for their mean; None: that of its side."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
         frozen(self, "wheel_center", self.wheel_center, (3,))
         if not np.isfinite(self.trail):
             raise VehicleError(f"tyre {self.name!r}: trail: found {self.trail} m")
+        if self.track is not None and self.track not in get_args(Track):
+            words = unknown("track", self.track, get_args(Track))
+            raise VehicleError(f"tyre {self.name!r}: track: {words}")
+
+    @property
+    def is_in_the_middle(self) -> bool:
+        """Whether it stands between the tracks, on neither side."""
+        return abs(float(self.points[1, 1])) < MIDDLE
 
 
 def _along(rod: str, first: Floats, second: Floats) -> Floats:

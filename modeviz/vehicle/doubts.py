@@ -32,13 +32,19 @@ LOW_HZ = 10.0
 
 
 def doubts(vehicle: Vehicle) -> Iterator[str]:
-    """What is likely wrong with the bodies of a vehicle, a sentence each."""
+    """What is likely wrong with a vehicle, a sentence each."""
     for body in vehicle.bodies:
         if isinstance(body, FlexibleBody):
             for doubt in (*_of_rigid_modes(body), *_of_mass(body), *_of_elastic_modes(body)):
                 yield f"body {body.name!r}: {doubt}"
         elif reason := impossible(body.inertia):
             yield f"body {body.name!r}: inertia: {reason}, as of no body"
+    for tyre in vehicle.tyres:
+        if tyre.is_in_the_middle and tyre.track is None:
+            yield (
+                f"tyre {tyre.name!r} stands on neither side, so it follows the mean of both tracks; "
+                'track = "left", "right" or "both" says which'
+            )
 
 
 def _of_rigid_modes(body: FlexibleBody) -> Iterator[str]:

@@ -22,6 +22,7 @@ from modeviz.vehicle.connections import (
     MountGroup,
     MountRates,
     Rod,
+    Track,
     usual_bounds,
 )
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
@@ -271,12 +272,24 @@ class MountGroupRecord(Record, kw_only=True):
 
 
 class ConnectionRecord(MountRecord, kw_only=True):
-    """[[spring]], [[bolt]] or [[damper]]."""
+    """[[damper]], and what springs, bolts and tyres have in common with it."""
 
     group: Name | None = None
     """After the kind of connection, "springs", if not given."""
     stiffness: Stiffness = NO_RATES
     loss_factor: NonNegative = 0.0
+
+    def build(self, kind: type[Connection]) -> Connection:
+        arguments: dict[str, Any] = {
+            **self.arguments(),
+            "group": self.group or f"{kind.__name__.lower()}s",
+        }
+        return kind(**arguments)
+
+
+class JointRecord(ConnectionRecord, kw_only=True):
+    """[[spring]] or [[bolt]]."""
+
     rigid: bool | tuple[str, ...] = False
     """Whether its ends do not move relative to each other, or in which of `MOTIONS` they do not."""
 
@@ -288,13 +301,6 @@ class ConnectionRecord(MountRecord, kw_only=True):
     def arguments(self) -> dict[str, Any]:
         rigid = (MOTIONS if self.rigid else ()) if isinstance(self.rigid, bool) else self.rigid
         return {**super().arguments(), "rigid": rigid}
-
-    def build(self, kind: type[Connection]) -> Connection:
-        arguments: dict[str, Any] = {
-            **self.arguments(),
-            "group": self.group or f"{kind.__name__.lower()}s",
-        }
-        return kind(**arguments)
 
 
 class RodRecord(Record, kw_only=True):
@@ -335,6 +341,8 @@ class TyreRecord(ConnectionRecord, kw_only=True):
     """As any connection's, but at the patch, its second end, unless told otherwise."""
     wheel_center: Position
     trail: Length = 0.0
+    track: Track | None = None
+    """Which track of a road it runs in; that of its side, if not given."""
 
 
 class ResponsePointRecord(Record, kw_only=True):
@@ -398,9 +406,9 @@ class VehicleRecord(Record, kw_only=True):
     rigid_body: list[RigidBodyRecord] = msgspec.field(default_factory=list)
     added_mass: list[AddedMassRecord] = msgspec.field(default_factory=list)
     mount_group: list[MountGroupRecord] = msgspec.field(default_factory=list)
-    spring: list[ConnectionRecord] = msgspec.field(default_factory=list)
+    spring: list[JointRecord] = msgspec.field(default_factory=list)
     rod: list[RodRecord] = msgspec.field(default_factory=list)
-    bolt: list[ConnectionRecord] = msgspec.field(default_factory=list)
+    bolt: list[JointRecord] = msgspec.field(default_factory=list)
     damper: list[ConnectionRecord] = msgspec.field(default_factory=list)
     tyre: list[TyreRecord] = msgspec.field(default_factory=list)
     response_point: list[ResponsePointRecord] = msgspec.field(default_factory=list)
