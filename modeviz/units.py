@@ -15,9 +15,27 @@ POUND = 0.45359237
 """kg."""
 
 UNITS: dict[str, dict[str, float]] = {
-    "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": INCH},
-    "mass": {"kg": 1.0, "t": 1e3, "lb": POUND},
-    "inertia": {"kg m²": 1.0, "kg m^2": 1.0, "kg mm²": 1e-6, "kg mm^2": 1e-6},
+    "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": INCH, "ft": 12 * INCH},
+    "mass": {
+        "kg": 1.0,
+        "t": 1e3,
+        "lb": POUND,
+        "slug": POUND * STANDARD_GRAVITY / (12 * INCH),
+        "lbf s²/in": POUND * STANDARD_GRAVITY / INCH,
+        "lbf s^2/in": POUND * STANDARD_GRAVITY / INCH,
+    },
+    "inertia": {
+        "kg m²": 1.0,
+        "kg m^2": 1.0,
+        "kg mm²": 1e-6,
+        "kg mm^2": 1e-6,
+        "t mm²": 1e-3,
+        "t mm^2": 1e-3,
+        "lb in²": POUND * INCH**2,
+        "lb in^2": POUND * INCH**2,
+        "lbf in s²": POUND * STANDARD_GRAVITY * INCH,
+        "lbf in s^2": POUND * STANDARD_GRAVITY * INCH,
+    },
     "stiffness": {
         "N/m": 1.0,
         "N/mm": 1e3,
@@ -25,8 +43,18 @@ UNITS: dict[str, dict[str, float]] = {
         "kN/mm": 1e6,
         "lbf/in": POUND * STANDARD_GRAVITY / INCH,
     },
-    "rotational stiffness": {"N m/rad": 1.0, "N m/deg": 180 / math.pi, "N mm/rad": 1e-3},
-    "damping": {"N s/m": 1.0, "N s/mm": 1e3, "kN s/m": 1e3},
+    "rotational stiffness": {
+        "N m/rad": 1.0,
+        "N m/deg": 180 / math.pi,
+        "N mm/rad": 1e-3,
+        "lbf in/rad": POUND * STANDARD_GRAVITY * INCH,
+    },
+    "damping": {
+        "N s/m": 1.0,
+        "N s/mm": 1e3,
+        "kN s/m": 1e3,
+        "lbf s/in": POUND * STANDARD_GRAVITY / INCH,
+    },
     "rotational damping": {"N m s/rad": 1.0, "N m s/deg": 180 / math.pi, "N mm s/rad": 1e-3},
     "force": {"N": 1.0, "kN": 1e3, "lbf": POUND * STANDARD_GRAVITY},
     "unbalance": {"kg m": 1.0, "g m": 1e-3, "g mm": 1e-6, "oz in": POUND / 16 * INCH},

@@ -15,10 +15,13 @@ from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring, Tyre
 from modeviz.vehicle.doubts import doubts
+from modeviz.vehicle.files.axes import axes_of
+from modeviz.vehicle.files.conventions import Conventions
 from modeviz.vehicle.files.disk import file_stems, replace_folder, write_text
 from modeviz.vehicle.files.meshes import write_mesh
 from modeviz.vehicle.files.modal import write_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
+from modeviz.vehicle.files.quantities import turned
 from modeviz.vehicle.files.record import built
 from modeviz.vehicle.files.records import (
     AddedMassRecord,
@@ -41,6 +44,7 @@ from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.files.toml import to_toml
 from modeviz.vehicle.files.toml_file import read_toml
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.orientation import orientation_doubts
 from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle
 
 VEHICLE_FILE = "vehicle.toml"
@@ -88,7 +92,10 @@ def read_vehicle(folder: Path) -> Vehicle:
         )
     record = read_toml(path, VehicleRecord)
     with located(path):
-        return _build(record, Source(folder))
+        axes = axes_of(record.axes)
+        ours = turned(msgspec.to_builtins(record), VehicleRecord, axes)
+        source = Source(folder, Conventions(record.units, axes))
+        return _build(msgspec.convert(ours, VehicleRecord), source)
 
 
 def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
@@ -137,7 +144,8 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         problems=built(record.problem, "problem", ProblemRecord.build),
         speed=record.speed or USUAL_SPEED,
     )
-    for doubt in doubts(vehicle):
+    axes = source.conventions.axes
+    for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes)):
         source.note(doubt)
     return replace(vehicle, notes=source.notes)
 
@@ -146,8 +154,7 @@ def _write_content(vehicle: Vehicle, folder: Path) -> None:
     for name in sorted(CONTENT - {VEHICLE_FILE}):
         (folder / name).mkdir()
     content = msgspec.to_builtins(_record(vehicle, folder))
-    text = to_toml({"units": WRITTEN_UNITS} | from_si(content, VehicleRecord))
-    write_text(folder / VEHICLE_FILE, text)
+    write_text(folder / VEHICLE_FILE, to_toml(from_si(content, VehicleRecord)))
 
 
 def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
@@ -156,6 +163,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
     flexible = [b for b in vehicle.bodies if isinstance(b, FlexibleBody)]
     rigid = [b for b in vehicle.bodies if isinstance(b, RigidBody)]
     return VehicleRecord(
+        units=WRITTEN_UNITS,
         name=vehicle.name,
         speed=vehicle.speed,
         flexible_body=[_record_of_flexible(b, stems[b.name], folder) for b in flexible],

@@ -12,6 +12,7 @@ import numpy as np
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
+from modeviz.vehicle.files.conventions import Conventions
 from modeviz.vehicle.files.disk import read_bytes
 
 KINDS = {
@@ -25,6 +26,9 @@ KINDS = {
 }
 """The arrays of a body: what is in each, as `dtype.kind` has it, and how many dimensions it has."""
 
+PLACES, SHAPES = ("attachment_positions", "nodes"), ("attachment_shapes", "shapes")
+"""What of the arrays depends on units and axes."""
+
 NEAR_ZERO_HZ, NEAR_ZERO = 0.05, 0.01
 """Of a free body's first modes, what is below this, or this part of the first elastic one, is rigid."""
 
@@ -32,7 +36,11 @@ KIND_NAMES = {"f": "real numbers", "i": "whole numbers", "U": "text"}
 
 
 def read_flexible_body(
-    path: Path, name: str, properties: Mapping[str, Any], note: Callable[[str], None]
+    path: Path,
+    name: str,
+    properties: Mapping[str, Any],
+    conventions: Conventions,
+    note: Callable[[str], None],
 ) -> FlexibleBody:
     """The body whose arrays are in the file.
 
@@ -43,12 +51,13 @@ def read_flexible_body(
         path: of the file.
         name: of the body.
         properties: what else it takes to make a `FlexibleBody`.
+        conventions: the units and the axes of the arrays.
         note: told what was taken otherwise than it stands.
 
     Raises:
         VehicleError: no such file, a damaged one, or arrays that are missing, pickled or not a body's.
     """
-    arrays = _read_arrays(path)
+    arrays = _converted(_read_arrays(path), conventions)
     names, positions, shapes = (
         arrays[f"attachment_{what}"] for what in ("names", "positions", "shapes")
     )
@@ -84,6 +93,17 @@ def write_flexible_body(path: Path, body: FlexibleBody) -> None:
             "nodes": body.nodes,
             "shapes": body.shapes,
         },
+    )
+
+
+def _converted(arrays: dict[str, np.ndarray], conventions: Conventions) -> dict[str, np.ndarray]:
+    """The arrays in SI and our axes; those of a wrong shape as they are, since no body has them."""
+    places = {name: arrays[name] for name in PLACES if arrays[name].shape[-1] == 3}
+    shapes = {name: arrays[name] for name in SHAPES if arrays[name].shape[-2] in (3, 6)}
+    return (
+        arrays
+        | {name: conventions.positions(array) for name, array in places.items()}
+        | {name: conventions.shapes(array) for name, array in shapes.items()}
     )
 
 

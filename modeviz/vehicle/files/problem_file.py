@@ -8,7 +8,7 @@ from msgspec import Meta
 
 from modeviz.errors import located
 from modeviz.vehicle.files.problems import ProblemRecord
-from modeviz.vehicle.files.record import Record
+from modeviz.vehicle.files.record import FileRecord
 from modeviz.vehicle.files.scaling import WRITTEN_UNITS, from_si
 from modeviz.vehicle.files.toml import to_toml
 from modeviz.vehicle.files.toml_file import read_toml
@@ -20,7 +20,7 @@ ENDING = ".toml"
 UNITS = {"stiffness": WRITTEN_UNITS["stiffness"]}
 
 
-class ProblemFileRecord(Record, kw_only=True):
+class ProblemFileRecord(FileRecord, kw_only=True):
     """The whole file."""
 
     problem: Annotated[list[ProblemRecord], Meta(min_length=1, max_length=1)]
@@ -28,8 +28,8 @@ class ProblemFileRecord(Record, kw_only=True):
 
 def problem_text(problem: Problem) -> str:
     """The file of a problem; all but its first table can be put into a vehicle.toml in N/mm."""
-    record = ProblemFileRecord(problem=[ProblemRecord.of(problem)])
-    return to_toml({"units": UNITS} | from_si(msgspec.to_builtins(record), ProblemFileRecord))
+    record = ProblemFileRecord(units=UNITS, problem=[ProblemRecord.of(problem)])
+    return to_toml(from_si(msgspec.to_builtins(record), ProblemFileRecord))
 
 
 def read_problem(path: Path, vehicle: Vehicle) -> Problem:

@@ -1,4 +1,4 @@
-"""What the numbers of a key are: a quantity, which has a unit."""
+"""What the numbers of a key are: a quantity, which has a unit, and turns with the axes."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -6,6 +6,8 @@ from typing import Annotated, Any, get_args
 
 from msgspec import Meta
 
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.files.axes import turn_frame, turn_inertia, turn_motions, turn_rates, turn_vectors
 from modeviz.vehicle.files.hints import annotation, fields_of, plain
 
 Vector = tuple[float, float, float]
@@ -13,10 +15,12 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """The annotation of a field whose numbers have a unit."""
+    """The annotation of a field whose numbers have a unit or depend on the axes."""
 
     name: str = ""
-    """A key of `units`."""
+    """A key of `units`; empty for what has no unit."""
+    turn: Callable[[Any, Floats], Any] | None = None
+    """The value in other axes; None for what is the same in all."""
     by_kind: Mapping[str, str] = field(default_factory=dict)
     """The name, where it depends on what the table has as its `kind`."""
 
@@ -28,17 +32,27 @@ class Quantity:
 Speed = Annotated[float, Meta(gt=0), Quantity("speed")]
 Mass = Annotated[float, Meta(gt=0), Quantity("mass")]
 Length = Annotated[float, Quantity("length")]
-Position = Annotated[Vector, Quantity("length")]
-Place = Annotated[tuple[float | Vector, ...], Meta(min_length=2, max_length=3), Quantity("length")]
+Position = Annotated[Vector, Quantity("length", turn_vectors)]
+Place = Annotated[
+    tuple[float | Vector, ...],
+    Meta(min_length=2, max_length=3),
+    Quantity("length", turn_vectors),
+]
 """x, y, z; or two of those, where the ends of a connection are at different places."""
-Ends = Annotated[tuple[Vector, Vector], Quantity("length")]
-Inertia = Annotated[tuple[float, ...], Meta(min_length=3, max_length=6), Quantity("inertia")]
+Ends = Annotated[tuple[Vector, Vector], Quantity("length", turn_vectors)]
+Inertia = Annotated[
+    tuple[float, ...], Meta(min_length=3, max_length=6), Quantity("inertia", turn_inertia)
+]
 Rate = Annotated[float, Meta(ge=0), Quantity("stiffness")]
-Stiffness = Annotated[Vector, Quantity("stiffness")]
-RotationalStiffness = Annotated[Vector, Quantity("rotational_stiffness")]
+Stiffness = Annotated[Vector, Quantity("stiffness", turn_rates)]
+RotationalStiffness = Annotated[Vector, Quantity("rotational_stiffness", turn_rates)]
 DampingRate = Annotated[float, Meta(ge=0), Quantity("damping")]
-Damping = Annotated[Vector, Quantity("damping")]
-RotationalDamping = Annotated[Vector, Quantity("rotational_damping")]
+Damping = Annotated[Vector, Quantity("damping", turn_rates)]
+RotationalDamping = Annotated[Vector, Quantity("rotational_damping", turn_rates)]
+Frame = Annotated[tuple[Vector, Vector, Vector], Quantity(turn=turn_frame)]
+"""Local axes as rows."""
+Motions = Annotated[bool | tuple[str, ...], Quantity(turn=turn_motions)]
+"""Some of `MOTIONS`, or whether all."""
 Amplitude = Annotated[
     float,
     Meta(ge=0),
@@ -46,6 +60,15 @@ Amplitude = Annotated[
         by_kind={"unbalance": "unbalance", "radial force": "force", "lateral force": "force"},
     ),
 ]
+
+
+def turned(data: Any, kind: Any, T: Floats) -> Any:
+    """The content of a file of that kind, with everything that depends on the axes in others."""
+
+    def change(value: Any, quantity: Quantity, _: Mapping[str, Any]) -> Any:
+        return value if quantity.turn is None or value is None else quantity.turn(value, T)
+
+    return each_quantity(data, kind, change)
 
 
 def each_quantity(

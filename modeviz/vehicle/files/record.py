@@ -22,6 +22,13 @@ class Record(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
     """A table of the file."""
 
 
+class FileRecord(Record, kw_only=True):
+    """A whole file."""
+
+    units: dict[str, str] = msgspec.field(default_factory=dict)
+    """Of its numbers, quantity to unit."""
+
+
 class RatesRecord(Record, kw_only=True):
     """The rates of a mount."""
 

@@ -25,6 +25,7 @@ from modeviz.vehicle.connections import (
     Track,
     usual_bounds,
 )
+from modeviz.vehicle.files.axes import OURS
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.files.modal import read_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
@@ -33,9 +34,11 @@ from modeviz.vehicle.files.quantities import (
     Damping,
     DampingRate,
     Ends,
+    Frame,
     Inertia,
     Length,
     Mass,
+    Motions,
     Place,
     Position,
     Rate,
@@ -43,14 +46,11 @@ from modeviz.vehicle.files.quantities import (
     RotationalStiffness,
     Speed,
     Stiffness,
-    Vector,
 )
-from modeviz.vehicle.files.record import Name, NonNegative, RatesRecord, Record
+from modeviz.vehicle.files.record import FileRecord, Name, NonNegative, RatesRecord, Record
 from modeviz.vehicle.files.roads import read_road
 from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad, WheelLoadKind
-
-Axes = tuple[Vector, Vector, Vector]
 
 NO_RATES = (0.0, 0.0, 0.0)
 VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -64,7 +64,9 @@ class BodyRecord(Record, kw_only=True):
     label: str = ""
     """The name, if not given."""
     mesh: str | None = None
-    """A file of the folder: .glb, .stl, .obj or .ply, in metres."""
+    """A file of the folder: .glb, .stl, .obj or .ply."""
+    mesh_unit: str = "m"
+    """Of the mesh's coordinates."""
     color: tuple[int, int, int] = DEFAULT_COLOR
     """sRGB, of the mesh parts that have no material."""
 
@@ -78,7 +80,11 @@ class BodyRecord(Record, kw_only=True):
             return ()
         with located("mesh"):
             path = source.path(self.mesh)
-        return read_mesh(path, self.color)
+        conventions = source.conventions.with_units({"length": self.mesh_unit}, "mesh_unit")
+        return tuple(
+            replace(part, vertices=conventions.positions(part.vertices))
+            for part in read_mesh(path, self.color)
+        )
 
 
 class FlexibleBodyRecord(BodyRecord, kw_only=True):
@@ -86,6 +92,8 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
 
     modes: str
     """A file of the folder, .npz."""
+    units: dict[str, str] = msgspec.field(default_factory=dict)
+    """Length and mass of that file, where they are not the vehicle's."""
     damping_ratio: float | tuple[float, ...]
     """Of all modes, or of the elastic ones in turn; the last holds for all above it too."""
     loss_factor: NonNegative = 0.0
@@ -120,7 +128,8 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
             "loss_factor": self.loss_factor,
             "stated_mass": self.mass,
         }
-        body = read_flexible_body(path, self.name, properties, source.note)
+        conventions = source.conventions.with_units(self.units, "units")
+        body = read_flexible_body(path, self.name, properties, conventions, source.note)
         n_elastic, n_ratios = body.n_normal - body.n_rigid, np.size(self.damping_ratio)
         if n_ratios > max(n_elastic, 1):
             raise VehicleError(
@@ -204,7 +213,7 @@ class MountRecord(Record, kw_only=True):
     rotational_stiffness: RotationalStiffness = NO_RATES
     damping: Damping = NO_RATES
     rotational_damping: RotationalDamping = NO_RATES
-    axes: Axes = VEHICLE_AXES
+    axes: Frame = VEHICLE_AXES
     elastic_center: float = 0.5
     """Where between its ends it acts: 0 at the first, 1 at the second."""
 
@@ -290,7 +299,7 @@ class ConnectionRecord(MountRecord, kw_only=True):
 class JointRecord(ConnectionRecord, kw_only=True):
     """[[spring]] or [[bolt]]."""
 
-    rigid: bool | tuple[str, ...] = False
+    rigid: Motions = False
     """Whether its ends do not move relative to each other, or in which of `MOTIONS` they do not."""
 
     @classmethod
@@ -396,10 +405,12 @@ class WheelLoadRecord(Record, kw_only=True):
         return WheelLoad(self.name, self.kind, self.tyre, self.amplitude)
 
 
-class VehicleRecord(Record, kw_only=True):
-    """The whole file, but for its `units`."""
+class VehicleRecord(FileRecord, kw_only=True):
+    """The whole file."""
 
     name: Name
+    axes: str = OURS
+    """See `axes_of`."""
     speed: Speed | None = None
     """`USUAL_SPEED`, if not given."""
     flexible_body: list[FlexibleBodyRecord] = msgspec.field(default_factory=list)

@@ -36,12 +36,25 @@ def to_si(data: Any, kind: type, units: Mapping[str, str]) -> Any:
     factors = {quantity: _factor(quantity, unit) for quantity, unit in units.items()}
 
     def convert(value: float, quantity: str) -> float:
-        if quantity not in factors:
-            known = ", ".join(UNITS[_spoken(quantity)])
-            raise VehicleError(f"units.{quantity}: missing, expected one of {known}")
-        return value * factors[quantity]
+        return value * (factors.get(quantity) or unit_in_si(quantity, units))
 
     return _converted(data, kind, convert)
+
+
+def unit_in_si(quantity: str, units: Mapping[str, str]) -> float:
+    """What one unit of a quantity is in SI.
+
+    Args:
+        quantity: a key of `units` tables.
+        units: such a table, quantity to unit.
+
+    Raises:
+        VehicleError: no such unit, or none for that quantity.
+    """
+    if quantity not in units:
+        known = ", ".join(UNITS[_spoken(quantity)])
+        raise VehicleError(f"units.{quantity}: missing, expected one of {known}")
+    return _factor(quantity, units[quantity])
 
 
 def from_si(data: Any, kind: type) -> Any:
@@ -74,6 +87,7 @@ def _converted(data: Any, kind: type, convert: Callable[[float, str], float]) ->
     def change(value: Any, quantity: Quantity, table: Mapping[str, Any]) -> Any:
         if isinstance(value, list | tuple):
             return [change(inner, quantity, table) for inner in value]
-        return value if value is None else convert(value, quantity.named(table))
+        name = quantity.named(table)
+        return convert(value, name) if name and value is not None else value
 
     return each_quantity(data, kind, change)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from modeviz.vehicle.files.conventions import Conventions
 from modeviz.vehicle.files.disk import inside
 
 MOST_NOTES = 20
@@ -14,6 +15,8 @@ class Source:
     """A vehicle folder that is being read."""
 
     folder: Path
+    conventions: Conventions = field(default_factory=Conventions)
+    """Of the files in it."""
     _notes: list[str] = field(default_factory=list)
     """Grows while the folder is read."""
 

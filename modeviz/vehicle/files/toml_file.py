@@ -9,10 +9,10 @@ import msgspec
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.files.decoding import decode
 from modeviz.vehicle.files.disk import read_text
-from modeviz.vehicle.files.record import Record
+from modeviz.vehicle.files.record import FileRecord
 from modeviz.vehicle.files.scaling import to_si
 
-R = TypeVar("R", bound=Record)
+R = TypeVar("R", bound=FileRecord)
 
 
 def read_toml(path: Path, kind: type[R]) -> R:
@@ -26,6 +26,5 @@ def read_toml(path: Path, kind: type[R]) -> R:
     except (ValueError, RecursionError) as error:
         raise VehicleError(f"{path}: not TOML: {error}") from None
     with located(path):
-        units = decode(data.pop("units", {}), dict[str, str], "units")
-        decode(data, kind)  # before scaling, so that errors show the file's own numbers
-        return msgspec.convert(to_si(data, kind, units), kind)
+        record = decode(data, kind)  # before scaling, so that errors show the file's own numbers
+        return msgspec.convert(to_si(data, kind, record.units), kind)

@@ -1,0 +1,94 @@
+"""The axes that a vehicle file has, and how what stands in it turns into ours.
+
+Ours are x rearward, y to the right, z up (ISO 4130). Both are right-handed and along the vehicle, so
+that a turn only exchanges and reverses axes; the origin stays where it is.
+"""
+
+import re
+from typing import Any
+
+import numpy as np
+
+from modeviz.errors import VehicleError, unknown
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import MOTIONS
+
+OURS = "x rearward, y right, z up"
+
+_WAYS = {
+    "rearward": (0, 1),
+    "forward": (0, -1),
+    "right": (1, 1),
+    "left": (1, -1),
+    "up": (2, 1),
+    "down": (2, -1),
+}
+"""Which of our axes a word means, and whether it is along it or against it."""
+
+_WORDS = {"rear": "rearward", "back": "rearward", "for": "forward", "front": "forward"}
+"""Words for them, without "ward" and "wards"."""
+
+
+def axes_of(text: str) -> Floats:
+    """The turn T (3, 3) from the axes that a text says into ours: v = T v_file.
+
+    Args:
+        text: such as "x forward, y left, z up".
+
+    Raises:
+        VehicleError: no such text, two axes along the same line, or left-handed ones.
+    """
+    found = re.findall(r"([xyz])\s+(?:to the )?([a-z]+)", text.lower())
+    if sorted(axis for axis, _ in found) != ["x", "y", "z"]:
+        raise VehicleError(f"axes: found {text!r}, expected such as 'x forward, y left, z up'")
+    T = np.zeros((3, 3))
+    for axis, word in found:
+        stem = re.sub(r"wards?$", "", word)
+        way = _WORDS.get(stem, stem)
+        if way not in _WAYS:
+            raise VehicleError("axes: " + unknown("direction", word, _WAYS))
+        line, sign = _WAYS[way]
+        T[line, "xyz".index(axis)] = sign
+    determinant = round(np.linalg.det(T))
+    if determinant != 1:
+        what = "two axes along the same line" if determinant == 0 else "left-handed axes"
+        raise VehicleError(f"axes: found {text!r}, which are {what}; expected right-handed ones")
+    return T
+
+
+def turn_vectors(value: Any, T: Floats) -> Any:
+    """A vector, or several."""
+    inner = [isinstance(v, list | tuple) for v in value]
+    if len(value) == 3 and not any(inner):
+        return (T @ np.array(value, float) + 0.0).tolist()  # no -0.0
+    return [turn_vectors(v, T) if many else v for v, many in zip(value, inner, strict=True)]
+
+
+def turn_rates(value: Any, T: Floats) -> Any:
+    """Three values along, or about, the axes of a frame; it is turned by `turn_frame`."""
+    return (np.abs(T) @ np.array(value, float)).tolist()
+
+
+def turn_frame(value: Any, T: Floats) -> Any:
+    """Local axes as rows; the one along the file's x becomes the one along our axis there."""
+    return (T @ np.array(value, float) @ T.T + 0.0).tolist()
+
+
+def turn_motions(value: Any, T: Floats) -> Any:
+    """Names of motions along and about the axes of a frame."""
+    if isinstance(value, bool):
+        return value
+    new = dict(zip(MOTIONS, np.kron(np.eye(2), np.abs(T)).argmax(axis=0), strict=True))
+    return [MOTIONS[new[name]] if name in new else name for name in value]
+
+
+def turn_inertia(value: Any, T: Floats) -> Any:
+    """Moments Ixx, Iyy, Izz and, if any, products Ixy, Ixz, Iyz = +∫ y z dm."""
+    moments, products = np.array(value[:3], float), value[3:]
+    turned = (np.abs(T) @ moments).tolist()
+    if len(products) != 3:
+        return [*turned, *products]
+    P = np.zeros((3, 3))
+    rows, columns = np.triu_indices(3, 1)
+    P[rows, columns] = products
+    return [*turned, *((T @ (P + P.T) @ T.T)[rows, columns] + 0.0).tolist()]

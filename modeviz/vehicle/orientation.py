@@ -1,0 +1,124 @@
+"""Whether a vehicle stands the right way round: x rearward, y to the right, z up.
+
+Nothing in a file proves it, but names, tyres and the origin tell: "front left" is before "rear left", a
+wheel's centre is above the ground, and what has an axle at the origin has its front axle there.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from statistics import median
+
+import numpy as np
+
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.vehicle import Vehicle
+
+_WORDS = {
+    "front": "front fore fl fr lf rf vorn vorne vl vr",
+    "rear": "rear back aft rl rr lr hinten hl hr",
+    "left": "left lh fl rl lf lr links vl hl",
+    "right": "right rh fr rr rf rechts vr hr",
+}
+_BEFORE = ((0, "front", "rear"), (1, "left", "right"))
+"""Along which axis what is called the one comes before what is called the other."""
+
+_AT_ORIGIN, _BEFORE_ORIGIN = 0.1, 0.5
+"""Parts of the wheelbase: an axle nearer than the first is at the origin."""
+
+
+@dataclass(frozen=True)
+class Sign:
+    """Something that tells along which way one of the axes is."""
+
+    axis: int
+    is_right: bool
+    words: str
+    """What it is, if it is not right."""
+
+
+def signs(vehicle: Vehicle) -> Iterator[Sign]:
+    """What tells which way round a vehicle stands."""
+    for axis, first, second in _BEFORE:
+        for things in (_tyres(vehicle), [*_tyres(vehicle), *_placed(vehicle)]):
+            before, after = (_named(things, word) for word in (first, second))
+            if before and after:
+                a, b = (median(place[axis] for _, place in found) for found in (before, after))
+                where = "behind" if axis == 0 else "to the right of"
+                yield Sign(axis, a <= b, f"{before[0][0]!r} is {where} {after[0][0]!r}")
+                break
+    yield from _signs_of_tyres(vehicle)
+
+
+def _signs_of_tyres(vehicle: Vehicle) -> Iterator[Sign]:
+    if not vehicle.tyres:
+        return
+    x = [tyre.wheel_center[0] for tyre in vehicle.tyres]
+    wheelbase = max(x) - min(x)
+    if abs(max(x)) < _AT_ORIGIN * wheelbase and min(x) < -_BEFORE_ORIGIN * wheelbase:
+        yield Sign(0, False, "the axle at the origin is the last")
+    heights = [tyre.wheel_center[2] - tyre.points[1, 2] for tyre in vehicle.tyres]
+    if any(heights):
+        low = vehicle.tyres[int(np.argmin(heights))].name
+        yield Sign(2, min(heights) >= 0, f"the centre of the wheel on {low!r} is below the ground")
+
+
+def orientation_doubts(vehicle: Vehicle, axes: Floats) -> tuple[str, ...]:
+    """What is to be said of a vehicle that seems to stand the wrong way round; nothing if it does not.
+
+    Args:
+        vehicle: as it was read.
+        axes: (3, 3), what turned its file's axes into the vehicle's.
+    """
+    found = list(signs(vehicle))
+    wrong = {sign.axis: sign.words for sign in reversed(found) if not sign.is_right}
+    if not wrong:
+        return ()
+    right = {sign.axis for sign in found} - set(wrong)
+    better = _axes_text(axes, _reversed(set(wrong), right))
+    advice = f'; say axes = "{better}" if that is how the file has them' if better else ""
+    return (
+        f"{' and '.join(wrong[axis] for axis in sorted(wrong))}, with axes taken as "
+        f'"{_axes_text(axes, set())}"{advice}',
+    )
+
+
+def _reversed(wrong: set[int], right: set[int]) -> set[int] | None:
+    """The axes to reverse so that a right-handed frame is right; None where that cannot be."""
+    if len(wrong) % 2 == 0:
+        return wrong
+    unknown = [axis for axis in (1, 0, 2) if axis not in wrong | right]
+    return {*wrong, unknown[0]} if unknown else None
+
+
+def _axes_text(axes: Floats, reverse: set[int] | None) -> str:
+    """The axes of a file in words, those of the vehicle in `reverse` the other way."""
+    if reverse is None:
+        return ""
+    ways = (("rearward", "forward"), ("right", "left"), ("up", "down"))
+    words = []
+    for name, column in zip("xyz", axes.T, strict=True):
+        line = int(np.abs(column).argmax())
+        words.append(f"{name} {ways[line][bool(column[line] < 0) != (line in reverse)]}")
+    return ", ".join(words)
+
+
+def _tyres(vehicle: Vehicle) -> list[tuple[str, Floats]]:
+    return [(tyre.name, tyre.points[1]) for tyre in vehicle.tyres]
+
+
+def _placed(vehicle: Vehicle) -> Iterable[tuple[str, Floats]]:
+    """Everything else that has a name and a place."""
+    yield from ((c.name, c.points[0]) for c in vehicle.all_connections)
+    yield from ((point.name, point.position) for point in vehicle.response_points)
+    for body in vehicle.bodies:
+        if isinstance(body, FlexibleBody):
+            yield from ((a.name, a.position) for a in body.attachments)
+        else:
+            yield body.name, body.center_of_gravity
+
+
+def _named(things: Iterable[tuple[str, Floats]], word: str) -> list[tuple[str, Floats]]:
+    words = set(_WORDS[word].split())
+    return [(name, at) for name, at in things if words & set(re.findall(r"[a-z]+", name.lower()))]
