@@ -62,3 +62,9 @@ def test_junction_of_three_sheets_is_drawn():
 
 def test_surface_without_faces_has_no_edges():
     assert feature_edges(BOX, np.zeros((0, 3), int)).shape == (0, 2)
+
+
+@pytest.mark.parametrize("length", [1e-5, 1.0, 1e4])
+def test_edges_do_not_depend_on_the_size_of_a_vehicle(length):
+    loose, faces = BOX[BOX_QUADS].reshape(-1, 3), triangles(np.arange(24).reshape(6, 4))
+    assert as_set(feature_edges(length * loose, faces)) == as_set(feature_edges(loose, faces))

@@ -1,9 +1,15 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from small_vehicles import tyre, wheel
 
 from modeviz.vehicle.connections import Mount, MountGroup, MountRates
+from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.doors import open_server
-from modeviz.viewer.markers import MountMarker, card_text
+from modeviz.viewer.markers import Markers, MountMarker, card_text
+from modeviz.viewer.stage import LIGHT
 
 BOUNDS = (MountRates(1.0, 1.0, 1.0), MountRates(1e6, 1e6, 1e6))
 RATES = MountRates(1.64e6, 1.21e6, 4.8e5)
@@ -41,7 +47,7 @@ def server():
 
 def test_a_mark_is_sent_again_only_when_an_eye_would_see_it(server):
     c1 = group("C1 left")
-    marker = MountMarker(server.scene, c1.mounts[0], c1)
+    marker = MountMarker(server.scene, c1.mounts[0], c1, 5.4)
 
     def is_sent(share, selected=False):
         before = server._websock_server._broadcast_buffer.message_counter
@@ -52,3 +58,29 @@ def test_a_mark_is_sent_again_only_when_an_eye_would_see_it(server):
     assert not is_sent(0.51)
     assert is_sent(0.90)
     assert is_sent(0.90, selected=True)
+
+
+@pytest.mark.parametrize("length", [0.3, 60.0])
+def test_marks_take_their_size_from_the_vehicle(server, length):
+    """A marker of the largest share is at most a thirtieth of the vehicle across, and no dot either."""
+    at = np.array([[0.1, -0.2, 0.3], [0.1, -0.2, 0.3]]) * length
+    mount = Mount("C1 left", "C1", ("cab", "frame"), at)
+    mounted = MountGroup("C1", "cab front", MountRates(1e5, 1e5, 1e5), 0.1, BOUNDS, (mount,))
+    stand = (wheel("cab", 0.4), wheel("frame", 0.4))
+    ground = replace(tyre(stand[1]), points=np.zeros((2, 3)))
+    seat = ResponsePoint("seat", "cab", at[0])
+    vehicle = Vehicle("v", stand, (ground,), (mounted,), response_points=(seat,))
+    Markers(server.scene, vehicle, LIGHT, length, lambda _: None).show(
+        "C1", {"C1": RATES}, "N/mm", {"C1": 1.0}, "pitch", {}
+    )
+    nodes = server.scene._handle_from_node_name
+    rubber, ring = nodes["/mounts/C1 left/rubber"], nodes["/mounts/C1 left/ring"]
+    sizes = {
+        "rubber": 2 * rubber.radius * rubber.scale,
+        "washers": np.ptp([nodes[f"/mounts/C1 left/{s}"].position[2] for s in ("above", "below")]),
+        "ring": np.ptp(ring.points[..., 0]),
+        "patch": np.ptp(nodes[f"/patches/{ground.name}"].points[..., 0]),
+        "seat": 2 * nodes["/points/seat"].radius,
+    }
+    for what, size in sizes.items():
+        assert 0.01 < size / length < 0.06, what

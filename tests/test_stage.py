@@ -4,13 +4,18 @@ from small_vehicles import tyre, wheel
 
 from modeviz.vehicle.bodies import Material, MeshPart, RigidBody
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.cameras import Cameras
+from modeviz.viewer.doors import open_server
 from modeviz.viewer.stage import (
     CARD_FRACTION,
     CARD_HEIGHT,
     FIELD_OF_VIEW,
     FILLED,
+    LIGHT,
     VIEWS,
     Box,
+    Stage,
+    bodies_box,
     box,
     camera,
 )
@@ -68,3 +73,30 @@ def test_box_holds_meshes_connections_and_the_ground():
 
 def test_vehicle_without_meshes_or_connections_still_has_a_place():
     assert box(Vehicle("v", (wheel("axle"),), ())).length > 0
+
+
+def test_vertices_that_no_face_names_and_the_origin_do_not_frame_the_picture():
+    corners = [[50, 0, 1.0], [55, 0, 1], [50, 2, 2], [9e4, 0, 0]]
+    part = MeshPart("p", np.array(corners), [[0, 1, 2]], Material((0, 0, 0)))
+    body = RigidBody("body", "cabin", "body", 1.0, np.zeros(3), np.eye(3), (part,))
+    for found in (box(Vehicle("v", (body,), ())), bodies_box([body])):
+        assert (found.low, found.high) == ((50.0, 0.0, 1.0), (55.0, 2.0, 2.0))
+
+
+@pytest.mark.parametrize("length", [0.03, 5.4, 2000.0])
+def test_ground_and_camera_go_with_the_size_of_the_vehicle(length):
+    """Ground in cells of a tenth of the length, the vehicle far from the ends of what cameras see."""
+    server = open_server(port=0)
+    try:
+        space = Box((0.0, 0.0, 0.0), (length, 0.4 * length, 0.3 * length))
+        Stage(server.scene, space, LIGHT)
+        Cameras(server, space)
+        ground = server.scene._handle_from_node_name["/ground"]
+        assert 0.06 < ground.cell_size / length < 0.15
+        assert 2 < ground.width / length < 3
+        camera = server.initial_camera
+        distance = np.linalg.norm(np.subtract(camera.position, camera.look_at))
+        assert camera.near < distance / 100
+        assert camera.far > 10 * distance
+    finally:
+        server.stop()

@@ -8,8 +8,8 @@ from modeviz.vehicle.arrays import Floats
 FOLD = np.radians(25)
 """Two faces that meet at more than this angle make a visible line."""
 
-WELD = 1e-5
-"""m: vertices closer than this are one corner."""
+WELD = 2e-6
+"""Of the furthest coordinate: vertices closer than this are one corner; single precision is finer."""
 
 
 def feature_edges(vertices: Floats, faces: NDArray) -> NDArray[np.int32]:
@@ -34,7 +34,8 @@ def feature_edges(vertices: Floats, faces: NDArray) -> NDArray[np.int32]:
 
 def _welded(vertices: Floats) -> NDArray[np.intp]:
     """For every vertex the first one that lies in its place, (n_vertices,)."""
-    places = np.round(vertices / WELD).astype(np.int64)
+    step = WELD * np.abs(vertices).max(initial=0.0) or 1.0
+    places = np.round(vertices / step).astype(np.int64)
     _, first, inverse = np.unique(places, axis=0, return_index=True, return_inverse=True)
     return first[inverse.reshape(-1)]
 

@@ -9,10 +9,10 @@ import viser
 
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer import scripts
-from modeviz.viewer.stage import FIELD_OF_VIEW, ISO, Box, camera
+from modeviz.viewer.stage import FAR, FIELD_OF_VIEW, ISO, NEAR, Box, camera
 
-UNTOUCHED = 1e-3
-"""m: a camera this close to where it was put has not been moved by anybody."""
+UNTOUCHED = 2e-4
+"""Of what is framed: a camera this close to where it was put has not been moved by anybody."""
 
 GLIDE_STEPS, STEP_SECONDS = 16, 0.025
 
@@ -34,6 +34,7 @@ class Cameras:
         initial = server.initial_camera
         initial.position, initial.look_at = camera(box, ISO, 1000, 1000)
         initial.fov = FIELD_OF_VIEW
+        initial.near, initial.far = NEAR * box.length, FAR * box.length
         scripts.run(server.scene, "css_pixels.js")
 
         @server.on_client_connect
@@ -84,7 +85,7 @@ class Cameras:
         """Where a glide ends: framed as before, or looking at the middle if somebody moved it."""
         position, look_at = client.camera.position, client.camera.look_at
         view, put = self._views.get(client.client_id, (ISO, position))
-        if _is_at(position, put):
+        if self._is_at(position, put):
             framed = self._framed(client, view)
             self._views[client.client_id] = view, framed[0]
             return framed
@@ -104,13 +105,12 @@ class Cameras:
                 return
             view, put = self._views[client.client_id]
             position, begin = client.camera.position, self._server.initial_camera.position
-            is_untouched = _is_at(position, put) or _is_at(position, begin)
-            if is_untouched and not _is_at(position, self._framed(client, view)[0]):
+            is_untouched = self._is_at(position, put) or self._is_at(position, begin)
+            if is_untouched and not self._is_at(position, self._framed(client, view)[0]):
                 self.look(client, view)
 
-
-def _is_at(position: Floats, place: Floats) -> bool:
-    return np.allclose(position, place, atol=UNTOUCHED)
+    def _is_at(self, position: Floats, place: Floats) -> bool:
+        return np.allclose(position, place, atol=UNTOUCHED * self._box.length)
 
 
 def _put(client: viser.ClientHandle, pose: Pose) -> None:

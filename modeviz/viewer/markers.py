@@ -17,21 +17,31 @@ from modeviz.viewer.labels import keep_apart
 from modeviz.viewer.stage import Color, Theme
 
 RUBBER, SELECTED, WASHER, BLUE = (236, 190, 96), (242, 140, 24), (60, 64, 70), (43, 124, 196)
-RADIUS, HEIGHT = 0.045, 0.085
-"""m, of the rubber of the largest marker but for half."""
+RADIUS, HEIGHT = 1 / 120, 1 / 63.5
+"""Of the rubber of the largest marker but for half, as parts of the vehicle's length.
+
+On a pickup that is 45 mm."""
 
 WASHER_Z = 0.53 * HEIGHT
-"""m, above the middle of the rubber."""
+"""Above the middle of the rubber, as a part of the vehicle's length."""
 
 SIZE_STEP = 0.05
-"""Of a marker's size, 2 mm: no eye sees it, and a drag changes few markers at a time."""
+"""Of a marker's size, 2 mm on a pickup: no eye sees it, and a drag changes few markers at a time."""
 
-RING_RADIUS = 0.13
+RING_RADIUS = 0.024
+"""Of the ring around a mount, as a part of the vehicle's length."""
+
+POINT_RADIUS = 0.007
+"""Of a response point, as a part of the vehicle's length."""
+
 CARD = "/card"
 """Stands at the mount that the card hangs on."""
 
-PATCH = (0.14, 0.10)
-"""m, half length and half width of the ring around a tyre patch."""
+PATCH = (0.026, 0.0185)
+"""Half length and half width of the ring around a tyre patch, as parts of the vehicle's length."""
+
+PATCH_Z = 7e-4
+"""Of its height above the ground."""
 
 
 Marks = list[tuple[viser.SceneNodeHandle, str]]
@@ -41,8 +51,9 @@ Marks = list[tuple[viser.SceneNodeHandle, str]]
 class MountMarker:
     """A mount: rubber between two washers, along its own axes, with its name."""
 
-    def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup) -> None:
-        """Draws a mount at rest and not selected."""
+    def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup, length: float) -> None:
+        """Draws a mount at rest and not selected; the length of its vehicle, m, gives its size."""
+        self._length = length
         self._label_text = _short_name(mount, group)
         self._looks: tuple[float, bool, bool, Color] | None = None
         axes = SO3.from_matrix(mount.axes.T).wxyz
@@ -50,17 +61,21 @@ class MountMarker:
         self._bodies = mount.bodies
         self._frame = scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.center)
         self._rubber = scene.add_cylinder(
-            f"{path}/rubber", RADIUS, HEIGHT, color=RUBBER, cast_shadow=False
+            f"{path}/rubber", RADIUS * length, HEIGHT * length, color=RUBBER, cast_shadow=False
         )
         self._washers = [
             scene.add_cylinder(
-                f"{path}/{side}", 1.38 * RADIUS, 0.165 * HEIGHT, color=WASHER, cast_shadow=False
+                f"{path}/{side}",
+                1.38 * RADIUS * length,
+                0.165 * HEIGHT * length,
+                color=WASHER,
+                cast_shadow=False,
             )
             for side in ("above", "below")
         ]
         self._ring = scene.add_line_segments(
             f"{path}/ring",
-            _ellipse(RING_RADIUS, RING_RADIUS),
+            _ellipse(RING_RADIUS * length, RING_RADIUS * length),
             SELECTED,
             thickness=3.0,
             thickness_units="screen",
@@ -98,7 +113,7 @@ class MountMarker:
         assign(self._rubber, scale=size, color=SELECTED if selected else color)
         for washer, z in zip(self._washers, (WASHER_Z, -WASHER_Z), strict=True):
             assign(washer, scale=size)
-            washer.position = (0.0, 0.0, z * size)
+            washer.position = (0.0, 0.0, z * size * self._length)
         assign(self._ring, visible=selected)
         assign(self._label, visible=not carded)
 
@@ -133,12 +148,21 @@ class Markers:
         scene: viser.SceneApi,
         vehicle: Vehicle,
         theme: Theme,
+        length: float,
         on_select: Callable[[str], None],
     ) -> None:
-        """Draws them; `on_select` is called with the group of a clicked mount."""
+        """Draws them in sizes that go with the vehicle's.
+
+        Args:
+            scene: of the page.
+            vehicle: whose marks they are.
+            theme: of the scene.
+            length: of the vehicle, m.
+            on_select: called with the group of a clicked mount.
+        """
         self._groups = {group.name: group for group in vehicle.mount_groups}
         self._mounts = {
-            name: [MountMarker(scene, mount, group) for mount in group.mounts]
+            name: [MountMarker(scene, mount, group, length) for mount in group.mounts]
             for name, group in self._groups.items()
         }
         for name, markers in self._mounts.items():
@@ -146,7 +170,7 @@ class Markers:
                 marker.on_click(lambda name=name: on_select(name))
         self._nearest = {name: _nearest_to_us(group) for name, group in self._groups.items()}
         self._card = Card(scene)
-        self._others = _add_points(scene, vehicle) + _add_patches(scene, vehicle)
+        self._others = _add_points(scene, vehicle, length) + _add_patches(scene, vehicle, length)
         labels = [marker.label_name for markers in self._mounts.values() for marker in markers]
         labels += [f"{_point_path(point)}/name" for point in vehicle.response_points]
         keep_apart(scene, labels, f"{CARD}/text", f"{CARD}/line", theme)
@@ -214,12 +238,14 @@ def _nearest_to_us(group: MountGroup) -> int:
     return int(np.argmin([mount.center[1] for mount in group.mounts]))
 
 
-def _add_points(scene: viser.SceneApi, vehicle: Vehicle) -> Marks:
+def _add_points(scene: viser.SceneApi, vehicle: Vehicle, length: float) -> Marks:
     """The response points; only those on our side are named, which is enough and less to read."""
     marks: Marks = []
     for point in vehicle.response_points:
         path = _point_path(point)
-        mark = scene.add_icosphere(path, 0.038, BLUE, position=point.position, cast_shadow=False)
+        mark = scene.add_icosphere(
+            path, POINT_RADIUS * length, BLUE, position=point.position, cast_shadow=False
+        )
         marks.append((mark, point.body))
         if point.position[1] <= 0:
             scene.add_label(
@@ -235,18 +261,18 @@ def _point_path(point: ResponsePoint) -> str:
     return f"/points/{point.name.replace('/', '-')}"
 
 
-def _add_patches(scene: viser.SceneApi, vehicle: Vehicle) -> Marks:
+def _add_patches(scene: viser.SceneApi, vehicle: Vehicle, length: float) -> Marks:
     """The tyre patches."""
     marks: Marks = []
     for tyre in vehicle.tyres:
         x, y, _ = tyre.points[1]
         mark = scene.add_line_segments(
             f"/patches/{tyre.name.replace('/', '-')}",
-            _ellipse(*PATCH),
+            _ellipse(*(length * part for part in PATCH)),
             BLUE,
             thickness=2.0,
             thickness_units="screen",
-            position=(x, y, 0.004),
+            position=(x, y, PATCH_Z * length),
         )
         marks.append((mark, tyre.bodies[0]))
     return marks

@@ -53,6 +53,8 @@ def offline_page(
     for message in (
         _messages.SetCameraPositionMessage(_three(position)),
         _messages.SetCameraLookAtMessage(_three(look_at)),
+        _messages.SetCameraNearMessage(server.initial_camera.near),
+        _messages.SetCameraFarMessage(server.initial_camera.far),
     ):
         recording._insert_message(message)
     vehicle = solved.now.prepared.vehicle

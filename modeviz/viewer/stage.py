@@ -28,6 +28,12 @@ VIEWS: Mapping[str, tuple[float, float, float]] = {
 FILLED = 0.94
 """How much of its picture a vehicle takes."""
 
+SMALLEST = 0.1
+"""m: the length of what has none."""
+
+NEAR, FAR = 0.002, 200.0
+"""What a camera sees, as parts of the vehicle's length: from 1 cm to a kilometre on a pickup."""
+
 CARD_HEIGHT, CARD_FRACTION = 300, 0.32
 """The card at the bottom hides so many pixels, of which so much of the picture is kept free."""
 
@@ -88,7 +94,8 @@ class Box:
 
     @property
     def length(self) -> float:
-        return max(self.high[0] - self.low[0], self.high[1] - self.low[1], 0.1)
+        """The largest side, m."""
+        return float(np.subtract(self.high, self.low).max()) or SMALLEST
 
     @property
     def middle(self) -> Floats:
@@ -109,19 +116,28 @@ class Box:
 
 
 def box(vehicle: Vehicle) -> Box:
-    """The space a vehicle takes: its meshes, or its connections if nothing is drawn."""
-    points = [part.vertices for body in vehicle.bodies for part in body.mesh]
+    """The space that is drawn of a vehicle: its meshes, connections and response points."""
+    points = [_drawn(body) for body in vehicle.bodies]
     points += [connection.points for connection in vehicle.all_connections]
-    return _box([*points, np.zeros((1, 3))])
+    points += [point.position[None] for point in vehicle.response_points]
+    return _box(points)
 
 
 def bodies_box(bodies: Iterable[Body]) -> Box:
     """The space that the meshes of bodies take."""
-    return _box([part.vertices for body in bodies for part in body.mesh])
+    return _box([_drawn(body) for body in bodies])
+
+
+def _drawn(body: Body) -> Floats:
+    """The vertices of a body's mesh that its faces name, (n, 3), m."""
+    parts = (part.vertices[np.unique(part.faces)] for part in body.mesh)
+    return np.concatenate([np.zeros((0, 3)), *parts])
 
 
 def _box(points: Sequence[Floats]) -> Box:
-    everything = np.concatenate(points)
+    everything = np.concatenate([np.zeros((0, 3)), *points])
+    if not len(everything):
+        return Box((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     return Box(tuple(everything.min(axis=0).tolist()), tuple(everything.max(axis=0).tolist()))
 
 
@@ -213,11 +229,14 @@ def _gradient(theme: Theme) -> np.ndarray:
 
 
 def _add_ground(scene: viser.SceneApi, box: Box, theme: Theme) -> None:
+    cell = _round_length(box.length / 10)
     scene.add_grid(
         "/ground",
-        width=round(2.6 * box.length),
-        height=round(1.9 * box.length),
+        width=2 * cell * round(1.3 * box.length / cell),
+        height=2 * cell * round(0.95 * box.length / cell),
         position=(float(box.middle[0]), float(box.middle[1]), 0.0),
+        cell_size=cell,
+        section_size=2 * cell,
         cell_color=theme.cells,
         cell_thickness=0.6,
         section_color=theme.sections,
@@ -226,3 +245,9 @@ def _add_ground(scene: viser.SceneApi, box: Box, theme: Theme) -> None:
         fade_strength=2.0,
         shadow_opacity=theme.shadow,
     )
+
+
+def _round_length(length: float) -> float:
+    """The one of 1, 2 and 5 times a power of ten that is nearest, by ratio."""
+    steps = np.outer(10.0 ** np.arange(-9, 9), (1, 2, 5)).ravel()
+    return float(steps[np.abs(np.log(steps / length)).argmin()])

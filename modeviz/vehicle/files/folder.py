@@ -44,6 +44,7 @@ from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.files.toml import to_toml
 from modeviz.vehicle.files.toml_file import read_toml
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.orientation import orientation_doubts
 from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle
 
@@ -145,7 +146,7 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         speed=record.speed or USUAL_SPEED,
     )
     axes = source.conventions.axes
-    for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes)):
+    for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
         source.note(doubt)
     return replace(vehicle, notes=source.notes)
 
