@@ -20,7 +20,7 @@ from modeviz.vehicle.files import write_vehicle
 OFFER = "lateral against vertical"
 KEYS = {
     "goal", "normalised", "between", "original", "designs", "converged", "reason", "evaluations",
-    "exact_difference",
+    "exact_difference", "fixed_ratios", "outside",
 }  # fmt: skip
 
 

@@ -32,7 +32,7 @@ from modeviz.viewer.planning.plan import first_plan, planned
 
 KEYS = {
     "goal", "normalised", "percentile", "objective", "rates", "converged", "reason", "evaluations",
-    "active_constraints", "exact_difference",
+    "active_constraints", "exact_difference", "fixed_ratios", "outside",
 }  # fmt: skip
 
 
@@ -189,6 +189,20 @@ def test_the_table_says_what_was_found_and_which_sum_it_is(capsys, cabin):
     limit = next(line for line in lines if line.startswith(best.active[0].name))
     assert f"{100 * best.active[0].gain:.1f} %" in limit
     assert any(line.startswith("the full model's objective differs by") for line in lines)
+
+
+def test_it_says_which_ratios_it_keeps_and_what_it_could_not_have_found(printed_json, capsys, cabin):
+    given = ["optimise", cabin, "--set", "B.lateral=200 N/mm", "--starts", "1"]
+    record = printed_json(*given)
+    assert record["fixed_ratios"]["B"] == pytest.approx({"lateral": 0.25, "fore_aft": 0.5}, rel=1e-12)
+    ratio = "B lateral is 0.375 of vertical, kept at 0.25"
+    assert record["outside"] == {"original": [ratio], "paper": [ratio]}
+    assert main(given) == 0
+    out = capsys.readouterr().out
+    kept = "ratios kept as in the rates it starts from: B lateral 0.25 and fore-aft 0.5 of vertical"
+    assert kept in out
+    for name in ("original", "soft"):
+        assert f"{name} lies outside of what is searched: {ratio}" in out
 
 
 def test_the_table_names_the_plain_sum(capsys, cabin):

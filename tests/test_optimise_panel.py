@@ -44,7 +44,11 @@ def found(optimum, **changes) -> Optimum:
         ({"is_normalised": False}, "Squared accelerations, plain sum"),
         ({}, "Flat at 6 to 14 Hz: all points, lateral and vertical"),
         ({}, "Front left radial force at 9, 11, 13 Hz: all points, lateral and vertical, weight 2"),
-        ({}, "4 numbers to choose, within bounds and ratio limits; B keep their ratios"),
+        (
+            {},
+            "4 numbers to choose, within bounds and ratio limits; ratios stay as they are now: "
+            "B lateral 0.375 and fore-aft 0.5 of vertical",
+        ),
         ({"windows": (FrequencyWindow("cab yaw", high_hz=9.0),)}, "Cab yaw below 9 Hz"),
         ({"windows": (FrequencyWindow("cab yaw", 3.0),)}, "Cab yaw above 3 Hz"),
         ({"windows": (FrequencyWindow("cab yaw", 3.0, 9.0, False),)}, "Cab yaw out of 3 to 9 Hz"),
@@ -61,6 +65,14 @@ def test_the_goal_is_shown_beside_the_original_and_the_reference():
     text = figures(look)
     for part in ("Best", "0.25", "−75.0 %", "Original", "Soft", "0.8", "−20.0 %"):
         assert part in text
+
+
+def test_a_set_that_could_not_be_found_is_said_to_lie_outside():
+    look = replace(LOOK, progress=Progress(1234, BETTER, 0.25, 3, 20))
+    outside = {"original": (), "soft": ("past A vertical: <lower> bound",)}
+    text = figures(replace(look, outside=outside))
+    assert "Soft lies outside of what is searched: past A vertical: &lt;lower&gt; bound" in text
+    assert "Original lies" not in text
 
 
 def test_a_robust_search_says_that_it_goes_by_a_percentile():

@@ -96,6 +96,18 @@ def test_the_objective_of_the_usual_problem_is_told_of_all_sets(is_normalised):
     assert f"squared accelerations, {sum_of}, as parts of the original’s" in document.words
 
 
+def test_it_says_which_sets_the_usual_problem_could_not_find():
+    vehicle = replace(mounted_cabin(), problems=(PROBLEM,))
+    leaning = RateSet("leaning", {"B": MountRates(8e5, 2e5, 4e5, loss_factor=0.3)})
+    words = Document(report(compare(prepare(vehicle), ORIGINAL, leaning, FLAT), TODAY)).words
+    assert "search from the original rates keeps B lateral 0.375 and fore-aft 0.5 of vertical." in words
+    assert (
+        "“leaning” lies outside of what is searched: B lateral is 0.25 of vertical, kept at 0.375; "
+        "B loss factor is 0.3, kept at 0.15."
+    ) in words
+    assert "“original” lies outside" not in words
+
+
 def test_loss_factors_are_told_where_they_changed():
     damped = RateSet("damped", {"B": MountRates(8e5, 3e5, 4e5, loss_factor=0.3)})
     found = compare(prepare(mounted_cabin()), ORIGINAL, damped, FLAT)

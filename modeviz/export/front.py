@@ -6,8 +6,10 @@ from io import StringIO
 
 from modeviz.export.optimum import objective_words
 from modeviz.export.records import Record, rates_record
+from modeviz.export.space import space_lines
 from modeviz.export.tables import table
 from modeviz.export.wording import percent_change, scientific, significant
+from modeviz.tuning.outside import kept_ratios, outside_search
 from modeviz.tuning.pareto import Front
 from modeviz.tuning.trade_off import TradeOff
 from modeviz.units import factor
@@ -19,10 +21,12 @@ def front_record(problem: Problem, trade_off: TradeOff, front: Front) -> Record:
     """Designs between two goals.
 
     `{"goal", "normalised", "between": [name, name], "original": [value, value], "designs": [{"values",
-    "rates": see rates_record}], "converged", "reason", "evaluations", "exact_difference": or null where
-    the full model cannot be solved exactly enough}`.
+    "rates": see rates_record}], "fixed_ratios": {group: {"lateral", "fore_aft"}} to the vertical rate,
+    "outside": {"original": why it could not be found, [] if it could}, "converged", "reason",
+    "evaluations", "exact_difference": or null where the full model cannot be solved exactly enough}`.
     """
-    vehicle = trade_off.searches[0].space.vehicle
+    search = trade_off.searches[0]
+    vehicle = search.space.vehicle
     return {
         "goal": problem.goal,
         "normalised": problem.is_normalised,
@@ -32,6 +36,8 @@ def front_record(problem: Problem, trade_off: TradeOff, front: Front) -> Record:
             {"values": list(d.values), "rates": rates_record(vehicle.with_rates(d.rates))}
             for d in front.designs
         ],
+        "fixed_ratios": kept_ratios(search.space),
+        "outside": {"original": list(outside_search(search, {}))},
         "converged": front.converged,
         "reason": front.reason,
         "evaluations": front.evaluations,
@@ -57,7 +63,9 @@ def front_table(problem: Problem, trade_off: TradeOff, front: Front) -> str:
         ),
     ]
     header = ["", *(text for name in front.names for text in (name, ""))]
-    return "\n\n".join([table(header, goals), _rates_table(problem, front), _ending(problem, front)])
+    return "\n\n".join(
+        [table(header, goals), _rates_table(problem, front), _ending(problem, trade_off, front)]
+    )
 
 
 def front_csv(problem: Problem, front: Front) -> str:
@@ -94,7 +102,8 @@ def _rates_table(problem: Problem, front: Front) -> str:
     return table(["rates, N/mm", *(str(i + 1) for i in range(len(columns)))], rows)
 
 
-def _ending(problem: Problem, front: Front) -> str:
+def _ending(problem: Problem, trade_off: TradeOff, front: Front) -> str:
+    search = trade_off.searches[0]
     impossible = [d.verification.impossible for d in front.designs if d.verification]
     why = next(filter(None, impossible), "")
     exactness = (
@@ -102,7 +111,9 @@ def _ending(problem: Problem, front: Front) -> str:
         if why
         else f"the full model's goals differ by a part of {scientific(front.difference)} at most"
     )
-    return (
-        f"goals: {objective_words(problem)}\n"
-        f"{front.reason} after {front.evaluations} evaluations\n\n{exactness}"
-    )
+    lines = [
+        f"goals: {objective_words(problem)}",
+        *space_lines(search.space, {"original": outside_search(search, {})}),
+        f"{front.reason} after {front.evaluations} evaluations\n\n{exactness}",
+    ]
+    return "\n".join(lines)

@@ -3,11 +3,13 @@
 import math
 
 from modeviz.export.records import Record, rates_record
+from modeviz.export.space import space_lines
 from modeviz.export.tables import table
 from modeviz.export.wording import percent_change, scientific, significant
 from modeviz.tuning.active import RELAXED
 from modeviz.tuning.goals import Goal
 from modeviz.tuning.optimise import Optimum
+from modeviz.tuning.outside import kept_ratios, outside_search
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.robust import Robust
 from modeviz.tuning.search import Search
@@ -32,18 +34,23 @@ def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record
 
     `{"goal", "normalised", "percentile": of the objective over parts that scatter or null, "objective":
     {"original", "found", "paper": of the problem's reference or null}, "rates": see rates_record,
-    "converged", "reason", "evaluations", "active_constraints": [{"name", "multiplier", "gain"}],
-    "exact_difference": or null where the full model cannot be solved exactly enough}`; a gain is a part
-    of what was found, from relaxing the limit by 10 %.
+    "fixed_ratios": {group: {"lateral", "fore_aft"}} to the vertical rate, "outside": {"original",
+    "paper"}: why these could not be found, [] if they could, "converged", "reason", "evaluations",
+    "active_constraints": [{"name", "multiplier", "gain"}], "exact_difference": or null where the full
+    model cannot be solved exactly enough}`; a gain is a part of what was found, from relaxing the limit
+    by 10 %.
     """
     vehicle = search.space.vehicle
     difference = optimum.verification.difference
+    original, *paper = compared_outside(problem, search).values()
     return {
         "goal": problem.goal,
         "normalised": problem.is_normalised,
         "percentile": search.goal.percent if isinstance(search.goal, Robust) else None,
         "objective": _objective(problem, search, optimum),
         "rates": rates_record(vehicle.with_rates(optimum.rates)),
+        "fixed_ratios": kept_ratios(search.space),
+        "outside": {"original": list(original), "paper": [text for why in paper for text in why]},
         "converged": optimum.converged,
         "reason": optimum.reason,
         "evaluations": optimum.evaluations,
@@ -118,10 +125,20 @@ def _ending(problem: Problem, search: Search, optimum: Optimum) -> str:
     n = len(optimum.descents)
     noun = "evaluation" if optimum.evaluations == 1 else "evaluations"
     starts = "1 search" if n == 1 else f"{n} searches"
-    return (
-        f"objective: {objective_words(problem)}{_scattered(search.goal)}\n"
-        f"{optimum.reason} after {optimum.evaluations} {noun} in {starts}"
-    )
+    lines = [
+        f"objective: {objective_words(problem)}{_scattered(search.goal)}",
+        *space_lines(search.space, compared_outside(problem, search)),
+        f"{optimum.reason} after {optimum.evaluations} {noun} in {starts}",
+    ]
+    return "\n".join(lines)
+
+
+def compared_outside(problem: Problem, search: Search) -> dict[str, tuple[str, ...]]:
+    """Why the rates that a search is compared with could not be found, by their name."""
+    sets: dict[str, Rates] = {"original": {}}
+    if problem.reference:
+        sets[problem.reference] = search.space.vehicle.rate_sets[problem.reference]
+    return {name: outside_search(search, rates) for name, rates in sets.items()}
 
 
 def _scattered(goal: Goal) -> str:

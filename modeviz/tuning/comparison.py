@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 
 from modeviz.dynamics.tracking import Track
+from modeviz.errors import VehicleError
+from modeviz.tuning.design import DesignSpace, design_space
 from modeviz.tuning.following import follow
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.preparation import Prepared
@@ -42,6 +44,8 @@ class Worth:
     """With the sets that are compared."""
     reference: float | None
     """With the problem's set to compare with, if it has one."""
+    space: DesignSpace | None
+    """Of the designs that a search from the vehicle's own rates could find; None if there are none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,4 +112,12 @@ def _worth(vehicle: Vehicle, base: Rates, now: Rates, speed: float) -> Worth | N
     problem = vehicle.problems[0]
     goal = prepare_goal(vehicle, problem, vehicle.rates, speed)
     reference = goal.value(vehicle.rate_sets[problem.reference]) if problem.reference else None
-    return Worth(problem, goal.value({}), goal.value(base), goal.value(now), reference)
+    values = goal.value({}), goal.value(base), goal.value(now)
+    return Worth(problem, *values, reference, _space(vehicle, problem))
+
+
+def _space(vehicle: Vehicle, problem: Problem) -> DesignSpace | None:
+    try:
+        return design_space(vehicle, problem.groups)
+    except VehicleError:
+        return None

@@ -3,14 +3,15 @@
 import threading
 import time
 import traceback
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import count
 from typing import Literal
 
 import numpy as np
 
 from modeviz.errors import ModevizError
+from modeviz.export.optimum import compared_outside
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.optimise import Optimum, Progress, optimise, start_points
 from modeviz.tuning.parts import Tolerance
@@ -44,6 +45,8 @@ class Look:
     """The goal with the vehicle's own rates."""
     reference: float = np.nan
     """With the problem's set to compare with; NaN if it has none."""
+    outside: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    """Why these two, by name, could not be found; nothing for what could."""
     progress: Progress | None = None
     """The best design so far; None while there is none."""
     falls: tuple[tuple[int, float], ...] = ()
@@ -147,7 +150,8 @@ class Pursuit:
         compared = np.nan if rates is None else search.goal.value(rates)
         original = search.goal.value({})
         self._control.check()
-        self._put(phase="searching", original=original, reference=compared, **news)
+        outside = compared_outside(self.look.problem, search)
+        self._put(phase="searching", original=original, reference=compared, outside=outside, **news)
 
     def _note(self, progress: Progress) -> None:
         """Takes down an evaluation, and now and then tells and brings the session after it."""

@@ -1,6 +1,7 @@
 """What a report says of mounts and modes; a section that has nothing to say is empty."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from html import escape
 
 import numpy as np
@@ -9,9 +10,11 @@ from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.export.markup import NONE, change, note, section, span, table, title
 from modeviz.export.optimum import objective_words
 from modeviz.export.report.sides import SHOWN_HZ
+from modeviz.export.space import outside_words, ratio_words
 from modeviz.export.wording import number, percent_change, signed, significant
 from modeviz.ride.psd import power_decibels
-from modeviz.tuning.comparison import Comparison
+from modeviz.tuning.comparison import Comparison, Worth
+from modeviz.tuning.outside import outside_space
 from modeviz.tuning.pairing import Pair, pair_modes
 from modeviz.tuning.results import ModalResults, Results
 from modeviz.units import factor
@@ -62,7 +65,22 @@ def objective(comparison: Comparison) -> str:
         "Objective",
         table(header, [[title(worth.problem.name), significant(values[0]), *compared]]),
         note(f"What the problem “{problem}” makes small: {objective_words(worth.problem)}{parts}."),
+        *(note(f"{escape(line)}.") for line in _space(comparison, worth)),
     )
+
+
+def _space(comparison: Comparison, worth: Worth) -> list[str]:
+    """Which ratios a search from the vehicle's own rates keeps, and which sets it could not find."""
+    if worth.space is None:
+        return []
+    vehicles = [comparison.base.vehicle, comparison.now.vehicle]
+    sets = [*zip(comparison.names, vehicles, strict=True), *_reference(comparison)]
+    ratios = ratio_words(worth.space)
+    said = [f"A search from the original rates keeps {ratios}"] if ratios else []
+    for name, vehicle in sets:
+        rates = {g.name: replace(g.rates, loss_factor=g.loss_factor) for g in vehicle.mount_groups}
+        said.append(outside_words(f"“{name}”", outside_space(worth.space, rates)))
+    return [text for text in said if text]
 
 
 def _reference(comparison: Comparison) -> list[tuple[str, Vehicle]]:

@@ -4,6 +4,7 @@ from html import escape
 
 import numpy as np
 
+from modeviz.export.space import outside_words
 from modeviz.export.wording import sentence_case, signed, significant
 from modeviz.tuning.active import ActiveConstraint
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
@@ -54,7 +55,9 @@ def figures(look: Look) -> str:
         f"<div><span>{escape(label)}</span><b>{significant(value)}</b>{delta}</div>"
         for label, value, delta in cells
     )
-    return f'<div class="figures goals">{"".join(parts)}</div>'
+    outside = [outside_words(sentence_case(name), why) for name, why in look.outside.items()]
+    notes = "".join(f"<div>{span(escape(text), 'dim')}</div>" for text in outside if text)
+    return f'<div class="figures goals">{"".join(parts)}</div>{notes}'
 
 
 def exactness(optimum: Optimum) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeviz.export.markup import title
 from modeviz.export.optimum import objective_words, tolerance_words
+from modeviz.export.space import ratio_words
 from modeviz.tuning.design import DesignSpace
 from modeviz.tuning.parts import Tolerance
 from modeviz.vehicle.arrays import Floats
@@ -23,7 +24,7 @@ def summary(problem: Problem, space: DesignSpace, is_robust: bool) -> str:
         rows.append(("", f"95th percentile of parts, {tolerance_words(Tolerance())}"))
     if problem.goal in VARIABLES:
         rows += [("On" if i == 0 else "", title(_loads(p))) for i, p in enumerate(problem.performance)]
-    rows.append(("Free", _free(problem, space)))
+    rows.append(("Free", _free(space)))
     rows += [("Held", _held(window)) for window in problem.windows]
     lines = "".join(f'<span class="dim">{key}</span><span>{text}</span>' for key, text in rows)
     return f'<div class="glance">{lines}</div>'
@@ -51,11 +52,10 @@ def _frequencies(frequency_hz: Floats) -> str:
     return f"{np.min(frequency_hz):g} to {np.max(frequency_hz):g} Hz"
 
 
-def _free(problem: Problem, space: DesignSpace) -> str:
-    fixed = [g.group for g in problem.groups if g.fixed_ratios]
-    n = space.n_variables
+def _free(space: DesignSpace) -> str:
+    n, ratios = space.n_variables, ratio_words(space)
     text = f"{n} number{'s' if n > 1 else ''} to choose, within bounds and ratio limits"
-    return escape(f"{text}; {', '.join(fixed)} keep their ratios" if fixed else text)
+    return escape(f"{text}; ratios stay as they are now: {ratios}" if ratios else text)
 
 
 def _held(window: FrequencyWindow) -> str:
