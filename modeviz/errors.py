@@ -4,9 +4,21 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
 
+MOST_NAMES = 30
+"""So many of the names that exist are listed; the rest is counted."""
+
+MOST_COMPARED = 5000
+"""Among more names none is looked for that may be meant: that would take seconds."""
+
+LONGEST_NAME, LONGEST = 80, 2000
+"""Letters of what is quoted, and of a whole text: what is longer is cut in its midst."""
+
 
 class ModevizError(Exception):
-    """Something the user can put right; its text says what, where and how."""
+    """Something the user can put right; its text says what, where and how, at no great length."""
+
+    def __init__(self, text: object = "") -> None:
+        super().__init__(cut(str(text), LONGEST))
 
 
 class VehicleError(ModevizError):
@@ -17,13 +29,36 @@ class SolveError(ModevizError):
     """A model that has no meaningful solution."""
 
 
+def cut(text: str, longest: int) -> str:
+    """The text, or its beginning and its end around "…" if it is longer than so many letters."""
+    if len(text) <= longest:
+        return text
+    end = longest // 3
+    return f"{text[: longest - end - 1]}…{text[-end:]}"
+
+
+def quoted(value: object) -> str:
+    """A name or a value as it is quoted in a sentence, not all of it if it is long."""
+    if isinstance(value, str):
+        return repr(cut(value, LONGEST_NAME))
+    return cut(repr(value), LONGEST_NAME)
+
+
+def listed(names: Iterable[object]) -> str:
+    """Names in a sentence, the first of many, with the number of the others."""
+    every = [cut(str(name), LONGEST_NAME) for name in names]
+    more = [f"{len(every) - MOST_NAMES} more"] if len(every) > MOST_NAMES else []
+    return ", ".join([*every[:MOST_NAMES], *more]) or "none"
+
+
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     """A sentence saying that `name` is not one of `known`, with the likeliest meant first."""
     names = list(known)
     folded = {n.lower(): n for n in names}
-    close = get_close_matches(name.lower(), folded, n=1)
-    hint = f"did you mean {folded[close[0]]!r}? " if close else ""
-    return f"unknown {kind} {name!r}: {hint}there are {', '.join(names) or 'none'}"
+    comparable = len(name) <= LONGEST_NAME and len(names) <= MOST_COMPARED
+    close = get_close_matches(name.lower(), folded, n=1) if comparable else []
+    hint = f"did you mean {quoted(folded[close[0]])}? " if close else ""
+    return f"unknown {kind} {quoted(name)}: {hint}there are {listed(names)}"
 
 
 def check_unique(kind: str, names: Iterable[str]) -> None:
@@ -37,7 +72,7 @@ def check_unique(kind: str, names: Iterable[str]) -> None:
         if not name:
             raise VehicleError(f"{kind}: found an empty name")
         if name in seen:
-            raise VehicleError(f"{kind} {name!r} is there twice; each needs its own name")
+            raise VehicleError(f"{kind} {quoted(name)} is there twice; each needs its own name")
         seen.add(name)
 
 

@@ -3,7 +3,7 @@
 import math
 import re
 
-from modeviz.errors import ModevizError, unknown
+from modeviz.errors import ModevizError, quoted, unknown
 
 STANDARD_GRAVITY = 9.80665
 """m/s², the g of every acceleration in g."""
@@ -85,11 +85,11 @@ def parse(text: str, quantity: str) -> float:
     """
     parts = NUMBER_AND_UNIT.fullmatch(text.strip())
     if parts is None:
-        raise ModevizError(f"found {text!r}, expected a number and a unit of {quantity}")
+        raise ModevizError(f"found {quoted(text)}, expected a number and a unit of {quantity}")
     number, unit = parts.groups()
     if not unit:
         units = ", ".join(UNITS[quantity])
-        raise ModevizError(f"found {text!r} without a unit, expected one of {units}")
+        raise ModevizError(f"found {quoted(text)} without a unit, expected one of {units}")
     return _finite(float(number) * factor(unit, quantity), text)
 
 
@@ -101,11 +101,11 @@ def parse_number(text: str) -> float:
     """
     parts = NUMBER_AND_UNIT.fullmatch(text.strip())
     if parts is None or parts[2]:
-        raise ModevizError(f"found {text!r}, expected a number without a unit")
+        raise ModevizError(f"found {quoted(text)}, expected a number without a unit")
     return _finite(float(parts[1]), text)
 
 
 def _finite(value: float, text: str) -> float:
     if not math.isfinite(value):
-        raise ModevizError(f"found {text!r}, expected a finite number")
+        raise ModevizError(f"found {quoted(text)}, expected a finite number")
     return value

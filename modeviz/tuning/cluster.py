@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 from urllib.parse import urlsplit
 
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, quoted
 from modeviz.tuning.control import Control
 from modeviz.tuning.runner import HERE, Runner
 from modeviz.tuning.threads import one_thread
@@ -62,7 +62,7 @@ def _client(address: str) -> "Iterator[Client]":
         raise ModevizError(
             'a scheduler needs dask.distributed: pip install "modeviz[cluster]"'
         ) from None
-    where = f"scheduler {address!r}"
+    where = f"scheduler {quoted(address)}"
     try:
         # A client that finds nobody leaves its threads behind, so it is not the one to try.
         socket.create_connection(_host_and_port(address), TIMEOUT_S).close()

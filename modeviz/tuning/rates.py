@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from modeviz.errors import VehicleError, located, unknown
+from modeviz.errors import VehicleError, located, quoted, unknown
 from modeviz.tuning.rate_files import read_rates
 from modeviz.units import parse, parse_number
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, Rates
@@ -26,7 +26,7 @@ def parse_setting(text: str, rates: Rates) -> Rates:
     """
     name, _, value = text.partition("=")
     group, _, key = name.strip().rpartition(".")
-    with located(f"setting {text!r}"):
+    with located(f"setting {quoted(text)}"):
         if not group or not value:
             raise VehicleError(
                 "expected GROUP.DIRECTION=RATE UNIT, as in C2.lateral=131 N/mm, or "

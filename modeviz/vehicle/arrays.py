@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, quoted
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complexfloating]
@@ -31,7 +31,7 @@ def frozen(
     try:
         array = np.array(value, dtype)
     except (TypeError, ValueError):
-        raise VehicleError(f"{what}: found {value!r}, expected an array of numbers") from None
+        raise VehicleError(f"{what}: found {quoted(value)}, expected an array of numbers") from None
     wrong = array.ndim != len(shape) or any(
         n is not None and n != m for n, m in zip(shape, array.shape, strict=False)
     )

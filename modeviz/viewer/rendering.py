@@ -10,7 +10,7 @@ from typing import Literal, get_args
 from PIL import Image
 from threadpoolctl import threadpool_limits
 
-from modeviz.errors import ModevizError, located
+from modeviz.errors import ModevizError, located, quoted
 from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.export.report import Picture
 from modeviz.tuning.comparison import RateSet
@@ -173,7 +173,7 @@ def _show(app: App, wish: Wish) -> Solved:
     now = shown.now
     if wish.mode and now.mode_index(wish.mode) is None:
         names = ", ".join(name.name for name, _ in listed(now).values())
-        raise ModevizError(f"--mode: unknown mode {wish.mode!r}: there are {names}")
+        raise ModevizError(f"--mode: unknown mode {quoted(wish.mode)}: there are {names}")
     return shown
 
 

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, quoted
 
 
 def read_bytes(path: Path) -> bytes:
@@ -81,7 +81,7 @@ def inside(folder: Path, name: str) -> Path:
     """
     path = folder / name
     if "\0" in name or not path.resolve().is_relative_to(folder.resolve()):
-        raise VehicleError(f"found {name!r}, expected a file inside the vehicle folder")
+        raise VehicleError(f"found {quoted(name)}, expected a file inside the vehicle folder")
     return path
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from modeviz.errors import VehicleError, located
+from modeviz.errors import VehicleError, listed, located
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
 from modeviz.vehicle.files.conventions import Conventions
@@ -165,7 +165,7 @@ def _read_arrays(path: Path) -> dict[str, np.ndarray]:
 def _check_names(names: list[str]) -> None:
     for name in KINDS:
         if name not in names:
-            raise VehicleError(f"{name}: missing; there are {', '.join(names)}")
+            raise VehicleError(f"{name}: missing; there are {listed(names)}")
 
 
 def _read_array(archive: zipfile.ZipFile, name: str) -> np.ndarray:

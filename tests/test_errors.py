@@ -1,0 +1,104 @@
+"""Messages stay sentences, however much the user gave."""
+
+import pickle
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from folders import one_of_everything
+from mounted_cabin import mounted_cabin
+
+from modeviz.cli import main
+from modeviz.errors import LONGEST, ModevizError, VehicleError, cut, listed, located, quoted, unknown
+from modeviz.units import parse
+from modeviz.vehicle.arrays import frozen
+from modeviz.vehicle.files import write_vehicle
+from modeviz.vehicle.files.decoding import decode
+
+MANY = [f"name {i}" for i in range(100_000)]
+LONG = "x" * 1_000_000
+
+
+def test_what_is_long_is_cut_in_its_midst():
+    assert cut("short", 9) == "short"
+    assert cut("abcdefghijkl", 9) == "abcde…jkl"
+    assert len(cut(LONG, 80)) == 80
+
+
+def test_of_many_names_the_first_are_listed_and_the_others_counted():
+    assert listed(["a", "b"]) == "a, b"
+    assert listed([]) == "none"
+    text = listed(MANY)
+    assert text.startswith("name 0, name 1, ")
+    assert text.endswith(", name 29, 99970 more")
+
+
+def test_a_likely_name_is_found_among_many():
+    text = unknown("attachment", "nam 4999", MANY[:5000])
+    assert "did you mean 'name 4999'?" in text
+    assert len(text) < 1000
+    assert len(unknown("attachment", "nam 4999", MANY)) < 1000
+    assert len(unknown("attachment", LONG, MANY)) < 1000
+
+
+@pytest.mark.parametrize(("value", "length"), [("a", 3), (LONG, 82), (np.zeros(10**5), 80)])
+def test_what_is_quoted_has_its_beginning_and_its_end(value, length):
+    assert len(quoted(value)) <= length
+
+
+def test_no_message_is_longer_than_a_paragraph():
+    with pytest.raises(VehicleError) as caught, located(LONG), located("truck/vehicle.toml"):
+        raise ModevizError(f"found {LONG}, expected a number")
+    text = str(caught.value)
+    assert len(text) == LONGEST
+    assert text.startswith("xxx")
+    assert text.endswith("expected a number")
+
+
+def test_an_error_comes_back_from_another_process():
+    error = pickle.loads(pickle.dumps(VehicleError("body 'a': mass: found 0")))
+    assert (type(error), str(error)) == (VehicleError, "body 'a': mass: found 0")
+
+
+class Owner:
+    name = "a"
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: frozen(Owner(), "positions", MANY, (None,)),
+        lambda: parse(LONG, "stiffness"),
+        lambda: decode({"a": LONG}, dict[str, float]),
+        lambda: decode({LONG: "b"}, dict[str, float]),
+        lambda: decode({"a": [[0.0] * 10**5]}, dict[str, float]),
+        lambda: mounted_cabin().with_rates({LONG: mounted_cabin().rates["A"]}),
+    ],
+)
+def test_whatever_is_wrong_is_said_in_few_words(wrong):
+    with pytest.raises(ModevizError) as caught:
+        wrong()
+    assert 10 < len(str(caught.value)) <= LONGEST
+
+
+def test_an_archive_of_many_arrays_is_not_listed_whole(capsys, tmp_path):
+    write_vehicle(one_of_everything(), tmp_path / "truck")
+    (path,) = (tmp_path / "truck/bodies").iterdir()
+    with zipfile.ZipFile(path, "w") as archive:
+        for name in MANY[:5000]:
+            archive.writestr(f"{name}.npy", b"")
+    assert main(["modes", str(tmp_path / "truck")]) == 2
+    error = capsys.readouterr().err
+    assert len(error) < 1000
+    assert "4970 more" in error
+
+
+def test_a_folder_of_a_long_name_is_a_short_sentence(capsys, tmp_path):
+    write_vehicle(mounted_cabin(), tmp_path / "cabin")
+    toml = Path(tmp_path / "cabin/vehicle.toml")
+    toml.write_text(toml.read_text().replace('name = "cab"', f'name = "cab"\n{LONG} = 1', 1))
+    assert main(["modes", str(tmp_path / "cabin")]) == 2
+    error = capsys.readouterr().err
+    assert len(error) < LONGEST + 100
+    assert "unknown key" in error
