@@ -48,7 +48,13 @@ def conditions(options: Namespace, vehicle: Vehicle) -> Conditions:
     need(vehicle, "road", vehicle.random_loads)
     need(vehicle, "response point", vehicle.response_points)
     speed = chosen_speed(options, vehicle)
-    load = vehicle.random_load(options.road or vehicle.random_loads[0].name)
+    shaking = [load.name for load in vehicle.random_loads if vehicle.is_shaken_by(load)]
+    load = vehicle.random_load(options.road or (*shaking, vehicle.random_loads[0].name)[0])
+    if not vehicle.is_shaken_by(load):
+        raise ModevizError(
+            f"road {load.name!r} does not shake vehicle {vehicle.name!r}: give its vehicle.toml a "
+            "[[tyre]] with stiffness or damping along z"
+        )
     input_spectrum(load, FREQUENCY_HZ, speed)  # what is wrong there is better said before a preparation
     return Conditions(load.name, speed)
 
@@ -87,9 +93,9 @@ def chosen_tolerance(options: Namespace) -> Tolerance:
 
 
 def ride(options: Namespace, vehicle: Vehicle) -> Conditions | None:
-    """As `conditions`; None for a vehicle without road or response point, unless they are asked for."""
+    """As `conditions`; None for a vehicle that nothing shakes or feels, unless it is asked for."""
     asked = options.road is not None or options.speed is not None
-    if asked or (vehicle.random_loads and vehicle.response_points):
+    if asked or (any(map(vehicle.is_shaken_by, vehicle.random_loads)) and vehicle.response_points):
         return conditions(options, vehicle)
     return None
 

@@ -82,10 +82,10 @@ def _interpolation(samples: Complexes) -> tuple[NDArray[np.intp], Complexes]:
     factors = scipy.linalg.qr(samples, mode="r", pivoting=True, check_finite=False)
     R, order = np.asarray(factors[0]), np.asarray(factors[-1], np.intp)
     size = np.abs(np.diag(R))
-    rank = int(np.count_nonzero(size > max(TOLERANCE * size[0], ROUNDING)))
+    rank = max(1, int(np.count_nonzero(size > max(TOLERANCE * size[0], ROUNDING))))
     coefficients = np.zeros((samples.shape[1], rank), complex)
     coefficients[order[:rank]] = np.eye(rank)
-    rest = np.linalg.solve(R[:rank, :rank], R[:rank, rank:])
-    coefficients[order[rank:]] = rest.T
+    if size[0] > 0:  # else nothing changes, and any one column gives all
+        coefficients[order[rank:]] = np.linalg.solve(R[:rank, :rank], R[:rank, rank:]).T
     rising = np.argsort(order[:rank])
     return order[:rank][rising], coefficients[:, rising]

@@ -8,6 +8,7 @@ most and how they do.
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TypeGuard
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -26,7 +27,7 @@ from modeviz.dynamics.motions import (
 )
 from modeviz.dynamics.roles import Axle, Unit, axles, units
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.bodies import Body, FlexibleBody
 
 MINIMUM_SCORE = 0.3
 """Below this a mode is not called by a named motion."""
@@ -83,9 +84,7 @@ def prepare_names(system: System) -> Namer:
     """What `name_modes` needs, made once for a vehicle."""
     its_axles, its_units = axles(system.vehicle), units(system.vehicle)
     none = np.zeros((0, system.n_dofs))
-    frame = next(
-        (b for b in system.vehicle.bodies if isinstance(b, FlexibleBody) and b.role == "frame"), None
-    )
+    frame = next(filter(_bends, system.vehicle.bodies), None)
     blocks = [
         rigid_rows(system, system.vehicle.bodies),
         np.vstack([none, *(share_rows(system, wheel_motions(system, a.wheels)) for a in its_axles)]),
@@ -95,6 +94,11 @@ def prepare_names(system: System) -> Namer:
     ]
     ends = np.cumsum([len(rows) for rows in blocks])
     return Namer(system, its_axles, its_units, np.vstack(blocks), tuple(ends[:-1]))
+
+
+def _bends(body: Body) -> TypeGuard[FlexibleBody]:
+    """Whether a body is a frame whose shape is known along its length."""
+    return isinstance(body, FlexibleBody) and body.role == "frame" and len(set(body.nodes[:, 0])) > 1
 
 
 def name_modes(namer: Namer, modes: Modes) -> tuple[ModeName, ...]:

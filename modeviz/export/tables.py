@@ -136,8 +136,7 @@ def _rating(results: Results) -> str:
 
 
 def _largest(energy: Mapping[str, Floats], mode: int) -> str:
-    name = max(energy, key=lambda n: energy[n][mode])
-    share = energy[name][mode]
+    share, name = max(((share[mode], name) for name, share in energy.items()), default=(0.0, ""))
     return f"{name} {100 * share:.0f} %" if share > 0 else "-"
 
 

@@ -50,7 +50,7 @@ def rate(frequency_hz: Floats, acceleration_psd: Floats) -> Rating:
         rms_vertical_g=float(vertical),
         combined_g=combined,
         mean_personal_rating=rating,
-        note=_note(rating),
+        note=_note(combined, rating),
         weighted_rms=weighted,
         weighted_total=float(np.linalg.norm(np.multiply(COMFORT_FACTORS, weighted))),
     )
@@ -65,7 +65,9 @@ def mean_personal_rating(combined_g: float) -> float:
     return 10.9 - 80.0 * combined_g
 
 
-def _note(rating: float) -> str:
+def _note(combined_g: float, rating: float) -> str:
+    if combined_g == 0:
+        return "nothing that shakes the vehicle gets to this point"
     if 0 <= rating <= 10:
         return ""
     return "outside of the scale from 0 to 10: compare differences, not the value"

@@ -43,7 +43,7 @@ def default_problem(vehicle: Vehicle) -> Problem:
     lacking = {
         "a [[mount_group]] with rates above zero": groups,
         "a [[response_point]]": vehicle.response_points,
-        "a [[road]] or a [[wheel_load]]": performance,
+        "a [[road]] with a [[tyre]] or a [[wheel_load]]": performance,
     }
     missing = [what for what, found in lacking.items() if not found]
     if missing:
@@ -70,7 +70,7 @@ def _reference(vehicle: Vehicle) -> str:
 def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
     loads = tuple(load.name for load in vehicle.harmonic_loads)
     shaken = [Performance(WHEEL_HZ, wheel_loads=loads)] if loads else []
-    for road in vehicle.roads[:1]:
+    for road in list(filter(vehicle.is_shaken_by, vehicle.roads))[:1]:
         f = _held(road, vehicle.speed)
         if len(f):
             shaken.insert(0, Performance(f, roads=(road.name,)))

@@ -10,6 +10,9 @@ from modeviz.errors import VehicleError, quoted
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complexfloating]
 
+FARTHEST = 1e6
+"""m: no vehicle reaches so far from its origin, and pictures, in single precision, do not either."""
+
 
 def frozen(
     owner: Any, field: str, value: ArrayLike, shape: tuple[int | None, ...], dtype: Any = np.float64
@@ -26,8 +29,7 @@ def frozen(
     Raises:
         VehicleError: wrong number of dimensions or length, or a value that is not finite.
     """
-    name = getattr(owner, "name", None)
-    what = f"{type(owner).__name__}{'' if name is None else f' {name!r}'}: {field}"
+    what = _named(owner, field)
     try:
         array = np.array(value, dtype)
     except (TypeError, ValueError):
@@ -42,3 +44,21 @@ def frozen(
         raise VehicleError(f"{what}: found {np.sum(~np.isfinite(array))} values that are not finite")
     array.flags.writeable = False
     object.__setattr__(owner, field, array)
+
+
+def frozen_places(owner: Any, field: str, value: ArrayLike, shape: tuple[int | None, ...]) -> None:
+    """Stores coordinates of places, m, as `frozen` does.
+
+    Raises:
+        VehicleError: as `frozen`, or a place beyond `FARTHEST`.
+    """
+    frozen(owner, field, value, shape)
+    farthest = float(np.abs(getattr(owner, field)).max(initial=0.0))
+    if farthest > FARTHEST:
+        what = _named(owner, field)
+        raise VehicleError(f"{what}: found {farthest:.3g} m, expected places within {FARTHEST:g} m")
+
+
+def _named(owner: Any, field: str) -> str:
+    name = getattr(owner, "name", None)
+    return f"{type(owner).__name__}{'' if name is None else f' {name!r}'}: {field}"

@@ -7,7 +7,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
-from modeviz.vehicle.arrays import Floats, frozen
+from modeviz.vehicle.arrays import Floats, frozen, frozen_places
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.rigid_fit import RigidFit, fit_rigid
 
@@ -54,7 +54,7 @@ class MeshPart:
     material: Material
 
     def __post_init__(self) -> None:
-        frozen(self, "vertices", self.vertices, (None, 3))
+        frozen_places(self, "vertices", self.vertices, (None, 3))
         frozen(self, "faces", self.faces, (None, 3), np.int32)
         if not self.faces.size:
             raise VehicleError(f"mesh part {self.name!r}: has no faces")
@@ -86,7 +86,7 @@ class Attachment:
     """(6, n_modes): its motion x, y, z, rx, ry, rz in each mode."""
 
     def __post_init__(self) -> None:
-        frozen(self, "position", self.position, (3,))
+        frozen_places(self, "position", self.position, (3,))
         frozen(self, "shapes", self.shapes, (6, None))
 
 
@@ -130,7 +130,7 @@ class FlexibleBody:
         check_unique(f"body {self.name!r}: mesh part", (part.name for part in self.mesh))
         check_unique(f"body {self.name!r}: attachment", (a.name for a in self.attachments))
         frozen(self, "omega_n_squared", self.omega_n_squared, (None,))
-        frozen(self, "nodes", self.nodes, (None, 3))
+        frozen_places(self, "nodes", self.nodes, (None, 3))
         frozen(self, "shapes", self.shapes, (len(self.nodes), 6, self.n_modes), np.float32)
         self._check_frequencies()
         self._check_damping()
@@ -297,7 +297,7 @@ class RigidBody:
         check_unique(f"body {self.name!r}: mesh part", (part.name for part in self.mesh))
         if not (np.isfinite(self.mass) and self.mass > 0):
             raise VehicleError(f"body {self.name!r}: mass: found {self.mass} kg, expected more than 0")
-        frozen(self, "center_of_gravity", self.center_of_gravity, (3,))
+        frozen_places(self, "center_of_gravity", self.center_of_gravity, (3,))
         frozen(self, "inertia", self.inertia, (3, 3))
         if not np.allclose(self.inertia, self.inertia.T) or np.linalg.eigvalsh(self.inertia)[0] <= 0:
             raise VehicleError(
@@ -321,7 +321,7 @@ class AddedMass:
     """kg."""
 
     def __post_init__(self) -> None:
-        frozen(self, "position", self.position, (3,))
+        frozen_places(self, "position", self.position, (3,))
         if not (np.isfinite(self.mass) and self.mass > 0):
             raise VehicleError(
                 f"added mass {self.name!r}: mass: found {self.mass} kg, expected more than 0"

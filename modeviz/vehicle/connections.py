@@ -13,7 +13,7 @@ from typing import Literal, Self, get_args
 import numpy as np
 
 from modeviz.errors import VehicleError, unknown
-from modeviz.vehicle.arrays import Floats, frozen
+from modeviz.vehicle.arrays import Floats, frozen, frozen_places
 
 GROUND = "ground"
 """The name, in place of a body's, of what does not move."""
@@ -68,7 +68,7 @@ class Connection:
     """Where between its ends it acts: 0 at the first, 1 at the second."""
 
     def __post_init__(self) -> None:
-        frozen(self, "points", self.points, (2, 3))
+        frozen_places(self, "points", self.points, (2, 3))
         for name in ("stiffness", "rotational_stiffness", "damping", "rotational_damping"):
             frozen(self, name, getattr(self, name), (3,))
             if (getattr(self, name) < 0).any():
@@ -141,7 +141,7 @@ class Rod(Connection):
     """
 
     def __post_init__(self) -> None:
-        frozen(self, "points", self.points, (2, 3))
+        frozen_places(self, "points", self.points, (2, 3))
         object.__setattr__(self, "axes", _along(self.name, *self.points))
         super().__post_init__()
         turning = *self.rotational_stiffness, *self.rotational_damping
@@ -197,7 +197,7 @@ class Tyre(Connection):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        frozen(self, "wheel_center", self.wheel_center, (3,))
+        frozen_places(self, "wheel_center", self.wheel_center, (3,))
         if not np.isfinite(self.trail):
             raise VehicleError(f"tyre {self.name!r}: trail: found {self.trail} m")
         if self.track is not None and self.track not in get_args(Track):

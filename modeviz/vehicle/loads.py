@@ -6,7 +6,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
-from modeviz.vehicle.arrays import Complexes, Floats, frozen
+from modeviz.vehicle.arrays import Complexes, Floats, frozen, frozen_places
 
 WheelLoadKind = Literal["unbalance", "radial force", "lateral force"]
 
@@ -107,7 +107,7 @@ class Force:
         return self.name
 
     def __post_init__(self) -> None:
-        frozen(self, "position", self.position, (3,))
+        frozen_places(self, "position", self.position, (3,))
         _check_load(self, f"force {self.name!r}")
 
 
@@ -176,4 +176,4 @@ class ResponsePoint:
     """(3,), m; on a flexible body an attachment must be near."""
 
     def __post_init__(self) -> None:
-        frozen(self, "position", self.position, (3,))
+        frozen_places(self, "position", self.position, (3,))

@@ -137,6 +137,11 @@ class Vehicle:
             *(load for load in others if not isinstance(load.amplitude, Spectrum)),
         )
 
+    def is_shaken_by(self, load: RandomLoad) -> bool:
+        """Whether a load gets into the vehicle: a road does through tyres with rates along their z."""
+        through = any(tyre.stiffness[2] or tyre.damping[2] for tyre in self.tyres)
+        return through or not isinstance(load, Road)
+
     def random_load(self, name: str) -> RandomLoad:
         """The road or other random load of that name; raises VehicleError as `body` does."""
         return _named("random load", name, self.random_loads)
@@ -178,7 +183,11 @@ class Vehicle:
             raise VehicleError(f"goal {problem.goal!r} needs a [[response_point]]")
         for performance in problem.performance:
             for road in performance.roads:
-                self.random_load(road)
+                if not self.is_shaken_by(self.random_load(road)):
+                    raise VehicleError(
+                        f"road {road!r} shakes nothing; expected a [[tyre]] with stiffness or damping "
+                        "along z"
+                    )
             for load in performance.wheel_loads:
                 self.harmonic_load(load)
             for point in performance.points:
