@@ -23,7 +23,7 @@ def test_modes_prints_a_table(capsys, folder):
 
 def test_modes_json_has_its_documented_structure(printed_json, folder):
     record = printed_json("modes", folder, "--below", "60")
-    assert set(record) == {"vehicle", "rates", "n_missed", "modes", "original"}
+    assert set(record) == {"vehicle", "rates", "n_missed", "modes", "original", "components"}
     assert record["n_missed"] == 0
     assert record["vehicle"] == "cabin"
     own = {"vertical": 800.0, "lateral": 300.0, "fore_aft": 400.0, "loss_factor": 0.15}

@@ -35,7 +35,8 @@ def modes_record(followed: Followed, below_hz: float) -> Record:
     `{"vehicle", "rates": see rates_record, "n_missed", "modes": [{"number", "frequency_hz",
     "frequency_error_hz", "damping_ratio", "name", "name_score", "kinetic_energy": {body: share},
     "strain_energy": {body or connection group: share}}], "original": [{"number", "frequency_hz",
-    "name", "now": number or null, "mac", "weak", "parts": [{"number", "share"}]}]}`.
+    "name", "now": number or null, "mac", "weak", "parts": [{"number", "share"}]}], "components": [the
+    fields of dynamics.component_trust.ComponentTrust]}`.
     """
     results = followed.now
     return {
@@ -44,6 +45,7 @@ def modes_record(followed: Followed, below_hz: float) -> Record:
         "n_missed": results.trust.n_missed,
         "modes": [_mode_record(results, i) for i in _below(results, below_hz)],
         "original": [_origin_record(followed, i) for i in _below(followed.base, below_hz)],
+        "components": [asdict(trust) for trust in results.prepared.components],
     }
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.tracking import WEAK_MAC
+from modeviz.export.components import believed
 from modeviz.export.wording import scientific
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import amplitude_decibels, power_decibels
@@ -50,7 +51,8 @@ def modes_table(followed: Followed, below_hz: float) -> str:
         if f < below_hz
     ]
     header = ["  #  mode", "Hz", "damping %", "moves most", "strained most", "was originally"]
-    return f"{table(header, rows)}\n\n{health(results)}"
+    components = "".join(f"\n  {words}" for words in believed(results))
+    return f"{table(header, rows)}\n\n{health(results)}{components}"
 
 
 def _came_from(followed: Followed, mode: int) -> str:
@@ -69,7 +71,7 @@ def health(results: ModalResults) -> str:
     worst = float(trust.frequency_error_hz[f > RESOLVED_HZ].max(initial=0.0))
     return (
         f"{len(f)} modes below {results.prepared.basis.top_hz:.0f} Hz, {missed}; "
-        f"natural frequencies within {scientific(worst)} Hz of exact"
+        f"natural frequencies within {scientific(worst)} Hz of exact for the model as given"
     )
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System, assemble, mount_stiffness, mounts_of_springs
 from modeviz.dynamics.basis import TOP_HZ, EnrichedBasis, prepare_basis
+from modeviz.dynamics.component_trust import ComponentTrust, component_trust
 from modeviz.dynamics.naming import Namer, prepare_names
 from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
 from modeviz.ride.excitation import Load, excitation, input_directions, together
@@ -42,6 +43,11 @@ class PreparedModes:
     def n_bytes(self) -> int:
         """The memory that the prepared arrays take."""
         return self.system.n_bytes + self.basis.n_bytes + self.namer.rows.nbytes
+
+    @property
+    def components(self) -> tuple[ComponentTrust, ...]:
+        """How far each flexible body is believed, with the vehicle's own rates."""
+        return component_trust(self.system, self.basis.top_hz)
 
     def all_rates(self, rates: Rates) -> dict[str, MountRates]:
         """The rates of every group, see `Vehicle.all_rates`."""

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from modeviz.dynamics.component_trust import ComponentTrust
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import Track
 from modeviz.errors import ModevizError, SolveError
@@ -51,6 +52,8 @@ class Rest:
     """What ten percent of each rate do, once that is known."""
     check: Check | None = None
     """How far `now` is from the exact answer, as far as that is known."""
+    components: tuple[ComponentTrust, ...] = ()
+    """How far the bodies are believed, once that is known."""
     problem: str = ""
     """Why no more will be known, if so."""
 

@@ -317,6 +317,7 @@ class Session:
         """Shows what its rates do and how exact an answer is, as long as it is current."""
         near = self._answers.rebase(solved.state)
         self._show_again(solved.now, sensitivity=sensitivity(near, solved.now))
+        self._show_again(solved.now, components=solved.now.prepared.components)
         told = 0.0
         for check in check_exactly(solved.now):
             if not self._is_current(solved):

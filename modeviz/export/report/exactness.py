@@ -4,6 +4,7 @@ from html import escape
 
 import numpy as np
 
+from modeviz.export.components import believed
 from modeviz.export.markup import section, title
 from modeviz.export.tables import health
 from modeviz.export.wording import scientific
@@ -17,6 +18,7 @@ def exactness(comparison: Comparison, check: Check | None) -> str:
     items = [f"{title(name)}: {health(results)}." for name, results in sets]
     if check is not None:
         items.append(_checked(check, escape(comparison.names[1])))
+    items += [f"{escape(words)}." for words in believed(comparison.now)]
     return section("How exact this is", "<ul>", *(f"<li>{item}</li>" for item in items), "</ul>")
 
 

@@ -6,10 +6,11 @@ from html import escape
 import viser
 
 from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.export.components import believed, change_words, is_doubtful
 from modeviz.tuning.results import Results
 from modeviz.viewer.answers import Rest, Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, heading, span, title
+from modeviz.viewer.html import block, heading, hinted, span, title
 
 LEAST_SHOWN = 1e-3
 """Hz and percent: smaller errors are shown as this."""
@@ -33,7 +34,7 @@ class StatusPanel:
 
     def show(self, solved: Solved) -> None:
         """Says how an answer came about and how good it is."""
-        lines = [_found(solved.now), _checked(solved.rest)]
+        lines = [_found(solved.now), _checked(solved.rest), *_believed(solved.rest)]
         if solved.missing:
             lines.append(_compared(solved))
         if solved.state.classic:
@@ -61,7 +62,22 @@ def _found(now: Results) -> str:
         return span(f"{band}, {trust.n_missed} not found", "bad")
     moves = modes.frequency_hz > RESOLVED_HZ
     worst = float(trust.frequency_error_hz[moves].max(initial=0.0))
-    return f"{band}, none missed, each within {_rounded(worst)} Hz"
+    return f"{band}, none missed, each within {_rounded(worst)} Hz for the model as given"
+
+
+def _believed(rest: Rest) -> list[str]:
+    """How far the bodies are believed: the worst of them, and to read where the pointer rests all."""
+    if not rest.components:
+        return []
+    top_hz = rest.now.prepared.basis.top_hz
+    worst = max(rest.components, key=lambda c: (is_doubtful(c, top_hz), c.change))
+    lowest = min(rest.components, key=lambda c: c.highest_hz)
+    text = (
+        f"bodies: modes up to {lowest.highest_hz:.3g} Hz ({escape(lowest.body)}) or more; without the "
+        f"last fifth of {escape(worst.body)}'s {change_words(worst)}"
+    )
+    shown = span(text, "bad") if is_doubtful(worst, top_hz) else text
+    return [hinted(shown, escape("\n".join(believed(rest.now)), quote=True))]
 
 
 def _compared(solved: Solved) -> str:

@@ -1,0 +1,136 @@
+"""How far components are believed: how high their modes reach, and what the last fifth of them does."""
+
+import re
+from dataclasses import replace
+from datetime import date
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from html_documents import Document
+from mounted_cabin import mounted_cabin
+from oracles import Beam
+
+from modeviz.cli import main
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.component_trust import component_trust
+from modeviz.dynamics.modes import solve_modes
+from modeviz.export.report import report
+from modeviz.tuning.comparison import RateSet, compare
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions, solve
+from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.connections import GROUND, Spring
+from modeviz.vehicle.files import write_vehicle
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.answers import Rest
+from modeviz.viewer.panels.status import StatusPanel
+
+BEAM = Beam(10, mass_per_length=60.0)
+HELD = ((0, 2), (5, 1), (5, 2), (10, 2))
+"""Nodes and directions in which springs pull."""
+TOP_HZ = 60.0
+
+
+def held(body: FlexibleBody, rigid: bool = False) -> Vehicle:
+    """On a spring for each of `HELD`; or the first of these a rigid joint."""
+    springs = []
+    for node, direction in HELD:
+        along = np.eye(3)[direction]
+        holds = {"stiffness": 3e6 * along}
+        if rigid and node == 0:
+            holds = {"rigid": ("xyz"[direction],)}
+        place = np.tile(body.nodes[node], (2, 1))
+        springs.append(Spring(f"{node} {direction}", "s", (body.name, GROUND), place, **holds))
+    return Vehicle("v", (body,), tuple(springs))
+
+
+def frequencies(body: FlexibleBody, rigid: bool) -> np.ndarray:
+    """The lowest, more than there are below `TOP_HZ`."""
+    return solve_modes(assemble(held(body, rigid)), n_modes=20).frequency_hz
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+@pytest.mark.parametrize("loads", [(), HELD])
+@pytest.mark.parametrize(("n_modes", "n_fewer"), [(9, 8), (14, 12)])
+def test_the_change_is_that_of_a_body_made_with_fewer_modes(n_modes, n_fewer, loads, rigid):
+    """Residual vectors are made anew for it, as whoever made the body would."""
+    body, fewer = (BEAM.body("beam", n_modes=n, loads=loads) for n in (n_modes, n_fewer))
+    (trust,) = component_trust(assemble(held(body, rigid)), TOP_HZ)
+    f, higher = frequencies(body, rigid), frequencies(fewer, rigid)
+    n = min((f < TOP_HZ).sum(), len(higher))
+    f, higher = f[:n], higher[:n]
+    expected = np.where(f > 0.05, higher / np.maximum(f, 0.05) - 1, 0.0)
+    assert (trust.n_left_out, trust.n_residuals) == (n_modes - n_fewer, len(loads))
+    assert trust.change == pytest.approx(expected.max(), rel=1e-5, abs=1e-12)
+    worst = np.abs(f - trust.at_hz).argmin()
+    assert expected[worst] == pytest.approx(expected.max(), rel=1e-5, abs=1e-12)
+    assert trust.highest_hz == pytest.approx(body.natural_frequency_hz[n_modes - 1])
+
+
+def test_few_modes_are_worth_less_than_many():
+    changes = [
+        component_trust(assemble(held(BEAM.body("beam", n_modes=n))), TOP_HZ)[0].change
+        for n in (9, 20, 60)
+    ]
+    assert changes == sorted(changes, reverse=True)
+    assert changes[0] > 30 * changes[2]
+
+
+def test_a_body_with_rigid_modes_only_has_nothing_to_leave_out():
+    (trust,) = component_trust(assemble(held(BEAM.body("beam", n_modes=6))), TOP_HZ)
+    assert (trust.n_left_out, trust.change, trust.highest_hz) == (0, 0.0, 0.0)
+
+
+@pytest.fixture(scope="module")
+def vehicle() -> Vehicle:
+    """A cabin whose roof rack is a beam with too few modes."""
+    cabin, rack = mounted_cabin(), BEAM.body("rack", role="other", n_modes=8)
+    springs = tuple(replace(s, bodies=("rack", "cab")) for s in held(rack).connections)
+    return replace(cabin, bodies=(*cabin.bodies, rack), connections=(*cabin.connections, *springs))
+
+
+def test_modes_says_exact_for_the_model_as_given_and_how_far_that_is(tmp_path, capsys, vehicle):
+    write_vehicle(vehicle, tmp_path / "v")
+    assert main(["modes", str(tmp_path / "v")]) == 0
+    out = capsys.readouterr().out
+    assert "of exact for the model as given\n  rack: modes up to " in out
+    assert re.search(
+        r"no residual vectors; without its last mode frequencies rise by up to [\d.]+ %", out
+    )
+
+
+def test_json_has_the_trust_in_every_flexible_body(printed_json, tmp_path, vehicle):
+    write_vehicle(vehicle, tmp_path / "v")
+    (rack,) = printed_json("modes", str(tmp_path / "v"))["components"]
+    (expected,) = component_trust(assemble(vehicle), 40.0)
+    assert rack["body"] == "rack"
+    assert rack["change"] == pytest.approx(expected.change, rel=1e-6, abs=1e-12)
+
+
+def test_a_report_has_it_beside_exact(vehicle):
+    comparison = compare(prepare(vehicle), RateSet("original", {}), RateSet("now", {}), None)
+    words = Document(report(comparison, date(2026, 11, 22))).words
+    assert "of exact for the model as given" in words
+    assert "rack: modes up to" in words
+
+
+def test_the_page_has_it_once_it_is_known(vehicle):
+    class Page:
+        content = ""
+
+        def add_html(self, content):
+            self._impl = SimpleNamespace(props=self)
+            self._queue_update = lambda *_: None
+            return self
+
+    now = solve(prepare(vehicle, np.array([1.0, 2.0])), {}, Conditions("flat", 20.0))
+    page = Page()
+    panel = StatusPanel(page)
+    values = {"classic_error": None, "seconds": 0.004, "missing": ""}
+    state = SimpleNamespace(classic=False, against="Original")
+    for known in ((), now.prepared.components):
+        rest = Rest(now, components=known)
+        panel.show(SimpleNamespace(now=now, state=state, rest=rest, **values))
+        assert ("last fifth of rack" in page.content) == bool(known)
+        assert ("rack: modes up to" in page.content) == bool(known)
