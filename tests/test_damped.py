@@ -104,6 +104,20 @@ def test_a_mode_keeps_its_place_though_damping_makes_it_the_fastest():
     assert abs(fast.shape[B]) == pytest.approx(np.sqrt(0.5))
 
 
+@pytest.mark.parametrize("disturbed", [0.0, 1e-13, -1e-13, 1e-11, -1e-11])
+def test_close_modes_that_dampers_mix_in_equal_parts_keep_their_order(disturbed):
+    """λ² + λ + 400 = 0 of both together and λ² + 5 λ + 400 = 0 against each other: the same |λ|."""
+    springs = (spring((name, "ground"), 400.0) for name in "ab")
+    masses = (mass_on_a_string(name, 1.0) for name in "ab")
+    dampers = [damper(("a", "ground"), 1.0 + disturbed), damper(("b", "ground"), 1.0)]
+    dampers.append(damper(("a", "b"), 2.0))
+    results = solve_modal(prepare_modes(Vehicle("equal", tuple(masses), (*springs, *dampers))), {})
+    first, second = (complex_mode(results, i) for i in swinging(results))
+    assert abs(first.eigenvalue) == pytest.approx(abs(second.eigenvalue), rel=1e-9)
+    found = [first.eigenvalue.imag, second.eigenvalue.imag]
+    assert found == pytest.approx(np.sqrt([400 - 2.5**2, 400 - 0.5**2]))
+
+
 def test_what_moves_freely_has_no_frequency_and_its_undamped_shape():
     results = stacked(c=5.0)
     free = complex_mode(results, 0)

@@ -7,11 +7,11 @@ above the band add through the dampers is found in the enriched basis, for one m
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from modeviz.dynamics.band import BandModes
 from modeviz.dynamics.basis import EnrichedBasis
 from modeviz.dynamics.modes import RESOLVED_HZ, vibrating_roots
+from modeviz.dynamics.tracking import likeliest
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes
 
@@ -57,16 +57,18 @@ class DampedMode:
 def damped_modes(band: BandModes) -> DampedModes:
     """The damped modes within the space of the band's, paired with them.
 
-    Pairs are those that have most of each other's kinetic energy, all modes together.
+    Pairs are those that have most of each other's kinetic energy, all modes together; where dampers
+    mix two in equal parts, as close ones that they couple, the slower belongs to the slower.
     """
     modes, n = band.modes, len(band.modes.frequency_hz)
     K = np.diag(modes.omega_n_squared) + 1j * band.structural_damping
     roots, y = vibrating_roots(band.damping, K)
-    y = y / np.linalg.norm(y, axis=0)
+    rising = np.argsort(roots.imag)
+    roots, y = roots[rising], y[:, rising] / np.linalg.norm(y[:, rising], axis=0)
     vibrating = modes.frequency_hz > RESOLVED_HZ
     eigenvalue = np.where(vibrating, complex(np.nan, np.nan), 0)
     coordinates = np.eye(n, dtype=complex)
-    undamped, damped = linear_sum_assignment(-(np.abs(y[vibrating]) ** 2))
+    undamped, damped = likeliest(np.abs(y[vibrating]) ** 2)
     pair = np.flatnonzero(vibrating)[undamped]
     eigenvalue[pair], coordinates[:, pair] = roots[damped], y[:, damped]
     return DampedModes(eigenvalue, coordinates)

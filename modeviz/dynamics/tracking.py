@@ -82,19 +82,22 @@ def track_modes(momentum: Floats, start: Modes, present: Modes) -> Track:
     return Track(shares, _assigned(shares))
 
 
-def _assigned(shares: Floats) -> NDArray[np.intp]:
-    """Which column each row is, (n_rows,); -1 if none.
+def likeliest(shares: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Rows and the columns they belong to, as many as there are of either.
 
-    Who has the majority of a shape is it. The others are assigned together, so that most of all shapes
-    is where its identity is, among those that are leading by row and by column; what is equal goes by
-    the order.
+    Majorities belong together; the others are assigned together, so that most of all shares is where
+    it belongs. What is equal goes by the order.
     """
     n_rows, n_columns = shares.shape
-    leads = _leads(shares) & _leads(shares.T).T
     order = EQUAL * (np.arange(n_rows)[:, None] - np.arange(n_columns)) ** 2 / max(shares.shape)
-    likeness = np.where(leads, shares + (shares > MAJORITY + EQUAL), 0.0)
-    rows, columns = linear_sum_assignment(order - likeness)
-    index = np.full(n_rows, -1)
+    return linear_sum_assignment(order - shares - (shares > MAJORITY + EQUAL))
+
+
+def _assigned(shares: Floats) -> NDArray[np.intp]:
+    """Which column each row is, (n_rows,); -1 if none that is leading by row and by column."""
+    leads = _leads(shares) & _leads(shares.T).T
+    rows, columns = likeliest(np.where(leads, shares, 0.0))
+    index = np.full(len(shares), -1)
     index[rows] = np.where(leads[rows, columns], columns, -1)
     return index
 
