@@ -57,6 +57,7 @@ UNITS: dict[str, dict[str, float]] = {
     },
     "rotational damping": {"N m s/rad": 1.0, "N m s/deg": 180 / math.pi, "N mm s/rad": 1e-3},
     "force": {"N": 1.0, "kN": 1e3, "lbf": POUND * STANDARD_GRAVITY},
+    "acceleration": {"m/s²": 1.0, "m/s^2": 1.0, "mm/s²": 1e-3, "mm/s^2": 1e-3, "g": STANDARD_GRAVITY},
     "unbalance": {"kg m": 1.0, "g m": 1e-3, "g mm": 1e-6, "oz in": POUND / 16 * INCH},
     "speed": {"m/s": 1.0, "km/h": 1 / 3.6, "mph": 0.44704},
 }

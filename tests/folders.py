@@ -21,7 +21,7 @@ from modeviz.vehicle.connections import (
     Spring,
     Tyre,
 )
-from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad
+from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum, WheelLoad
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -122,6 +122,11 @@ def road() -> Road:
     return Road("road 1", "rough", 20.0, frequency_hz, spectrum)
 
 
+def spectrum() -> Spectrum:
+    rng = np.random.default_rng(3)
+    return Spectrum(np.cumsum(rng.uniform(0.1, 1.0, 6)), rng.uniform(1e-4, 1e-2, 6))
+
+
 def one_of_everything() -> Vehicle:
     return Vehicle(
         'Bänk "42", and\nmore',
@@ -137,4 +142,12 @@ def one_of_everything() -> Vehicle:
         ),
         {"optimised": {"C1": MountRates(1e6 / 3, 131000.0, 0.0, loss_factor=0.1)}},
         88 / 3.6,
+        forces=(
+            Force("shaker", "cab", np.array([0.01, 0.02, 0.05]), np.array([0.0, 0.6, -0.8]), 12.5),
+            Force("wind, gusts", "cab", np.zeros(3), np.array([0.0, 1.0, 0.0]), spectrum()),
+        ),
+        base_motions=(
+            BaseMotion("post", np.array([0.0, 0.0, 1.0]), "displacement", 0.0012, ("tyre left",)),
+            BaseMotion("floor", np.array([1.0, 0.0, 0.0]), "acceleration", spectrum(), ("tyre left",)),
+        ),
     )

@@ -121,7 +121,9 @@ def _command(commands, name: str, run, help_text: str) -> argparse.ArgumentParse
 
 
 def _add_road(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--road", help="default: the vehicle's first")
+    command.add_argument(
+        "--road", metavar="NAME", help="or another random load; default: the vehicle's first road"
+    )
     _add_speed(command)
 
 

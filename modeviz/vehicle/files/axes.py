@@ -64,6 +64,11 @@ def turn_vectors(value: Any, T: Floats) -> Any:
     return [turn_vectors(v, T) if many else v for v, many in zip(value, inner, strict=True)]
 
 
+def turn_direction(value: Any, T: Floats) -> Any:
+    """A vector; what a person calls a direction is the same in all axes."""
+    return value if isinstance(value, str) else turn_vectors(value, T)
+
+
 def turn_rates(value: Any, T: Floats) -> Any:
     """Three values along, or about, the axes of a frame; it is turned by `turn_frame`."""
     return (np.abs(T) @ np.array(value, float)).tolist()

@@ -2,7 +2,8 @@
 
 FOLDER/vehicle.toml says everything but arrays, in the units that its `units` table declares; the keys
 are the fields of the records in `records`. FOLDER/bodies/NAME.npz has the modes of a
-flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a road's spectra; all in SI.
+flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a road's spectra,
+FOLDER/spectra/NAME.csv that of a force or a motion of the ground; all in SI.
 """
 
 from dataclasses import replace
@@ -18,6 +19,12 @@ from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.files.axes import axes_of
 from modeviz.vehicle.files.conventions import Conventions
 from modeviz.vehicle.files.disk import file_stems, replace_folder, write_text
+from modeviz.vehicle.files.load_records import (
+    BaseMotionRecord,
+    ForceRecord,
+    RoadRecord,
+    WheelLoadRecord,
+)
 from modeviz.vehicle.files.meshes import write_mesh
 from modeviz.vehicle.files.modal import write_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
@@ -32,24 +39,23 @@ from modeviz.vehicle.files.records import (
     RateSetRecord,
     ResponsePointRecord,
     RigidBodyRecord,
-    RoadRecord,
     RodRecord,
     TyreRecord,
     VehicleRecord,
-    WheelLoadRecord,
 )
 from modeviz.vehicle.files.roads import write_road
 from modeviz.vehicle.files.scaling import WRITTEN_UNITS, from_si
 from modeviz.vehicle.files.source import Source
+from modeviz.vehicle.files.spectra import write_spectrum
 from modeviz.vehicle.files.toml import to_toml
 from modeviz.vehicle.files.toml_file import read_toml
-from modeviz.vehicle.loads import Road
+from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.orientation import orientation_doubts
 from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle
 
 VEHICLE_FILE = "vehicle.toml"
-CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads"}
+CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra"}
 """What a vehicle folder holds."""
 
 CONNECTION_KINDS: dict[str, type[Connection]] = {
@@ -138,6 +144,8 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         response_points=built(record.response_point, "response_point", ResponsePointRecord.build),
         roads=built(record.road, "road", lambda r: r.build(source)),
         wheel_loads=built(record.wheel_load, "wheel_load", WheelLoadRecord.build),
+        forces=built(record.force, "force", lambda r: r.build(source)),
+        base_motions=built(record.base_motion, "base_motion", lambda r: r.build(source)),
         rate_sets={
             name: {group: rates.build() for group, rates in groups.items()}
             for name, groups in record.rates.items()
@@ -152,7 +160,7 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
 
 
 def _write_content(vehicle: Vehicle, folder: Path) -> None:
-    for name in sorted(CONTENT - {VEHICLE_FILE}):
+    for name in ("bodies", "meshes", "roads"):
         (folder / name).mkdir()
     content = msgspec.to_builtins(_record(vehicle, folder))
     write_text(folder / VEHICLE_FILE, to_toml(from_si(content, VehicleRecord)))
@@ -161,6 +169,7 @@ def _write_content(vehicle: Vehicle, folder: Path) -> None:
 def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
     """The content of the vehicle's file, with the files it names written."""
     stems = file_stems(body.name for body in vehicle.bodies)
+    spectra = _spectrum_files(vehicle, folder)
     flexible = [b for b in vehicle.bodies if isinstance(b, FlexibleBody)]
     rigid = [b for b in vehicle.bodies if isinstance(b, RigidBody)]
     return VehicleRecord(
@@ -179,6 +188,8 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         response_point=[ResponsePointRecord.of(p) for p in vehicle.response_points],
         road=_road_records(vehicle.roads, folder),
         wheel_load=[WheelLoadRecord.of(load) for load in vehicle.wheel_loads],
+        force=[ForceRecord.of(f, spectra.get(f.name, "")) for f in vehicle.forces],
+        base_motion=[BaseMotionRecord.of(m, spectra.get(m.name, "")) for m in vehicle.base_motions],
         rates={
             name: {group: RateSetRecord.of(r) for group, r in rates.items()}
             for name, rates in vehicle.rate_sets.items()
@@ -208,3 +219,18 @@ def _road_records(roads: tuple[Road, ...], folder: Path) -> list[RoadRecord]:
     for road, record in zip(roads, records, strict=True):
         write_road(folder / record.file, road)
     return records
+
+
+def _spectrum_files(vehicle: Vehicle, folder: Path) -> dict[str, str]:
+    """Where the spectrum of each random load is, by its name, now that it is written."""
+    random = [
+        (load.name, load.amplitude)
+        for load in (*vehicle.forces, *vehicle.base_motions)
+        if isinstance(load.amplitude, Spectrum)
+    ]
+    if random:
+        (folder / "spectra").mkdir()
+    files = {name: f"spectra/{stem}.csv" for name, stem in file_stems(n for n, _ in random).items()}
+    for name, spectrum in random:
+        write_spectrum(folder / files[name], spectrum)
+    return files

@@ -2,12 +2,19 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any, Literal, get_args
 
 from msgspec import Meta
 
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.files.axes import turn_frame, turn_inertia, turn_motions, turn_rates, turn_vectors
+from modeviz.vehicle.files.axes import (
+    turn_direction,
+    turn_frame,
+    turn_inertia,
+    turn_motions,
+    turn_rates,
+    turn_vectors,
+)
 from modeviz.vehicle.files.hints import annotation, fields_of, plain
 
 Vector = tuple[float, float, float]
@@ -49,6 +56,13 @@ RotationalStiffness = Annotated[Vector, Quantity("rotational_stiffness", turn_ra
 DampingRate = Annotated[float, Meta(ge=0), Quantity("damping")]
 Damping = Annotated[Vector, Quantity("damping", turn_rates)]
 RotationalDamping = Annotated[Vector, Quantity("rotational_damping", turn_rates)]
+ForceAmplitude = Annotated[float, Meta(ge=0), Quantity("force")]
+Displacement = Annotated[float, Meta(ge=0), Quantity("length")]
+Acceleration = Annotated[float, Meta(ge=0), Quantity("acceleration")]
+Direction = Annotated[
+    Literal["vertical", "lateral", "fore-aft"] | Vector, Quantity(turn=turn_direction)
+]
+"""One of `DIRECTIONS`, or a vector along which something points, of any length."""
 Frame = Annotated[tuple[Vector, Vector, Vector], Quantity(turn=turn_frame)]
 """Local axes as rows."""
 Motions = Annotated[bool | tuple[str, ...], Quantity(turn=turn_motions)]

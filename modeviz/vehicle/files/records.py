@@ -26,11 +26,16 @@ from modeviz.vehicle.connections import (
     usual_bounds,
 )
 from modeviz.vehicle.files.axes import OURS
+from modeviz.vehicle.files.load_records import (
+    BaseMotionRecord,
+    ForceRecord,
+    RoadRecord,
+    WheelLoadRecord,
+)
 from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.files.modal import read_flexible_body
 from modeviz.vehicle.files.problems import ProblemRecord
 from modeviz.vehicle.files.quantities import (
-    Amplitude,
     Damping,
     DampingRate,
     Ends,
@@ -48,9 +53,8 @@ from modeviz.vehicle.files.quantities import (
     Stiffness,
 )
 from modeviz.vehicle.files.record import FileRecord, Name, NonNegative, RatesRecord, Record
-from modeviz.vehicle.files.roads import read_road
 from modeviz.vehicle.files.source import Source
-from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad, WheelLoadKind
+from modeviz.vehicle.loads import ResponsePoint
 
 NO_RATES = (0.0, 0.0, 0.0)
 VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -369,42 +373,6 @@ class ResponsePointRecord(Record, kw_only=True):
         return ResponsePoint(self.name, self.body, np.array(self.at))
 
 
-class RoadRecord(Record, kw_only=True):
-    """[[road]]."""
-
-    name: Name
-    label: str = ""
-    """The name, if not given."""
-    file: str
-    """A file of the folder, .csv."""
-    speed: Speed
-
-    @classmethod
-    def of(cls, road: Road, file: str) -> Self:
-        return cls(name=road.name, label=road.label, file=file, speed=road.speed)
-
-    def build(self, source: Source) -> Road:
-        with located("file"):
-            path = source.path(self.file)
-        return read_road(path, self.name, self.label or self.name, self.speed)
-
-
-class WheelLoadRecord(Record, kw_only=True):
-    """[[wheel_load]]."""
-
-    name: Name
-    kind: WheelLoadKind
-    tyre: str
-    amplitude: Amplitude
-
-    @classmethod
-    def of(cls, load: WheelLoad) -> Self:
-        return cls(name=load.name, kind=load.kind, tyre=load.tyre, amplitude=load.amplitude)
-
-    def build(self) -> WheelLoad:
-        return WheelLoad(self.name, self.kind, self.tyre, self.amplitude)
-
-
 class VehicleRecord(FileRecord, kw_only=True):
     """The whole file."""
 
@@ -425,6 +393,8 @@ class VehicleRecord(FileRecord, kw_only=True):
     response_point: list[ResponsePointRecord] = msgspec.field(default_factory=list)
     road: list[RoadRecord] = msgspec.field(default_factory=list)
     wheel_load: list[WheelLoadRecord] = msgspec.field(default_factory=list)
+    force: list[ForceRecord] = msgspec.field(default_factory=list)
+    base_motion: list[BaseMotionRecord] = msgspec.field(default_factory=list)
     rates: dict[str, dict[str, RateSetRecord]] = msgspec.field(default_factory=dict)
     """[rates.SET.GROUP]."""
     problem: list[ProblemRecord] = msgspec.field(default_factory=list)

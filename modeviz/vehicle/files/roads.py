@@ -1,10 +1,12 @@
 """Road spectra as comma-separated text, one line for each frequency, m²/Hz."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.files.disk import read_text, write_text
 from modeviz.vehicle.loads import Road
 
@@ -18,14 +20,7 @@ def read_road(path: Path, name: str, label: str, speed: float) -> Road:
     Raises:
         VehicleError: no such file, a cut one, or no road.
     """
-    text = read_text(path)
-    if not text.endswith("\n"):
-        raise VehicleError(f"{path}: the last line does not end; the file may be cut")
-    header, *lines = text.splitlines()
-    if header.split(",") != list(COLUMNS):
-        raise VehicleError(f"{path}: line 1: found {header!r}, expected {','.join(COLUMNS)}")
-    rows = [_row(line, f"{path}: line {number}") for number, line in enumerate(lines, 2)]
-    frequency_hz, left, right, cross_real, cross_imag = np.array(rows).reshape(-1, len(COLUMNS)).T
+    frequency_hz, left, right, cross_real, cross_imag = read_columns(path, COLUMNS)
     S_lr = cross_real + 1j * cross_imag
     spectrum = np.array([[left, S_lr], [S_lr.conj(), right]]).transpose(2, 0, 1)
     with located(path):
@@ -42,11 +37,27 @@ def write_road(path: Path, road: Road) -> None:
     write_text(path, "\n".join(lines) + "\n")
 
 
-def _row(line: str, where: str) -> list[float]:
+def read_columns(path: Path, columns: Sequence[str]) -> Floats:
+    """The columns of a file of numbers, (n_columns, n_rows).
+
+    Raises:
+        VehicleError: no such file, a cut one, or other columns.
+    """
+    text = read_text(path)
+    if not text.endswith("\n"):
+        raise VehicleError(f"{path}: the last line does not end; the file may be cut")
+    header, *lines = text.splitlines()
+    if header.split(",") != list(columns):
+        raise VehicleError(f"{path}: line 1: found {header!r}, expected {','.join(columns)}")
+    rows = [_row(line, len(columns), f"{path}: line {n}") for n, line in enumerate(lines, 2)]
+    return np.array(rows).reshape(-1, len(columns)).T
+
+
+def _row(line: str, n_columns: int, where: str) -> list[float]:
     try:
         numbers = [float(cell) for cell in line.split(",")]
     except ValueError:
         numbers = []
-    if len(numbers) != len(COLUMNS):
-        raise VehicleError(f"{where}: found {line!r}, expected {len(COLUMNS)} numbers")
+    if len(numbers) != n_columns:
+        raise VehicleError(f"{where}: found {line!r}, expected {n_columns} numbers")
     return numbers

@@ -16,6 +16,7 @@ WRITTEN_UNITS = {
     "damping": "N s/m",
     "rotational_damping": "N m s/rad",
     "force": "N",
+    "acceleration": "m/s²",
     "unbalance": "g m",
     "speed": "km/h",
 }

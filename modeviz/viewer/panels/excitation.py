@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import viser
 
 from modeviz.export.wording import sentence_case, told_apart
@@ -41,15 +42,15 @@ class ExcitationPanel:
             gui,
             "Excitation",
             loads,
-            "The road, or a harmonic force at one wheel: the charts then show peak accelerations",
+            "The road, or a harmonic load: the charts then show peak accelerations",
             lambda state: state.load,
             lambda load: session.change(load=load),
         )
         self._add_choice(
             gui,
             "Road",
-            told_apart(vehicle.roads),
-            "What is driven over",
+            told_apart(vehicle.random_loads),
+            "What is driven over, or another random load",
             lambda state: state.conditions.road,
             lambda road: self._drive(road=road),
         )
@@ -143,9 +144,9 @@ def _speed_limits(roads: Sequence[Road], speed: float) -> tuple[int, int]:
 
     One more than that, where there is none but the present one, m/s: a slider needs two ends.
     """
-    slowest = max(FREQUENCY_HZ[-1] / road.frequency_hz[-1] * road.speed for road in roads)
-    fastest = min(FREQUENCY_HZ[0] / road.frequency_hz[0] * road.speed for road in roads)
+    slowest = max((FREQUENCY_HZ[-1] / r.frequency_hz[-1] * r.speed for r in roads), default=0.0)
+    fastest = min((FREQUENCY_HZ[0] / r.frequency_hz[0] * r.speed for r in roads), default=np.inf)
     present = round(speed / PER_KMH)
     low = min(max(math.ceil(slowest / PER_KMH), SPEEDS[0]), present)
-    high = max(min(math.floor(fastest / PER_KMH), SPEEDS[1]), present)
+    high = max(math.floor(min(fastest / PER_KMH, SPEEDS[1])), present)
     return low, max(high, low + 1)

@@ -1,0 +1,157 @@
+"""The tables of `vehicle.toml` that say what shakes the vehicle, in SI."""
+
+from typing import Self
+
+import numpy as np
+
+from modeviz.errors import VehicleError, located
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.files.quantities import (
+    Acceleration,
+    Amplitude,
+    Direction,
+    Displacement,
+    ForceAmplitude,
+    Position,
+    Speed,
+    Vector,
+)
+from modeviz.vehicle.files.record import Name, Record
+from modeviz.vehicle.files.roads import read_road
+from modeviz.vehicle.files.source import Source
+from modeviz.vehicle.files.spectra import read_spectrum
+from modeviz.vehicle.loads import BaseMotion, Force, Road, Spectrum, WheelLoad, WheelLoadKind
+
+
+class RoadRecord(Record, kw_only=True):
+    """[[road]]."""
+
+    name: Name
+    label: str = ""
+    """The name, if not given."""
+    file: str
+    """A file of the folder, .csv."""
+    speed: Speed
+
+    @classmethod
+    def of(cls, road: Road, file: str) -> Self:
+        return cls(name=road.name, label=road.label, file=file, speed=road.speed)
+
+    def build(self, source: Source) -> Road:
+        with located("file"):
+            path = source.path(self.file)
+        return read_road(path, self.name, self.label or self.name, self.speed)
+
+
+class WheelLoadRecord(Record, kw_only=True):
+    """[[wheel_load]]."""
+
+    name: Name
+    kind: WheelLoadKind
+    tyre: str
+    amplitude: Amplitude
+
+    @classmethod
+    def of(cls, load: WheelLoad) -> Self:
+        return cls(name=load.name, kind=load.kind, tyre=load.tyre, amplitude=load.amplitude)
+
+    def build(self) -> WheelLoad:
+        return WheelLoad(self.name, self.kind, self.tyre, self.amplitude)
+
+
+class ForceRecord(Record, kw_only=True):
+    """[[force]]: with an amplitude it is harmonic, with a PSD random."""
+
+    name: Name
+    body: str
+    at: Position
+    direction: Direction
+    amplitude: ForceAmplitude | None = None
+    psd: str | None = None
+    """A file of the folder, .csv."""
+
+    @classmethod
+    def of(cls, force: Force, file: str) -> Self:
+        is_random = isinstance(force.amplitude, Spectrum)
+        return cls(
+            name=force.name,
+            body=force.body,
+            at=_vector(force.position),
+            direction=_vector(force.direction),
+            amplitude=None if is_random else force.amplitude,
+            psd=file if is_random else None,
+        )
+
+    def build(self, source: Source) -> Force:
+        key, amplitude = _only_one({"amplitude": self.amplitude, "psd": self.psd})
+        if key == "psd":
+            amplitude = _spectrum(source, key, amplitude, "force")
+        position, direction = np.array(self.at), _unit_vector(self.direction)
+        return Force(self.name, self.body, position, direction, amplitude)
+
+
+class BaseMotionRecord(Record, kw_only=True):
+    """[[base_motion]]: with an amplitude it is harmonic, with a PSD random."""
+
+    name: Name
+    connections: tuple[str, ...] = ()
+    """Whose ground ends move, all alike; none: every connection to the ground."""
+    direction: Direction
+    displacement: Displacement | None = None
+    acceleration: Acceleration | None = None
+    displacement_psd: str | None = None
+    acceleration_psd: str | None = None
+    """Files of the folder, .csv."""
+
+    @classmethod
+    def of(cls, motion: BaseMotion, file: str) -> Self:
+        is_random = isinstance(motion.amplitude, Spectrum)
+        key = f"{motion.quantity}_psd" if is_random else motion.quantity
+        amplitude = {key: file if is_random else motion.amplitude}
+        return cls(
+            name=motion.name,
+            connections=motion.connections,
+            direction=_vector(motion.direction),
+            **amplitude,  # pyright: ignore[reportArgumentType]
+        )
+
+    def build(self, source: Source) -> BaseMotion:
+        keys = ("displacement", "acceleration", "displacement_psd", "acceleration_psd")
+        key, amplitude = _only_one({key: getattr(self, key) for key in keys})
+        quantity = "displacement" if key.startswith("displacement") else "acceleration"
+        if key.endswith("psd"):
+            unit = "length" if quantity == "displacement" else "acceleration"
+            amplitude = _spectrum(source, key, amplitude, unit)
+        direction = _unit_vector(self.direction)
+        return BaseMotion(self.name, direction, quantity, amplitude, self.connections)
+
+
+def _only_one(amplitudes: dict[str, float | str | None]) -> tuple[str, float | str]:
+    """The one amplitude that is given, with its key.
+
+    Raises:
+        VehicleError: there is none, or more than one.
+    """
+    given = [(key, value) for key, value in amplitudes.items() if value is not None]
+    if len(given) != 1:
+        found = " and ".join(key for key, _ in given) or "none"
+        raise VehicleError(f"found {found}, expected one of {', '.join(amplitudes)}")
+    return given[0]
+
+
+def _spectrum(source: Source, key: str, file: float | str, quantity: str) -> Spectrum:
+    with located(key):
+        return read_spectrum(source.path(str(file)), source.conventions.unit(quantity))
+
+
+def _unit_vector(direction: str | Vector) -> Floats:
+    """A direction, of any length, in our axes."""
+    if isinstance(direction, str):
+        return np.eye(3)[2 - DIRECTIONS.index(direction)]
+    return np.array(direction)
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z
