@@ -16,7 +16,6 @@ import msgspec
 import numpy as np
 import viser
 import zstandard
-from viser import _messages
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection as Page
@@ -34,6 +33,19 @@ PATIENCE_S = 60.0
 
 Message = dict[str, Any]
 
+CAMERA = {
+    "wxyz": (1.0, 0.0, 0.0, 0.0),
+    "position": (5.0, 5.0, 3.0),
+    "fov": 1.0,
+    "near": 0.1,
+    "far": 100.0,
+    "image_height": 600,
+    "image_width": 800,
+    "look_at": (0.0, 0.0, 0.0),
+    "up_direction": (0.0, 0.0, 1.0),
+}
+"""What a page tells of its camera."""
+
 
 @dataclass(frozen=True)
 class Drag:
@@ -47,31 +59,45 @@ class Drag:
 
 def drag(n_moves: int) -> Drag:
     """Drags the first slider of the built-in truck's page over its range, in so many moves."""
-    with _server() as (port, clock), _page(port) as page:
-        slider, spectrum = _widgets(page)
+    with _server() as (port, clock), open_page(port) as page:
+        slider, spectrum = widgets(page)
         low, high = (slider["props"][end] for end in ("min", "max"))
         rates = np.linspace(high, low, N_FIRST + n_moves).round()
-        _move(page, slider, rates[0], spectrum)  # answered once the vehicle is prepared
-        _rest(page)
+        move(page, slider, rates[0], spectrum)  # answered once the vehicle is prepared
+        rest(page)
         for rate in rates[1:N_FIRST]:
-            _move(page, slider, rate, spectrum)
+            move(page, slider, rate, spectrum)
         begin = _processor_s(clock)
-        times = [_move(page, slider, rate, spectrum) for rate in rates[N_FIRST:]]
+        times = [move(page, slider, rate, spectrum) for rate in rates[N_FIRST:]]
         used = _processor_s(clock) - begin
     return Drag(1e3 * statistics.median(times), 1e3 * used / n_moves)
 
 
-def _move(page: Page, slider: Message, rate: float, spectrum: Message) -> float:
+def move(page: Page, slider: Message, rate: float, spectrum: Message) -> float:
     """Seconds from a move of the slider until its spectrum is here."""
     begin = time.perf_counter()
-    _send(page, _messages.GuiUpdateMessage(slider["uuid"], {"value": float(rate)}))
-    for message in _received(page):
-        if message.get("uuid") == spectrum["uuid"] and "data" in message.get("updates", ()):
-            break
+    say(page, slider, rate)
+    next(message for message in _received(page) if _is_news(message, spectrum, "data"))
     return time.perf_counter() - begin
 
 
-def _widgets(page: Page) -> tuple[Message, Message]:
+def say(page: Page, slider: Message, rate: float) -> None:
+    """Says that the slider of a page has been moved."""
+    page.send(wire("GuiUpdateMessage", uuid=slider["uuid"], updates={"value": float(rate)}))
+
+
+def wait_for_answer(page: Page, slider: Message, rate: float, spectrum: Message) -> None:
+    """Waits until a page is told of another's move of the slider, and then of a spectrum."""
+    said = _received(page)
+    next(m for m in said if _is_news(m, slider, "value") and m["updates"]["value"] == rate)
+    next(m for m in said if _is_news(m, spectrum, "data"))
+
+
+def _is_news(message: Message, widget: Message, what: str) -> bool:
+    return message.get("uuid") == widget["uuid"] and what in message.get("updates", ())
+
+
+def widgets(page: Page) -> tuple[Message, Message]:
     """The first slider and, once it has been drawn, the first spectrum."""
     slider = spectrum = None
     for message in _received(page):
@@ -86,7 +112,7 @@ def _widgets(page: Page) -> tuple[Message, Message]:
     return slider, spectrum
 
 
-def _rest(page: Page) -> None:
+def rest(page: Page) -> None:
     """Lets the server come to rest, as it is before somebody drags."""
     end = time.monotonic() + REST_S
     with suppress(TimeoutError):
@@ -95,35 +121,29 @@ def _rest(page: Page) -> None:
 
 
 def _received(page: Page) -> Iterator[Message]:
-    """What the server sends: two lengths before each compressed msgpack of messages."""
+    """What the server sends."""
     while True:
-        frame = page.recv(timeout=PATIENCE_S)
-        assert isinstance(frame, bytes)
-        length = int.from_bytes(frame[8:16], "little")
-        content = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + length])
-        yield from msgspec.msgpack.decode(content)["messages"]
+        yield from messages(page.recv(timeout=PATIENCE_S))
 
 
-def _send(page: Page, message: _messages.Message) -> None:
-    page.send(msgspec.msgpack.encode({"type": type(message).__name__, **vars(message)}))
+def messages(frame: bytes | str) -> list[Message]:
+    """Those in a frame: two lengths before their compressed msgpack."""
+    assert isinstance(frame, bytes)
+    length = int.from_bytes(frame[8:16], "little")
+    content = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + length])
+    return msgspec.msgpack.decode(content)["messages"]
+
+
+def wire(kind: str, **fields: Any) -> bytes:
+    """A message of a page as it goes to the server."""
+    return msgspec.msgpack.encode({"type": kind, **fields})
 
 
 @contextmanager
-def _page(port: int) -> Iterator[Page]:
+def open_page(port: int) -> Iterator[Page]:
     """A page that has opened; viser knows it once it has told its camera."""
-    camera = _messages.ViewerCameraMessage(
-        wxyz=(1.0, 0.0, 0.0, 0.0),
-        position=(5.0, 5.0, 3.0),
-        fov=1.0,
-        near=0.1,
-        far=100.0,
-        image_height=600,
-        image_width=800,
-        look_at=(0.0, 0.0, 0.0),
-        up_direction=(0.0, 0.0, 1.0),
-    )
     with _connect(port) as page:
-        _send(page, camera)
+        page.send(wire("ViewerCameraMessage", **CAMERA))
         yield page
 
 
@@ -155,7 +175,7 @@ def _connect(port: int) -> Page:
 @contextmanager
 def _server() -> Iterator[tuple[int, Connection]]:
     """The port of the built-in truck's page in a process of its own, and that process's clock."""
-    port = _free_port()
+    port = free_port()
     context = multiprocessing.get_context("spawn")
     clock, far_end = context.Pipe()
     process = context.Process(target=_serve, args=(port, far_end), daemon=True)
@@ -186,7 +206,8 @@ def _processor_s(clock: Connection) -> float:
     return clock.recv()
 
 
-def _free_port() -> int:
+def free_port() -> int:
+    """One that nobody listens on."""
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         return taken.getsockname()[1]

@@ -109,7 +109,6 @@ def test_tables_name_points_and_directions(capsys, folder, command):
         (["view", "{}", "--port", "99999999"], "expected 0 to 65535"),
         (["view", "{}", "--port", "-1"], "expected 0 to 65535"),
         (["view", "{}", "--port", "0", "--speed", "9000 km/h"], "its table holds"),
-        (["view", "{}", "--host", "0.0.0.0"], "token"),
     ],
 )
 def test_what_the_user_can_put_right_is_one_message_and_status_2(capsys, folder, arguments, message):

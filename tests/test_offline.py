@@ -18,7 +18,7 @@ WIDTH = 420 - 62 - 14
 def app():
     vehicle = mounted_cabin()
     rates = vehicle.all_rates(vehicle.rate_sets["soft"])
-    app = App(vehicle, rates, Conditions("flat", 20.0), open_server(port=0, token="sesame"))
+    app = App(vehicle, rates, Conditions("flat", 20.0), open_server(port=0, token="open-sesame-open"))
     app.start()
     yield app
     app.close()

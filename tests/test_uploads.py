@@ -4,11 +4,12 @@ import pytest
 import viser
 from viser import _messages
 
-from modeviz.viewer.uploads import LARGEST_FILE, MOST_AT_ONCE, PART, is_upload_allowed
+from modeviz.viewer.decoding import PART
+from modeviz.viewer.uploads import LARGEST_FILE, MOST_AT_ONCE, is_upload_allowed
 
 
-def on_the_way(client_id=1, transferred=0, total=100):
-    return {"client_id": client_id, "transferred_bytes": transferred, "total_bytes": total}
+def on_the_way(client_id=1, total=100):
+    return {"client_id": client_id, "total_bytes": total}
 
 
 def server(**transfers):
@@ -54,15 +55,12 @@ def test_a_small_file_may_come_in_the_parts_it_takes(size, parts):
         start(LARGEST_FILE + 1, 2),
         start(-1, 0),
         start(100, 2),
-        start(float("nan"), 1),
-        start(True, 1),
         start(source_component_uuid="slider"),
         start(source_component_uuid="nobody"),
-        start(source_component_uuid=["button"]),
         start(transfer_uuid="old"),
-        start(filename="x" * 256),
         part(content=b"x" * 101),
-        part(content="x"),
+        part(content=b"x" * 99),
+        part(part_index=1),
         part(transfer_uuid="unknown"),
         part(source_component_uuid="slider"),
         part(source_component_uuid=None),
@@ -73,10 +71,9 @@ def test_whatever_else_a_page_sends_may_not_come(message):
     assert not is_upload_allowed(server(old=on_the_way()), 1, message)
 
 
-def test_parts_may_come_from_the_page_that_started_only_and_no_more_than_it_said():
+def test_parts_may_come_from_the_page_that_started_only():
     assert is_upload_allowed(server(old=on_the_way()), 1, part())
     assert not is_upload_allowed(server(old=on_the_way()), 2, part())
-    assert not is_upload_allowed(server(old=on_the_way(transferred=1)), 1, part())
 
 
 def test_a_page_may_send_few_files_at_once():

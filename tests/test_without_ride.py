@@ -45,7 +45,7 @@ def test_a_road_that_is_asked_for_must_be_there(vehicle, tmp_path, capsys):
 def test_the_page_shows_everything_but_responses(vehicle, tmp_path):
     options = Namespace(road=None, speed=None)
     vehicle, conditions = shown(options, vehicle)
-    server = open_server(port=0, token="sesame")
+    server = open_server(port=0, token="open-sesame-open")
     app = App(vehicle, vehicle.rates, conditions, server)
     failures = []
     app.session._checker._fail = app.session._worker._fail = failures.append

@@ -40,11 +40,7 @@ def _parser() -> argparse.ArgumentParser:
 
     view = _command(commands, "view", open_view, "open the vehicle in the browser")
     _add_road(view)
-    view.add_argument(
-        "--host", default="127.0.0.1", help="address to listen on (default: this machine)"
-    )
-    view.add_argument("--port", type=int, default=DEFAULT_PORT, help=f"default {DEFAULT_PORT}")
-    view.add_argument("--token", help="asked of every visitor; needed when --host is not this machine")
+    _add_address(view)
     view.add_argument("--dark", action="store_true", help="dark page")
 
     modes = _command(commands, "modes", tables.modes, "frequencies, damping, names and energies")
@@ -118,6 +114,38 @@ def _command(commands, name: str, run, help_text: str) -> argparse.ArgumentParse
         "repeated",
     )
     return command
+
+
+def _add_address(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--host",
+        default="127.0.0.1",
+        help="address to listen on, such as 0.0.0.0 for colleagues (default: this machine)",
+    )
+    command.add_argument(
+        "--port", type=int, default=DEFAULT_PORT, help=f"default {DEFAULT_PORT}; 0 takes a free one"
+    )
+    command.add_argument(
+        "--public-name",
+        action="append",
+        default=[],
+        metavar="NAME",
+        dest="public_names",
+        help="under which a proxy makes the page known, such as tool.example.com; may be repeated",
+    )
+    token = command.add_mutually_exclusive_group()
+    token.add_argument(
+        "--token",
+        help="asked of every visitor (default: that of the environment's MODEVIZ_TOKEN, or else a new "
+        "one, in the link that is printed); everybody on this machine can read it here",
+    )
+    token.add_argument("--token-file", type=Path, metavar="FILE", help="that holds the token")
+    token.add_argument(
+        "--no-token",
+        action="store_false",
+        dest="has_token",
+        help="let in whoever is on this machine",
+    )
 
 
 def _add_road(command: argparse.ArgumentParser) -> None:

@@ -11,7 +11,9 @@ def view(options: Namespace) -> None:
     """Serves the page until it is stopped."""
     with ended_by_interrupt():
         from modeviz.viewer.app import serve  # viser alone takes a second to import
+        from modeviz.viewer.tokens import chosen_token
 
+    token = chosen_token(options.token, options.token_file, options.has_token)
     vehicle, start = vehicle_and_rates(options)
     vehicle, chosen = shown(options, vehicle)
     serve(
@@ -20,7 +22,8 @@ def view(options: Namespace) -> None:
         chosen,
         options.host,
         options.port,
-        options.token,
+        token,
         options.dark,
         progress("preparing"),
+        options.public_names,
     )

@@ -1,8 +1,6 @@
 """The page as a whole: opens the server, lays out the panels and draws every answer."""
 
-import logging
 import threading
-import traceback
 from collections.abc import Callable, Sequence
 from datetime import date
 
@@ -277,7 +275,7 @@ class App:
         """Says what went wrong; the last good answer stays on the screen."""
         self._failure = error
         if not isinstance(error, ModevizError):
-            traceback.print_exception(error)
+            self.server.notices.mistake(error)
         for client in self.server.get_clients().values():
             client.add_notification("Not solved", str(error), color="red")
 
@@ -314,6 +312,7 @@ def serve(
     token: str | None,
     dark: bool,
     progress: Callable[[float], None] | None = None,
+    public_names: Sequence[str] = (),
 ) -> None:
     """Shows a vehicle until interrupted.
 
@@ -326,24 +325,22 @@ def serve(
         token: asked of every visitor, if any.
         dark: whether the page is dark.
         progress: told the fraction of the preparation that is done.
+        public_names: under which a proxy makes the page known.
 
     Raises:
         ModevizError: the port is in use, the address needs a token, or the road does not go with the
             speed.
     """
-    # What is no request, such as a port scan, is nothing the user can put right.
-    logging.getLogger("websockets").setLevel(logging.CRITICAL)
     # Two BLAS threads on these sizes, beside a browser, are far slower than one.
     with threadpool_limits(limits=1, user_api="blas"):
-        server = open_server(host, port, token, title=f"{vehicle.name} · modeviz")
+        server = open_server(host, port, token, f"{vehicle.name} · modeviz", public_names)
         try:
             app = App(vehicle, rates, conditions, server, dark)
             app.guide.welcome_first()
         except ModevizError:
             server.stop()
             raise
-        query = f"/?token={token}" if token else ""
-        print(f"{vehicle.name} is at http://{host}:{port}{query}  (Ctrl+C ends)", flush=True)
+        print(f"{vehicle.name} is at {server.link}  (Ctrl+C ends)", flush=True)
         try:
             app.start(progress)
             threading.Event().wait()

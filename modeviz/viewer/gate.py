@@ -1,12 +1,12 @@
 """What a page may say: every message from a browser is checked before viser acts on it.
 
 Values from a page are anybody's: viser stores 1e9 and NaN, and lets a page set any attribute of a
-widget. Here a message must be of a kind we use, and its value one that its widget can produce.
+widget. `decoding` lets only kinds through that we use; here a value must be one that its widget can
+produce.
 """
 
 import asyncio
 import math
-from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -14,48 +14,38 @@ import viser
 from viser import _messages
 from viser.infra import ClientId, WebsockClientConnection
 
+from modeviz.viewer.decoding import LONGEST_TEXT
+from modeviz.viewer.notices import Notices
 from modeviz.viewer.settle import DELAY
 from modeviz.viewer.uploads import UPLOADS, is_upload_allowed, refuse_upload
 
 if TYPE_CHECKING:
     from viser._gui_handles import _GuiInputHandle
 
-ALLOWED = (
-    _messages.GuiUpdateMessage,
-    _messages.ViewerCameraMessage,
-    _messages.GetRenderResponseMessage,
-    _messages.SceneNodeClickMessage,
-    _messages.CommandTriggerMessage,
-    _messages.FileTransferPartAck,
-    *UPLOADS,
-)
-LONGEST_TEXT = 4000
-N_NUMBERS = {
-    "wxyz": 4,
-    "position": 3,
-    "look_at": 3,
-    "up_direction": 3,
-    "ray_origin": 3,
-    "ray_direction": 3,
-    "screen_pos": 2,
-}
-"""How many there are in every list that viser's page sends, by the field of a message."""
 
-
-def gate_messages(server: viser.ViserServer) -> None:
+def gate_messages(server: viser.ViserServer, notices: Notices) -> None:
     """Puts the checks before a server's and all its clients' handling of messages."""
     websock = server._websock_server
-    _gate(server, websock, None)
-    websock.on_client_connect(lambda connection: _gate(server, connection, connection))
+    _gate(server, notices, websock, None)
+    websock.on_client_connect(lambda connection: _gate(server, notices, connection, connection))
 
 
-def _gate(server: viser.ViserServer, handler: Any, connection: WebsockClientConnection | None) -> None:
+def _gate(
+    server: viser.ViserServer,
+    notices: Notices,
+    handler: Any,
+    connection: WebsockClientConnection | None,
+) -> None:
     """Puts the checks before one handler of messages; a client's own also corrects its screen."""
     handle = handler._handle_incoming_message
 
+    async def reported(client_id: ClientId, message: _messages.Message) -> None:
+        try:
+            await checked(client_id, message)
+        except Exception as error:
+            notices.mistake(error)
+
     async def checked(client_id: ClientId, message: _messages.Message) -> None:
-        if not isinstance(message, ALLOWED):
-            return
         if isinstance(message, UPLOADS):
             if connection is None:  # only shared widgets take files
                 if is_upload_allowed(server, client_id, message):
@@ -64,8 +54,7 @@ def _gate(server: viser.ViserServer, handler: Any, connection: WebsockClientConn
                     refuse_upload(server, client_id, message)
             return
         if not isinstance(message, _messages.GuiUpdateMessage):
-            if _is_whole(vars(message)):
-                await handle(client_id, message)
+            await handle(client_id, message)
             return
         widget = _widget(server, client_id, message.uuid)
         if widget is None:
@@ -78,7 +67,7 @@ def _gate(server: viser.ViserServer, handler: Any, connection: WebsockClientConn
             again = partial(_correct_if_there, server, client_id, connection, widget)
             asyncio.get_running_loop().call_later(DELAY, again)
 
-    handler._handle_incoming_message = checked
+    handler._handle_incoming_message = reported
 
 
 def _correct(connection: WebsockClientConnection, widget: "_GuiInputHandle") -> None:
@@ -136,26 +125,3 @@ def _is_number(value: Any, low: float | None, high: float | None) -> bool:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         return False
     return (low is None or value >= low) and (high is None or value <= high)
-
-
-def _is_whole(fields: Mapping[str, Any]) -> bool:
-    """Whether lists are those that viser's page sends, and no number is NaN or infinite."""
-    return all(
-        _is_list(value, N_NUMBERS[name]) if name in N_NUMBERS else _is_plain(value)
-        for name, value in fields.items()
-    )
-
-
-def _is_list(value: Any, n_numbers: int) -> bool:
-    return (
-        isinstance(value, (tuple, list))
-        and len(value) == n_numbers
-        and all(_is_number(number, None, None) for number in value)
-    )
-
-
-def _is_plain(value: Any) -> bool:
-    """Whether a value is a single one; a text is no longer than any of a page's."""
-    if isinstance(value, str):
-        return len(value) <= LONGEST_TEXT
-    return value is None or isinstance(value, bytes) or _is_number(value, None, None)

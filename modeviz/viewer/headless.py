@@ -3,6 +3,7 @@
 A page cannot photograph itself with its panels, and on the command line nobody has one open.
 """
 
+import math
 import shutil
 import time
 from collections.abc import Callable, Iterator
@@ -22,7 +23,7 @@ from modeviz.viewer.driver import PREFIX, ShapeDriver, held
 from modeviz.viewer.pictures import Pose
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, ConsoleMessage, Page
+    from playwright.sync_api import Browser, BrowserType, ConsoleMessage, Page
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = (
@@ -37,6 +38,9 @@ FLAGS = (
 )
 PATIENCE = 180.0
 """s: a large page takes long in software."""
+
+MOST_PIXELS = 3840 * 2160
+"""Of a window: a browser that draws in software takes fifty bytes for each."""
 
 MARK = "modevizClient"
 """The name in a page's window under which it finds the server's number for it."""
@@ -113,7 +117,7 @@ class Studio:
             self._page.set_default_timeout(1000 * PATIENCE)
             self._page.on("pageerror", lambda error: self._reported.append(str(error)))
             self._page.on("console", self._note)
-            self._page.goto(f"{self._server.link}&fixedDpr=1")
+            self._page.goto(f"{self._server.local_link}&fixedDpr=1")
             self.client = self._find_client()
             if self._is_bare:
                 self._page.add_style_tag(content=BARE)
@@ -148,7 +152,7 @@ class Studio:
         """
         with _told_simply():
             if like is not None:
-                self._fit(like.camera.image_width, like.camera.image_height)
+                self._fit(*_bounded(like.camera.image_width, like.camera.image_height))
                 with self.client.atomic():
                     self.client.camera.position = like.camera.position
                     self.client.camera.look_at = like.camera.look_at
@@ -240,11 +244,27 @@ def chromium() -> "Iterator[Browser]":
                 "pictures need Chromium: install your system's (apt install chromium), "
                 "or Playwright's (playwright install chromium)"
             )
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        browser = _launched(playwright.chromium, path)
         try:
             yield browser
         finally:
             browser.close()
+
+
+def _launched(kind: "BrowserType", path: str) -> "Browser":
+    """A browser in its sandbox, where it can have one: root has none, nor have many containers."""
+    from playwright.sync_api import Error
+
+    try:
+        return kind.launch(executable_path=path, args=FLAGS, chromium_sandbox=True)
+    except Error:
+        return kind.launch(executable_path=path, args=FLAGS, chromium_sandbox=False)
+
+
+def _bounded(width: int, height: int) -> tuple[int, int]:
+    """The size of a window, pixels, or a smaller one of its shape where that is too large to draw."""
+    scale = min(1.0, math.sqrt(MOST_PIXELS / (width * height)))
+    return math.floor(scale * width), math.floor(scale * height)
 
 
 @contextmanager

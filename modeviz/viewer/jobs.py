@@ -1,8 +1,8 @@
 """Work for one page that takes a while: a bar and a cancel button in its way until it is done."""
 
 import threading
-import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import viser
 
@@ -16,13 +16,21 @@ class CancelledError(Exception):
     """Nobody wants the result any more."""
 
 
-def run(client: viser.ClientHandle, title: str, work: Callable[[Tell], None]) -> None:
+def run(
+    client: viser.ClientHandle,
+    title: str,
+    work: Callable[[Tell], None],
+    is_there: Callable[[], bool],
+    report: Callable[[Exception], None],
+) -> None:
     """Does some work; its page shows how far it is, can cancel it, and is told what went wrong.
 
     Args:
         client: the page.
         title: what is being done.
         work: does it, and tells often.
+        is_there: whether the page still is; without it the work is cancelled.
+        report: told what is our mistake.
     """
     window = client.gui.add_modal(title)
     with window:
@@ -36,7 +44,7 @@ def run(client: viser.ClientHandle, title: str, work: Callable[[Tell], None]) ->
         cancel.disabled = True
 
     def tell(fraction: float) -> None:
-        if is_cancelled.is_set():
+        if is_cancelled.is_set() or not is_there():
             raise CancelledError
         if fraction < 1:  # else the bar goes in the same breath, and viser's page would complain
             bar.value = 100 * fraction
@@ -46,11 +54,23 @@ def run(client: viser.ClientHandle, title: str, work: Callable[[Tell], None]) ->
     except CancelledError:
         pass
     except ModevizError as error:
-        client.add_notification("Not saved", str(error), color="red")
+        if is_there():
+            client.add_notification("Not saved", str(error), color="red")
     except Exception as error:
-        traceback.print_exception(error)
+        report(error)
         client.add_notification(
             "Not saved", "This is our mistake: the terminal says more.", color="red"
         )
     finally:
         window.close()
+
+
+@contextmanager
+def turn(places: threading.Semaphore, tell: Tell) -> Iterator[None]:
+    """Waits for one of a few places in which such work is done at once."""
+    while not places.acquire(timeout=0.1):
+        tell(0.0)
+    try:
+        yield
+    finally:
+        places.release()

@@ -12,15 +12,20 @@ from PIL import Image
 
 from modeviz.errors import ModevizError
 from modeviz.export.images import on_color
+from modeviz.viewer.connection import asked
+from modeviz.viewer.decoding import LARGEST_PICTURE
 from modeviz.viewer.stage import Theme
 
 Backdrop = Literal["scene", "white", "transparent"]
 
-SIZES = (16, 4096)
-"""Least and most pixels of a side; more, graphics cards may not draw."""
+SIZES = (16, LARGEST_PICTURE)
+"""Least and most pixels of a side."""
 
 TIMEOUT = 60.0
 """s: a picture takes long where a page renders in software."""
+
+MOST_BYTES_PER_PIXEL = 5
+"""Of a PNG file that is not compressed at all."""
 
 N_FRAMES = 36
 """Of a cycle: 18 a second at the default speed."""
@@ -92,15 +97,16 @@ def picture(
         ModevizError: the page did not draw it, or not in time.
     """
     try:
-        drawn = client.get_render(
-            shot.height,
-            shot.width,
-            wxyz=pose.wxyz,
-            position=pose.position,
-            fov=shot.field_of_view,
-            transport_format="png",
-            timeout=timeout,
-        )
+        with asked(client, MOST_BYTES_PER_PIXEL * shot.width * shot.height):
+            drawn = client.get_render(
+                shot.height,
+                shot.width,
+                wxyz=pose.wxyz,
+                position=pose.position,
+                fov=shot.field_of_view,
+                transport_format="png",
+                timeout=timeout,
+            )
     except TimeoutError:
         raise ModevizError(
             f"the page did not draw it within {timeout:.0f} s: keep the page in front, "
@@ -108,6 +114,8 @@ def picture(
         ) from None
     except RuntimeError as error:
         raise ModevizError(f"the page did not draw it: choose a smaller size ({error})") from None
+    if drawn.shape[:2] != (shot.height, shot.width):
+        raise ModevizError("the page drew it in another size: choose a smaller one")
     image = Image.fromarray(drawn)
     if shot.backdrop == "transparent":
         return image

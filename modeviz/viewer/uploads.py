@@ -1,23 +1,18 @@
 """Which files a page may send: small ones, whole, to a button that takes files."""
 
 import math
-from collections.abc import Mapping
-from typing import Any
 
 import viser
 from viser import _messages
 from viser.infra import ClientId
 
+from modeviz.viewer.decoding import PART
+
 LARGEST_FILE = 1_000_000
 """Bytes: a hundred times what a set of rates takes."""
 
-PART = 512 * 1024
-"""Bytes of each part but the last; viser's pages cut files so."""
-
 MOST_AT_ONCE = 2
 """Files on their way from one page."""
-
-LONGEST_NAME = 255
 
 UPLOADS = (_messages.FileTransferStartUpload, _messages.FileTransferPart)
 
@@ -26,8 +21,6 @@ def is_upload_allowed(
     server: viser.ViserServer, client_id: ClientId, message: _messages.Message
 ) -> bool:
     """Whether a page may send one of `UPLOADS`: viser itself would keep whatever comes."""
-    if not _is_whole(vars(message)):
-        return False
     gui = server.gui
     button = gui._gui_input_handle_from_uuid.get(vars(message)["source_component_uuid"])
     if not isinstance(button, viser.GuiUploadButtonHandle):
@@ -46,7 +39,7 @@ def is_upload_allowed(
     return (
         state is not None
         and state["client_id"] == client_id
-        and state["transferred_bytes"] + len(message.content) <= state["total_bytes"]
+        and len(message.content) == min(PART, state["total_bytes"] - PART * message.part_index)
     )
 
 
@@ -54,8 +47,6 @@ def refuse_upload(server: viser.ViserServer, client_id: ClientId, message: _mess
     """Tells a page that its file is not taken, and ends its waiting for it."""
     client = server.get_clients().get(client_id)
     if client is None or not isinstance(message, _messages.FileTransferStartUpload):
-        return
-    if not _is_whole(vars(message)):
         return
     client.add_notification(
         "Not imported",
@@ -70,14 +61,3 @@ def refuse_upload(server: viser.ViserServer, client_id: ClientId, message: _mess
         total_bytes=message.size_bytes,
     )
     client.gui._websock_interface.queue_message(done)
-
-
-def _is_whole(fields: Mapping[str, Any]) -> bool:
-    """Whether every field of an upload's message is of its type; a page can send anything."""
-    types = {"content": bytes, "part_index": int, "part_count": int, "size_bytes": int}
-    return all(
-        type(value) is types.get(name, str)
-        and (not isinstance(value, str) or len(value) <= LONGEST_NAME)
-        for name, value in fields.items()
-        if name != "excluded_self_client"
-    )

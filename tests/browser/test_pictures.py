@@ -129,7 +129,7 @@ def test_background_of_the_page_is_in_no_picture_and_stays_on_the_page(server, c
 def app():
     """The pickup at the optimised rates, drawn without what is slow in software."""
     vehicle = read_vehicle(builtin_vehicle())
-    server = open_server(port=0, token="sesame")
+    server = open_server(port=0, token="open-sesame-open")
     app = App(vehicle, vehicle.rate_sets["optimised"], Conditions("road 1", vehicle.speed), server)
     server.scene.configure_environment_map(None)
     app.scene._stage._key.cast_shadow = False
@@ -144,7 +144,7 @@ def app():
 @pytest.fixture(scope="module")
 def bench(app, open_page):
     """Its page, with the pictures' tab open and a small size chosen."""
-    page = open_page(app.server, viewport=(980, 640), query="?token=sesame&fixedDpr=1")
+    page = open_page(app.server, viewport=(980, 640), query="?token=open-sesame-open&fixedDpr=1")
     wait_for(page, "window.__modeviz?.nShown > 0")
     page.evaluate(CLOSE_NOTICES)
     page.get_by_role("tab", name="Pictures").click()

@@ -1,6 +1,7 @@
 """Left column: pictures to take away."""
 
 import math
+import threading
 from collections.abc import Callable, Iterator
 from itertools import count
 
@@ -10,10 +11,12 @@ from PIL import Image
 from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.export.wording import file_name
 from modeviz.vehicle.arrays import Floats
+from modeviz.viewer.connection import MOST_PAGES
 from modeviz.viewer.doors import Server
 from modeviz.viewer.driver import held
 from modeviz.viewer.headless import Studio
-from modeviz.viewer.jobs import Tell, run
+from modeviz.viewer.jobs import Tell, run, turn
+from modeviz.viewer.limits import Places
 from modeviz.viewer.pictures import (
     CYCLE_S,
     N_CYCLES,
@@ -41,6 +44,9 @@ BACKDROPS: dict[str, Backdrop] = {
     "Transparent": "transparent",
 }
 
+N_JOBS, N_BROWSERS = 8, 1
+"""At once: each keeps pictures in memory, and a headless browser takes much more."""
+
 
 class PicturePanel:
     """What is saved, how large and on which background, and a button that does it."""
@@ -66,7 +72,8 @@ class PicturePanel:
         """
         self._server, self._theme = server, theme
         self._subject, self._offline, self._report = subject, offline, report
-        self._busy: set[int] = set()
+        self._pages = Places(MOST_PAGES, 1)
+        self._jobs, self._browsers = threading.Semaphore(N_JOBS), threading.Semaphore(N_BROWSERS)
         self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Tell], bytes]]] = {
             "Picture, PNG": ("", "png", self._picture),
             "Loop, GIF": ("", "gif", self._gif),
@@ -100,22 +107,28 @@ class PicturePanel:
         button.on_click(lambda event: self._save(event.client))
 
     def _save(self, client: viser.ClientHandle | None) -> None:
-        if client is None or client.client_id in self._busy:
-            return
+        """Begins to make a file for a page, one at a time; nobody's controls wait for it."""
+        if client is not None and self._pages.take(str(client.client_id)):
+            threading.Thread(target=self._make, args=(client,), name="picture", daemon=True).start()
+
+    def _make(self, client: viser.ClientHandle) -> None:
         kind = self._kind.value
         what, ending, make = self._makers[kind]
 
         def work(tell: Tell) -> None:
-            content = make(client, tell)
+            with turn(self._jobs, tell):
+                content = make(client, tell)
             tell(1.0)  # the last moment to cancel
             name = file_name(f"{self._subject()} {what}", ending)
             client.send_file_download(name, content, save_immediately=True)
 
-        self._busy.add(client.client_id)
+        def is_there() -> bool:
+            return client.client_id in self._server.get_clients()
+
         try:
-            run(client, kind, work)
+            run(client, kind, work, is_there, self._server.notices.mistake)
         finally:
-            self._busy.discard(client.client_id)
+            self._pages.leave(str(client.client_id))
 
     def _shot(self, client: viser.ClientHandle) -> Shot:
         width, height = round(self._width.value), round(self._height.value)
@@ -147,7 +160,7 @@ class PicturePanel:
         def tick() -> None:
             tell(1 - math.exp(-next(done) / 100))  # nobody knows how long
 
-        with Studio(self._server, tick=tick) as studio:
+        with turn(self._browsers, tell), Studio(self._server, tick=tick) as studio:
             return studio.page_png(like=client)
 
     def _html(self, client: viser.ClientHandle, tell: Tell) -> bytes:

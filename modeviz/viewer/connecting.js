@@ -1,0 +1,82 @@
+// Says what is wrong while the page's websocket is not open, and keeps its address whole behind a proxy.
+//
+// viser opens the websocket in a worker, which says "connected" and "closed". It leaves out the last slash of
+// the page's address, without which a proxy may not know the page's place, and writes the websocket's address
+// into the page's own, which the server then refuses. What is wrong is asked of the server, which sees what a
+// proxy has made of the request.
+(why, subprotocol) => {
+  const PATIENCE = 3000; // ms until a page that is not connected says so
+  const AGAIN = 5000; // ms between two questions what is wrong
+
+  const BLOCKED =
+    "the page is served, but its live connection, a WebSocket, does not get through: a proxy or firewall in " +
+    "between has to let it, and pass the headers Upgrade and Connection on";
+  const GONE = "the server does not answer: start modeviz again, and open the link it prints";
+
+  let waiting = 0;
+  let notice = null;
+
+  const address = () => location.href.split(/[?#]/)[0];
+
+  function show(text) {
+    notice ??= document.createElement("div");
+    notice.id = "modeviz-connection";
+    notice.setAttribute("role", "alert");
+    notice.textContent = `Not connected: ${text}.`;
+    notice.style.cssText =
+      "position:fixed;top:12px;left:50%;transform:translateX(-50%);z-index:10000;padding:8px 14px;" +
+      "max-width:min(640px,90vw);background:#c2452d;color:#fff;font:13px sans-serif;border-radius:4px";
+    document.body?.append(notice);
+  }
+
+  function connected() {
+    clearTimeout(waiting);
+    waiting = 0;
+    notice?.remove();
+  }
+
+  function closed() {
+    if (!waiting) waiting = setTimeout(explain, PATIENCE);
+  }
+
+  async function explain() {
+    const asked = waiting;
+    let text = GONE;
+    try {
+      const query = new URLSearchParams({ origin: location.origin, subprotocol });
+      const address = new URL(why, location.href.split(/[?#]/)[0]);
+      const answer = await fetch(`${address}?${query}`, { cache: "no-store" });
+      text = (answer.headers.get("Content-Type") ?? "").startsWith("text/plain") ? await answer.text() : BLOCKED;
+    } catch {}
+    if (waiting !== asked) return; // it has been connected meanwhile
+    show(text || BLOCKED);
+    waiting = setTimeout(explain, AGAIN);
+  }
+
+  window.Worker = class extends window.Worker {
+    constructor(...given) {
+      super(...given);
+      this.addEventListener("message", ({ data }) => {
+        if (data?.type === "connected") connected();
+        if (data?.type === "closed") closed();
+      });
+    }
+
+    postMessage(message, ...rest) {
+      if (message?.type === "set_server") message = { ...message, server: address().replace(/^http/, "ws") };
+      super.postMessage(message, ...rest);
+    }
+  };
+
+  const replace = history.replaceState.bind(history);
+  history.replaceState = (state, title, url) => {
+    const whole = new URL(url ?? location.href, location.href);
+    if (whole.searchParams.has("websocket")) {
+      whole.searchParams.delete("websocket");
+      url = whole.href;
+    }
+    replace(state, title, url);
+  };
+
+  closed();
+}
