@@ -140,6 +140,17 @@ def test_an_error_that_nobody_can_read_is_still_a_status(tmp_path, line):
     assert (run.returncode, run.stdout, run.stderr) == (2, "", "")
 
 
+def test_the_line_of_the_server_is_cleaned_too(hostile):
+    command = [sys.executable, "-u", "-m", "modeviz", "view", hostile, "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        assert run.stdout
+        line = run.stdout.readline()
+        run.kill()
+    assert line.startswith("Kabine φ \\u001b]0;taken")
+    assert "http://127.0.0.1:" in line
+    assert not CONTROL.search(line.removesuffix("\n"))
+
+
 def test_a_stream_says_which_letters_it_has():
     assert Printed(io.TextIOWrapper(io.BytesIO(), encoding="ascii")).encoding == "ascii"
     assert Printed(None).encoding == "utf-8"
