@@ -43,9 +43,9 @@ def test_the_best_of_one_space_lies_outside_of_another():
 @pytest.mark.parametrize(
     ("rates", "reason"),
     [
-        ({"A": MountRates(3e6, 1e6, 1e6)}, "past A vertical: upper bound"),
-        ({"A": MountRates(8e5, 1e5, 4e5)}, "past A lateral: lower ratio limit"),
-        ({"B": MountRates(8e4, 3e4, 4e4)}, "past B rates: lower bound"),
+        ({"A": MountRates(3e6, 1e6, 1e6)}, "past A vertical: upper bound by 50 %"),
+        ({"A": MountRates(8e5, 1e5, 4e5)}, "past A lateral: lower ratio limit by 100 %"),
+        ({"B": MountRates(8e4, 3e4, 4e4)}, "past B rates: lower bound by 233 %"),
         ({"A": MountRates(8e5, 3e5, 4e5, 0.3)}, "A loss factor is 0.3, kept at 0.15"),
         ({"A": MountRates(8e5, 0.0, 4e5)}, "past A lateral: lower bound"),
     ],

@@ -106,7 +106,7 @@ def test_progress_ends_with_one(prepared, parts, objective):
     assert told == pytest.approx([0.4, 0.8, 1.0])
 
 
-def test_it_ends_when_told_to(prepared, parts, objective):
+def test_it_ends_when_told_to_with_the_vehicles_so_far(prepared, parts, objective):
     control = Control()
     told = []
 
@@ -114,9 +114,11 @@ def test_it_ends_when_told_to(prepared, parts, objective):
         told.append(done)
         control.cancel()
 
-    with pytest.raises(CancelledError):
-        scatter(prepared, parts, FLAT, objective, 10_000, control=control, tell=tell)
+    found = scatter(prepared, parts, FLAT, objective, 10_000, control=control, tell=tell)
     assert len(told) == 1
+    whole = scatter(prepared, parts, FLAT, objective, 10_000 // 50)
+    assert len(found.goal) == len(found.deviations) == len(found.rms) == len(found.psd) == CHUNK
+    assert found.goal.mean() == pytest.approx(whole.goal.mean(), rel=0.05)
 
 
 def test_it_ends_also_before_it_has_a_sample(monkeypatch, prepared, parts, objective):

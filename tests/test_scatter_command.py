@@ -1,5 +1,7 @@
 """`modeviz scatter` tells what the same vehicles do in Python."""
 
+import json
+import signal
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,12 +13,13 @@ from rounding import CABIN
 
 from modeviz.cli import main
 from modeviz.commands import scatter as command
+from modeviz.commands.interrupt import ENDINGS
 from modeviz.tuning.corner import goals
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.parts import Tolerance, scattered_parts
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve
-from modeviz.tuning.scatter import scatter
+from modeviz.tuning.scatter import CHUNK, scatter
 from modeviz.vehicle.files import read_vehicle, write_vehicle
 
 TOLERANCE = Tolerance(0.1, 0.4)
@@ -125,7 +128,23 @@ def test_a_vehicle_without_a_problem_gets_the_one_that_the_page_shows(printed_js
     assert record["quantities"]["goal"]["nominal"] == pytest.approx(1)
 
 
-def test_ctrl_c_ends_it(monkeypatch, cabin):
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_a_signal_ends_it_with_the_vehicles_so_far(monkeypatch, capsys, cabin, ending):
+    def telling(what):
+        return lambda done: signal.raise_signal(ending) if what == "scattering" else None
+
+    monkeypatch.setattr(command, "progress", telling)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        assert main(["scatter", cabin, "--samples", "5000", "--json"]) == 0
+    finally:
+        signal.signal(signal.SIGINT, before)
+    out, err = capsys.readouterr()
+    assert json.loads(out)["samples"] == CHUNK
+    assert f"modeviz: note: ended after {CHUNK} of 5000 vehicles\n" in err
+
+
+def test_ended_before_it_has_vehicles_it_has_nothing_to_say(monkeypatch, cabin):
     def interrupted(*arguments):
         control = arguments[8]
         control.cancel()

@@ -13,11 +13,11 @@ from modeviz.commands.options import (
     print_json,
     vehicle_and_rates,
 )
-from modeviz.commands.terminal import progress, say
+from modeviz.commands.terminal import progress, remark, say
 from modeviz.errors import ModevizError, SolveError
 from modeviz.export.scatter import Scattered, scatter_record, scatter_table
 from modeviz.tuning.cluster import runner_at
-from modeviz.tuning.control import CancelledError
+from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.corner import worst_corner
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.objective import Objective
@@ -45,11 +45,12 @@ def scatter_mounts(options: Namespace) -> None:
     need(vehicle, "mount group", vehicle.mount_groups)
     chosen = conditions(options, vehicle)
     problem = chosen_problem(options, vehicle)
-    told = _scattered(options, vehicle, rates, tolerance, chosen, problem)
-    if options.json:
-        print_json(scatter_record(told))
-    else:
-        print(scatter_table(told))
+    with cancelled_by_interrupt() as control:
+        told = _scattered(options, vehicle, rates, tolerance, chosen, problem, control)
+        if options.json:
+            print_json(scatter_record(told))
+        else:
+            print(scatter_table(told))
 
 
 def _scattered(
@@ -59,7 +60,9 @@ def _scattered(
     tolerance: Tolerance,
     chosen: Conditions,
     problem: Problem,
+    control: Control,
 ) -> Scattered:
+    """What the vehicles do, or those driven until it is cancelled."""
     goal = prepare_goal(vehicle, problem, rates, chosen.speed)
     if not isinstance(goal, Objective):
         raise ModevizError(
@@ -71,23 +74,24 @@ def _scattered(
         prepared = prepare_telling(vehicle)
         parts = scattered_parts(prepared, rates, tolerance)
         try:
-            with cancelled_by_interrupt() as control:
-                result = scatter(
-                    prepared,
-                    parts,
-                    chosen,
-                    goal,
-                    options.samples,
-                    options.seed,
-                    points,
-                    runner,
-                    control,
-                    progress("scattering"),
-                )
+            result = scatter(
+                prepared,
+                parts,
+                chosen,
+                goal,
+                options.samples,
+                options.seed,
+                points,
+                runner,
+                control,
+                progress("scattering"),
+            )
         except CancelledError:
             raise KeyboardInterrupt from None
         finally:
             say("")
+    if len(result.goal) < options.samples:
+        remark(f"ended after {len(result.goal)} of {options.samples} vehicles")
     worst = worst_corner(goal, parts, result.deviations[result.goal.argmax()])
     return Scattered(problem, chosen, options.seed, result, worst, _spread(result))
 

@@ -11,6 +11,8 @@ from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountRates, Rat
 SAME = 1e-6
 """Relative: rates are read and written in other units, and are not more alike than that."""
 
+FAR = np.log(1e6)
+
 SPOKEN: dict[str, str] = dict(zip(RATE_FIELDS, DIRECTIONS, strict=True))
 
 
@@ -80,7 +82,12 @@ def _past(space: DesignSpace, every: Rates) -> list[str]:
     x = np.array([_log(space, every, v.group, v.lead) for v in space.variables])
     excess = space.rows @ x - space.values
     each = zip(space.limits, excess.tolist(), strict=True)
-    return [f"past {limit.spoken}" for limit, by in each if by > SAME]
+    return [f"past {limit.spoken}{_amount(by)}" for limit, by in each if by > SAME]
+
+
+def _amount(by: float) -> str:
+    """How far a rate or ratio is past its limit; nothing of one that is zero."""
+    return f" by {100 * np.expm1(by):.3g} %" if by < FAR else ""
 
 
 def _log(space: DesignSpace, every: Rates, group: str, field: str) -> float:

@@ -13,7 +13,7 @@ from modeviz.dynamics.reanalysis import Receptances
 from modeviz.errors import SolveError, VehicleError, unknown
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
-from modeviz.tuning.control import Control
+from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.objective import Criterion, Objective
 from modeviz.tuning.parts import Parts
 from modeviz.tuning.preparation import Prepared
@@ -92,13 +92,13 @@ def scatter(
         seed: the same gives the same vehicles.
         points: names of the response points to look at, the first is rated; none: the vehicle's first.
         runner: where it is computed.
-        control: lets somebody end it.
+        control: lets somebody end it; the result is then of the vehicles driven so far.
         tell: told the fraction that is done.
 
     Raises:
         SolveError: fewer samples, or an undamped resonance on a frequency.
         VehicleError: a road or point that the vehicle does not have.
-        CancelledError: it was told to end.
+        CancelledError: it was told to end before two vehicles were driven.
     """
     if n_samples < 2:
         raise SolveError(f"samples: found {n_samples}, expected 2 or more")
@@ -111,19 +111,23 @@ def scatter(
     psd = np.empty((n_samples, len(prepared.frequency_hz), len(numbers), 3), np.float32)
     roots, goal = np.empty((n_samples, len(numbers), 3)), np.empty(n_samples)
     done = 0
-    for sampled in runner.map(_Study.sample, study, chunks, control):
-        own = slice(done, done + len(sampled.goal))
-        psd[own], roots[own], goal[own] = sampled.psd, sampled.rms, sampled.goal
-        done = own.stop
-        tell(done / n_samples)
+    try:
+        for sampled in runner.map(_Study.sample, study, chunks, control):
+            own = slice(done, done + len(sampled.goal))
+            psd[own], roots[own], goal[own] = sampled.psd, sampled.rms, sampled.goal
+            done = own.stop
+            tell(done / n_samples)
+    except CancelledError:
+        if done < 2:
+            raise
     return Scatter(
         parts=parts,
-        deviations=deviations,
+        deviations=deviations[:done],
         points=tuple(prepared.vehicle.response_points[i].name for i in numbers),
         frequency_hz=prepared.frequency_hz,
-        rms=roots,
-        goal=goal,
-        psd=psd,
+        rms=roots[:done],
+        goal=goal[:done],
+        psd=psd[:done],
         nominal_rms=nominal.rms[0],
         nominal_goal=float(nominal.goal[0]),
         psd_error=errors[0],

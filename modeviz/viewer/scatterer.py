@@ -106,6 +106,7 @@ class Scatterer:
             control=control,
             tell=tell,
         )
+        control.check()
         return Scattered(found)
 
     def _tell(self) -> None:
