@@ -73,20 +73,19 @@ class ForceRecord(Record, kw_only=True):
 
     @classmethod
     def of(cls, force: Force, file: str) -> Self:
-        is_random = isinstance(force.amplitude, Spectrum)
+        peak = None if isinstance(force.amplitude, Spectrum) else force.amplitude
         return cls(
             name=force.name,
             body=force.body,
             at=_vector(force.position),
             direction=_vector(force.direction),
-            amplitude=None if is_random else force.amplitude,
-            psd=file if is_random else None,
+            amplitude=peak,
+            psd=file if peak is None else None,
         )
 
     def build(self, source: Source) -> Force:
-        key, amplitude = _only_one({"amplitude": self.amplitude, "psd": self.psd})
-        if key == "psd":
-            amplitude = _spectrum(source, key, amplitude, "force")
+        key = _the_one({"amplitude": self.amplitude, "psd": self.psd})
+        amplitude = _amplitude(source, key, getattr(self, key), "force")
         position, direction = np.array(self.at), _unit_vector(self.direction)
         return Force(self.name, self.body, position, direction, amplitude)
 
@@ -106,43 +105,47 @@ class BaseMotionRecord(Record, kw_only=True):
 
     @classmethod
     def of(cls, motion: BaseMotion, file: str) -> Self:
-        is_random = isinstance(motion.amplitude, Spectrum)
-        key = f"{motion.quantity}_psd" if is_random else motion.quantity
-        amplitude = {key: file if is_random else motion.amplitude}
+        peak = None if isinstance(motion.amplitude, Spectrum) else motion.amplitude
+        moves = motion.quantity == "displacement"
         return cls(
             name=motion.name,
             connections=motion.connections,
             direction=_vector(motion.direction),
-            **amplitude,  # pyright: ignore[reportArgumentType]
+            displacement=peak if moves else None,
+            acceleration=None if moves else peak,
+            displacement_psd=file if moves and peak is None else None,
+            acceleration_psd=file if not moves and peak is None else None,
         )
 
     def build(self, source: Source) -> BaseMotion:
         keys = ("displacement", "acceleration", "displacement_psd", "acceleration_psd")
-        key, amplitude = _only_one({key: getattr(self, key) for key in keys})
+        key = _the_one({key: getattr(self, key) for key in keys})
         quantity = "displacement" if key.startswith("displacement") else "acceleration"
-        if key.endswith("psd"):
-            unit = "length" if quantity == "displacement" else "acceleration"
-            amplitude = _spectrum(source, key, amplitude, unit)
+        unit = "length" if quantity == "displacement" else "acceleration"
+        amplitude = _amplitude(source, key, getattr(self, key), unit)
         direction = _unit_vector(self.direction)
         return BaseMotion(self.name, direction, quantity, amplitude, self.connections)
 
 
-def _only_one(amplitudes: dict[str, float | str | None]) -> tuple[str, float | str]:
-    """The one amplitude that is given, with its key.
+def _the_one(amplitudes: dict[str, float | str | None]) -> str:
+    """The key of the one amplitude that is given.
 
     Raises:
         VehicleError: there is none, or more than one.
     """
-    given = [(key, value) for key, value in amplitudes.items() if value is not None]
+    given = [key for key, value in amplitudes.items() if value is not None]
     if len(given) != 1:
-        found = " and ".join(key for key, _ in given) or "none"
+        found = " and ".join(given) or "none"
         raise VehicleError(f"found {found}, expected one of {', '.join(amplitudes)}")
     return given[0]
 
 
-def _spectrum(source: Source, key: str, file: float | str, quantity: str) -> Spectrum:
+def _amplitude(source: Source, key: str, given: float | str, quantity: str) -> float | Spectrum:
+    """A peak as it is, the spectrum in a file that is named."""
+    if not isinstance(given, str):
+        return given
     with located(key):
-        return read_spectrum(source.path(str(file)), source.conventions.unit(quantity))
+        return read_spectrum(source.path(given), source.conventions.unit(quantity))
 
 
 def _unit_vector(direction: str | Vector) -> Floats:
