@@ -9,6 +9,7 @@ from modeviz.dynamics.components import component_shares as component_shares
 from modeviz.dynamics.damped import DampedMode as DampedMode
 from modeviz.dynamics.energy import kinetic_energy as kinetic_energy
 from modeviz.dynamics.energy import strain_energy as strain_energy
+from modeviz.dynamics.mode_damping import with_mode_damping as with_mode_damping
 from modeviz.dynamics.modes import ComplexModes as ComplexModes
 from modeviz.dynamics.modes import Modes as Modes
 from modeviz.dynamics.modes import solve_complex_modes as solve_complex_modes
@@ -101,6 +102,7 @@ from modeviz.vehicle.files import write_vehicle as write_vehicle
 from modeviz.vehicle.loads import ResponsePoint as ResponsePoint
 from modeviz.vehicle.loads import Road as Road
 from modeviz.vehicle.loads import WheelLoad as WheelLoad
+from modeviz.vehicle.mode_damping import ModeDamping as ModeDamping
 from modeviz.vehicle.problem import DesignGroup as DesignGroup
 from modeviz.vehicle.problem import FrequencyWindow as FrequencyWindow
 from modeviz.vehicle.problem import Performance as Performance

@@ -8,7 +8,7 @@ elastic centre.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -40,6 +40,10 @@ class System:
     along its local axes, see `relative_motion`."""
     rigid_joints: RigidJoints | None = None
     """What is held without a spring; None without a rigid joint."""
+    mode_dampers: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    """Rows (n_damped, n_dofs) along which dampers of single modes act, see `mode_damping`."""
+    mode_damping: Floats = field(default_factory=lambda: np.zeros(0))
+    """(n_damped,), 1/s: what they damp with; `damping` has it already."""
 
     @property
     def n_dofs(self) -> int:

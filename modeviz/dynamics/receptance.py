@@ -186,14 +186,16 @@ def _joints(system: System) -> tuple[Floats, _Joints]:
     carried = [system.motion(a.body, a.position)[:3] for a in vehicle.added_masses]
     mass = np.repeat([a.mass for a in vehicle.added_masses], 3)
     none = np.zeros(len(mass))
+    dampers = [system.mode_dampers] if system.mode_damping.size else []
+    damped = np.zeros(len(system.mode_damping))
     held = system.rigid_joints.held if system.rigid_joints else np.zeros((0, system.n_dofs))
     joints = _Joints(
-        stiffness=np.r_[(k * (1 + 1j * g))[joined], none],
-        damping=np.r_[c[joined], none],
-        mass=np.r_[np.zeros(np.count_nonzero(joined)), mass],
+        stiffness=np.r_[(k * (1 + 1j * g))[joined], none, damped],
+        damping=np.r_[c[joined], none, system.mode_damping],
+        mass=np.r_[np.zeros(np.count_nonzero(joined)), mass, damped],
         n_rigid=len(held),
     )
-    return np.vstack([system.connection_motions[joined], *carried, held]), joints
+    return np.vstack([system.connection_motions[joined], *carried, *dampers, held]), joints
 
 
 def _normalising(body: Body) -> Floats:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from modeviz.dynamics.assembly import System, assemble, mount_stiffness, mounts_of_springs
 from modeviz.dynamics.basis import TOP_HZ, EnrichedBasis, prepare_basis
 from modeviz.dynamics.component_trust import ComponentTrust, component_trust
+from modeviz.dynamics.mode_damping import with_mode_damping
 from modeviz.dynamics.naming import Namer, prepare_names
 from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
 from modeviz.ride.excitation import Load, excitation, input_directions, together
@@ -134,9 +135,10 @@ def prepare_modes(vehicle: Vehicle, top_hz: float = TOP_HZ) -> PreparedModes:
         top_hz: modes below this are wanted.
 
     Raises:
+        VehicleError: damping is stated of a mode that has none such.
         SolveError: the vehicle has no meaningful modes.
     """
-    system = assemble(vehicle)
+    system = with_mode_damping(assemble(vehicle), top_hz)
     return PreparedModes(system, prepare_basis(system, top_hz), prepare_names(system))
 
 

@@ -282,6 +282,10 @@ Rates = Mapping[str, MountRates]
 """The rates of mount groups, by the group's name."""
 
 
+SHARED = ("rotational_stiffness", "damping", "rotational_damping")
+"""What a mount has from its group unless it has its own."""
+
+
 @dataclass(frozen=True, eq=False)
 class MountGroup:
     """Mounts that are tuned together, because they are the same part."""
@@ -298,8 +302,16 @@ class MountGroup:
     """Where they are; their stiffness is the group's."""
     ratio_limits: tuple[float, float] | None = None
     """The least and the most that lateral and fore-aft rates may be of the vertical one."""
+    rotational_stiffness: Floats = field(default_factory=lambda: np.zeros(3))
+    """(3,) about the local x, y, z of each mount that has none of its own, N m/rad; not tuned."""
+    damping: Floats = field(default_factory=lambda: np.zeros(3))
+    """(3,) viscous, along its axes, likewise, N s/m."""
+    rotational_damping: Floats = field(default_factory=lambda: np.zeros(3))
+    """(3,) viscous, about its axes, likewise, N m s/rad."""
 
     def __post_init__(self) -> None:
+        for name in SHARED:
+            frozen(self, name, getattr(self, name), (3,))
         if not self.mounts:
             raise VehicleError(f"mount group {self.name!r}: has no mounts")
         if any(r.loss_factor is not None for r in (self.rates, *self.bounds)):
@@ -313,11 +325,18 @@ class MountGroup:
                 f"mount group {self.name!r}: ratio_limits: found {self.ratio_limits}, expected the "
                 "lower one first"
             )
-        tuned = tuple(
-            replace(m, group=self.name, stiffness=self.rates.local(), loss_factor=self.loss_factor)
-            for m in self.mounts
+        object.__setattr__(self, "mounts", tuple(map(self._tuned, self.mounts)))
+
+    def _tuned(self, mount: Mount) -> Mount:
+        """A mount with what its group has, and its own where it has that."""
+        shared = {name: getattr(self, name) for name in SHARED if not getattr(mount, name).any()}
+        return replace(
+            mount,
+            group=self.name,
+            stiffness=self.rates.local(),
+            loss_factor=self.loss_factor,
+            **shared,
         )
-        object.__setattr__(self, "mounts", tuned)
 
     def loss_factor_with(self, rates: MountRates) -> float:
         """The loss factor of the group with other rates."""

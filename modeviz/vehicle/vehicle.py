@@ -32,6 +32,7 @@ from modeviz.vehicle.loads import (
     Spectrum,
     WheelLoad,
 )
+from modeviz.vehicle.mode_damping import ModeDamping
 from modeviz.vehicle.problem import Problem
 
 REACH = 0.10
@@ -63,6 +64,8 @@ class Vehicle:
     """What the mounts are to be optimised for; the first is the usual one."""
     forces: tuple[Force, ...] = ()
     base_motions: tuple[BaseMotion, ...] = ()
+    mode_damping: tuple[ModeDamping, ...] = ()
+    """Damping ratios of modes of the vehicle with its own rates, where they are known."""
     notes: tuple[str, ...] = ()
     """What reading it had to say: what was taken otherwise than it stands, or is likely wrong.
 
@@ -82,6 +85,7 @@ class Vehicle:
             self._check_place(f"response point {point.name!r}", point.body, point.position)
         for force in self.forces:
             self._check_place(f"force {force.name!r}", force.body, force.position)
+        check_unique("mode damping of", (damping.name for damping in self.mode_damping))
         self._check_references()
 
     @cached_property

@@ -35,6 +35,7 @@ from modeviz.vehicle.files.records import (
     ConnectionRecord,
     FlexibleBodyRecord,
     JointRecord,
+    ModeDampingRecord,
     MountGroupRecord,
     RateSetRecord,
     ResponsePointRecord,
@@ -152,6 +153,7 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         },
         problems=built(record.problem, "problem", ProblemRecord.build),
         speed=record.speed or USUAL_SPEED,
+        mode_damping=built(record.mode_damping, "mode_damping", ModeDampingRecord.build),
     )
     axes = source.conventions.axes
     for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
@@ -194,6 +196,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
             name: {group: RateSetRecord.of(r) for group, r in rates.items()}
             for name, rates in vehicle.rate_sets.items()
         },
+        mode_damping=[ModeDampingRecord.of(damping) for damping in vehicle.mode_damping],
         problem=[ProblemRecord.of(problem) for problem in vehicle.problems],
     )
 

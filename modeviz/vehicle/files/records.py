@@ -17,6 +17,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role
 from modeviz.vehicle.connections import (
     MOTIONS,
+    SHARED,
     Connection,
     Mount,
     MountGroup,
@@ -55,6 +56,7 @@ from modeviz.vehicle.files.quantities import (
 from modeviz.vehicle.files.record import FileRecord, Name, NonNegative, RatesRecord, Record
 from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.mode_damping import ModeDamping
 
 NO_RATES = (0.0, 0.0, 0.0)
 VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -252,6 +254,10 @@ class MountGroupRecord(Record, kw_only=True):
     stiffest: RatesRecord | None = None
     ratio_limits: tuple[float, float] | None = None
     """The least and the most that lateral and fore-aft rates may be of the vertical one."""
+    rotational_stiffness: RotationalStiffness = NO_RATES
+    """Of each mount that has none of its own, as what follows."""
+    damping: Damping = NO_RATES
+    rotational_damping: RotationalDamping = NO_RATES
     mount: list[MountRecord]
 
     @classmethod
@@ -264,7 +270,8 @@ class MountGroupRecord(Record, kw_only=True):
             softest=RatesRecord.of(group.bounds[0]),
             stiffest=RatesRecord.of(group.bounds[1]),
             ratio_limits=group.ratio_limits,
-            mount=[MountRecord.of(mount) for mount in group.mounts],
+            mount=[MountRecord.of(_own(mount, group)) for mount in group.mounts],
+            **{name: _tuples(getattr(group, name)) for name in SHARED},
         )
 
     def build(self) -> MountGroup:
@@ -281,6 +288,7 @@ class MountGroupRecord(Record, kw_only=True):
             ),
             tuple(Mount(group=self.name, **mount.arguments()) for mount in self.mount),
             self.ratio_limits,
+            **{name: np.array(getattr(self, name)) for name in SHARED},
         )
 
 
@@ -373,6 +381,21 @@ class ResponsePointRecord(Record, kw_only=True):
         return ResponsePoint(self.name, self.body, np.array(self.at))
 
 
+class ModeDampingRecord(Record, kw_only=True):
+    """[[mode_damping]]."""
+
+    mode: Name | int | None = None
+    """What it is called or its number, as `modeviz modes` has them; all others, if not given."""
+    damping_ratio: NonNegative
+
+    @classmethod
+    def of(cls, damping: ModeDamping) -> Self:
+        return cls(mode=damping.mode, damping_ratio=damping.damping_ratio)
+
+    def build(self) -> ModeDamping:
+        return ModeDamping(self.damping_ratio, self.mode)
+
+
 class VehicleRecord(FileRecord, kw_only=True):
     """The whole file."""
 
@@ -395,9 +418,16 @@ class VehicleRecord(FileRecord, kw_only=True):
     wheel_load: list[WheelLoadRecord] = msgspec.field(default_factory=list)
     force: list[ForceRecord] = msgspec.field(default_factory=list)
     base_motion: list[BaseMotionRecord] = msgspec.field(default_factory=list)
+    mode_damping: list[ModeDampingRecord] = msgspec.field(default_factory=list)
     rates: dict[str, dict[str, RateSetRecord]] = msgspec.field(default_factory=dict)
     """[rates.SET.GROUP]."""
     problem: list[ProblemRecord] = msgspec.field(default_factory=list)
+
+
+def _own(mount: Mount, group: MountGroup) -> Mount:
+    """A mount with nothing that it has from its group."""
+    shared = [name for name in SHARED if np.array_equal(getattr(mount, name), getattr(group, name))]
+    return replace(mount, **dict.fromkeys(shared, np.zeros(3)))
 
 
 def _said(kind: type[Record], fields: Mapping[str, Any]) -> dict[str, Any]:
