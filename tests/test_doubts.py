@@ -8,7 +8,8 @@ from oracles import Beam
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
-from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.errors import VehicleError
+from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.vehicle import Vehicle
@@ -110,6 +111,36 @@ def test_inertias_that_no_body_has_are_told_of_modes_too():
         shapes=mixed(body.shapes),
     )
     assert "the largest is more than both others together" in said_of(changed)
+
+
+def solid(name: str, *moments: float) -> RigidBody:
+    return RigidBody(name, "other", name, 1.0, np.zeros(3), np.diag(moments))
+
+
+def test_inertias_a_little_beyond_those_of_a_body_are_pointed_out():
+    bodies = solid("plate", 1.0, 2.0, 3.0), solid("engine", 12.0, 21.0, 50.0)
+    (doubt,) = doubts(Vehicle("v", bodies, ()))
+    assert doubt.startswith(
+        "body 'engine': inertia: of the principal moments 12, 21 and 50 the largest"
+    )
+
+
+def test_inertias_that_no_body_has_are_refused_with_all_such_bodies_at_once(tmp_path):
+    names = ("a", "b", "c")
+    write_vehicle(Vehicle("v", tuple(solid(n, 1.11, 1.0, 1.01) for n in names), ()), tmp_path / "v")
+    path = tmp_path / "v/vehicle.toml"
+    a, *more = path.read_text().split("inertia = [1.11, 1.0, 1.01]")
+    path.write_text(
+        "inertia = [1.11, 100.11, 1.01]".join([a, *more[:2]]) + "inertia = [1, 1, 1]" + more[2]
+    )
+    with pytest.raises(VehicleError) as caught:
+        read_vehicle(tmp_path / "v")
+    words = "1.01, 1.11 and 100.1 the largest is more than both others together, 2.12"
+    for index, name in enumerate("ab"):
+        assert f"rigid_body[{index}]: body '{name}': inertia: of the principal moments {words}" in str(
+            caught.value
+        )
+    assert "'c'" not in str(caught.value)
 
 
 def test_modes_out_of_order_are_pointed_out():

@@ -1,6 +1,6 @@
 """What all records of `vehicle.toml` are made of."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Annotated, Self, TypeVar
 
 import msgspec
@@ -16,6 +16,10 @@ NonNegative = Annotated[float, Meta(ge=0)]
 
 R = TypeVar("R")
 P = TypeVar("P")
+
+
+MOST_ERRORS = 5
+"""Of what is wrong in one place with many records, so much is said at once."""
 
 
 class Record(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
@@ -53,14 +57,25 @@ class RecordError(VehicleError):
 
 
 def built(records: Iterable[R], key: str, build: Callable[[R], P]) -> tuple[P, ...]:
-    """What each record builds; an error names the record, and the one it is in."""
-    parts = []
+    """What each record builds; an error names every record that builds nothing, and what it is in."""
+    parts: list[P] = []
+    errors: list[RecordError] = []
     for index, record in enumerate(records):
         path = f"{key}[{index}]"
         try:
             parts.append(build(record))
         except RecordError as error:
-            raise RecordError(f"{path}.{error.path}", error.words) from None
+            errors.append(RecordError(f"{path}.{error.path}", error.words))
         except ModevizError as error:
-            raise RecordError(path, str(error)) from None
+            errors.append(RecordError(path, str(error)))
+    if errors:
+        raise _together(errors) from None
     return tuple(parts)
+
+
+def _together(errors: Sequence[RecordError]) -> RecordError:
+    """One error that says what several say, the first `MOST_ERRORS` of very many."""
+    first, *others = errors
+    said = [first.words, *map(str, others[: MOST_ERRORS - 1])]
+    n_more = len(errors) - len(said)
+    return RecordError(first.path, "; ".join([*said, *([f"{n_more} more"] if n_more else [])]))
