@@ -97,14 +97,18 @@ def _counting(comparison: Comparison) -> Iterator[tuple[str, str, str, str]]:
     assert comparison.rides is not None
     base, now = comparison.rides
     before, after = base.rating.mean_personal_rating, now.rating.mean_personal_rating
-    kind = "dim" if after == before else "good" if after > before else "bad"
-    gain = span(signed(after - before, 2), kind)
-    yield "Rating (MPR), of 10", number(after, 2), number(before, 2), gain
+    yield "Rating (MPR), of 10", number(after, 2), number(before, 2), _gain(after - before)
     for direction in ("lateral", "vertical"):
         old, new = (float(r.rms[0, AXIS[direction]]) for r in (base, now))
         yield f"{direction.capitalize()} RMS, g", f"{new:.4f}", f"{old:.4f}", change(new, old)
     old, new = base.rating.weighted_total, now.rating.weighted_total
     yield "ISO 2631-1 total, m/s²", f"{new:.3f}", f"{old:.3f}", change(new, old)
+
+
+def _gain(difference: float) -> str:
+    """That of a rating, where more is better; what rounds to none is none."""
+    kind = "good" if difference > 0 else "bad"
+    return span(signed(difference, 2), kind if abs(difference) >= 0.005 else "dim")
 
 
 def _figure(what: str, now: str, base: str, difference: str) -> str:
