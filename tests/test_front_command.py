@@ -11,10 +11,12 @@ import pytest
 from cabin_problem import PROBLEM
 from mounted_cabin import mounted_cabin
 from rounding import SEARCHED_X
+from usual_signals import usual_signals
 
 import modeviz as mv
 from modeviz.cli import main
 from modeviz.commands import front as command
+from modeviz.commands.interrupt import ENDINGS
 from modeviz.vehicle.files import write_vehicle
 
 OFFER = "lateral against vertical"
@@ -87,16 +89,18 @@ def test_its_tables_say_the_same_in_print_and_in_a_file(capsys, cabin, tmp_path)
     assert [float(text) for text in printed[2:]] == pytest.approx(column, rel=1e-3)
 
 
-def test_an_interrupt_keeps_the_designs_so_far(monkeypatch, printed_json, cabin):
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_a_signal_to_end_keeps_the_designs_so_far(monkeypatch, printed_json, cabin, ending):
     told = []
 
     def interrupt(_, progress):
         told.append(progress)
         if len(told) == 1:
-            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(ending)
 
     monkeypatch.setattr(command, "_tell", interrupt)
-    record = printed_json("optimise", cabin, "--front", OFFER, "--starts", "1")
+    with usual_signals():
+        record = printed_json("optimise", cabin, "--front", OFFER, "--starts", "1")
     assert record["reason"] == "cancelled"
     assert record["converged"] is False
     assert len(record["designs"]) == 1

@@ -13,6 +13,7 @@ import pytest
 from cabin_problem import PROBLEM, cabin_search
 from mounted_cabin import mounted_cabin
 from rounding import SEARCHED, SEARCHED_X
+from usual_signals import usual_signals
 
 from modeviz.cli import main
 from modeviz.commands import front as front_command
@@ -220,11 +221,9 @@ def test_the_table_says_where_the_mode_of_a_window_is(capsys, tmp_path):
 
 
 @pytest.fixture(autouse=True)
-def usual_interrupt():
-    """Ctrl+C as on a terminal, also where the tests run behind a script that has it ignored."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
+def signals():
+    with usual_signals():
+        yield
 
 
 @pytest.mark.parametrize("ending", ENDINGS)

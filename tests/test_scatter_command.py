@@ -10,6 +10,7 @@ import pytest
 from cabin_problem import PROBLEM
 from mounted_cabin import mounted_cabin
 from rounding import CABIN
+from usual_signals import usual_signals
 
 from modeviz.cli import main
 from modeviz.commands import scatter as command
@@ -134,11 +135,8 @@ def test_a_signal_ends_it_with_the_vehicles_so_far(monkeypatch, capsys, cabin, e
         return lambda done: signal.raise_signal(ending) if what == "scattering" else None
 
     monkeypatch.setattr(command, "progress", telling)
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
+    with usual_signals():
         assert main(["scatter", cabin, "--samples", "5000", "--json"]) == 0
-    finally:
-        signal.signal(signal.SIGINT, before)
     out, err = capsys.readouterr()
     assert json.loads(out)["samples"] == CHUNK
     assert f"modeviz: note: ended after {CHUNK} of 5000 vehicles\n" in err

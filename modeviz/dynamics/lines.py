@@ -22,8 +22,9 @@ TOLERANCE = 3e-5
 """What the frequencies left out may add to the sampled responses, relative to what they have."""
 
 
-ROUNDING = 1e-10
-"""Changes of the sampled responses below this, relative to what they are, are those of arithmetic."""
+ROUNDING = 1e-8
+"""Changes of the sampled responses below this, relative to what they are, are taken for those of
+arithmetic, which is right to some 1e-10."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +86,7 @@ def _interpolation(samples: Complexes) -> tuple[NDArray[np.intp], Complexes]:
     rank = max(1, int(np.count_nonzero(size > max(TOLERANCE * size[0], ROUNDING))))
     coefficients = np.zeros((samples.shape[1], rank), complex)
     coefficients[order[:rank]] = np.eye(rank)
-    if size[0] > 0:  # else nothing changes, and any one column gives all
+    if size[0] > ROUNDING:  # else nothing changes, and any one column gives all
         coefficients[order[rank:]] = np.linalg.solve(R[:rank, :rank], R[:rank, rank:]).T
     rising = np.argsort(order[:rank])
     return order[:rank][rising], coefficients[:, rising]
