@@ -59,8 +59,7 @@ def absorber(damping: float = OPTIMAL_DAMPING) -> Vehicle:
         )
     )
     f = np.array([1.0, 100.0])
-    spectrum = np.zeros((2, 2, 2))
-    spectrum[:, 1, 1] = (G / (2 * np.pi * f) ** 2) ** 2
+    spectrum = np.tile((G / (2 * np.pi * f) ** 2) ** 2, (2, 2, 1)).T  # both tracks move as one
     return Vehicle(
         "absorber", (main, small), (spring,),
         (MountGroup("absorber", "absorber", rates, 0.0, (soft, stiff), (mount,)),),

@@ -70,7 +70,7 @@ def test_of_a_short_road_only_the_frequencies_it_holds_at_the_vehicles_speed_are
     ("lacking", "named"),
     [
         ({"response_points": ()}, "a [[response_point]];"),
-        ({"roads": (), "wheel_loads": ()}, "a [[road]] or a [[wheel_load]];"),
+        ({"roads": (), "wheel_loads": ()}, "a [[road]] with a [[tyre]] or a [[wheel_load]];"),
         (
             {"mount_groups": (), "rate_sets": {}, "response_points": ()},
             "a [[mount_group]] with rates above zero and a [[response_point]];",

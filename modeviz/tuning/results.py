@@ -291,8 +291,10 @@ def solve_wheels(prepared: Prepared, rates: Rates) -> WheelResults:
     """The response to every harmonic load of the vehicle; arguments and errors as `solve`."""
     vehicle, f = prepared.vehicle, prepared.frequency_hz
     loads = vehicle.harmonic_loads
+    n_loads, n_points = len(loads), len(vehicle.response_points)
+    if not loads:
+        return WheelResults(f, np.zeros((len(f), 0, n_points, 3)))
     excited = prepared.excited(loads, vehicle.speed)
     H = _response(prepared, excited, loads, vehicle.speed, prepared.all_rates(rates))
     g = harmonic_acceleration(f, H).transpose(0, 2, 1)
-    n_loads, n_points = len(loads), len(vehicle.response_points)
     return WheelResults(f, g.reshape(len(f), n_loads, n_points, 3))

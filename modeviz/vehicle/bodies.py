@@ -55,7 +55,7 @@ class MeshPart:
     material: Material
 
     def __post_init__(self) -> None:
-        frozen_places(self, "vertices", self.vertices, (None, 3))
+        frozen(self, "vertices", self.vertices, (None, 3))
         frozen(self, "faces", self.faces, (None, 3), np.int32)
         if not self.faces.size:
             raise VehicleError(f"mesh part {self.name!r}: has no faces")
