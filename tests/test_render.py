@@ -2,17 +2,24 @@
 
 import re
 from contextlib import nullcontext
+from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
 from modeviz.errors import ModevizError, SolveError
+from modeviz.shapes.colors import stop_colors
 from modeviz.tuning.comparison import RateSet
 from modeviz.tuning.results import Conditions, solve_on
+from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
-from modeviz.viewer.pictures import Shot
+from modeviz.vehicle.files import write_vehicle
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.coloring import ColorScale
+from modeviz.viewer.pictures import Pose, Shot, picture
 from modeviz.viewer.rendering import Wish, photographs
 from modeviz.viewer.stage import FIELD_OF_VIEW, LIGHT
 
@@ -123,3 +130,54 @@ def test_no_set_is_shown_in_place_of_one_without_an_answer(monkeypatch, resonant
     sets = [RateSet("own", {}), RateSet("odd", resonant)]
     with pytest.raises(ModevizError, match="odd: an undamped resonance lies on 10 Hz"):
         photographs(mounted_cabin(), sets, Conditions("flat", 20.0), wish, shot, lambda *_: None)
+
+
+class Page:
+    """Stands for a page that draws what it is told."""
+
+    client_id = 1
+
+    def __init__(self, drawn):
+        self.drawn = drawn
+
+    def get_render(self, height, width, **_):
+        return np.broadcast_to(np.array(self.drawn, np.uint8), (height, width, 4)).copy()
+
+
+POSE = Pose(np.array([1.0, 0, 0, 0]), np.zeros(3))
+
+
+def test_an_empty_picture_is_reported_and_not_given(monkeypatch):
+    monkeypatch.setattr("modeviz.viewer.pictures.asked", lambda *_: nullcontext())
+    shot = Shot(64, 48, "scene", LIGHT, FIELD_OF_VIEW)
+    with pytest.raises(ModevizError, match="the picture is empty: the camera looks past the vehicle"):
+        picture(Page((9, 9, 9, 0)), shot, POSE)
+    assert picture(Page((9, 9, 9, 255)), shot, POSE).getpixel((0, 0)) == (9, 9, 9)
+
+
+def test_a_picture_says_what_its_colours_mean(monkeypatch):
+    monkeypatch.setattr("modeviz.viewer.pictures.asked", lambda *_: nullcontext())
+    plain = Shot(640, 360, "scene", LIGHT, FIELD_OF_VIEW)
+    scaled = replace(plain, scale=ColorScale("Displacement", "100 %", ""))
+    for shot, colors in ((plain, False), (scaled, True), (scaled.moving("gif"), True)):
+        pixels = np.asarray(picture(Page((9, 9, 9, 255)), shot, POSE)).reshape(-1, 3)
+        assert all((pixels == stop).all(axis=1).any() == colors for stop in stop_colors()[[0, -1]])
+
+
+def test_a_vehicle_of_which_nothing_can_be_drawn_is_refused(capsys, tmp_path):
+    body = RigidBody("lump", "cabin", "lump", 9.0, np.zeros(3), np.eye(3))
+    write_vehicle(Vehicle("lump", (body,), ()), tmp_path / "lump")
+    file = tmp_path / "lump.png"
+    assert main(["render", str(tmp_path / "lump"), "--output", str(file)]) == 2
+    assert "there is nothing to draw: no body that is shown has a mesh" in capsys.readouterr().err
+    assert not file.exists()
+
+
+@pytest.mark.parametrize(("coloring", "told"), [("displacement", "Displacement"), ("bodies", "")])
+def test_the_offline_page_says_what_its_colours_mean(folder, tmp_path, coloring, told):
+    file = tmp_path / "yaw.html"
+    assert main(["render", folder, "--output", str(file), "--color", coloring]) == 0
+    text = file.read_text("utf-8")
+    beside = text[text.index("<aside>") :]
+    assert ('<div class="scale"' in beside) == bool(told)
+    assert told in beside

@@ -16,6 +16,7 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer import scripts
 from modeviz.viewer.answers import Solved, asks_for_the_same
+from modeviz.viewer.coloring import ColorScale, color_scale
 from modeviz.viewer.doors import Server, open_server
 from modeviz.viewer.hotkeys import Hotkeys
 from modeviz.viewer.html import style_sheet
@@ -90,6 +91,7 @@ class App:
         scripts.run(self._gui, "style.js", style_sheet())
         scripts.run(self._gui, "delivery.js")
         scripts.run(self._gui, "numbers.js")
+        scripts.run(self._gui, "zoom.js")
         self._gui.configure_theme(
             dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
         )
@@ -138,6 +140,19 @@ class App:
         if self._last is None or not asks_for_the_same(self._last.state, self.session.state):
             raise self._failure or ModevizError("there is no answer")
         return self._last
+
+    def pictured(self, solved: Solved) -> ColorScale | None:
+        """What the colours of a picture mean, if they mean something.
+
+        Raises:
+            ModevizError: there is nothing to be seen in an answer.
+        """
+        if self._scene.is_empty(solved):
+            raise ModevizError(
+                "there is nothing to draw: no body that is shown has a mesh, and there are no mounts, "
+                "tyres or response points"
+            )
+        return color_scale(solved)
 
     def offline(self, position: Floats, look_at: Floats) -> bytes:
         """What is shown, in a file that needs no server, see `offline_page`.
@@ -199,7 +214,13 @@ class App:
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             theme = DARK if dark else LIGHT
             self._pictures = PicturePanel(
-                gui, self.server, theme, self._subject, self.offline, self._illustrated_report
+                gui,
+                self.server,
+                theme,
+                self._subject,
+                lambda: self.pictured(self._solved()),
+                self.offline,
+                self._illustrated_report,
             )
         self._status = StatusPanel(gui, session.vehicle.notes)
         self.guide = Guide(self.server, self._hotkeys)

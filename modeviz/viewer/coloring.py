@@ -1,11 +1,13 @@
 """What colours mean in an answer: shares of an energy, and the scale they are drawn on."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.dynamics.energy import kinetic_energy
+from modeviz.export.wording import sentence_case
 from modeviz.shapes.colors import (
     Shade,
     color_map,
@@ -22,6 +24,30 @@ from modeviz.viewer.state import Coloring
 
 Shares = Mapping[str, float]
 """Of an energy, 0 to 1, by name of body and mount group."""
+
+
+@dataclass(frozen=True)
+class ColorScale:
+    """What the colours of bodies mean: they go from nothing to `last`."""
+
+    quantity: str
+    """In sentence case."""
+    last: str
+    """What has the last colour."""
+    about: str
+    """A longer explanation."""
+
+
+def color_scale(solved: Solved) -> ColorScale | None:
+    """The scale of the colours in an answer; None if bodies have their own."""
+    coloring = solved.state.coloring
+    if coloring == "bodies":
+        return None
+    if coloring == "displacement":
+        last, about = 1.0, "Relative to the largest on the bodies"
+    else:
+        last, about = largest_share(energy_shares(solved)), "Share of each body in the whole vehicle's"
+    return ColorScale(sentence_case(coloring), f"{100 * last:.0f} %", about)
 
 
 def energy_shares(solved: Solved) -> Shares:

@@ -258,9 +258,9 @@
   }
 
   // three.js calls this at the start of every rendering, also of the pictures viser takes between frames:
-  // they show what was sent before they were asked for, in the size asked for, without the background,
-  // which is cut to the page's own shape.
-  function beforeRender(renderer) {
+  // they show what was sent before they were asked for, in the size asked for, as near and as far as the page
+  // sees, without the background, which is cut to the page's own shape.
+  function beforeRender(renderer, _, camera) {
     if (page.turn !== turn) return;
     try {
       const viewer = window.__viserMutable;
@@ -270,6 +270,8 @@
       if (isPicture) {
         ratio ??= renderer.getPixelRatio();
         renderer.setPixelRatio(1);
+        Object.assign(camera, { near: viewer.camera.near, far: viewer.camera.far });
+        camera.updateProjectionMatrix();
       } else if (ratio !== null) {
         renderer.setPixelRatio(ratio);
         ratio = null;

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import viser
 from viser._messages import HotkeyKey, KeyModifier
 
+from modeviz.viewer import scripts
+
 SPOKEN = {"space": "Space", "cmd/ctrl": "Ctrl", "shift": "Shift"}
 """Keys as the guide writes them."""
 
@@ -20,7 +22,7 @@ class Hotkey:
 
 
 class Hotkeys:
-    """Keys for every page. While somebody types in a box they do nothing.
+    """Keys for every page. While somebody types in a box, or behind an open window, they do nothing.
 
     viser's own camera has W, A, S, D, Q, E and the arrows.
     """
@@ -29,6 +31,7 @@ class Hotkeys:
         """Starts without any."""
         self._gui = gui
         self._listed: list[Hotkey] = []
+        scripts.run(gui, "keys.js")
 
     @property
     def listed(self) -> tuple[Hotkey, ...]:

@@ -94,7 +94,11 @@ class MountMarker:
 
     def hide(self, bodies: Collection[str]) -> None:
         """Leaves the mount out while both bodies that it joins are."""
-        assign(self._frame, visible=not bodies or not set(self._bodies) <= set(bodies))
+        assign(self._frame, visible=self.is_seen(bodies))
+
+    def is_seen(self, hidden: Collection[str]) -> bool:
+        """Whether it is drawn where these bodies are not."""
+        return not hidden or not set(self._bodies) <= set(hidden)
 
     def show(self, share: float, selected: bool, carded: bool, color: Color = RUBBER) -> None:
         """Draws the mount by its share of the largest group's energy, and as selected or not.
@@ -182,6 +186,13 @@ class Markers:
                 marker.hide(bodies)
         for mark, body in self._others:
             assign(mark, visible=body not in bodies)
+
+    def are_seen(self, hidden: Collection[str]) -> bool:
+        """Whether one of them is, where these bodies are not drawn."""
+        mounts = (marker for markers in self._mounts.values() for marker in markers)
+        return any(marker.is_seen(hidden) for marker in mounts) or any(
+            body not in hidden for _, body in self._others
+        )
 
     def show(
         self,

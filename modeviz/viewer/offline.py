@@ -22,6 +22,7 @@ from modeviz.viewer.driver import DRIVER
 from modeviz.viewer.handshake import named_page
 from modeviz.viewer.html import block, row, span, style_sheet, table, title
 from modeviz.viewer.panels.charts import chart_lines, legend
+from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.panels.peaks import strongest
 from modeviz.viewer.plots import SHOWN_HZ, Line, Scale, level_axis, level_range
@@ -72,6 +73,7 @@ def _content(solved: Solved, name: str) -> str:
     return block(
         f"<h1>{title(moving.title)}  {moving.frequency_hz:.2f} Hz</h1>",
         f'<p class="dim">{escape(vehicle.name)}, {escape(name)}; {escape(moving.about)}</p>',
+        color_scale_text(solved),
         MOTION,
         _charts(solved),
         f"<h2>Modes</h2>{_modes(solved)}",

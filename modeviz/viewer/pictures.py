@@ -12,6 +12,9 @@ from PIL import Image
 
 from modeviz.errors import ModevizError
 from modeviz.export.images import on_color
+from modeviz.export.scale_bar import ScaleBar, with_scale
+from modeviz.shapes.colors import stop_colors
+from modeviz.viewer.coloring import ColorScale
 from modeviz.viewer.connection import asked
 from modeviz.viewer.decoding import LARGEST_PICTURE
 from modeviz.viewer.stage import Theme
@@ -53,6 +56,8 @@ class Shot:
     """Of the scene; its colours are the backdrop "scene"."""
     field_of_view: float
     """From the top to the bottom of the picture, rad."""
+    scale: ColorScale | None = None
+    """What the colours of bodies mean, which the picture says if it is given."""
 
     def __post_init__(self) -> None:
         for name, side in (("width", self.width), ("height", self.height)):
@@ -94,7 +99,7 @@ def picture(
         timeout: how long the page may take, s.
 
     Raises:
-        ModevizError: the page did not draw it, or not in time.
+        ModevizError: the page did not draw it, or not in time, or there is nothing to be seen.
     """
     try:
         with asked(client, MOST_BYTES_PER_PIXEL * shot.width * shot.height):
@@ -116,12 +121,29 @@ def picture(
         raise ModevizError(f"the page did not draw it: choose a smaller size ({error})") from None
     if drawn.shape[:2] != (shot.height, shot.width):
         raise ModevizError("the page drew it in another size: choose a smaller one")
-    image = Image.fromarray(drawn)
+    if not drawn[..., 3].any():
+        raise ModevizError(
+            "the picture is empty: the camera looks past the vehicle; choose another view"
+        )
+    return _explained(_on_backdrop(Image.fromarray(drawn), shot), shot)
+
+
+def _on_backdrop(image: Image.Image, shot: Shot) -> Image.Image:
     if shot.backdrop == "transparent":
         return image
     if shot.backdrop == "white":
         return on_color(image, (255, 255, 255))
     return on_color(image, shot.theme.top, shot.theme.bottom)
+
+
+def _explained(image: Image.Image, shot: Shot) -> Image.Image:
+    """The picture with the scale of its colours, if they mean something."""
+    if shot.scale is None:
+        return image
+    bar = ScaleBar(
+        shot.scale.quantity, shot.scale.last, stop_colors(), shot.theme.ink, shot.theme.paper
+    )
+    return with_scale(image, bar)
 
 
 def cycle(

@@ -59,8 +59,9 @@ def set_line(label: str, number: int) -> Line:
 class ResponsePlot:
     """Responses of several sets; the last is the present one, whose peaks are marked.
 
-    uPlot forgets how far it is zoomed when its axes change. So they only change with what is drawn,
-    and where the present curve would leave the top; peaks are points of a curve of their own.
+    uPlot forgets how far it is zoomed when its axes change; zoom.js gives that back. They only change
+    with what is drawn, and where the present curve would leave the top; peaks are points of a curve of
+    their own.
     """
 
     def __init__(self, gui: viser.GuiApi, frequency_hz: Floats, dark: bool, height: int = 130) -> None:

@@ -4,7 +4,7 @@ import math
 import secrets
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 from PIL import Image
@@ -83,7 +83,7 @@ def render(
     if kind == "mp4":
         check_films()
     with _app(vehicle, rates, conditions, shot.theme.is_dark, tell) as app:
-        _show(app, wish)
+        shot = replace(shot, scale=app.pictured(_show(app, wish)))
         size = OFFLINE_SIZE if kind == "html" else (shot.width, shot.height)
         seen = camera(box(vehicle), wish.view, *(100 * side for side in size))  # the card hides nothing
         if kind == "html":
@@ -114,7 +114,7 @@ def photographs(
     first = vehicle.all_rates(sets[0].rates)
     with _app(vehicle, first, conditions, shot.theme.is_dark, tell) as app:
         with located(sets[0].name):
-            _show(app, wish)
+            shot = replace(shot, scale=app.pictured(_show(app, wish)))
         tell("opening", 0.0)
         with Studio(app.server, *_window(shot), bare=True) as studio:
             seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)

@@ -66,6 +66,11 @@ class Scene:
                 self._markers.show(group, state.rates, state.unit, groups, what, share_colors(shares))
         self._cameras.frame(self._framed(solved))
 
+    def is_empty(self, solved: Solved) -> bool:
+        """Whether nothing is drawn of an answer but the ground."""
+        hidden = self._hidden(solved)
+        return all(b.name in hidden for b in self._bodies) and not self._markers.are_seen(hidden)
+
     def _framed(self, solved: Solved) -> Box:
         """What cameras look at: the body that moves alone, what is followed, or the vehicle."""
         state, alone = solved.state, solved.movement.bodies

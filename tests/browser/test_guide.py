@@ -8,6 +8,7 @@ from pages import wait_for, wait_until
 from modeviz.tuning.results import Conditions
 
 SOLVE_S = 60
+CAMERA = "__viserMutable.camera.matrixWorld.elements"
 GUIDE = "!!document.querySelector('.mv .keys')"
 
 
@@ -43,6 +44,28 @@ def test_the_guide_comes_back_on_the_page_that_asks_with_all_keys(app, page):
     page.keyboard.press("h")  # opens no second one
     page.get_by_role("button", name="Start").click()
     wait_for(page, f"!{GUIDE}")
+
+
+def test_keys_do_nothing_behind_the_guide(app, page):
+    page.get_by_role("button", name="What can I do here?").click()
+    wait_for(page, GUIDE)
+    before, camera = app.session.state, page.evaluate(CAMERA)
+    for key in ("n", "p", "b", "Control+z", "w", "ArrowLeft", "Tab"):
+        page.keyboard.press(key, delay=100)
+    page.locator(".mv .keys").click()  # the focus goes from the button to nothing at all
+    page.keyboard.press("n")
+    page.keyboard.press("Space")
+    page.wait_for_timeout(500)
+    assert app.session.state == before
+    assert page.evaluate(CAMERA) == camera
+    assert not app._scene.driver._running
+    page.get_by_role("button", name="Start").focus()
+    page.keyboard.press("Space")  # closes it
+    wait_for(page, f"!{GUIDE}")
+    page.keyboard.press("n")
+    wait_until(page, lambda: app.session.state != before)
+    app.session.change(mode=before.mode)
+    assert app.session.wait(SOLVE_S)
 
 
 def test_the_title_names_vehicle_and_variant(app, page):

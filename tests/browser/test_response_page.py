@@ -59,6 +59,51 @@ def original(app, page):
     assert app.session.wait(SOLVE_S)
 
 
+def zoom(page, chart, low, high):
+    """Drags across a chart from one frequency to another, and gives what it shows then."""
+    left, right, y = page.evaluate(
+        f"""([i, low, high]) => {{
+            const {{ chart }} = {CHARTS}[i];
+            const box = chart.over.getBoundingClientRect();
+            const at = (f) => box.left + chart.valToPos(f, "x");
+            return [at(low), at(high), box.top + box.height / 2];
+        }}""",
+        [chart, low, high],
+    )
+    page.mouse.move(left, y)
+    page.mouse.down()
+    page.mouse.move((left + right) / 2, y, steps=3)
+    page.mouse.move(right, y, steps=3)
+    page.mouse.up()
+    return wait_for(page, f"(([low, high]) => high - low < 20 && [low, high])({range_of(chart)})")
+
+
+def decibels_of(app, curve):
+    return 10 * np.log10(shown(app._last.now.response(curve.point, curve.direction)))
+
+
+def range_of(chart):
+    return f"((x) => [x.min, x.max])({CHARTS}[{chart}].chart.scales.x)"
+
+
+def test_a_chart_keeps_its_zoom_when_another_response_is_chosen(app, page):
+    seen = zoom(page, 0, 10.0, 17.0)
+    assert seen == pytest.approx([10, 17], abs=0.3)
+    for curve in (Curve(0, "vertical"), Curve(0, "fore-aft")):
+        app.session.change(curves=(curve, CURVES[1]))
+        assert app.session.wait(SOLVE_S)
+        assert_drawn(page, 0, "now", decibels_of(app, curve))
+        wait_for(page, f"(([low, high]) => low === a.low && high === a.high)({range_of(0)})",
+                 low=seen[0], high=seen[1])  # fmt: skip
+    page.evaluate(f"{CHARTS}[0].chart.over.dispatchEvent(new MouseEvent('dblclick'))")
+    wait_for(page, f"(([low, high]) => low === {LOW} && high === {HIGH})({range_of(0)})")
+    app.session.change(curves=CURVES)
+    assert app.session.wait(SOLVE_S)
+    assert_drawn(page, 0, "now", decibels_of(app, CURVES[0]))
+    page.wait_for_timeout(300)  # a zoom that came back would be there by now
+    assert page.evaluate(range_of(0)) == [LOW, HIGH]
+
+
 def shown(response):
     return np.asarray(response)[SHOWN]
 

@@ -12,7 +12,7 @@ from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.html import block, heading, title
-from modeviz.viewer.panels.color_scale import color_scale
+from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.settle import WriteBack
 
 START_SPEED_HZ = 0.5
@@ -75,7 +75,7 @@ class AnimationCard:
         hertz = f"  {moving.frequency_hz:.2f} Hz" if moving.frequency_hz > 0 else ""
         name = f'<span class="title">{title(moving.title)}{hertz}</span>'
         problem = f'<div class="bad">{_said(moving.problem)}</div>' if moving.problem else ""
-        content = block(heading(name, escape(moving.about)), color_scale(solved), problem)
+        content = block(heading(name, escape(moving.about)), color_scale_text(solved), problem)
         assign(self._head, content=content)
 
     def toggle(self, client: viser.ClientHandle | None) -> None:

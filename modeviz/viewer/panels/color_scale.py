@@ -1,22 +1,17 @@
 """What the colours of bodies mean, as page text."""
 
-from modeviz.export.wording import sentence_case
 from modeviz.shapes.colors import COLOR_STOPS
 from modeviz.viewer.answers import Solved
-from modeviz.viewer.coloring import energy_shares, largest_share
+from modeviz.viewer.coloring import color_scale
 
 
-def color_scale(solved: Solved) -> str:
+def color_scale_text(solved: Solved) -> str:
     """The scale of the colours on one line; nothing if bodies have their own."""
-    coloring = solved.state.coloring
-    if coloring == "bodies":
+    scale = color_scale(solved)
+    if scale is None:
         return ""
-    if coloring == "displacement":
-        last, about = 1.0, "Relative to the largest on the bodies"
-    else:
-        last, about = largest_share(energy_shares(solved)), "Share of each body in the whole vehicle's"
     return (
-        f'<div class="scale" title="{about}"><span>{sentence_case(coloring)}</span><span>0</span>'
+        f'<div class="scale" title="{scale.about}"><span>{scale.quantity}</span><span>0</span>'
         f'<i style="background:linear-gradient(90deg,{",".join(COLOR_STOPS)})"></i>'
-        f"<span>{100 * last:.0f} %</span></div>"
+        f"<span>{scale.last}</span></div>"
     )

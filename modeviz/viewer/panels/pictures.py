@@ -11,6 +11,7 @@ from PIL import Image
 from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.export.wording import file_name
 from modeviz.vehicle.arrays import Floats
+from modeviz.viewer.coloring import ColorScale
 from modeviz.viewer.connection import MOST_PAGES
 from modeviz.viewer.doors import Server
 from modeviz.viewer.driver import held
@@ -57,6 +58,7 @@ class PicturePanel:
         server: Server,
         theme: Theme,
         subject: Callable[[], str],
+        scale: Callable[[], ColorScale | None],
         offline: Callable[[Floats, Floats], bytes],
         report: Callable[[bytes], bytes],
     ) -> None:
@@ -67,11 +69,12 @@ class PicturePanel:
             server: whose pages are photographed.
             theme: of the scene.
             subject: what is to be seen, after which files are named.
+            scale: gives what the colours of bodies mean; raises ModevizError if nothing is drawn.
             offline: makes the file that needs no server, for a camera's place and what it looks at.
             report: makes the report of the comparison, for a picture of the scene as a PNG file.
         """
         self._server, self._theme = server, theme
-        self._subject, self._offline, self._report = subject, offline, report
+        self._subject, self._scale, self._offline, self._report = subject, scale, offline, report
         self._pages = Places(MOST_PAGES, 1)
         self._jobs, self._browsers = threading.Semaphore(N_JOBS), threading.Semaphore(N_BROWSERS)
         self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Tell], bytes]]] = {
@@ -133,7 +136,7 @@ class PicturePanel:
     def _shot(self, client: viser.ClientHandle) -> Shot:
         width, height = round(self._width.value), round(self._height.value)
         fov = same_field_of_view(client.camera, width, height)
-        return Shot(width, height, BACKDROPS[self._backdrop.value], self._theme, fov)
+        return Shot(width, height, BACKDROPS[self._backdrop.value], self._theme, fov, self._scale())
 
     def _picture(self, client: viser.ClientHandle, tell: Tell) -> bytes:
         """The 3-D view at this moment."""

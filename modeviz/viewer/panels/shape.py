@@ -16,7 +16,7 @@ from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding, show_all
 from modeviz.viewer.html import HiddenButtons, block, heading, hinted, row, span, table, title
-from modeviz.viewer.panels.color_scale import color_scale
+from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.plots import SHOWN_HZ
 from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
@@ -116,7 +116,7 @@ class ShapePanel:
         assign(self._frequency, visible=is_operating)
         assign(self._body, visible=is_alone)
         assign(self._number, visible=is_alone)
-        assign(self._scale, content=block(color_scale(solved)))
+        assign(self._scale, content=block(color_scale_text(solved)))
         if not solved.is_detailed:
             return
         self._peaks_hz = _peaks(solved) if is_operating else {}
