@@ -18,6 +18,9 @@ from modeviz.viewer.driver import ShapeDriver
 from modeviz.viewer.markers import Markers
 from modeviz.viewer.stage import DARK, LIGHT, Box, Stage, bodies_box, box
 
+LONGEST = 1e5
+"""m: the longest vehicle by which displacements are drawn; the driver sends none beyond 65 504 m."""
+
 
 class Scene:
     """A vehicle on its stage. Handles are made once; what changes is assigned."""
@@ -39,6 +42,7 @@ class Scene:
         """
         theme = DARK if dark else LIGHT
         self._vehicle, self._box = vehicle, box(vehicle)
+        self._length = min(self._box.length, LONGEST)
         self._server = server
         self._stage = Stage(server.scene, self._box, theme)
         self.driver = ShapeDriver(server.scene)
@@ -106,7 +110,7 @@ class Scene:
         shapes = {b.name: b.displacement(shape[system.dofs[b.name]]) for b in self._bodies}
         seen = [b for b in self._bodies if b.name not in hidden]
         areas = [b.areas for b in seen]
-        scale = default_amplitude([shapes[b.name] for b in seen], areas, self._box.length)
+        scale = default_amplitude([shapes[b.name] for b in seen], areas, self._length)
         drawn = {name: scale * shape for name, shape in shapes.items()}
         points = {}
         for body in self._bodies:
@@ -119,7 +123,7 @@ class Scene:
     def show_colors(self, coloring: Coloring, drawn: Mapping[str, NDArray], shares: Shares) -> None:
         """Colours bodies by what moves as drawn, and chooses the light for it."""
         self._stage.light(colored=coloring != "bodies")
-        chosen = shades(coloring, drawn, self._box.length, shares)
+        chosen = shades(coloring, drawn, self._length, shares)
         self.driver.shade({b.path: chosen[b.name] for b in self._bodies if b.name in chosen})
 
     def show_bodies(self, hidden: Collection[str], see_through: bool, ghost: bool) -> None:
