@@ -76,6 +76,12 @@ def check_unique(kind: str, names: Iterable[str]) -> None:
         seen.add(name)
 
 
+def reason(error: BaseException) -> str:
+    """What an error of the system or a library says, never nothing."""
+    said = getattr(error, "strerror", None) or str(error)
+    return said or type(error).__name__
+
+
 @contextmanager
 def located(where: object) -> Iterator[None]:
     """Puts the place in front of whatever the user got wrong inside the block.

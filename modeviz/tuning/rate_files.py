@@ -12,9 +12,10 @@ from modeviz.errors import VehicleError, check_unique, located
 from modeviz.units import factor
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.files.decoding import decode
-from modeviz.vehicle.files.disk import read_text, write_text
+from modeviz.vehicle.files.disk import LARGEST_TEXT, WESTERN, read_text, write_text
 from modeviz.vehicle.files.records import RateSetRecord
 from modeviz.vehicle.files.scaling import written
+from modeviz.vehicle.files.tables import Row, Table, read_table
 from modeviz.vehicle.vehicle import Vehicle
 
 WRITTEN_UNIT = "N/mm"
@@ -38,9 +39,10 @@ class RatesFile(msgspec.Struct, forbid_unknown_fields=True):
 def parse_rates(text: str, file_format: RatesFormat, vehicle: Vehicle) -> Rates:
     """The rates in the text of a file; it need not name every group.
 
-    JSON is {"units": "N/mm", "rates": {"C2": {"vertical": 724, "lateral": 294, "fore_aft": 294}}},
-    CSV has the columns group, units, vertical, lateral and fore_aft. A group may have a loss_factor
-    too, in CSV in a sixth column; without it, it has the vehicle's.
+    JSON is {"units": "N/mm", "rates": {"C2": {"vertical": 724, "lateral": 294, "fore_aft": 294}}}, a
+    table has the columns group, units, vertical, lateral and fore_aft; see `read_table`, which also
+    reads units in the header, "vertical (N/mm)". A group may have a loss_factor too; without it, it has
+    the vehicle's.
 
     Raises:
         VehicleError: damaged, or a group or unit that does not exist.
@@ -63,7 +65,7 @@ def read_rates(path: Path, vehicle: Vehicle) -> Rates:
         VehicleError: no such file, a damaged one, or a group or unit that does not exist.
     """
     file_format = rates_format(path)
-    text = read_text(path)
+    text = read_text(path, LARGEST_TEXT, otherwise=WESTERN if file_format == "csv" else None)
     with located(path):
         return parse_rates(text, file_format, vehicle)
 
@@ -95,40 +97,21 @@ def _from_json(text: str) -> Rates:
 
 
 def _from_csv(text: str) -> Rates:
-    try:
-        header, *rows = list(csv.reader(StringIO(text), strict=True)) or [[]]
-    except (ValueError, csv.Error) as error:
-        raise VehicleError(f"not CSV: {error}") from None
-    if tuple(header) not in (CSV_COLUMNS, (*CSV_COLUMNS, LOSS_COLUMN)):
-        raise VehicleError(
-            f"line 1: found {','.join(header)!r}, expected {','.join(CSV_COLUMNS)} and, if there are "
-            f"any, {LOSS_COLUMN}"
-        )
-    rates = []
-    for number, row in enumerate(rows, 2):
-        with located(f"line {number}"):
-            rates.append(_from_row(header, row))
+    table = read_table(text, ("group", *RATE_FIELDS), ("units", LOSS_COLUMN))
+    rates = [(row.cells["group"], _from_row(row, table)) for row in table.rows]
     check_unique("mount group", (group for group, _ in rates))
     return dict(rates)
 
 
-def _from_row(header: list[str], row: list[str]) -> tuple[str, MountRates]:
-    if len(row) != len(header):
-        raise VehicleError(f"found {len(row)} cells, expected {len(header)}")
-    cells = dict(zip(header, row, strict=True))
-    group, unit = cells.pop("group"), cells.pop("units")
-    if cells.get(LOSS_COLUMN) == "":
-        del cells[LOSS_COLUMN]
-    record = decode({key: _number(cell) for key, cell in cells.items()}, RateSetRecord)
-    return group, _in_si(record, unit)
-
-
-def _number(cell: str) -> float | str:
-    """The cell as a number; what is none stays text, which `decode` complains about."""
-    try:
-        return float(cell)
-    except ValueError:
-        return cell
+def _from_row(row: Row, table: Table) -> MountRates:
+    in_si = []
+    for column in RATE_FIELDS:
+        unit = table.units[column] or row.cells.get("units", "")
+        with located(row.where(column if table.units[column] else "units")):
+            newton_per_metre = factor(unit, "stiffness")
+        in_si.append(row.number(column, at_least=0) * newton_per_metre)
+    loss_factor = row.number(LOSS_COLUMN, at_least=0) if row.cells.get(LOSS_COLUMN) else None
+    return MountRates(*in_si, loss_factor=loss_factor)
 
 
 def _in_si(record: RateSetRecord, unit: str) -> MountRates:

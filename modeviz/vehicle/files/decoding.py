@@ -1,5 +1,6 @@
 """Plain data, as TOML or JSON give it, into checked records; errors name key, found and expected."""
 
+import math
 import re
 from reprlib import repr as brief
 from typing import Any, Literal, TypeVar, get_args, get_origin
@@ -13,6 +14,9 @@ T = TypeVar("T")
 
 LARGEST = 1e100
 """No quantity of a vehicle is beyond it."""
+
+LONGEST = 10_000
+"""Bits of a whole number that is written out."""
 
 _WORDS = {
     "float": "a number",
@@ -37,9 +41,11 @@ def decode(data: Any, kind: type[T], where: str = "") -> T:
     Raises:
         VehicleError: an unknown, missing or wrong value, or a number that is not finite.
     """
-    _check_finite(data, where)
     try:
+        _check_finite(data, where)
         return msgspec.convert(data, kind)
+    except RecursionError:
+        raise VehicleError(f"{where or 'the whole'}: tables in tables too deep to be read") from None
     except msgspec.ValidationError as error:
         message, _, path = str(error).partition(" - at `$")
         steps = re.findall(r"[^.\[\]`]+|\.\.\.", path)
@@ -62,7 +68,16 @@ def _check_finite(data: Any, where: str) -> None:
         for index, value in enumerate(data):
             _check_finite(value, joined(where, index))
     elif isinstance(data, int | float) and not abs(data) < LARGEST:
-        raise VehicleError(f"{where}: found {brief(data)}, expected a finite number below {LARGEST:g}")
+        raise VehicleError(
+            f"{where}: found {_number(data)}, expected a finite number below {LARGEST:g}"
+        )
+
+
+def _number(value: float) -> str:
+    """A number for people; Python refuses to write very long ones."""
+    if isinstance(value, int) and value.bit_length() > LONGEST:
+        return f"a number of {value.bit_length() * math.log10(2):,.0f} digits"
+    return brief(value)
 
 
 def _explain(message: str, data: Any, kind: Any, steps: list[str], where: str) -> str:

@@ -1,33 +1,77 @@
 """Files and folders, with errors a user can act on."""
 
+import codecs
 import re
+import stat
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import BinaryIO
 
-from modeviz.errors import VehicleError, quoted
+from modeviz.errors import VehicleError, located, quoted, reason
+from modeviz.vehicle.files.limits import check_size, most_allowed
+
+LARGEST_TEXT = 2_000_000
+"""Bytes of a file of tables and keys: a hundred times the truck's."""
+
+LARGEST_TABLE = 20_000_000
+"""Bytes of comma-separated text."""
+
+WESTERN = "cp1252"
+"""In which spreadsheets write text that is not UTF-8."""
 
 
-def read_bytes(path: Path) -> bytes:
+def read_bytes(path: Path, most: int) -> bytes:
     """The content of a file.
 
+    Args:
+        path: of the file.
+        most: how many bytes are read of it; more are refused before they are.
+
     Raises:
-        VehicleError: it is not there or cannot be read.
+        VehicleError: it is not there, too large, endless, or cannot be read.
     """
+    with opened(path, most) as file:
+        return file.read(most_allowed(most))
+
+
+@contextmanager
+def opened(path: Path, most: int) -> Iterator[BinaryIO]:
+    """A file to be read, see `read_bytes`."""
     try:
-        return path.read_bytes()
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):  # opening a pipe would wait for ever
+            raise VehicleError(f"{path}: cannot be read (a folder, pipe or device, expected a file)")
+        with located(path):
+            check_size("bytes", status.st_size, most)
+        file = path.open("rb")
     except FileNotFoundError:
         raise VehicleError(f"{path}: there is no such file") from None
-    except (OSError, ValueError) as error:
-        raise VehicleError(f"{path}: cannot be read ({error})") from None
+    except (OSError, ValueError, RuntimeError) as error:
+        raise VehicleError(f"{path}: cannot be read ({reason(error)})") from None
+    with file:
+        yield file
 
 
-def read_text(path: Path) -> str:
-    """The content of a UTF-8 text file; raises VehicleError as `read_bytes` does."""
+def read_text(path: Path, most: int = LARGEST_TEXT, otherwise: str | None = None) -> str:
+    """The content of a text file in UTF-8, or in UTF-16 if it begins so; no byte order mark is left.
+
+    Args:
+        path: of the file.
+        most: how many bytes are read of it.
+        otherwise: in what it is written if it is neither; None where nothing else may be.
+
+    Raises:
+        VehicleError: as `read_bytes`, or no such text.
+    """
+    content = read_bytes(path, most)
+    is_wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
-        return read_bytes(path).decode()
+        return content.decode("utf-16" if is_wide else "utf-8-sig")
     except UnicodeDecodeError as error:
+        if otherwise and not is_wide:
+            return content.decode(otherwise, errors="replace")
         raise VehicleError(f"{path}: found bytes that are not UTF-8 text ({error})") from None
 
 
@@ -70,7 +114,7 @@ def _scratch_for(path: Path) -> Iterator[Path]:
         with TemporaryDirectory(prefix=".modeviz-", dir=folder) as scratch:
             yield Path(scratch)
     except OSError as error:
-        raise VehicleError(f"{path}: cannot be written ({error.strerror or error})") from None
+        raise VehicleError(f"{path}: cannot be written ({reason(error)})") from None
 
 
 def inside(folder: Path, name: str) -> Path:
@@ -80,7 +124,11 @@ def inside(folder: Path, name: str) -> Path:
         VehicleError: the name leads out of the folder.
     """
     path = folder / name
-    if "\0" in name or not path.resolve().is_relative_to(folder.resolve()):
+    try:
+        leads_out = "\0" in name or not path.resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError) as error:  # a link to itself
+        raise VehicleError(f"found {quoted(name)}, which leads nowhere ({reason(error)})") from None
+    if leads_out:
         raise VehicleError(f"found {quoted(name)}, expected a file inside the vehicle folder")
     return path
 
@@ -116,7 +164,7 @@ def replace_folder(folder: Path, fill: Callable[[Path], None]) -> None:
                 folder.rename(old)
             _move_or_restore(new, folder, old)
     except OSError as error:
-        raise VehicleError(f"{folder}: cannot be written ({error})") from None
+        raise VehicleError(f"{folder}: cannot be written ({reason(error)})") from None
 
 
 def _move_or_restore(new: Path, folder: Path, old: Path) -> None:

@@ -19,6 +19,7 @@ from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.files.axes import axes_of
 from modeviz.vehicle.files.conventions import Conventions
 from modeviz.vehicle.files.disk import file_stems, replace_folder, write_text
+from modeviz.vehicle.files.limits import check_size
 from modeviz.vehicle.files.load_records import (
     BaseMotionRecord,
     ForceRecord,
@@ -58,6 +59,12 @@ from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle
 VEHICLE_FILE = "vehicle.toml"
 CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra"}
 """What a vehicle folder holds."""
+
+MOST_TABLES = 2_000
+"""Of a kind."""
+
+COORDINATES, MOST_COORDINATES = "coordinates (6 of a rigid body, the modes of a flexible one)", 3_000
+"""As many as are solved in a minute and 2 GB."""
 
 CONNECTION_KINDS: dict[str, type[Connection]] = {
     "spring": Spring,
@@ -129,9 +136,22 @@ def _replaceable(folder: Path) -> bool:
     return not names or ((folder / VEHICLE_FILE).is_file() and names <= CONTENT)
 
 
+def _check_counts(record: VehicleRecord) -> None:
+    """Raises VehicleError for more than can be computed, before it is built."""
+    for key in record.__struct_fields__:
+        tables = getattr(record, key)
+        if isinstance(tables, list):
+            check_size(f"tables [[{key}]]", len(tables), MOST_TABLES)
+    check_size("mounts", sum(len(group.mount) for group in record.mount_group), MOST_TABLES)
+    check_size(COORDINATES, 6 * len(record.rigid_body), MOST_COORDINATES)
+
+
 def _build(record: VehicleRecord, source: Source) -> Vehicle:
+    _check_counts(record)
     flexible = built(record.flexible_body, "flexible_body", lambda r: r.build(source))
     rigid = built(record.rigid_body, "rigid_body", lambda r: r.build(source))
+    n_coordinates = sum(body.n_modes for body in flexible) + 6 * len(rigid)
+    check_size(COORDINATES, n_coordinates, MOST_COORDINATES)
     connections = [
         built(getattr(record, key), key, lambda r, kind=kind: r.build(kind))
         for key, kind in CONNECTION_KINDS.items()

@@ -41,7 +41,8 @@ class RoadRecord(Record, kw_only=True):
     def build(self, source: Source) -> Road:
         with located("file"):
             path = source.path(self.file)
-        return read_road(path, self.name, self.label or self.name, self.speed)
+        label = self.label or self.name
+        return read_road(path, self.name, label, self.speed, source.conventions, source.note)
 
 
 class WheelLoadRecord(Record, kw_only=True):
@@ -145,7 +146,8 @@ def _amplitude(source: Source, key: str, given: float | str, quantity: str) -> f
     if not isinstance(given, str):
         return given
     with located(key):
-        return read_spectrum(source.path(given), source.conventions.unit(quantity))
+        path = source.path(given)
+    return read_spectrum(path, quantity, source.conventions, source.note)
 
 
 def _unit_vector(direction: str | Vector) -> Floats:

@@ -12,7 +12,7 @@ from modeviz.errors import VehicleError, located
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 from modeviz.vehicle.files.disk import read_bytes
 from modeviz.vehicle.files.mesh_formats.glb import read_glb
-from modeviz.vehicle.files.mesh_formats.limits import LARGEST_FILE, check_size
+from modeviz.vehicle.files.mesh_formats.limits import LARGEST_FILE
 from modeviz.vehicle.files.mesh_formats.obj import read_obj
 from modeviz.vehicle.files.mesh_formats.parts import RawPart, mesh
 from modeviz.vehicle.files.mesh_formats.ply import read_ply
@@ -46,19 +46,12 @@ def read_mesh(path: Path, color: Color = DEFAULT_COLOR) -> Mesh:
     suffix = path.suffix.lower()
     if suffix not in READERS:
         raise VehicleError(f"{path}: found {suffix!r}, expected one of {', '.join(READERS)}")
-    content = _content(path)
+    content = read_bytes(path, LARGEST_FILE)
     with located(path):
         parts = READERS[suffix](content, Material(color))
         if not parts:
             raise VehicleError("found no triangles")
         return mesh(parts)
-
-
-def _content(path: Path) -> bytes:
-    if path.is_file():
-        with located(path):
-            check_size("bytes", path.stat().st_size, LARGEST_FILE)
-    return read_bytes(path)
 
 
 def write_mesh(path: Path, mesh: Mesh) -> None:

@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from modeviz.errors import VehicleError, listed, located
+from modeviz.errors import VehicleError, listed, located, reason
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
 from modeviz.vehicle.files.conventions import Conventions
-from modeviz.vehicle.files.disk import read_bytes
+from modeviz.vehicle.files.disk import opened
+from modeviz.vehicle.files.source import LARGEST_ARRAYS, Source
 
 KINDS = {
     "omega_n_squared": ("f", 1),
@@ -39,8 +40,7 @@ def read_flexible_body(
     path: Path,
     name: str,
     properties: Mapping[str, Any],
-    conventions: Conventions,
-    note: Callable[[str], None],
+    source: Source,
 ) -> FlexibleBody:
     """The body whose arrays are in the file.
 
@@ -51,13 +51,12 @@ def read_flexible_body(
         path: of the file.
         name: of the body.
         properties: what else it takes to make a `FlexibleBody`.
-        conventions: the units and the axes of the arrays.
-        note: told what was taken otherwise than it stands.
+        source: the folder it is in, with the units and the axes of its arrays.
 
     Raises:
         VehicleError: no such file, a damaged one, or arrays that are missing, pickled or not a body's.
     """
-    arrays = _converted(_read_arrays(path), conventions)
+    arrays = _converted(_read_arrays(path, source), source.conventions)
     names, positions, shapes = (
         arrays[f"attachment_{what}"] for what in ("names", "positions", "shapes")
     )
@@ -69,14 +68,14 @@ def read_flexible_body(
     with located(path):
         body = FlexibleBody(
             name=name,
-            omega_n_squared=_with_zeros(arrays["omega_n_squared"], f"body {name!r}", note),
+            omega_n_squared=_with_zeros(arrays["omega_n_squared"], f"body {name!r}", source.note),
             n_residuals=int(arrays["n_residuals"]),
             attachments=tuple(map(Attachment, names.tolist(), positions, _with_six_rows(shapes))),
             nodes=arrays["nodes"],
             shapes=_with_six_rows(arrays["shapes"]),
             **properties,
         )
-    return _turned(body, note)
+    return _turned(body, source.note)
 
 
 def write_flexible_body(path: Path, body: FlexibleBody) -> None:
@@ -148,24 +147,30 @@ def _turned(body: FlexibleBody, note: Callable[[str], None]) -> FlexibleBody:
     return replace(body, shapes=body.shapes + turn)
 
 
-def _read_arrays(path: Path) -> dict[str, np.ndarray]:
-    content = read_bytes(path)
-    try:
-        with zipfile.ZipFile(BytesIO(content)) as archive:
-            names = [name.removesuffix(".npy") for name in archive.namelist()]
-            _check_names(names)
-            arrays = {name: _read_array(archive, name) for name in KINDS}
-    except VehicleError as error:
-        raise VehicleError(f"{path}: {error}") from None
-    except Exception as error:  # damaged archives make zipfile and NumPy raise almost anything
-        raise VehicleError(f"{path}: not a whole .npz file ({error})") from None
+def _read_arrays(path: Path, source: Source) -> dict[str, np.ndarray]:
+    with opened(path, LARGEST_ARRAYS) as file:
+        try:
+            with zipfile.ZipFile(file) as archive:
+                members = [_member(archive, name) for name in KINDS]
+                source.reserve(sum(member.file_size for member in members))
+                arrays = {name: _read_array(archive, name) for name in KINDS}
+        except VehicleError as error:
+            raise VehicleError(f"{path}: {error}") from None
+        except Exception as error:  # damaged archives make zipfile and NumPy raise almost anything
+            raise VehicleError(f"{path}: not a whole .npz file ({reason(error)})") from None
     return arrays
 
 
-def _check_names(names: list[str]) -> None:
-    for name in KINDS:
-        if name not in names:
-            raise VehicleError(f"{name}: missing; there are {listed(names)}")
+def _member(archive: zipfile.ZipFile, name: str) -> zipfile.ZipInfo:
+    """An array's place in the archive."""
+    try:
+        member = archive.getinfo(f"{name}.npy")
+    except KeyError:
+        names = [found.removesuffix(".npy") for found in archive.namelist()]
+        raise VehicleError(f"{name}: missing; there are {listed(names)}") from None
+    if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise VehicleError(f"{name}: compressed otherwise than numpy.savez_compressed does")
+    return member
 
 
 def _read_array(archive: zipfile.ZipFile, name: str) -> np.ndarray:

@@ -15,6 +15,7 @@ from modeviz.vehicle.files.axes import (
     turn_rates,
     turn_vectors,
 )
+from modeviz.vehicle.files.decoding import joined
 from modeviz.vehicle.files.hints import annotation, fields_of, plain
 
 Vector = tuple[float, float, float]
@@ -76,37 +77,46 @@ Amplitude = Annotated[
 ]
 
 
+Change = Callable[[Any, Quantity, Mapping[str, Any], str], Any]
+"""What becomes of a value that is a quantity: the value, what it is, its table, and its key path."""
+
+
 def turned(data: Any, kind: Any, T: Floats) -> Any:
     """The content of a file of that kind, with everything that depends on the axes in others."""
 
-    def change(value: Any, quantity: Quantity, _: Mapping[str, Any]) -> Any:
+    def change(value: Any, quantity: Quantity, _: Mapping[str, Any], where: str) -> Any:
         return value if quantity.turn is None or value is None else quantity.turn(value, T)
 
     return each_quantity(data, kind, change)
 
 
-def each_quantity(
-    data: Any, kind: Any, change: Callable[[Any, Quantity, Mapping[str, Any]], Any]
-) -> Any:
-    """The data with `change(value, quantity, table)` in place of each value that is a quantity.
+def each_quantity(data: Any, kind: Any, change: Change, where: str = "") -> Any:
+    """The data with what `change` makes of it in place of each value that is a quantity.
 
     Args:
         data: plain data that `decode` accepts as that kind.
         kind: a record, or a container of records.
-        change: what becomes of a value that stands in a table.
+        change: see `Change`.
+        where: the key path of the data.
     """
     kind = plain(kind)
     if isinstance(data, dict) and hasattr(kind, "__struct_fields__"):
         hints = fields_of(kind)
         return {
-            key: change(value, quantity, data)
+            key: change(value, quantity, data, joined(where, key))
             if (quantity := annotation(hints[key], Quantity))
-            else each_quantity(value, hints[key], change)
+            else each_quantity(value, hints[key], change, joined(where, key))
             for key, value in data.items()
         }
     inner = get_args(kind) or (Any,)
     if isinstance(data, dict):
-        return {key: each_quantity(value, inner[-1], change) for key, value in data.items()}
+        return {
+            key: each_quantity(value, inner[-1], change, joined(where, key))
+            for key, value in data.items()
+        }
     if isinstance(data, list | tuple):
-        return [each_quantity(value, inner[0], change) for value in data]
+        return [
+            each_quantity(value, inner[0], change, joined(where, index))
+            for index, value in enumerate(data)
+        ]
     return data

@@ -135,7 +135,8 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
             "stated_mass": self.mass,
         }
         conventions = source.conventions.with_units(self.units, "units")
-        body = read_flexible_body(path, self.name, properties, conventions, source.note)
+        own = replace(source, conventions=conventions)
+        body = read_flexible_body(path, self.name, properties, own)
         n_elastic, n_ratios = body.n_normal - body.n_rigid, np.size(self.damping_ratio)
         if n_ratios > max(n_elastic, 1):
             raise VehicleError(

@@ -1,34 +1,57 @@
-"""Road spectra as comma-separated text, one line for each frequency, m²/Hz."""
+"""Road spectra as a table, one line for each frequency."""
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.files.disk import read_text, write_text
+from modeviz.vehicle.files.conventions import Conventions
+from modeviz.vehicle.files.disk import write_text
+from modeviz.vehicle.files.spectrum_tables import read_spectrum_table
+from modeviz.vehicle.files.tables import Row
 from modeviz.vehicle.loads import Road
 
 COLUMNS = ("frequency_hz", "left", "right", "cross_real", "cross_imag")
 """Both tracks' spectra and S_lr = E[L R*]."""
 
+COHERENCE_EXCESS = 1e-3
+"""How far above one the squared coherence of two tracks is for rounding: with numbers of five digits it
+can be 2e-4."""
 
-def read_road(path: Path, name: str, label: str, speed: float) -> Road:
+
+def read_road(
+    path: Path,
+    name: str,
+    label: str,
+    speed: float,
+    conventions: Conventions,
+    note: Callable[[str], None],
+) -> Road:
     """The road whose spectra are in the file.
 
+    Args:
+        path: of the file.
+        name: see `Road`, like what follows.
+        label: of the road.
+        speed: at which it was met.
+        conventions: in whose length² per Hz the spectra are, unless their header says a unit.
+        note: told what was left out or is likely wrong.
+
     Raises:
-        VehicleError: no such file, a cut one, or no road.
+        VehicleError: no such file, or no road; the text names line and column.
     """
-    frequency_hz, left, right, cross_real, cross_imag = read_columns(path, COLUMNS)
-    S_lr = cross_real + 1j * cross_imag
-    spectrum = np.array([[left, S_lr], [S_lr.conj(), right]]).transpose(2, 0, 1)
+    table = read_spectrum_table(path, COLUMNS, ("left", "right"), "length", conventions, note)
     with located(path):
-        return Road(name, label, speed, frequency_hz, spectrum)
+        left, right, real, imaginary = table.values.T
+        S_lr = _coherent(table.rows, left, right, real + 1j * imaginary)
+        spectrum = np.array([[left, S_lr], [S_lr.conj(), right]]).transpose(2, 0, 1)
+        return Road(name, label, speed, table.frequency_hz, spectrum)
 
 
 def write_road(path: Path, road: Road) -> None:
-    """Writes the spectra; every number reads back to the same bits."""
+    """Writes the spectra in m²/Hz; every number reads back to the same bits."""
     S = road.spectrum
     S_lr = S[:, 0, 1]
     columns = (road.frequency_hz, S[:, 0, 0].real, S[:, 1, 1].real, S_lr.real, S_lr.imag)
@@ -37,27 +60,16 @@ def write_road(path: Path, road: Road) -> None:
     write_text(path, "\n".join(lines) + "\n")
 
 
-def read_columns(path: Path, columns: Sequence[str]) -> Floats:
-    """The columns of a file of numbers, (n_columns, n_rows).
-
-    Raises:
-        VehicleError: no such file, a cut one, or other columns.
-    """
-    text = read_text(path)
-    if not text.endswith("\n"):
-        raise VehicleError(f"{path}: the last line does not end; the file may be cut")
-    header, *lines = text.splitlines()
-    if header.split(",") != list(columns):
-        raise VehicleError(f"{path}: line 1: found {header!r}, expected {','.join(columns)}")
-    rows = [_row(line, len(columns), f"{path}: line {n}") for n, line in enumerate(lines, 2)]
-    return np.array(rows).reshape(-1, len(columns)).T
-
-
-def _row(line: str, n_columns: int, where: str) -> list[float]:
-    try:
-        numbers = [float(cell) for cell in line.split(",")]
-    except ValueError:
-        numbers = []
-    if len(numbers) != n_columns:
-        raise VehicleError(f"{where}: found {line!r}, expected {n_columns} numbers")
-    return numbers
+def _coherent(rows: tuple[Row, ...], left: Floats, right: Floats, cross: np.ndarray) -> np.ndarray:
+    """The cross spectrum, with a coherence that is above one by rounding made one."""
+    most, found = left * right, np.abs(cross) ** 2
+    wrong = np.flatnonzero(found > most * (1 + COHERENCE_EXCESS))
+    if wrong.size:
+        i = wrong[0]
+        raise VehicleError(
+            f"line {rows[i].line}, columns {COLUMNS[3]} and {COLUMNS[4]}: found a coherence above one, "
+            f"{found[i]:.5g} m⁴/Hz² as their square beside {most[i]:.5g} as left times right"
+        )
+    above = found > most
+    ratio = np.sqrt(np.divide(most, found, out=np.ones_like(most), where=above))
+    return cross * ratio

@@ -22,6 +22,17 @@ WRITTEN_UNITS = {
 }
 """The units of the files we write."""
 
+BEYOND_ANY_VEHICLE = 1e15
+"""In SI: of any quantity."""
+
+_BOUNDS = {
+    "length": (0.0, 1e6),
+    "mass": (1e-9, 1e9),
+    "inertia": (1e-15, BEYOND_ANY_VEHICLE),
+    "speed": (1e-6, 1e6),
+}
+"""The least that is not zero and the most of a quantity, in SI: beyond it nothing can be computed."""
+
 
 def to_si(data: Any, kind: type, units: Mapping[str, str]) -> Any:
     """The content of a file with every number in SI.
@@ -32,12 +43,18 @@ def to_si(data: Any, kind: type, units: Mapping[str, str]) -> Any:
         units: its `units` table, quantity to unit.
 
     Raises:
-        VehicleError: no such quantity or unit, or a quantity without a unit.
+        VehicleError: no such quantity or unit, a quantity without a unit, or a number that no vehicle
+            has.
     """
     factors = {quantity: _factor(quantity, unit) for quantity, unit in units.items()}
 
-    def convert(value: float, quantity: str) -> float:
-        return value * (factors.get(quantity) or unit_in_si(quantity, units))
+    def convert(value: float, quantity: str, where: str) -> float:
+        unit = factors.get(quantity) or unit_in_si(quantity, units)
+        least, most = _BOUNDS.get(quantity, (0.0, BEYOND_ANY_VEHICLE))
+        if value and not least <= abs(value) * unit <= most:
+            words = f"{least / unit:.3g} to {most / unit:.3g}" if least else f"up to {most / unit:.3g}"
+            raise VehicleError(f"{where}: found {value:g} {units[quantity]}, expected {words}")
+        return value * unit
 
     return _converted(data, kind, convert)
 
@@ -60,7 +77,7 @@ def unit_in_si(quantity: str, units: Mapping[str, str]) -> float:
 
 def from_si(data: Any, kind: type) -> Any:
     """The content of a file of that kind, given in SI, in `WRITTEN_UNITS`."""
-    return _converted(data, kind, lambda value, quantity: written(value, _factor(quantity)))
+    return _converted(data, kind, lambda value, quantity, _: written(value, _factor(quantity)))
 
 
 def _factor(quantity: str, unit: str | None = None) -> float:
@@ -82,13 +99,13 @@ def written(value: float, unit: float) -> float:
     return short if short * unit == value else number
 
 
-def _converted(data: Any, kind: type, convert: Callable[[float, str], float]) -> Any:
-    """The data with `convert(value, quantity)` in place of each number that has a unit."""
+def _converted(data: Any, kind: type, convert: Callable[[float, str, str], float]) -> Any:
+    """The data with `convert(value, quantity, where)` in place of each number that has a unit."""
 
-    def change(value: Any, quantity: Quantity, table: Mapping[str, Any]) -> Any:
+    def change(value: Any, quantity: Quantity, table: Mapping[str, Any], where: str) -> Any:
         if isinstance(value, list | tuple):
-            return [change(inner, quantity, table) for inner in value]
+            return [change(inner, quantity, table, where) for inner in value]
         name = quantity.named(table)
-        return convert(value, name) if name and value is not None else value
+        return convert(value, name, where) if name and value is not None else value
 
     return each_quantity(data, kind, change)

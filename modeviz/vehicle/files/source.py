@@ -5,6 +5,10 @@ from pathlib import Path
 
 from modeviz.vehicle.files.conventions import Conventions
 from modeviz.vehicle.files.disk import inside
+from modeviz.vehicle.files.limits import check_size
+
+LARGEST_ARRAYS = 256_000_000
+"""Bytes of the modes of all bodies, which take some times as much while they are read."""
 
 MOST_NOTES = 20
 """Nobody reads more."""
@@ -17,6 +21,8 @@ class Source:
     folder: Path
     conventions: Conventions = field(default_factory=Conventions)
     """Of the files in it."""
+    _reserved: list[int] = field(default_factory=list)
+    """Bytes of each file of modes."""
     _notes: list[str] = field(default_factory=list)
     """Grows while the folder is read."""
 
@@ -34,6 +40,15 @@ class Source:
             VehicleError: the name leads out of the folder.
         """
         return inside(self.folder, name)
+
+    def reserve(self, n_bytes: int) -> None:
+        """Counts the bytes of an array file before it is unpacked.
+
+        Raises:
+            VehicleError: with those before it they are too many.
+        """
+        self._reserved.append(n_bytes)
+        check_size("bytes of modes", sum(self._reserved), LARGEST_ARRAYS)
 
     def note(self, sentence: str) -> None:
         """Notes what was taken otherwise than it stands, or is likely wrong, with what it is about."""

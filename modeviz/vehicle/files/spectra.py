@@ -1,31 +1,37 @@
 """The spectrum of one quantity as comma-separated text, one line for each frequency."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from modeviz.errors import located
+from modeviz.vehicle.files.conventions import Conventions
 from modeviz.vehicle.files.disk import write_text
-from modeviz.vehicle.files.roads import read_columns
+from modeviz.vehicle.files.spectrum_tables import read_spectrum_table
 from modeviz.vehicle.loads import Spectrum
 
 COLUMNS = ("frequency_hz", "psd")
 """The PSD in the square of the quantity's unit per Hz."""
 
 
-def read_spectrum(path: Path, unit: float) -> Spectrum:
+def read_spectrum(
+    path: Path, quantity: str, conventions: Conventions, note: Callable[[str], None]
+) -> Spectrum:
     """The spectrum in a file, SI.
 
     Args:
         path: of the file.
-        unit: what one unit of the quantity is in SI.
+        quantity: of what.
+        conventions: with the unit of that quantity, for a header that says none.
+        note: told what was left out or is likely wrong.
 
     Raises:
-        VehicleError: no such file, a cut one, or no spectrum.
+        VehicleError: no such file, or no spectrum; the text names line and column.
     """
-    frequency_hz, psd = read_columns(path, COLUMNS)
+    table = read_spectrum_table(path, COLUMNS, ("psd",), quantity, conventions, note)
     with located(path):
-        return Spectrum(frequency_hz, psd * unit**2)
+        return Spectrum(table.frequency_hz, table.values[:, 0])
 
 
 def write_spectrum(path: Path, spectrum: Spectrum) -> None:

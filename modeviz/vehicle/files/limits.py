@@ -1,0 +1,43 @@
+"""How much of anything is read, checked before it takes memory or time."""
+
+import os
+
+from modeviz.errors import VehicleError
+
+VARIABLE = "MODEVIZ_LIMIT"
+"""The environment variable that allows everything to be so many times as large."""
+
+
+def check_size(what: str, found: int, most: int) -> None:
+    """Checks that there is not too much of something.
+
+    Args:
+        what: there is, in the plural.
+        found: how many.
+        most: how many are read, unless `VARIABLE` is set.
+
+    Raises:
+        VehicleError: there are more.
+    """
+    allowed = int(most * _factor())
+    if found > allowed:
+        raise VehicleError(
+            f"found {found:,} {what}, expected at most {allowed:,}; "
+            f"{VARIABLE}={-(-found // most)} in the environment would allow them"
+        )
+
+
+def most_allowed(most: int) -> int:
+    """How many of something are read that are usually at most so many."""
+    return int(most * _factor())
+
+
+def _factor() -> float:
+    text = os.environ.get(VARIABLE, "1")
+    try:
+        factor = float(text)
+    except ValueError:
+        factor = 0.0
+    if not 1 <= factor <= 1000:
+        raise VehicleError(f"{VARIABLE}: found {text!r}, expected a number from 1 to 1000")
+    return factor

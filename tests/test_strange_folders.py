@@ -1,0 +1,261 @@
+"""Folders from strangers: too large, endless or beyond any number; each is refused in a sentence."""
+
+import os
+import resource
+import time
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from folders import one_of_everything
+
+from modeviz.cli import main
+from modeviz.errors import VehicleError
+from modeviz.vehicle.files import read_vehicle, write_vehicle
+from modeviz.vehicle.files.modal import KINDS
+
+FILES = ["vehicle.toml", "roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"]
+
+SECONDS, BYTES = 10, 2_000_000_000
+
+HEAD = """name = "x"
+[units]
+length = "m"
+mass = "kg"
+inertia = "kg m²"
+stiffness = "N/m"
+speed = "m/s"
+"""
+BODY = """[[rigid_body]]
+name = "b{}"
+mass = {}
+center_of_gravity = [0, 0, 0]
+inertia = [1, 1, 1]
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    write_vehicle(one_of_everything(), tmp_path / "a")
+    return tmp_path / "a"
+
+
+@pytest.fixture
+def complaint(capsys: pytest.CaptureFixture[str]):
+    """What the command says of a folder, held to its time and memory."""
+
+    def complaint(folder: Path) -> str:
+        capsys.readouterr()
+        start = time.process_time()
+        with memory():
+            assert main(["modes", str(folder)]) == 2
+        assert time.process_time() - start < SECONDS
+        said = capsys.readouterr().err
+        assert said.startswith("modeviz: ")
+        assert said.count("\n") == 1
+        assert len(said) < 3000
+        assert not said.rstrip().endswith("()")
+        return said
+
+    return complaint
+
+
+@contextmanager
+def memory() -> Iterator[None]:
+    """Not more memory than now and `BYTES`."""
+    used = int(Path("/proc/self/statm").read_text("ascii").split()[5]) * resource.getpagesize()
+    soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    resource.setrlimit(resource.RLIMIT_DATA, (used + BYTES, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_DATA, (soft, hard))
+
+
+def written(folder: Path, text: str) -> Path:
+    folder.mkdir(exist_ok=True)
+    (folder / "vehicle.toml").write_text(text, "utf-8")
+    return folder
+
+
+def sparse(path: Path, size: int) -> None:
+    with path.open("wb") as file:
+        file.truncate(size)
+
+
+@pytest.mark.parametrize(
+    "name", ["vehicle.toml", "roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"]
+)
+def test_a_file_of_three_gigabytes_is_not_read(complaint, folder, name):
+    sparse(folder / name, 3_000_000_000)
+    text = complaint(folder)
+    assert f"{name}: found 3,000,000,000 bytes, expected at most" in text
+    assert "MODEVIZ_LIMIT=" in text
+
+
+@pytest.mark.parametrize(
+    "name", ["vehicle.toml", "roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"]
+)
+def test_a_pipe_is_not_waited_for(complaint, folder, name):
+    (folder / name).unlink()
+    os.mkfifo(folder / name)
+    assert str(folder) in complaint(folder)
+
+
+@pytest.mark.parametrize(
+    "name", ["vehicle.toml", "roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"]
+)
+def test_a_link_to_itself_leads_nowhere(complaint, folder, name):
+    (folder / name).unlink()
+    (folder / name).symlink_to(folder / name)
+    assert str(folder) in complaint(folder)
+
+
+@pytest.mark.parametrize("name", ["roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"])
+def test_a_link_out_of_the_folder_is_not_followed(complaint, folder, tmp_path, name):
+    (folder / name).rename(tmp_path / "elsewhere")
+    (folder / name).symlink_to(tmp_path / "elsewhere")
+    assert f"found '{name}', expected a file inside the vehicle folder" in complaint(folder)
+
+
+def bomb(path: Path, name: str) -> None:
+    """An archive of some kilobytes, one array of which is hundreds of megabytes of zeros."""
+    with np.load(path) as archive:
+        arrays = dict(archive)
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for key in KINDS:
+            content = BytesIO()
+            np.lib.format.write_array(content, arrays[key], allow_pickle=False)
+            with archive.open(f"{key}.npy", "w", force_zip64=True) as file:
+                if key != name:
+                    file.write(content.getvalue())
+                    continue
+                np.lib.format.write_array_header_1_0(
+                    file, {"descr": "<f4", "fortran_order": False, "shape": (5, 6, 10_000_000)}
+                )
+                for _ in range(3):
+                    file.write(bytes(100_000_000))
+
+
+def test_an_archive_that_unpacks_to_gigabytes_is_not_unpacked(complaint, folder):
+    bomb(folder / "bodies/cab.npz", "shapes")
+    assert (folder / "bodies/cab.npz").stat().st_size < 3_000_000
+    assert "bytes of modes, expected at most 256,000,000; MODEVIZ_LIMIT=2" in complaint(folder)
+
+
+def test_an_array_that_claims_more_than_is_there_is_refused(complaint, folder):
+    path = folder / "bodies/cab.npz"
+    with np.load(path) as archive:
+        arrays = dict(archive)
+    with zipfile.ZipFile(path, "w") as archive:
+        for key, array in arrays.items():
+            with archive.open(f"{key}.npy", "w") as file:
+                if key == "nodes":
+                    header = {"descr": "<f8", "fortran_order": False, "shape": (10**12, 3)}
+                    np.lib.format.write_array_header_1_0(file, header)
+                else:
+                    np.lib.format.write_array(file, array, allow_pickle=False)
+    assert "bodies/cab.npz: " in complaint(folder)
+
+
+def test_bodies_that_name_the_same_modes_count_each(folder, monkeypatch):
+    with zipfile.ZipFile(folder / "bodies/cab.npz") as archive:
+        size = sum(member.file_size for member in archive.infolist())
+    monkeypatch.setattr("modeviz.vehicle.files.source.LARGEST_ARRAYS", size + size // 2)
+    text = (folder / "vehicle.toml").read_text("utf-8")
+    body = text[text.index("[[flexible_body]]") : text.index("[[rigid_body]]")]
+    read_vehicle(folder)
+    written(folder, text.replace(body, body + body.replace('"cab"', '"other cab"'), 1))
+    with pytest.raises(VehicleError, match=f"found {2 * size:,} bytes of modes, expected at most"):
+        read_vehicle(folder)
+
+
+TEXTS = {
+    "2 000 free bodies": (
+        HEAD + "".join(BODY.format(i, 1) for i in range(2_000)),
+        "found 12,000 coordinates (6 of a rigid body, the modes of a flexible one), expected at most "
+        "3,000; MODEVIZ_LIMIT=4 in the environment would allow them",
+    ),
+    "100 000 free bodies": (
+        HEAD + "".join(BODY.format(i, 1) for i in range(100_000)),
+        "bytes, expected",
+    ),
+    "small tables by the thousand": (
+        HEAD + BODY.format(0, 1) + '[[response_point]]\nname="a"\nbody="b"\nat=[0,0,0]\n' * 20_000,
+        "found 20,000 tables [[response_point]], expected at most 2,000",
+    ),
+    "a mass of 1e50": (
+        HEAD + BODY.format(0, 1e50),
+        "[0].mass: found 1e+50 kg, expected 1e-09 to",
+    ),
+    "a mass of 1e99": (
+        HEAD + BODY.format(0, 1e99),
+        "[0].mass: found 1e+99 kg, expected 1e-09 to",
+    ),
+    "a mass of 1e-300": (HEAD + BODY.format(0, 1e-300), "found 1e-300 kg, expected 1e-09 to 1e+09"),
+    "a place beyond the sky": (
+        HEAD + BODY.format(0, 1).replace("[0, 0, 0]", "[0, 0, 1e40]"),
+        "rigid_body[0].center_of_gravity: found 1e+40 m, expected up to 1e+06",
+    ),
+    "a key of 20 000 dots": (
+        HEAD + "a." * 20_000 + "a = 1\n",
+        "line 8: found a key of more than 32",
+    ),
+    "a header of 20 000 dots": (
+        "[" + "a." * 20_000 + "a]\n",
+        "line 1: found a key of more than 32 parts",
+    ),
+    "an inline key of 20 000 dots": (
+        "a = { b = 1, " + "a." * 20_000 + "a = 1 }\n",
+        "line 1: found a key of more than 32 parts",
+    ),
+    "lists in lists": (HEAD + "x = " + "[" * 100_000, "not TOML"),
+    "tables in tables": (
+        HEAD + "\n".join(f"[{'.'.join(['a'] * 30)}{i}]" for i in range(3000)),
+        "a: unknown key 'a'",
+    ),
+    "a hexadecimal number of a million digits": (
+        HEAD + BODY.format(0, "0x" + "f" * 1_000_000),
+        "rigid_body[0].mass: found a number of 1,204,120 digits, expected a finite number",
+    ),
+    "a decimal number of a million digits": (HEAD + BODY.format(0, "9" * 1_000_000), "not TOML"),
+    "one text of 30 MB": ("name = '" + "x" * 30_000_000 + "'\n", "found 30,000,010 bytes, expected"),
+}
+
+
+@pytest.mark.parametrize("case", TEXTS)
+def test_a_file_that_cannot_be_a_vehicle_is_refused_in_a_sentence(complaint, tmp_path, case):
+    text, words = TEXTS[case]
+    assert words in complaint(written(tmp_path / "a", text))
+
+
+def test_a_road_of_three_million_lines_is_refused(complaint, folder):
+    path = folder / "roads/road_1.csv"
+    header = path.read_text("utf-8").partition("\n")[0]
+    rows = "".join(f"{i},1,1,0,0\n" for i in range(1, 3_000_001))
+    path.write_text(f"{header}\n{rows}", "utf-8")
+    assert "roads/road_1.csv: found 46,888,942 bytes, expected at most 20,000,000" in complaint(folder)
+    path.write_text(header + "\n" + "1,1,1,0,0\n" * 100_001, "utf-8")
+    assert "roads/road_1.csv: found 100,002 lines, expected at most 100,000" in complaint(folder)
+
+
+def test_an_archive_of_very_many_names_is_refused_in_a_sentence(complaint, folder):
+    with zipfile.ZipFile(folder / "bodies/cab.npz", "w") as archive:
+        for i in range(20_000):
+            archive.writestr(f"array {i}.npy", b"")
+    assert "omega_n_squared: missing; there are array 0, array 1, " in complaint(folder)
+
+
+def test_limits_are_raised_by_the_environment(tmp_path, monkeypatch):
+    folder = written(tmp_path / "a", HEAD + "".join(BODY.format(i, 1) for i in range(501)))
+    with pytest.raises(VehicleError, match="MODEVIZ_LIMIT=2 in the environment"):
+        read_vehicle(folder)
+    monkeypatch.setenv("MODEVIZ_LIMIT", "2")
+    assert len(read_vehicle(folder).bodies) == 501
+    monkeypatch.setenv("MODEVIZ_LIMIT", "many")
+    with pytest.raises(VehicleError, match="MODEVIZ_LIMIT: found 'many', expected a number from 1 to"):
+        read_vehicle(folder)
