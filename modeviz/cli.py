@@ -4,7 +4,7 @@ import sys
 from collections.abc import Sequence
 
 from modeviz.commands.interrupt import ended_by_interrupt, interrupted
-from modeviz.commands.streams import printed_plainly
+from modeviz.commands.streams import one_line, printed_plainly
 from modeviz.errors import ModevizError
 
 
@@ -17,7 +17,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         try:
             _run(sys.argv[1:] if arguments is None else arguments)
         except ModevizError as error:
-            print("modeviz:", " ".join(str(error).splitlines()), file=sys.stderr)
+            print("modeviz:", one_line(str(error)), file=sys.stderr)
             return 2
         except KeyboardInterrupt:
             return interrupted()

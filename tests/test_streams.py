@@ -12,6 +12,8 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
 from modeviz.commands.streams import CONTROL, Printed, plain, printable
+from modeviz.commands.terminal import remark
+from modeviz.export.tables import table
 from modeviz.tuning.rate_files import read_rates
 from modeviz.vehicle.files import write_vehicle
 
@@ -107,6 +109,16 @@ def test_what_the_parser_refuses_is_cleaned_too(capsys):
 def test_a_line_end_in_a_message_makes_no_second_line(capsys):
     assert main(["modes", "there\nmodeviz: all is well"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_line_end_in_a_name_makes_no_row_of_its_own():
+    rows = table(["a", "b"], [["x\ny", "1"]]).splitlines()
+    assert [line.split() for line in rows] == [["a", "b"], ["------"], ["x", "y", "1"]]
+
+
+def test_a_line_end_in_a_note_makes_no_second_line(capsys):
+    remark("body 'a\nmodeviz: all is well'")
+    assert capsys.readouterr().err == "modeviz: note: body 'a modeviz: all is well'\n"
 
 
 def shell(line, *arguments):

@@ -32,6 +32,11 @@ def printable(text: str) -> str:
     return CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
+def one_line(text: str) -> str:
+    """The text without line ends, such as a name may have."""
+    return " ".join(text.splitlines())
+
+
 def plain(text: str, encoding: str) -> str:
     """The text in letters that the encoding has."""
     try:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 
-from modeviz.commands.streams import plain, printable
+from modeviz.commands.streams import one_line, plain, printable
 from modeviz.errors import LONGEST, cut
 
 
@@ -30,7 +30,7 @@ def announce(text: str) -> None:
 
 def remark(text: str) -> None:
     """Says in a line of its own what is to be known of the input, and that it is no error."""
-    print(f"modeviz: note: {cut(text, LONGEST)}", file=sys.stderr)
+    print(f"modeviz: note: {one_line(cut(text, LONGEST))}", file=sys.stderr)
 
 
 def say(text: str) -> None:

@@ -21,7 +21,7 @@ WHEEL_BAND = (11.0, 16.0)
 
 def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Columns lined up, the first to the left and the others to the right."""
-    cells = [list(header), *map(list, rows)]
+    cells = [[" ".join(cell.splitlines()) for cell in row] for row in (header, *rows)]
     widths = [max(len(row[i]) for row in cells) for i in range(len(header))]
     lines = [
         "  ".join(
