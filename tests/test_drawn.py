@@ -1,6 +1,16 @@
-from modeviz.vehicle.bodies import FlexibleBody
+from dataclasses import replace
+
+import numpy as np
+from mounted_cabin import mounted_cabin
+
+from modeviz.tuning.preparation import prepare
+from modeviz.vehicle.arrays import FARTHEST
+from modeviz.vehicle.bodies import FlexibleBody, Material, MeshPart
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.loads import ResponsePoint
+from modeviz.viewer.doors import open_server
 from modeviz.viewer.drawn import DrawnBody
+from modeviz.viewer.scene import Scene
 from modeviz.viewer.stage import LIGHT
 
 
@@ -29,3 +39,23 @@ def test_every_flexible_body_has_outlines_that_are_put_away():
     for body in drawn:
         body.show(visible=True, see_through=True, ghost=False)
     assert {path for path, visible in driver.visible.items() if not visible} == outlines
+
+
+def test_no_motion_is_too_large_to_be_sent():
+    """A speck that turns in a vehicle of a thousand kilometres turns by more than halves can say."""
+    vehicle = mounted_cabin()
+    cab, *others = vehicle.bodies
+    speck = cab.center_of_gravity + 1e-3 * np.eye(3)
+    drawn = replace(cab, mesh=(MeshPart("speck", speck, [[0, 1, 2]], Material((9, 9, 9))),))
+    seat = ResponsePoint("seat", cab.name, np.array([FARTHEST, 0.0, 0.0]))
+    vast = replace(vehicle, bodies=(drawn, *others), response_points=(seat,))
+    prepared = prepare(vast)
+    server = open_server(port=0)
+    try:
+        scene = Scene(server, vast, False, lambda _: None)
+        turning = np.zeros(prepared.system.n_dofs)
+        turning[prepared.system.dofs[cab.name]] = [0, 0, 0, 0, 0, 1]
+        moved = scene.show_shape(prepared.system, turning, None)[cab.name]
+        np.testing.assert_allclose(moved[:, 0], -65504 * (speck - cab.center_of_gravity)[:, 1])
+    finally:
+        server.stop()

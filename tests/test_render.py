@@ -14,11 +14,9 @@ from modeviz.errors import ModevizError, SolveError
 from modeviz.shapes.colors import stop_colors
 from modeviz.tuning.comparison import RateSet
 from modeviz.tuning.results import Conditions, solve_on
-from modeviz.vehicle.arrays import FARTHEST
-from modeviz.vehicle.bodies import Material, MeshPart, RigidBody
+from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
 from modeviz.vehicle.files import write_vehicle
-from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.coloring import ColorScale
 from modeviz.viewer.pictures import Pose, Shot, picture
@@ -173,17 +171,6 @@ def test_a_vehicle_of_which_nothing_can_be_drawn_is_refused(capsys, tmp_path):
     assert main(["render", str(tmp_path / "lump"), "--output", str(file)]) == 2
     assert "there is nothing to draw: no body that is shown has a mesh" in capsys.readouterr().err
     assert not file.exists()
-
-
-def test_a_vehicle_of_the_largest_size_is_drawn_without_a_word(capsys, tmp_path):
-    vehicle = mounted_cabin()
-    cab, *others = vehicle.bodies
-    seat = ResponsePoint("seat", cab.name, np.array([FARTHEST, 0.0, 0.0]))
-    drawn = replace(cab, mesh=(MeshPart("skin", np.eye(3), [[0, 1, 2]], Material((9, 9, 9))),))
-    write_vehicle(replace(vehicle, bodies=(drawn, *others), response_points=(seat,)), tmp_path / "vast")
-    file = tmp_path / "vast.html"
-    assert main(["render", str(tmp_path / "vast"), "--output", str(file)]) == 0
-    assert "Error" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("coloring", "told"), [("displacement", "Displacement"), ("bodies", "")])

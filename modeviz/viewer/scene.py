@@ -14,12 +14,9 @@ from modeviz.viewer.answers import Solved
 from modeviz.viewer.cameras import Cameras
 from modeviz.viewer.coloring import Coloring, Shares, energy_shares, shades, share_colors, strain_shares
 from modeviz.viewer.drawn import DrawnBody
-from modeviz.viewer.driver import ShapeDriver
+from modeviz.viewer.driver import LARGEST, ShapeDriver
 from modeviz.viewer.markers import Markers
 from modeviz.viewer.stage import DARK, LIGHT, Box, Stage, bodies_box, box
-
-LONGEST = 1e5
-"""m: the longest vehicle by which displacements are drawn; the driver sends none beyond 65 504 m."""
 
 
 class Scene:
@@ -42,7 +39,6 @@ class Scene:
         """
         theme = DARK if dark else LIGHT
         self._vehicle, self._box = vehicle, box(vehicle)
-        self._length = min(self._box.length, LONGEST)
         self._server = server
         self._stage = Stage(server.scene, self._box, theme)
         self.driver = ShapeDriver(server.scene)
@@ -98,6 +94,9 @@ class Scene:
     ) -> Mapping[str, NDArray]:
         """Sends the page a shape, scaled so that it is clear to see at the driver's amplitude of one.
 
+        What would be too large to be sent is drawn smaller: a part of a millimetre that turns, in a
+        vehicle of a hundred kilometres.
+
         Args:
             system: whose coordinates they are.
             shape: (n_dofs,), real or complex.
@@ -110,20 +109,22 @@ class Scene:
         shapes = {b.name: b.displacement(shape[system.dofs[b.name]]) for b in self._bodies}
         seen = [b for b in self._bodies if b.name not in hidden]
         areas = [b.areas for b in seen]
-        scale = default_amplitude([shapes[b.name] for b in seen], areas, self._length)
+        scale = default_amplitude([shapes[b.name] for b in seen], areas, self._box.length)
         drawn = {name: scale * shape for name, shape in shapes.items()}
         points = {}
         for body in self._bodies:
             dofs = system.dofs[body.name]
             beside = None if other is None else scale * other[dofs]
             points |= body.points(drawn[body.name], scale * shape[dofs], beside)
-        self.driver.show(points)
-        return drawn
+        largest = max((float(np.abs(p).max(initial=0.0)) for p in points.values()), default=0.0)
+        sent = min(1.0, LARGEST / largest) if largest else 1.0
+        self.driver.show(points if sent == 1 else {path: sent * p for path, p in points.items()})
+        return drawn if sent == 1 else {name: sent * moved for name, moved in drawn.items()}
 
     def show_colors(self, coloring: Coloring, drawn: Mapping[str, NDArray], shares: Shares) -> None:
         """Colours bodies by what moves as drawn, and chooses the light for it."""
         self._stage.light(colored=coloring != "bodies")
-        chosen = shades(coloring, drawn, self._length, shares)
+        chosen = shades(coloring, drawn, self._box.length, shares)
         self.driver.shade({b.path: chosen[b.name] for b in self._bodies if b.name in chosen})
 
     def show_bodies(self, hidden: Collection[str], see_through: bool, ghost: bool) -> None:
