@@ -57,6 +57,10 @@ def test_a_vehicle_in_any_axes_is_the_same(tmp_path, words):
     forces = [tyre_directions(s).T @ track_amplitudes(s.vehicle, f, 20.0) for s in (system, expected)]
     np.testing.assert_allclose(*forces, atol=1e-12 * np.abs(forces[1]).max())
     np.testing.assert_allclose(wheel_directions(system), wheel_directions(expected), atol=1e-12)
+    for a, b in zip(found.forces, vehicle.forces, strict=True):
+        np.testing.assert_array_equal([a.position, a.direction], [b.position, b.direction])
+    for a, b in zip(found.base_motions, vehicle.base_motions, strict=True):
+        np.testing.assert_array_equal(a.direction, b.direction)
 
 
 @pytest.mark.parametrize("words", RIGHT_HANDED, ids=text)

@@ -178,7 +178,7 @@ TEXTS = {
     "2 000 free bodies": (
         HEAD + "".join(BODY.format(i, 1) for i in range(2_000)),
         "found 12,000 coordinates (6 of a rigid body, the modes of a flexible one), expected at most "
-        "3,000; MODEVIZ_LIMIT=4 in the environment would allow them",
+        "2,000; MODEVIZ_LIMIT=6 in the environment would allow them",
     ),
     "100 000 free bodies": (
         HEAD + "".join(BODY.format(i, 1) for i in range(100_000)),
@@ -251,11 +251,11 @@ def test_an_archive_of_very_many_names_is_refused_in_a_sentence(complaint, folde
 
 
 def test_limits_are_raised_by_the_environment(tmp_path, monkeypatch):
-    folder = written(tmp_path / "a", HEAD + "".join(BODY.format(i, 1) for i in range(501)))
+    folder = written(tmp_path / "a", HEAD + "".join(BODY.format(i, 1) for i in range(334)))
     with pytest.raises(VehicleError, match="MODEVIZ_LIMIT=2 in the environment"):
         read_vehicle(folder)
     monkeypatch.setenv("MODEVIZ_LIMIT", "2")
-    assert len(read_vehicle(folder).bodies) == 501
+    assert len(read_vehicle(folder).bodies) == 334
     monkeypatch.setenv("MODEVIZ_LIMIT", "many")
     with pytest.raises(VehicleError, match="MODEVIZ_LIMIT: found 'many', expected a number from 1 to"):
         read_vehicle(folder)

@@ -51,6 +51,13 @@ def turned(vehicle: Vehicle, words: tuple[str, ...]) -> Vehicle:
         added_masses=tuple(
             replace(m, position=_vector(m.position, words)) for m in vehicle.added_masses
         ),
+        forces=tuple(
+            replace(f, position=_vector(f.position, words), direction=_vector(f.direction, words))
+            for f in vehicle.forces
+        ),
+        base_motions=tuple(
+            replace(m, direction=_vector(m.direction, words)) for m in vehicle.base_motions
+        ),
         response_points=tuple(
             replace(p, position=_vector(p.position, words)) for p in vehicle.response_points
         ),

@@ -63,8 +63,8 @@ CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra"}
 MOST_TABLES = 2_000
 """Of a kind."""
 
-COORDINATES, MOST_COORDINATES = "coordinates (6 of a rigid body, the modes of a flexible one)", 3_000
-"""As many as are solved in a minute and 2 GB."""
+COORDINATES, MOST_COORDINATES = "coordinates (6 of a rigid body, the modes of a flexible one)", 2_000
+"""Five times the truck's; their time rises with the cube, their memory with the square."""
 
 CONNECTION_KINDS: dict[str, type[Connection]] = {
     "spring": Spring,
