@@ -26,8 +26,8 @@ N_SILENT, N_ASKING, N_UPDATES = 500, 34, 30
 WATCH_S = 10.0
 """How long an attack that waits goes on."""
 
-BROKEN = (OSError, TimeoutError, WebSocketException)
-"""How a server gets rid of who goes too far."""
+BROKEN = (OSError, TimeoutError, WebSocketException, AttributeError)
+"""How a server gets rid of who goes too far; the last is what websockets raises then at its end."""
 
 
 @dataclass(frozen=True)

@@ -87,10 +87,13 @@ def say(page: Page, slider: Message, rate: float) -> None:
 
 
 def wait_for_answer(page: Page, slider: Message, rate: float, spectrum: Message) -> None:
-    """Waits until a page is told of another's move of the slider, and then of a spectrum."""
-    said = _received(page)
-    next(m for m in said if _is_news(m, slider, "value") and m["updates"]["value"] == rate)
-    next(m for m in said if _is_news(m, spectrum, "data"))
+    """Waits until a page is told of another's move of the slider and of a spectrum, in any order."""
+    heard = drawn = False
+    for message in _received(page):
+        heard |= _is_news(message, slider, "value") and message["updates"]["value"] == rate
+        drawn |= _is_news(message, spectrum, "data")
+        if heard and drawn:
+            return
 
 
 def _is_news(message: Message, widget: Message, what: str) -> bool:

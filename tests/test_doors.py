@@ -5,14 +5,17 @@ import http.client
 import math
 import re
 import socket
+from urllib.parse import urlencode
 
 import pytest
+import viser
 from viser import _messages
 from visitors import CAMERA, TOKEN, decoded, encoded, get, knock, own_origin
 from websockets.exceptions import InvalidStatus
 
 from modeviz.errors import ModevizError
 from modeviz.viewer.doors import open_server
+from modeviz.viewer.handshake import WHY
 
 
 @pytest.fixture(scope="module")
@@ -141,6 +144,51 @@ def test_shared_server_knows_its_addresses_but_no_foreign_name(locked):
     for host in ("192.0.2.7", socket.gethostname(), "localhost"):
         assert get(locked, Host=f"{host}:{port}", Cookie=cookie)[0] == 200
     assert get(locked, Host=f"evil.example:{port}", Cookie=cookie)[0] == 403
+
+
+@pytest.fixture(scope="module")
+def public():
+    """A server that a proxy makes known under a name."""
+    server = open_server(port=0, public_names=("Tool.example.com",))
+    yield server
+    server.stop()
+
+
+@pytest.mark.parametrize("host", ["tool.example.com", "TOOL.example.com:8443", "127.0.0.1"])
+def test_a_public_name_is_welcome_beside_those_of_this_machine(public, host):
+    status, headers, _ = get(public, Host=host)
+    assert status == 200
+    assert "wss://tool.example.com:*" in headers["Content-Security-Policy"]
+
+
+@pytest.mark.parametrize("host", ["evil.example", "tool.example.com.evil.example", "example.com"])
+def test_a_public_name_lets_no_other_in(public, host):
+    assert get(public, Host=host)[0] == 403
+    assert refused_status(public, f"https://{host}") == 403
+
+
+def test_a_page_of_a_public_name_may_open_a_websocket_even_if_the_proxy_calls_us_otherwise(public):
+    with knock(public, "https://tool.example.com") as socket:
+        assert socket.recv(timeout=20)
+    assert refused_status(public, "ftp://tool.example.com") == 403
+
+
+def why(server, **query):
+    """What a page is told that cannot open its websocket."""
+    about = {"origin": own_origin(server), "subprotocol": f"viser-v{viser.__version__}", **query}
+    headers = about.pop("headers", {})
+    status, _, text = get(server, f"/some/path/{WHY}?{urlencode(about)}", **headers)
+    assert status == 200
+    return text.decode()
+
+
+def test_a_page_is_told_why_its_websocket_is_refused(server, locked):
+    assert why(server) == ""
+    assert "pass the header Host on" in why(server, origin="http://tool.example.com")
+    assert "another version" in why(server, subprotocol="viser-v0.2")
+    assert "whole link" in why(locked)
+    assert why(locked, headers={"Cookie": cookie_of(locked)}) == ""
+    assert get(server, f"/{WHY}", Host="evil.example")[0] == 403
 
 
 def test_port_in_use_is_an_error_that_says_so(server):

@@ -112,8 +112,8 @@ class Door:
             return _answer(
                 403,
                 "a page of another site may not use this server: this one is at "
-                f"{', '.join(origins) or 'no address'}, and the server is asked as {hosts[0]}. "
-                "A proxy between them has to pass the header Host on.",
+                f"{', '.join(origins) or 'no address'}, and the server is asked as {hosts[0]}; "
+                "a proxy between them has to pass the header Host on",
             )
         for name, _ in parse_qsl(urlsplit(request.path).query, keep_blank_values=True):
             if name in REFUSED_PARAMETERS:

@@ -119,8 +119,8 @@ def picture(
         ) from None
     except RuntimeError as error:
         raise ModevizError(f"the page did not draw it: choose a smaller size ({error})") from None
-    if drawn.shape[:2] != (shot.height, shot.width):
-        raise ModevizError("the page drew it in another size: choose a smaller one")
+    if drawn.shape != (shot.height, shot.width, 4) or drawn.dtype != np.uint8:
+        raise ModevizError("the page drew it otherwise than asked: choose a smaller size")
     if not drawn[..., 3].any():
         raise ModevizError(
             "the picture is empty: the camera looks past the vehicle; choose another view"
