@@ -10,7 +10,17 @@ from folders import one_of_everything
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
-from modeviz.errors import LONGEST, ModevizError, VehicleError, cut, listed, located, quoted, unknown
+from modeviz.errors import (
+    LONGEST,
+    ModevizError,
+    VehicleError,
+    cut,
+    listed,
+    located,
+    quoted,
+    reason,
+    unknown,
+)
 from modeviz.units import parse
 from modeviz.vehicle.arrays import frozen
 from modeviz.vehicle.files import write_vehicle
@@ -102,3 +112,9 @@ def test_a_folder_of_a_long_name_is_a_short_sentence(capsys, tmp_path):
     error = capsys.readouterr().err
     assert len(error) < LONGEST + 100
     assert "unknown key" in error
+
+
+def test_a_reason_is_never_empty():
+    assert reason(MemoryError()) == "MemoryError"
+    assert reason(OSError(28, "No space left on device")) == "No space left on device"
+    assert reason(ValueError("bad magic")) == "bad magic"

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, reason
 from modeviz.vehicle.files.decoding import decode
 from modeviz.vehicle.files.mesh_formats.glb_records import Buffer, Document
 from modeviz.vehicle.files.mesh_formats.limits import LARGEST_DOCUMENT, check_size
@@ -116,7 +116,7 @@ def _decoded(text: bytes) -> Document:
     except RecursionError:
         raise VehicleError("its JSON is nested too deeply to be read") from None
     except ValueError as error:
-        raise VehicleError(f"its JSON cannot be read ({error})") from None
+        raise VehicleError(f"its JSON cannot be read ({reason(error)})") from None
 
 
 def _buffer(buffer: Buffer, index: int, binary: memoryview) -> memoryview:
@@ -139,4 +139,4 @@ def embedded(uri: str, key: str) -> bytes:
     try:
         return base64.b64decode(text, validate=True)
     except ValueError as error:
-        raise VehicleError(f"{key}: cannot be read ({error})") from None
+        raise VehicleError(f"{key}: cannot be read ({reason(error)})") from None

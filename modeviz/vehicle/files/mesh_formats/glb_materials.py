@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, reason
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Material
 from modeviz.vehicle.files.mesh_formats.glb_arrays import scaled, values
@@ -109,9 +109,9 @@ def _opened(content: bytes, key: str) -> Image.Image:
     except UnidentifiedImageError:
         raise VehicleError(f"{key}: found no PNG or JPEG") from None
     except Image.DecompressionBombError as error:
-        raise VehicleError(f"{key}: is far too large ({error})") from None
+        raise VehicleError(f"{key}: is far too large ({reason(error)})") from None
     except (OSError, SyntaxError, ValueError) as error:
-        raise VehicleError(f"{key}: is not a whole image ({error})") from None
+        raise VehicleError(f"{key}: is not a whole image ({reason(error)})") from None
 
 
 def _mean_color(image: Image.Image, key: str) -> Floats:
@@ -119,7 +119,7 @@ def _mean_color(image: Image.Image, key: str) -> Floats:
     try:
         pixels = image.convert("RGBA")
     except (OSError, SyntaxError, ValueError) as error:
-        raise VehicleError(f"{key}: is not a whole image ({error})") from None
+        raise VehicleError(f"{key}: is not a whole image ({reason(error)})") from None
     channel = pixels.getchannel("A")
     alpha = np.array(channel.histogram())
     seen = channel.point(lambda level: 255 if level else 0)
