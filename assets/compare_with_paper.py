@@ -6,7 +6,9 @@ The numbers are those of A. E. Duncan, "Application of modal modeling and mount 
 light duty truck ride analysis", Tables 1, 5 and 6; most of them were fitted, see assets/pickup.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import AXIS, Conditions, Results, solve, solve_wheels
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 
 FREQUENCIES = {
@@ -56,24 +59,26 @@ WHEEL_ACCELERATIONS = np.array(
 
 PARTICIPATION = {
     ("road 1", "vertical"): [
-        (8.6, "first torsion", "first beaming 0.69"),
-        (11.4, "first torsion", "first beaming 0.46"),
+        (8.6, "first torsion", "first beaming", 0.69),
+        (11.4, "first torsion", "first beaming", 0.46),
     ],
     ("road 1", "lateral"): [
-        (8.6, "front tramp", "first torsion 0.76"),
-        (13.0, "cab yaw", "rear tramp 0.79"),
+        (8.6, "front tramp", "first torsion", 0.76),
+        (13.0, "cab yaw", "rear tramp", 0.79),
     ],
     ("road 2", "vertical"): [
-        (7.2, "front bounce", "first beaming 0.88"),
-        (9.0, "first beaming", "first torsion 0.59"),
-        (11.6, "first torsion", "front bounce 0.74"),
+        (7.2, "front bounce", "first beaming", 0.88),
+        (9.0, "first beaming", "first torsion", 0.59),
+        (11.6, "first torsion", "front bounce", 0.74),
     ],
     ("road 2", "lateral"): [
-        (9.0, "front tramp", "cab yaw 0.60"),
-        (12.6, "cab yaw", "rear tramp 0.77"),
+        (9.0, "front tramp", "cab yaw", 0.60),
+        (12.6, "cab yaw", "rear tramp", 0.77),
     ],
 }
-"""Tables 2 and 3: Hz of a response peak, its largest contributor and the next with its ratio."""
+"""Tables 2 and 3: Hz of a response peak, its largest contributor, the next one and their ratio."""
+
+PAPER_ROWS = [row for rows in PARTICIPATION.values() for row in rows]
 
 WHEEL_HZ = np.arange(220, 321) / 20
 LATERAL_BAND = (11.0, 17.0)
@@ -103,6 +108,12 @@ class Comparison:
         return _frequency(self.optimised, "cab yaw")
 
     @property
+    def acceleration_fall(self) -> float:
+        """g: how much A falls on road 1."""
+        before, after = (r.rating.combined_g for r in (self.original, self.optimised))
+        return before - after
+
+    @property
     def lateral_change(self) -> float:
         """Relative change of the seat's lateral RMS in `LATERAL_BAND` on road 1."""
         before, after = (
@@ -110,6 +121,33 @@ class Comparison:
             for r in (self.original, self.optimised)
         )
         return float(after / before - 1)
+
+    @cached_property
+    def contributors(self) -> tuple[Mapping[str, float], ...]:
+        """For each of `PAPER_ROWS` the modes at the paper's frequency, the largest first.
+
+        What each has of the largest one's participation.
+        """
+        prepared = self.original.prepared
+        rows = []
+        for (road, direction), peaks in PARTICIPATION.items():
+            results = solve(prepared, {}, Conditions(road, prepared.vehicle.speed))
+            lines = [int(np.abs(results.frequency_hz - f).argmin()) for f, *_ in peaks]
+            for peak in results.peaks(0, direction, len(results.names), lines):
+                rows.append({results.names[c.mode].name: c.ratio for c in peak.contributors})
+        return tuple(rows)
+
+    @property
+    def right_contributors(self) -> int:
+        """How many of the 18 modes that Tables 2 and 3 name are in their place, first or second.
+
+        At the paper's frequencies; a second one counts only behind the first one that it belongs to.
+        """
+        right = 0
+        for ours, (_, *paper, _) in zip(self.contributors, PAPER_ROWS, strict=True):
+            same = [a == b for a, b in zip(ours, paper, strict=False)]
+            right += same[0] + all(same)
+        return right
 
     @property
     def right_signs(self) -> int:
@@ -121,16 +159,25 @@ class Comparison:
 def compare(vehicle: Vehicle | None = None) -> Comparison:
     """Solves a vehicle, the built-in one if none is given, with both sets of rates."""
     vehicle = vehicle or read_vehicle(builtin_vehicle())
-    prepared = prepare(vehicle)
     at_wheels = prepare(vehicle, WHEEL_HZ)
+    both = {}, vehicle.rate_sets["optimised"]
+    before, after = (_wheel_accelerations(at_wheels, rates) for rates in both)
+    return _on_roads(prepare(vehicle), np.stack([before, after], axis=-1))
+
+
+def on_other_roads(comparison: Comparison, roads: tuple[Road, ...]) -> Comparison:
+    """The same vehicle on roads of the same names."""
+    prepared = comparison.original.prepared
+    vehicle = replace(prepared.vehicle, roads=roads)
+    system = replace(prepared.system, vehicle=vehicle)
+    return _on_roads(replace(prepared, system=system), comparison.wheel_accelerations)
+
+
+def _on_roads(prepared: Prepared, wheel_accelerations: Floats) -> Comparison:
+    vehicle = prepared.vehicle
     road_1 = Conditions("road 1", vehicle.speed)
-    optimised = vehicle.rate_sets["optimised"]
-    before, after = (_wheel_accelerations(at_wheels, rates) for rates in ({}, optimised))
-    return Comparison(
-        solve(prepared, {}, road_1),
-        solve(prepared, optimised, road_1),
-        np.stack([before, after], axis=-1),
-    )
+    before, after = (solve(prepared, r, road_1) for r in ({}, vehicle.rate_sets["optimised"]))
+    return Comparison(before, after, wheel_accelerations)
 
 
 def _frequency(results: Results, name: str) -> float:
@@ -162,11 +209,9 @@ def _fitted(comparison: Comparison) -> list[str]:
         (f"{name.capitalize()} (Table 1)", "Hz", paper, comparison.frequency(name))
         for name, paper in FREQUENCIES.items()
     ]
-    before, after = (r.rating for r in (comparison.original, comparison.optimised))
-    fall = before.combined_g - after.combined_g
     rows += [
         ("Cab yaw, optimised rates", "Hz", CAB_YAW_OPTIMISED, comparison.cab_yaw_optimised),
-        ("Road 1: fall of A", "0.001 g", 1000 * ACCELERATION_FALL, 1000 * fall),
+        ("Road 1: fall of A", "0.001 g", 1000 * ACCELERATION_FALL, 1000 * comparison.acceleration_fall),
     ]
     return [
         "| Quantity | Unit | Paper | Ours | Difference |",
@@ -196,19 +241,30 @@ def _wheels(comparison: Comparison) -> list[str]:
 
 
 def _participation(comparison: Comparison) -> list[str]:
-    lines = ["| Tables 2 and 3 | Paper: peak and its modes | Ours, nearest peak |", "|---|---|---|"]
-    prepared = comparison.original.prepared
+    lines = [
+        "| Tables 2 and 3 | Paper: peak and its modes | Ours, at that frequency | Ours, nearest peak |",
+        "|---|---|---|---|",
+    ]
+    prepared, rows = comparison.original.prepared, iter(comparison.contributors)
     for (road, direction), peaks in PARTICIPATION.items():
         results = solve(prepared, {}, Conditions(road, prepared.vehicle.speed))
         found = results.peaks(0, direction, 2)
-        for f, *modes in peaks:
-            ours = min(found, key=lambda peak, f=f: abs(peak.frequency_hz - f))
-            named = ", ".join(f"{results.names[c.mode].name} {c.ratio:.2f}" for c in ours.contributors)
-            paper = ", ".join(modes)
-            lines.append(
-                f"| {road}, {direction} | {f:.1f} Hz: {paper} | {ours.frequency_hz:.1f} Hz: {named} |"
+        for f, first, second, ratio in peaks:
+            peak = min(found, key=lambda peak, f=f: abs(peak.frequency_hz - f))
+            near = {results.names[c.mode].name: c.ratio for c in peak.contributors}
+            cells = (
+                f"{road}, {direction}",
+                f"{f:.1f} Hz: {first}, {second} {ratio:.2f}",
+                _largest(next(rows)),
+                f"{peak.frequency_hz:.1f} Hz: {_largest(near)}",
             )
+            lines.append(f"| {' | '.join(cells)} |")
     return lines
+
+
+def _largest(contributors: Mapping[str, float]) -> str:
+    (first, _), (second, ratio) = list(contributors.items())[:2]
+    return f"{first}, {second} {ratio:.2f}"
 
 
 if __name__ == "__main__":

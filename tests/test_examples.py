@@ -71,19 +71,20 @@ def test_derivatives_say_what_ten_per_cent_of_a_rate_do():
     assert which.seat_g[largest] == pytest.approx(seat, rel=1e-3)
 
 
-def test_the_seat_moves_at_its_peak_mostly_by_the_cab_yaw():
+def test_the_seat_moves_at_its_peak_mostly_by_the_cab_yaw_and_the_tramp():
     moving = example("04_what_moves")
     results, omega = moving.results, 2 * np.pi * moving.peak.frequency_hz
     seat = moving.prepared.outputs[1] @ moving.on_road
     assert (omega**2 * seat.real / 9.80665) ** 2 == pytest.approx(moving.peak.level, rel=1e-9)
-    assert results.names[moving.mode].name == "cab yaw"
-    # Damping couples the mode to the front tramp beside it: it has another ratio than by itself.
+    largest = {results.names[c.mode].name for c in moving.peak.contributors[:2]}
+    assert largest == {"cab yaw", "front tramp"}
+    # Damping couples the two, which are close: each has another ratio than by itself.
     assert moving.damped.damping_ratio == pytest.approx(
         results.modes.damping_ratio[moving.mode], rel=0.3
     )
     assert 0.05 < moving.likeness(moving.on_road, moving.damped.shape) < 0.5
     assert moving.likeness(moving.damped.shape, moving.damped.shape) == pytest.approx(1.0)
-    assert {s.name for s in moving.shares[:2]} == {"lateral", "yaw"}
+    assert moving.shares[0].name == "lateral"
 
 
 @pytest.fixture(scope="module")

@@ -84,3 +84,10 @@ def test_marks_take_their_size_from_the_vehicle(server, length):
     }
     for what, size in sizes.items():
         assert 0.01 < size / length < 0.06, what
+
+
+def test_a_mount_is_marked_where_it_acts(server):
+    ends = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.6]])
+    mount = Mount("C1 left", "", ("cab", "frame"), ends, elastic_center=0.25)
+    marker = MountMarker(server.scene, mount, group("C1 left"), 5.4)
+    assert marker._frame.position == pytest.approx((0.0, 0.0, 0.9))

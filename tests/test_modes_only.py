@@ -1,5 +1,7 @@
 """The paper's own truncation, on two beams bolted together where the full answer is known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -8,6 +10,7 @@ from oracles import Beam, direct_system
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.truncation import modes_only
+from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.connections import Bolt
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -46,6 +49,23 @@ def test_residual_vectors_are_far_closer_than_modes_alone(full):
     modes_alone = np.abs(elastic_frequencies(modes_only(vehicle)) / full - 1).max()
     assert with_residuals < 1e-5
     assert 1e-3 < modes_alone < 0.2
+
+
+def test_a_bolt_with_separate_ends_is_softened_by_the_compliance_where_it_acts():
+    """A force there turns the end as well: each residual vector moves the place by u + θ × r."""
+    _, vehicle = bolted_beams(N_KEPT)
+    bolt = vehicle.connections[1]
+    assert isinstance(bolt, Bolt)
+    ends = bolt.points + np.outer([0, 1], [0, 0, 0.05])
+    apart = replace(bolt, points=ends, elastic_center=0.4)
+    body = vehicle.body("thin")
+    assert isinstance(body, FlexibleBody)
+    at = body.nearest_attachment(bolt.points[0])
+    residuals = at.shapes[:, -body.n_residuals :]
+    moved = residuals[:3] + np.cross(residuals[3:].T, [0, 0, 0.02]).T
+    compliance = (moved**2 / body.omega_n_squared[-body.n_residuals :]).sum(axis=1)
+    (found,) = modes_only(replace(vehicle, connections=(apart,))).connections
+    np.testing.assert_allclose(1 / found.stiffness, 1 / bolt.stiffness + compliance, rtol=1e-9)
 
 
 def test_bolts_are_softened_by_the_first_bodys_residual_compliance():

@@ -297,7 +297,7 @@ def test_on_the_truck_twenty_starts_find_the_same_best_whatever_the_seed():
         paper = search.goal.value(vehicle.rate_sets[problem.reference])
     for optimum in found:
         assert optimum.converged
-        assert optimum.value == pytest.approx(0.33384, rel=1e-2)
+        assert optimum.value == pytest.approx(0.326, rel=1e-2)
         assert optimum.value < paper < 1
         assert excess(search.space, optimum.x) < 1e-12
         assert optimum.verification.difference < 1e-9

@@ -23,7 +23,7 @@ from pickup.mounts import OPTIMISED, ORIGINAL, mount_groups
 from pickup.parameters import Parameters
 from pickup.problem import paper_problem
 from pickup.rigid_bodies import rigid_bodies
-from pickup.roads import SPEED, roads
+from pickup.roads import SPEED, RoadShapes, roads
 
 DAMPING_RATIO = 0.03
 """Of every component mode; the paper gives none."""
@@ -54,19 +54,24 @@ def components(p: Parameters) -> tuple[Component, ...]:
     )
 
 
-def pickup(p: Parameters, solve: Callable[..., FlexibleBody] = flexible_body) -> Vehicle:
+def pickup(
+    p: Parameters,
+    solve: Callable[..., FlexibleBody] = flexible_body,
+    road_shapes: RoadShapes | None = None,
+) -> Vehicle:
     """The truck at its original rates.
 
     Args:
         p: its numbers.
         solve: what makes bodies of components; the calibration has one that remembers.
+        road_shapes: of its roads, if not the built-in ones.
     """
     groups, fixed = mount_groups(p), connections(p)
     joints = (*(m for g in groups for m in g.mounts), *fixed)
     masses, points = added_masses(p), response_points(p)
     parts = components(p)
     meshes = display_meshes({part.name: part.structure for part in parts}, p)
-    tracks, loads = roads(), wheel_loads()
+    tracks, loads = roads(road_shapes or RoadShapes()), wheel_loads()
 
     def solved(part: Component) -> FlexibleBody:
         return solve(

@@ -84,10 +84,9 @@ def start_points(
 ) -> list[Floats]:
     """Where to search from: some rates, and the best of `SCREENED` times as many spread designs.
 
-    The paper's problem on the built-in truck has some 20 minima, from 0.334 to 0.55 of the original's
-    objective. From 20 starts taken as they come the best is found with three of the seeds 0 to 4, and
-    0.340 and 0.345 with the others; from the best of 380 designs with all five, by 3 to 7 of the
-    starts, for a fifth more time.
+    The paper's problem on the built-in truck has some 20 minima, from 0.326 to 0.50 of the original's
+    objective. From the best of 380 designs the best one is found with each of the seeds 0 to 4, by 3 to
+    6 of 20 starts; from starts taken as they come it may be missed.
 
     Args:
         search: among whose designs.
