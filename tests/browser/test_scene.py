@@ -16,6 +16,7 @@ from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer import stage
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.coloring import energy_shares, largest_share
+from modeviz.viewer.markers import PATCH_Z
 from modeviz.viewer.movement import Movement
 from modeviz.viewer.scene import Scene
 from modeviz.viewer.stage import VIEWS
@@ -305,7 +306,7 @@ def test_markers_stand_at_the_mounts_and_points(scene, page):
         """names => names.map((name) => window.__viserMutable.nodePoseData[name].position)""",
         ["/mounts/C left", "/mounts/C right", "/points/seat", "/patches/tyre"],
     )
-    expected = [[0, -0.7, 0.6], [0, 0.7, 0.6], [0, -0.7, 0.6], [0, -0.8, 0.004]]
+    expected = [[0, -0.7, 0.6], [0, 0.7, 0.6], [0, -0.7, 0.6], [0, -0.8, PATCH_Z * 4.0]]
     assert np.array(positions) == pytest.approx(np.array(expected), abs=1e-6)
 
 
