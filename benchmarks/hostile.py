@@ -223,23 +223,22 @@ def _processor_s(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def table(outcomes: Sequence[Outcome]) -> str:
-    """A row each, in Markdown; before, during and after are separated by slashes."""
-    rows = [COLUMNS, tuple("---" for _ in COLUMNS)]
-    for outcome in outcomes:
-        phases = outcome.phases
-        rows.append(
-            (
-                outcome.attack,
-                " / ".join(f"{phase.memory_mb:.0f}" for phase in phases),
-                " / ".join(f"{100 * phase.core:.0f}" for phase in phases),
-                f"{outcome.terminal_bytes}",
-                " / ".join(_ms(phase, statistics.median) for phase in phases),
-                " / ".join(_ms(phase, max) for phase in phases),
-                outcome.said,
-            )
-        )
-    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+def row(outcome: Outcome) -> str:
+    """What an attack came to, in Markdown; before, during and after are separated by slashes."""
+    phases = outcome.phases
+    return _cells(
+        outcome.attack,
+        " / ".join(f"{phase.memory_mb:.0f}" for phase in phases),
+        " / ".join(f"{100 * phase.core:.0f}" for phase in phases),
+        f"{outcome.terminal_bytes}",
+        " / ".join(_ms(phase, statistics.median) for phase in phases),
+        " / ".join(_ms(phase, max) for phase in phases),
+        outcome.said,
+    )
+
+
+def _cells(*cells: str) -> str:
+    return f"| {' | '.join(cells)} |"
 
 
 def _ms(phase: Phase, of: Callable[[list[float]], float]) -> str:
@@ -254,7 +253,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     attacks = (*ATTACKS, WITH_CHROMIUM) if options.chromium else ATTACKS
     chosen = [attack for attack in attacks if options.only in attack.name]
-    print(table([hostile(attack) for attack in chosen]))
+    print(_cells(*COLUMNS), _cells(*("---" for _ in COLUMNS)), sep="\n")
+    for attack in chosen:
+        print(row(hostile(attack)), flush=True)
 
 
 if __name__ == "__main__":
