@@ -13,10 +13,10 @@ from modeviz.commands.streams import plain
 from modeviz.commands.terminal import progress, remark
 from modeviz.errors import ModevizError, located
 from modeviz.export.records import Record
-from modeviz.ride.excitation import input_spectrum
+from modeviz.ride.excitation import known_part
 from modeviz.tuning.default_problem import problems
 from modeviz.tuning.parts import Tolerance
-from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
+from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.rates import resolve_rates
 from modeviz.tuning.results import Conditions
 from modeviz.units import parse
@@ -55,7 +55,9 @@ def conditions(options: Namespace, vehicle: Vehicle) -> Conditions:
             f"road {load.name!r} does not shake vehicle {vehicle.name!r}: give its vehicle.toml a "
             "[[tyre]] with stiffness or damping along z"
         )
-    input_spectrum(load, FREQUENCY_HZ, speed)  # what is wrong there is better said before a preparation
+    known_part(
+        load, vehicle.frequency_hz, speed
+    )  # what is wrong there is better said before a preparation
     return Conditions(load.name, speed)
 
 

@@ -10,7 +10,6 @@ from modeviz.commands.options import (
     print_json,
     vehicle_and_rates,
 )
-from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import ModevizError
 from modeviz.export.records import modes_record, psd_record, wheels_record
 from modeviz.export.tables import modes_table, psd_table, wheels_table
@@ -24,7 +23,7 @@ def modes(options: Namespace) -> None:
     if not (options.below > 0 and math.isfinite(options.below)):
         raise ModevizError(f"--below: found {options.below:g} Hz, expected more than zero")
     vehicle, rates = vehicle_and_rates(options)
-    prepared = prepare_modes(vehicle, max(options.below, TOP_HZ))
+    prepared = prepare_modes(vehicle, max(options.below or 0, vehicle.highest_frequency))
     followed = solve_followed(prepared, rates, options.method)
     if options.json:
         print_json(modes_record(followed, options.below))

@@ -67,17 +67,18 @@ class Receptances:
         """
         return replace(self, inputs=self.inputs @ forces - ground, direct=self.direct @ forces)
 
-    def modified(self, stiffness: Complexes) -> "Receptances":
+    def modified(self, stiffness: Complexes, pole: float = POLE) -> "Receptances":
         """The same at other mount rates, all of it.
 
         Args:
             stiffness: (n_springs,), complex rates, N/m.
+            pole: what may magnify a stretch, see `POLE`.
 
         Raises:
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
         columns = np.dstack([self.springs, self.outputs, self.inputs])
-        changed, forces = self._forces(stiffness, columns)
+        changed, forces = self._forces(stiffness, columns, pole)
         self._add_forces(columns, changed, forces)
         n_springs, n_outputs = self.outputs.shape[1:]
         springs, outputs, inputs = np.split(columns, [n_springs, n_springs + n_outputs], axis=2)
@@ -138,6 +139,25 @@ class Receptances:
             *(a[lines] for a in (self.springs, self.outputs, self.inputs, self.direct)),
         )
 
+    def part(
+        self,
+        lines: NDArray[np.intp],
+        springs: NDArray[np.intp] | None = None,
+        inputs: NDArray[np.intp] | None = None,
+    ) -> "Receptances":
+        """The same for some lines, springs and inputs only; None is all."""
+        s = np.arange(self.springs.shape[1]) if springs is None else springs
+        i = np.arange(self.inputs.shape[2]) if inputs is None else inputs
+        at = lines[:, None, None]
+        return Receptances(
+            self.frequency_hz[lines],
+            self.mount_stiffness[s],
+            self.springs[at, s[:, None], s],
+            self.outputs[lines[:, None], s],
+            self.inputs[at, s[:, None], i],
+            self.direct[lines][:, :, i],
+        )
+
     def with_outputs(self, outputs: NDArray[np.intp]) -> "Receptances":
         """The same for some of the outputs only."""
         return replace(self, outputs=self.outputs[:, :, outputs], direct=self.direct[:, outputs])
@@ -171,7 +191,9 @@ class Receptances:
         own = np.abs(np.diagonal(self.springs, axis1=1, axis2=2))
         return np.sqrt(np.maximum(own.max(axis=0, initial=0.0), np.finfo(np.float64).tiny))
 
-    def _forces(self, stiffness: Complexes, stretches: Complexes) -> tuple[NDArray[np.intp], Complexes]:
+    def _forces(
+        self, stiffness: Complexes, stretches: Complexes, pole: float = POLE
+    ) -> tuple[NDArray[np.intp], Complexes]:
         """Which springs change, and the forces Δ (I + G_mm Δ)⁻¹ b that this adds to stretches b.
 
         Stretches are scaled by u = √|G_ii| and forces by 1 + |Δ| u², so that nothing is large or small
@@ -187,7 +209,7 @@ class Receptances:
             A = self._between(changed, lines) * scale
             A[:, range(len(changed)), range(len(changed))] += weight
             b = stretches[lines, changed] / u[:, None]
-            forces[lines] = solve_checked(A, b, self.frequency_hz[lines])
+            forces[lines] = solve_checked(A, b, self.frequency_hz[lines], pole)
         return changed, (change * weight / u)[:, None] * forces
 
     def _add_forces(self, stretches: Complexes, changed: NDArray[np.intp], forces: Complexes) -> None:
@@ -235,7 +257,7 @@ def prepare_receptances(
     )
 
 
-def solve_checked(A: Complexes, b: Complexes, frequency_hz: Floats) -> Complexes:
+def solve_checked(A: Complexes, b: Complexes, frequency_hz: Floats, pole: float = POLE) -> Complexes:
     """A⁻¹ b, with a probe that no pole escapes."""
     probe = np.random.default_rng(0).uniform(0.5, 1.0, A.shape[1])
     columns = np.broadcast_to(probe[:, None], (*A.shape[:2], 1))
@@ -244,7 +266,7 @@ def solve_checked(A: Complexes, b: Complexes, frequency_hz: Floats) -> Complexes
     except np.linalg.LinAlgError:
         raise drowned(frequency_hz[int(np.argmin(np.abs(np.linalg.det(A))))]) from None
     growth = np.abs(x[:, :, -1]).max(axis=1, initial=0.0)
-    if not (growth < POLE).all():
+    if not (growth < pole).all():
         raise drowned(frequency_hz[int(np.argmax(growth))])
     return x[:, :, :-1]
 

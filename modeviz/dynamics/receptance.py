@@ -24,6 +24,7 @@ from threadpoolctl import threadpool_limits
 
 from modeviz.dynamics.assembly import System, connection_coefficients, modal_coefficients
 from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
+from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 
@@ -72,6 +73,28 @@ def receptances(
     return G
 
 
+def receptances_along(system: System, rows: Floats) -> "Callable[[Complexes, Floats], Complexes]":
+    """A function of complex frequencies (n,), Hz, and directions v, (n, n_rows): vᵀGv, (n,).
+
+    Args:
+        system: what vibrates.
+        rows: P, (n_rows, n_dofs), as of `receptances`.
+    """
+    parts = _disassemble(system, rows)
+
+    def one(frequency_hz: complex, v: Floats) -> complex:
+        try:
+            return complex(v @ parts.solution(frequency_hz)[2] @ v)
+        except SolveError:
+            return complex(np.inf, 0)
+
+    def along(frequency_hz: Complexes, directions: Floats) -> Complexes:
+        with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(N_THREADS) as pool:
+            return np.array(list(pool.map(one, frequency_hz, directions)), complex)
+
+    return along
+
+
 @dataclass(frozen=True, eq=False)
 class _Joints:
     """What joins bodies or is carried by them: springs and dampers, added masses, rigid joints."""
@@ -83,7 +106,7 @@ class _Joints:
     n_rigid: int
     """How many more there are, the last, that do not yield."""
 
-    def compliance(self, omega: float) -> Complexes:
+    def compliance(self, omega: complex) -> Complexes:
         """1/z, (n_joints + n_rigid,)."""
         z = self.stiffness + 1j * omega * self.damping - omega**2 * self.mass
         return np.concatenate([1 / z, np.zeros(self.n_rigid, complex)])
@@ -107,7 +130,15 @@ class _Disassembled:
     """The coordinates of each body, and which directions they move."""
 
     def receptance(self, frequency_hz: float) -> Complexes:
-        """G at one frequency: the matrix bordered by the rows, condensed to them."""
+        """G at one frequency, as accurate as promised."""
+        S, X, G = self.solution(frequency_hz)
+        parts = np.abs(S)
+        np.fill_diagonal(parts, 1)
+        check_accuracy(parts, X, G, frequency_hz, ACCURACY)
+        return G
+
+    def solution(self, frequency_hz: complex) -> tuple[Complexes, Complexes, Complexes]:
+        """The matrix bordered by the rows, scaled, its solution, and condensed to the rows: G."""
         matrix, scale = self._bordered(2 * np.pi * frequency_hz)
         n = len(scale)
         matrix[:n] *= scale[:, None]
@@ -116,14 +147,10 @@ class _Disassembled:
         try:
             X = np.linalg.solve(S, B)
         except np.linalg.LinAlgError:
-            raise drowned(frequency_hz) from None
-        G = B.T @ X - matrix[n:, n:]
-        parts = np.abs(S)
-        np.fill_diagonal(parts, 1)
-        check_accuracy(parts, X, G, frequency_hz, ACCURACY)
-        return G
+            raise drowned(abs(frequency_hz)) from None
+        return S, X, B.T @ X - matrix[n:, n:]
 
-    def _bordered(self, omega: float) -> tuple[Complexes, Floats]:
+    def _bordered(self, omega: complex) -> tuple[Complexes, Floats]:
         """The matrix of u, λ and rows, and what scales the parts of its diagonal to one for u and λ."""
         compliance = self.joints.compliance(omega)
         Z = self.omega_n_squared - omega**2 + 1j * (omega * self.damping + self.structural_damping)

@@ -9,6 +9,9 @@ import numpy as np
 from modeviz.export.wording import number, power_of_ten
 from modeviz.vehicle.arrays import Floats
 
+USUAL_HZ, USUAL_SHOWN_HZ = 40.0, (1.0, 25.0)
+"""The usual band's end, and what of it is drawn."""
+
 MOST_TICKS = 8
 DECIBELS = 60
 """How far below its top a spectrum is drawn."""
@@ -56,6 +59,13 @@ class Axis:
             ]
         inside = [(v, text) for v, text in found if -1e-9 < self.place(v) < 1 + 1e-9]
         return inside if len(inside) > 2 else self._even()
+
+
+def shown_hz(highest_frequency: float) -> tuple[float, float]:
+    """What is drawn of a band that ends there: of the usual one the paper's part, of others all."""
+    if highest_frequency == USUAL_HZ:
+        return USUAL_SHOWN_HZ
+    return min(USUAL_SHOWN_HZ[0], highest_frequency / USUAL_HZ), highest_frequency
 
 
 def decibel_axis(title: str, curves: Sequence[Floats]) -> Axis:

@@ -82,8 +82,10 @@ def _origin_record(followed: Followed, i: int) -> Record:
 def psd_record(results: Results) -> Record:
     """Accelerations on a road, or under another random load, whose name is then the road's.
 
-    `{"vehicle", "rates", "road", "speed_m_per_s", "frequency_hz": [...], "responses": [{"point",
-    "direction", "psd_g2_per_hz": [...], "rms_g"}], "rating": the fields of ride.rating.Rating}`.
+    `{"vehicle", "rates", "road", "speed_m_per_s", "band_hz": [first, last], "known_hz": [first, last],
+    "frequency_hz": [...], "responses": [{"point", "direction", "psd_g2_per_hz": [...], "rms_g"}],
+    "rating": the fields of ride.rating.Rating}`; of the vehicle's band only what the road's table holds
+    is known, and what the rest would add is unknown; lines lie closer where a mode is sharp.
     """
     responses = [
         {
@@ -100,6 +102,8 @@ def psd_record(results: Results) -> Record:
         "rates": rates_record(results.vehicle),
         "road": results.conditions.road,
         "speed_m_per_s": results.conditions.speed,
+        "band_hz": results.prepared.frequency_hz[[0, -1]].tolist(),
+        "known_hz": list(results.drive.known),
         "frequency_hz": results.frequency_hz.tolist(),
         "responses": responses,
         "rating": asdict(results.rating),

@@ -7,6 +7,7 @@ import numpy as np
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.tracking import WEAK_MAC
 from modeviz.export.components import believed
+from modeviz.export.coverage import band_text, coverage_note
 from modeviz.export.wording import scientific
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import amplitude_decibels, power_decibels
@@ -17,6 +18,11 @@ from modeviz.vehicle.vehicle import Vehicle
 
 WHEEL_BAND = (11.0, 16.0)
 """Hz: over which the paper's Tables 5 and 6 take their means."""
+
+
+def wheel_band(highest_frequency: float) -> tuple[float, float]:
+    """That, or all of a vehicle's band that does not hold it."""
+    return WHEEL_BAND if highest_frequency >= WHEEL_BAND[1] else (0.0, highest_frequency)
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -70,7 +76,7 @@ def health(results: ModalResults) -> str:
     missed = f"{trust.n_missed} missed" if trust.n_missed else "none missed"
     worst = float(trust.frequency_error_hz[f > RESOLVED_HZ].max(initial=0.0))
     return (
-        f"{len(f)} modes below {results.prepared.basis.top_hz:.0f} Hz, {missed}; "
+        f"{len(f)} modes below {results.prepared.basis.top_hz:.4g} Hz, {missed}; "
         f"natural frequencies within {scientific(worst)} Hz of exact for the model as given"
     )
 
@@ -79,7 +85,7 @@ def psd_table(results: Results) -> str:
     """RMS at every response point, the rating, and the peaks at the first point with their modes."""
     points = results.vehicle.response_points
     rms = table(
-        ["RMS 0 to 40 Hz, g", *AXIS],
+        [f"RMS {band_text(results)}, g", *AXIS],
         [
             [point.name, *(f"{results.rms[i, axis]:.4f}" for axis in AXIS.values())]
             for i, point in enumerate(points)
@@ -98,7 +104,8 @@ def psd_table(results: Results) -> str:
             for peak in results.peaks(0, direction)
         ],
     )
-    return f"{rms}\n\n{_rating(results)}\n\n{peaks}"
+    parts = [rms, coverage_note(results), _rating(results), peaks]
+    return "\n\n".join(filter(None, parts))
 
 
 def wheels_table(vehicle: Vehicle, results: WheelResults) -> str:
@@ -106,8 +113,8 @@ def wheels_table(vehicle: Vehicle, results: WheelResults) -> str:
 
     In brackets the highest in that band, dB re 1 g.
     """
-    low, high = WHEEL_BAND
-    means = results.mean(WHEEL_BAND) * 1000
+    low, high = wheel_band(vehicle.highest_frequency)
+    means = results.mean((low, high)) * 1000
     inside = (results.frequency_hz >= low) & (results.frequency_hz <= high)
     highest = amplitude_decibels(results.acceleration_g[inside].max(axis=0))
     blocks = [

@@ -11,7 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeviz.dynamics.assembly import System, connection_coefficients, mount_stiffness
-from modeviz.ride.roads import interpolated_power, road_spectrum, track_amplitudes, tyre_directions
+from modeviz.ride.roads import (
+    held,
+    interpolated_power,
+    road_spectrum,
+    track_amplitudes,
+    tyre_directions,
+)
 from modeviz.ride.wheels import wheel_amplitudes, wheel_directions
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Connection
@@ -117,6 +123,19 @@ def input_spectrum(load: Load, frequency_hz: Floats, speed: float) -> Complexes:
     if not isinstance(load, WheelLoad) and isinstance(load.amplitude, Spectrum):
         power = interpolated_power(load.name, load.amplitude, frequency_hz)
     return power.reshape(-1, 1, 1).astype(complex)
+
+
+def known_part(load: Load, frequency_hz: Floats, speed: float) -> slice:
+    """Which of some frequencies, (n_freqs,), the spectrum of a load is known at.
+
+    Raises:
+        ModevizError: none of them.
+    """
+    if isinstance(load, Road):
+        return held(f"road {load.name!r}", load.frequency_hz * speed / load.speed, frequency_hz)
+    if not isinstance(load, WheelLoad) and isinstance(load.amplitude, Spectrum):
+        return held(repr(load.name), load.amplitude.frequency_hz, frequency_hz)
+    return slice(0, len(frequency_hz))
 
 
 class _Slots:

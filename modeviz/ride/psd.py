@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from modeviz.ride.integration import integration_weights
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
 
@@ -56,7 +57,7 @@ def rms(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = RIDE_BAND
 
 
 def mean_square(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = RIDE_BAND) -> Floats:
-    """The integral of a one-sided PSD over a band, by the trapezium rule.
+    """The integral of a one-sided PSD over a band; see `integration_weights` for how.
 
     Args:
         frequency_hz: (n_freqs,), rising.
@@ -67,15 +68,6 @@ def mean_square(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = R
         (...), unit².
     """
     return np.tensordot(integration_weights(np.asarray(frequency_hz), band), psd, 1)
-
-
-def integration_weights(frequency_hz: Floats, band: tuple[float, float]) -> Floats:
-    """What each value of a polygon counts in its integral over a band, (n_freqs,); as `mean_square`."""
-    f = frequency_hz
-    start, end = np.clip(f[:-1], *band), np.clip(f[1:], *band)
-    length, middle = end - start, (start + end) / 2
-    of_right = length * (middle - f[:-1]) / np.diff(f)
-    return np.append(length - of_right, 0.0) + np.insert(of_right, 0, 0.0)
 
 
 def power_decibels(psd: Floats) -> Floats:

@@ -12,6 +12,9 @@ from modeviz.vehicle.vehicle import Vehicle
 LEFT, RIGHT = 0, 1
 """The tracks, where they are inputs: left is y < 0."""
 
+SLACK = 1e-9
+"""Relative: how far beyond the end of a road's table, which rounding moves, a frequency may be."""
+
 NO_POWER = np.finfo(np.float64).tiny
 """m²/Hz: stands for zero where a logarithm is taken."""
 
@@ -90,7 +93,7 @@ def road_spectrum(road: Road, frequency_hz: Floats, speed: float) -> Complexes:
     """
     at_table_speed = np.asarray(frequency_hz) * road.speed / speed
     low, high = road.frequency_hz[[0, -1]]
-    slack = 1e-9 * high
+    slack = SLACK * high
     if at_table_speed.size and not (
         low - slack <= at_table_speed.min() and at_table_speed.max() <= high + slack
     ):
@@ -110,7 +113,7 @@ def interpolated_power(what: str, spectrum: Spectrum, frequency_hz: Floats) -> F
         ModevizError: the table does not reach that far.
     """
     f, known = np.asarray(frequency_hz), spectrum.frequency_hz
-    slack = 1e-9 * known[-1]
+    slack = SLACK * known[-1]
     if f.size and not (known[0] - slack <= f.min() and f.max() <= known[-1] + slack):
         raise ModevizError(
             f"{what}: found {f.min():g} to {f.max():g} Hz, expected frequencies from {known[0]:g} to "
@@ -118,6 +121,23 @@ def interpolated_power(what: str, spectrum: Spectrum, frequency_hz: Floats) -> F
         )
     power = np.maximum(spectrum.power, NO_POWER)
     return np.exp(np.interp(np.log(f), np.log(known), np.log(power)))
+
+
+def held(what: str, table_hz: Floats, frequency_hz: Floats) -> slice:
+    """Which of some frequencies a table holds.
+
+    Raises:
+        ModevizError: none of them.
+    """
+    low, high = table_hz[[0, -1]]
+    slack = SLACK * high
+    start, stop = np.searchsorted(frequency_hz, (low - slack, high + slack)).tolist()
+    if stop - start < 2:
+        raise ModevizError(
+            f"{what}: its table holds {low:g} to {high:g} Hz, expected some of {frequency_hz[0]:g} to "
+            f"{frequency_hz[-1]:g} Hz"
+        )
+    return slice(start, stop)
 
 
 def _interpolate(road: Road, frequency_hz: Floats) -> Complexes:

@@ -7,12 +7,13 @@ from functools import cached_property
 import numpy as np
 
 from modeviz.dynamics.band import natural_frequencies
+from modeviz.dynamics.resonances import resonances_at
 from modeviz.errors import SolveError
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
 from modeviz.tuning.control import Control
 from modeviz.tuning.preparation import Prepared
-from modeviz.tuning.results import AXIS, Conditions, Drive, drive
+from modeviz.tuning.results import AXIS, Conditions, Drive, drive, solve_spectra
 from modeviz.tuning.runner import Runner
 from modeviz.vehicle.arrays import Complexes, Floats
 
@@ -32,9 +33,10 @@ class Batch:
     frequency_hz: Floats
     """(n_sets, n_modes): natural frequencies, as many as the vehicle's own rates have in the band."""
     psd: Floats
-    """(n_sets, n_freqs, n_points, 3): acceleration x, y, z of each response point, g²/Hz."""
+    """(n_sets, n_freqs, n_points, 3): acceleration x, y, z of each response point, g²/Hz, at the lines
+    of the band, which all sets share."""
     rms: Floats
-    """(n_sets, n_points, 3), g."""
+    """(n_sets, n_points, 3), g: with the lines that each set's own modes want, so that they hold."""
 
     @cached_property
     def mean_personal_rating(self) -> Floats:
@@ -86,19 +88,24 @@ def solve_many(
 def _solve(on_road: Drive, chunk: tuple[int, Complexes]) -> Batch:
     """The results of some sets, of which the first has a number."""
     start, sets = chunk
-    prepared, f = on_road.prepared, on_road.prepared.frequency_hz
+    prepared, f = on_road.prepared, on_road.frequency_hz
+    band = 0.0, prepared.vehicle.highest_frequency
     shape = (len(prepared.vehicle.response_points), 3)
     frequency_hz = np.empty((len(sets), prepared.basis.n_below))
     psd = np.empty((len(sets), len(f), *shape))
     roots = np.empty((len(sets), *shape))
+    spectrum = on_road.spectrum_at(f)
     for i, stiffness in enumerate(sets):
         try:
             frequency_hz[i] = natural_frequencies(prepared.basis, stiffness)
+            lines, on_lines = solve_spectra(
+                on_road, stiffness, resonances_at(prepared.basis, stiffness)
+            )
             response = on_road.receptances.response(stiffness)
         except SolveError as error:
             raise SolveError(f"set {start + i + 1}: {error}") from None
-        psd[i] = acceleration_psd(f, response, on_road.spectrum).reshape(psd.shape[1:])
-        roots[i] = rms(f, psd[i])
+        psd[i] = acceleration_psd(f, response, spectrum).reshape(psd.shape[1:])
+        roots[i] = rms(lines, on_lines, band)
     return Batch(start, frequency_hz, psd, roots)
 
 

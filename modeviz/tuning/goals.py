@@ -1,16 +1,17 @@
 """What a problem wants small, as one number of the rates, with its derivatives."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from modeviz.errors import VehicleError
-from modeviz.ride.psd import RIDE_BAND, integration_weights
-from modeviz.ride.rating import COMFORT_FACTORS, squared_weights
+from modeviz.ride.psd import RIDE_BAND
+from modeviz.ride.rating import COMFORT_FACTORS
+from modeviz.tuning.integral import BandCase, Integral, prepare_integral
 from modeviz.tuning.objective import LoadCase, Objective, prepare_objective
 from modeviz.tuning.peak import Peak
-from modeviz.tuning.preparation import FREQUENCY_HZ
 from modeviz.tuning.results import AXIS, Conditions
 from modeviz.tuning.sensitivity import rate_variables
 from modeviz.units import STANDARD_GRAVITY
@@ -82,45 +83,55 @@ def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) 
     if problem.goal == "change":
         return LeastChange(vehicle, base)
     cases = load_cases(vehicle, problem, speed)
-    kind = Peak if problem.goal == "peak" else Objective
-    objective = prepare_objective(vehicle, [replace(case, weight=1.0) for case in cases], kind)
+    objective = _objective(vehicle, problem, cases)
     weights = np.array([case.weight for case in cases])
     if problem.is_normalised:
         own = objective.values({})
-        weights = weights / (objective.criterion.join(weights) or 1.0)
+        weights = weights / (objective.join(weights) or 1.0)
         weights = np.divide(weights, own, out=weights.copy(), where=own > 0)
     return objective.scaled(weights)
 
 
-def load_cases(vehicle: Vehicle, problem: Problem, speed: float) -> list[LoadCase]:
+def _objective(
+    vehicle: Vehicle, problem: Problem, cases: Sequence[LoadCase | BandCase]
+) -> Objective | Integral:
+    """What the problem's goal makes of load cases, all of which weigh one."""
+    listed = [replace(case, weight=1.0) for case in cases if isinstance(case, LoadCase)]
+    if not listed:
+        return prepare_integral(vehicle, [case for case in cases if isinstance(case, BandCase)])
+    return prepare_objective(vehicle, listed, Peak if problem.goal == "peak" else Objective)
+
+
+def load_cases(
+    vehicle: Vehicle, problem: Problem, speed: float
+) -> Sequence[LoadCase] | Sequence[BandCase]:
     """The load cases of a goal that is made of accelerations; raises as `prepare_goal`."""
     if problem.goal in VARIABLES:
         return [case for p in problem.performance for case in _cases(vehicle, p, speed)]
-    weights = integration_weights(FREQUENCY_HZ, RIDE_BAND)[:, None, None]
     return [
-        LoadCase(
+        BandCase(
             Conditions(road, speed),
-            tuple(FREQUENCY_HZ),
-            pattern=weights * _integrated(vehicle, problem, road),
+            _selected_squares(vehicle, problem, road),
+            is_weighted=problem.goal == "iso 2631",
+            highest_hz=RIDE_BAND[1] if problem.goal == "rating" else np.inf,
         )
         for road in _roads(vehicle, problem)
     ]
 
 
-def _integrated(vehicle: Vehicle, problem: Problem, road: str) -> Floats:
-    """What a goal over the whole band takes of PSDs on a road, (n_freqs, n_points, 3)."""
-    pattern = np.zeros((len(FREQUENCY_HZ), len(vehicle.response_points), 3))
+def _selected_squares(vehicle: Vehicle, problem: Problem, road: str) -> Floats:
+    """What a goal over the whole band takes of mean squares on a road, (n_points, 3)."""
+    selected = np.zeros((len(vehicle.response_points), 3))
     match problem.goal:
         case "rms":
             named = [p for p in problem.performance if road in p.roads]
-            for performance in named or [_everything(road)]:
-                pattern = np.maximum(pattern, _selected(vehicle, performance))
+            every = [_selected(vehicle, p.points, p.directions) for p in named]
+            selected = np.max(every or [_selected(vehicle)], axis=0)
         case "rating":
-            pattern[:, DRIVER, [AXIS["lateral"], AXIS["vertical"]]] = 1.0
+            selected[DRIVER, [AXIS["lateral"], AXIS["vertical"]]] = 1.0
         case "iso 2631":
-            factors = np.square(COMFORT_FACTORS) * STANDARD_GRAVITY**2
-            pattern[:, DRIVER] = factors * squared_weights(FREQUENCY_HZ)
-    return pattern
+            selected[DRIVER] = np.square(COMFORT_FACTORS) * STANDARD_GRAVITY**2
+    return selected
 
 
 def _cases(vehicle: Vehicle, performance: Performance, speed: float) -> list[LoadCase]:
@@ -129,24 +140,25 @@ def _cases(vehicle: Vehicle, performance: Performance, speed: float) -> list[Loa
     wheels = [vehicle.harmonic_load(load) for load in performance.wheel_loads]
     f = tuple(performance.frequency_hz.tolist())
     pattern = np.broadcast_to(
-        _selected(vehicle, performance), (len(f), len(vehicle.response_points), 3)
+        _selected(vehicle, performance.points, performance.directions),
+        (len(f), len(vehicle.response_points), 3),
     )
     return [
         LoadCase(load, f, performance.weight, pattern, performance.target) for load in [*roads, *wheels]
     ]
 
 
-def _selected(vehicle: Vehicle, performance: Performance) -> Floats:
-    """(n_points, 3): one for the points and directions of the performance variables."""
+def _selected(
+    vehicle: Vehicle,
+    points: Sequence[str] = (),
+    directions: Sequence[str] = ("lateral", "vertical"),
+) -> Floats:
+    """(n_points, 3): one for the points, none is all, and directions of performance variables."""
     names = [point.name for point in vehicle.response_points]
-    points = [names.index(name) for name in performance.points or names]
+    numbers = [names.index(name) for name in points or names]
     selected = np.zeros((len(names), 3))
-    selected[np.ix_(points, [AXIS[d] for d in performance.directions])] = 1.0
+    selected[np.ix_(numbers, [AXIS[d] for d in directions])] = 1.0
     return selected
-
-
-def _everything(road: str) -> Performance:
-    return Performance(FREQUENCY_HZ, (road,))
 
 
 def _roads(vehicle: Vehicle, problem: Problem) -> list[str]:

@@ -150,6 +150,18 @@ class Objective:
         system = self.prepared.system.with_rates(rates)
         return self.exact_response_of(system, self.prepared.mount_stiffness(rates))
 
+    def totals(self, stiffness: Complexes) -> Floats:
+        """F of many sets of rates, (n_sets,), from (n_sets, n_springs), complex, N/m; as `solve`."""
+        return self.criterion.total(self.driven.responses(stiffness))
+
+    def exact_total(self, system: System, stiffness: Complexes) -> float:
+        """F of a system with these mount rates; raises as `direct_response`."""
+        return float(self.criterion.total(self.exact_response_of(system, stiffness)))
+
+    def join(self, values: Floats) -> float:
+        """F from what each case adds to it."""
+        return float(self.criterion.join(values))
+
     def exact_response_of(self, system: System, stiffness: Complexes) -> Complexes:
         """The same of a system that differs from the prepared one; raises as `direct_response`.
 
@@ -234,7 +246,14 @@ def prepare_objective(
     for case in cases:
         check_frequencies(np.asarray(case.frequency_hz, float))
     every = np.sort(np.concatenate([np.asarray(c.frequency_hz, float) for c in cases]))
-    prepared = prepare(vehicle, every[np.diff(every, prepend=0.0) > SAME_HZ])
+    return objective_on(prepare(vehicle, every[np.diff(every, prepend=0.0) > SAME_HZ]), cases, kind)
+
+
+def objective_on(
+    prepared: Prepared, cases: Sequence[LoadCase], kind: type[Objective] = Objective
+) -> Objective:
+    """The same for a vehicle that is prepared for the frequencies of all cases."""
+    vehicle = prepared.vehicle
     loads = tuple(_load(vehicle, case.load) for case in cases)
     widths = [2 if isinstance(load, Road) else 1 for load, _ in loads]
     ends = np.cumsum([0, *widths])

@@ -8,11 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System, assemble, mount_stiffness, mounts_of_springs
-from modeviz.dynamics.basis import TOP_HZ, EnrichedBasis, prepare_basis
+from modeviz.dynamics.basis import EnrichedBasis, prepare_basis
+from modeviz.dynamics.between import Between, modified_between, prepare_between
 from modeviz.dynamics.component_trust import ComponentTrust, component_trust
 from modeviz.dynamics.mode_damping import with_mode_damping
 from modeviz.dynamics.naming import Namer, prepare_names
 from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
+from modeviz.dynamics.receptance import receptances_along
+from modeviz.dynamics.resonances import Resonances
+from modeviz.dynamics.spacing import placed_lines
 from modeviz.ride.excitation import Load, excitation, input_directions, together
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MountRates, Rates
@@ -25,6 +29,9 @@ FREQUENCY_HZ = np.arange(1, 401) / 10
 STIFFEST_BASE = 5e6
 """N/m: receptances are taken at no stiffer rates. From a rigid spring there is no way back to a soft
 one: what it lets through is the small difference of large numbers."""
+
+
+NO_POLES = np.zeros(0, complex)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +92,10 @@ class Prepared(PreparedModes):
 
     receptances: Receptances
     """Of x, y, z at every response point, to forces along the input directions."""
+    between: Between
+    """The same at any frequency."""
+    is_graded: bool
+    """Whether responses are also given between these lines, where modes are sharp."""
     input_directions: Floats
     """(n_directions, n_dofs), see `ride.excitation`."""
     outputs: Floats
@@ -92,7 +103,7 @@ class Prepared(PreparedModes):
 
     @property
     def frequency_hz(self) -> Floats:
-        """(n_freqs,): where responses are given."""
+        """(n_freqs,): where responses are given; others are where `lines` puts them."""
         return self.receptances.frequency_hz
 
     @property
@@ -100,6 +111,26 @@ class Prepared(PreparedModes):
         """The memory that the prepared arrays take."""
         own = self.input_directions.nbytes + self.outputs.nbytes
         return super().n_bytes + self.receptances.n_bytes + own
+
+    def lines(self, resonances: Resonances, band: Floats | None = None) -> Floats:
+        """The lines at which responses hold the integrals, (n_lines,): closer where modes are sharp.
+
+        Args:
+            resonances: at the mount rates that are looked at.
+            band: those of `frequency_hz` that matter, all if None.
+        """
+        lines = self.frequency_hz if band is None else band
+        if not self.is_graded:
+            return lines
+        seen = resonances.seen(self.outputs, self.input_directions).rounded()
+        return placed_lines(lines, seen.frequency_hz, seen.damping_ratio)
+
+    def on(self, lines: Floats) -> "Prepared":
+        """The same at other lines within its own, (n_lines,), rising, and nowhere else."""
+        receptances = self.between.at(lines)
+        return replace(
+            self, receptances=receptances, between=Between(receptances, NO_POLES), is_graded=False
+        )
 
     def excited(self, loads: Sequence[Load], speed: float) -> Receptances:
         """Receptances of every output per unit of each input of some loads, see `ride.excitation`."""
@@ -121,32 +152,36 @@ class Prepared(PreparedModes):
             VehicleError: a group that the vehicle does not have.
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
-        return replace(
-            self,
-            receptances=self.receptances.modified(self.mount_stiffness(_soft(self.all_rates(rates)))),
+        stiffness = self.mount_stiffness(_soft(self.all_rates(rates)))
+        if not self.is_graded:
+            return replace(self, receptances=self.receptances.modified(stiffness))
+        between = modified_between(
+            self.between, stiffness, self.basis, (self.outputs, self.input_directions)
         )
+        return replace(self, receptances=between.known, between=between)
 
 
-def prepare_modes(vehicle: Vehicle, top_hz: float = TOP_HZ) -> PreparedModes:
+def prepare_modes(vehicle: Vehicle, top_hz: float | None = None) -> PreparedModes:
     """A vehicle made ready for the modes of any mount rates.
 
     Args:
         vehicle: with the rates that the basis and the classic method start from.
-        top_hz: modes below this are wanted.
+        top_hz: modes below this are wanted; None: as high as the vehicle's band.
 
     Raises:
         VehicleError: damping is stated of a mode that has none such.
         SolveError: the vehicle has no meaningful modes.
     """
+    top_hz = vehicle.highest_frequency if top_hz is None else top_hz
     system = with_mode_damping(assemble(vehicle), top_hz)
     return PreparedModes(system, prepare_basis(system, top_hz), prepare_names(system))
 
 
 def prepare(
     vehicle: Vehicle,
-    frequency_hz: Floats = FREQUENCY_HZ,
+    frequency_hz: Floats | None = None,
     *,
-    top_hz: float = TOP_HZ,
+    top_hz: float | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Prepared:
     """A vehicle made ready for the modes and responses of any mount rates.
@@ -156,8 +191,10 @@ def prepare(
 
     Args:
         vehicle: with the rates that the basis and the classic method start from.
-        frequency_hz: (n_freqs,), rising, above zero: where responses are wanted.
-        top_hz: modes below this are wanted.
+        frequency_hz: (n_freqs,), rising, above zero: where responses are wanted, and nowhere else;
+            None: the lines of the vehicle's band, and between these where modes are sharp, so that
+            integrals hold.
+        top_hz: modes below this are wanted; None: as high as the vehicle's band.
         progress: told the fraction that is done.
 
     Raises:
@@ -169,8 +206,16 @@ def prepare(
     inputs = input_directions(softest)
     rows = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
     outputs = np.vstack([np.zeros((0, softest.n_dofs)), *rows])
-    receptances = prepare_receptances(softest, frequency_hz, outputs, inputs, progress)
-    return Prepared(modal.system, modal.basis, modal.namer, receptances, inputs, outputs)
+    is_graded = frequency_hz is None
+    lines = vehicle.frequency_hz if frequency_hz is None else frequency_hz
+    receptances = prepare_receptances(softest, lines, outputs, inputs, progress)
+    between = Between(receptances, NO_POLES)
+    if is_graded:
+        along = receptances_along(softest, np.vstack([softest.mount_motions, outputs, inputs]))
+        between = prepare_between(receptances, modal.basis, (outputs, inputs), along)
+    return Prepared(
+        modal.system, modal.basis, modal.namer, receptances, between, is_graded, inputs, outputs
+    )
 
 
 def _soft(rates: Rates) -> dict[str, MountRates]:

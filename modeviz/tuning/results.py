@@ -13,14 +13,16 @@ from modeviz.dynamics.damped import DampedModes, damped_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.naming import ModeName, name_modes
-from modeviz.dynamics.reanalysis import Receptances
-from modeviz.dynamics.response import direct_response, modal_coordinates
+from modeviz.dynamics.resonances import Resonances, resonances, resonances_at
+from modeviz.dynamics.response import modal_coordinates
 from modeviz.dynamics.trust import Trust
 from modeviz.errors import ModevizError
-from modeviz.ride.excitation import Load, excitation, input_spectrum, together
+from modeviz.ride.excitation import Load, excitation, input_spectrum, known_part
+from modeviz.ride.integration import integration_weights
 from modeviz.ride.participation import Peak, participation, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
+from modeviz.tuning.driven import Driven, driven
 from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
@@ -46,17 +48,31 @@ class Conditions:
 
 
 @dataclass(frozen=True, eq=False)
-class Drive:
+class Drive(Driven):
     """A prepared vehicle on a road: all of a ride that does not depend on mount rates."""
 
-    prepared: Prepared
     conditions: Conditions
     load: RandomLoad
     """That of the conditions."""
-    receptances: Receptances
-    """Of every output, per unit of each input of the load: of a road, the left and the right track."""
-    spectrum: Complexes
-    """(n_freqs, n_inputs, n_inputs): of these, m²/Hz of a road."""
+
+    def spectrum_at(self, frequency_hz: Floats) -> Complexes:
+        """Of the load's inputs, (n_freqs, n_inputs, n_inputs), m²/Hz of a road."""
+        return input_spectrum(self.load, frequency_hz, self.conditions.speed)
+
+    @cached_property
+    def spectrum(self) -> Complexes:
+        """That at the lines of the band."""
+        return self.spectrum_at(self.frequency_hz)
+
+    @property
+    def known(self) -> tuple[float, float]:
+        """Hz: the part of the band in which the load is known."""
+        return float(self.frequency_hz[0]), float(self.frequency_hz[-1])
+
+    @property
+    def is_partial(self) -> bool:
+        """Whether there is more of the band, of which nothing is known."""
+        return len(self.frequency_hz) < len(self.prepared.frequency_hz)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +106,11 @@ class ModalResults:
     def vehicle(self) -> Vehicle:
         """With these rates."""
         return self.prepared.vehicle.with_rates(self.rates)
+
+    @cached_property
+    def resonances(self) -> Resonances:
+        """Where the modes are in resonance, and how sharply."""
+        return resonances(self.modes, self.band.damping, self.band.structural_damping)
 
     @cached_property
     def damped(self) -> DampedModes:
@@ -137,6 +158,8 @@ class Results(ModalResults):
 
     prepared: Prepared
     drive: Drive
+    frequency_hz: Floats
+    """(n_freqs,): lines of the band, closer where modes are sharp, so that integrals hold."""
     psd: Floats
     """(n_freqs, n_points, 3): acceleration x, y, z of each response point, g²/Hz."""
 
@@ -144,15 +167,15 @@ class Results(ModalResults):
     def conditions(self) -> Conditions:
         return self.drive.conditions
 
-    @property
-    def frequency_hz(self) -> Floats:
-        """(n_freqs,)."""
-        return self.prepared.frequency_hz
-
     @cached_property
     def rms(self) -> Floats:
-        """(n_points, 3), g, from 0 to 40 Hz."""
-        return rms(self.frequency_hz, self.psd)
+        """(n_points, 3), g, over the band, as far as the load is known."""
+        return rms(self.frequency_hz, self.psd, self.band_hz)
+
+    @property
+    def band_hz(self) -> tuple[float, float]:
+        """From zero to the end of the vehicle's band."""
+        return 0.0, self.prepared.vehicle.highest_frequency
 
     @cached_property
     def rating(self) -> Rating:
@@ -181,7 +204,7 @@ class Results(ModalResults):
         at = np.asarray(self.peak_lines(point, direction) if lines is None else lines, int)
         output = self.prepared.outputs[3 * point + AXIS[direction]] @ self.modes.shapes
         coordinates = self.modal_coordinates(self.drive.load, self.frequency_hz[at])
-        parts = participation(output, coordinates, self.drive.spectrum[at])
+        parts = participation(output, coordinates, self.drive.spectrum_at(self.frequency_hz[at]))
         return peaks(self.frequency_hz[at], self.response(point, direction)[at], parts, count)
 
     def modal_coordinates(self, load: Load, frequency_hz: Floats) -> Complexes:
@@ -214,8 +237,14 @@ def solve_modal(prepared: PreparedModes, rates: Rates, method: Method = "enriche
     Raises:
         VehicleError: a group that the vehicle does not have.
     """
-    band = band_modes(prepared.basis, prepared.mount_stiffness(rates), method)
-    return ModalResults(prepared, prepared.all_rates(rates), band)
+    return _modal(prepared, rates, prepared.mount_stiffness(rates), method)
+
+
+def _modal(prepared: PreparedModes, rates: Rates, stiffness: Complexes, method: Method) -> ModalResults:
+    """The same, given the springs' complex rates."""
+    return ModalResults(
+        prepared, prepared.all_rates(rates), band_modes(prepared.basis, stiffness, method)
+    )
 
 
 def solve(
@@ -237,38 +266,33 @@ def solve(
 
 
 def drive(prepared: Prepared, conditions: Conditions) -> Drive:
-    """A prepared vehicle on a road; for several sets of rates with `solve_on`. Raises as `solve`."""
+    """A prepared vehicle on a road; for several sets of rates with `solve_on`.
+
+    Raises:
+        VehicleError: a road that the vehicle does not have.
+        ModevizError: nothing of the band is known of the road at that speed.
+    """
     load, speed = prepared.vehicle.random_load(conditions.road), conditions.speed
-    spectrum = input_spectrum(load, prepared.frequency_hz, speed)
-    return Drive(prepared, conditions, load, prepared.excited([load], speed), spectrum)
+    known = known_part(load, prepared.frequency_hz, speed)
+    under = driven(prepared, [load], speed, known)
+    return Drive(prepared, under.loads, speed, under.receptances, conditions, load)
 
 
 def solve_on(drive: Drive, rates: Rates, method: Method = "enriched") -> Results:
     """Modes and ride on a road with other mount rates; arguments and errors as `solve`."""
     prepared = drive.prepared
-    modal = solve_modal(prepared, rates, method)
-    H = _response(prepared, drive.receptances, [drive.load], drive.conditions.speed, modal.rates)
-    f = prepared.frequency_hz
-    psd = acceleration_psd(f, H, drive.spectrum).reshape(len(f), H.shape[1] // 3, 3)
-    return Results(prepared, modal.rates, modal.band, drive, psd)
-
-
-def _response(
-    prepared: Prepared, excited: Receptances, loads: Sequence[Load], speed: float, rates: Rates
-) -> Complexes:
-    """Displacement of every output per input, (n_freqs, n_outputs, n_inputs), the cheaper way.
-
-    Structural modification solves for the springs that change, the equations of motion for all
-    coordinates: that is cheaper only where these are fewer, a few rigid bodies on many mounts.
-    """
     stiffness = prepared.mount_stiffness(rates)
-    n_changed = np.count_nonzero(stiffness != excited.mount_stiffness)
-    if n_changed <= prepared.system.n_dofs:
-        return excited.response(stiffness)
-    vehicle, f = prepared.vehicle, prepared.frequency_hz
-    inputs = together([excitation(vehicle, load, f, speed, stiffness) for load in loads])
-    forces = prepared.input_directions.T @ inputs.forces
-    return direct_response(prepared.system.with_rates(rates), f, forces, prepared.outputs)
+    modal = _modal(prepared, rates, stiffness, method)
+    f, psd = solve_spectra(drive, stiffness, modal.resonances)
+    return Results(prepared, modal.rates, modal.band, drive, f, psd)
+
+
+def solve_spectra(drive: Drive, stiffness: Complexes, resonances: Resonances) -> tuple[Floats, Floats]:
+    """The lines that mount rates want, (n_lines,), and PSDs there, (n_lines, n_points, 3), g²/Hz."""
+    lines = drive.lines(resonances)
+    H = drive.response(stiffness, lines)
+    psd = acceleration_psd(lines, H, drive.spectrum_at(lines))
+    return lines, psd.reshape(len(lines), H.shape[1] // 3, 3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,22 +303,27 @@ class WheelResults:
     """(n_freqs,)."""
     acceleration_g: Floats
     """(n_freqs, n_loads, n_points, 3): peak x, y, z, g."""
+    is_graded: bool = False
+    """Whether lines lie closer where modes are sharp; else each counts alike."""
 
     def mean(self, band: tuple[float, float]) -> Floats:
         """Mean over a band, ends included, (n_loads, n_points, 3), g."""
         f = self.frequency_hz
-        inside = (f > band[0] - 1e-6) & (f < band[1] + 1e-6)
-        return self.acceleration_g[inside].mean(axis=0)
+        weights = 1.0 * ((f > band[0] - 1e-6) & (f < band[1] + 1e-6))
+        if self.is_graded:
+            weights = integration_weights(f, band)
+        return np.tensordot(weights, self.acceleration_g, 1) / weights.sum()
 
 
 def solve_wheels(prepared: Prepared, rates: Rates) -> WheelResults:
     """The response to every harmonic load of the vehicle; arguments and errors as `solve`."""
-    vehicle, f = prepared.vehicle, prepared.frequency_hz
-    loads = vehicle.harmonic_loads
-    n_loads, n_points = len(loads), len(vehicle.response_points)
+    loads, n_points = prepared.vehicle.harmonic_loads, len(prepared.vehicle.response_points)
     if not loads:
+        f = prepared.frequency_hz
         return WheelResults(f, np.zeros((len(f), 0, n_points, 3)))
-    excited = prepared.excited(loads, vehicle.speed)
-    H = _response(prepared, excited, loads, vehicle.speed, prepared.all_rates(rates))
-    g = harmonic_acceleration(f, H).transpose(0, 2, 1)
-    return WheelResults(f, g.reshape(len(f), n_loads, n_points, 3))
+    stiffness = prepared.mount_stiffness(rates)
+    under = driven(prepared, loads, prepared.vehicle.speed)
+    f = under.lines(resonances_at(prepared.basis, stiffness))
+    g = harmonic_acceleration(f, under.response(stiffness, f)).transpose(0, 2, 1)
+    g = g.reshape(len(f), len(loads), n_points, 3)
+    return WheelResults(f, g, prepared.is_graded)

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import beta
 
-from modeviz.dynamics.assembly import mount_stiffness
 from modeviz.errors import SolveError
 from modeviz.tuning.control import Control
 from modeviz.tuning.corner import goals
 from modeviz.tuning.evaluator import CANCELLED, OUT_OF_BUDGET
+from modeviz.tuning.integral import Integral, exact_objective
 from modeviz.tuning.objective import Objective
 from modeviz.tuning.optimise import BUDGET, Optimum, Progress, optimise
 from modeviz.tuning.parts import Parts, Tolerance, scattered_parts
@@ -33,7 +33,7 @@ class Robust:
     with weights of a beta distribution: unlike one value of the sample it changes smoothly.
     """
 
-    objective: Objective
+    objective: Objective | Integral
     tolerance: Tolerance
     deviations: Floats
     """(n_samples, n_deviations), see `Parts`."""
@@ -81,15 +81,11 @@ class Robust:
 
     def _exact(self, stiffness: Complexes) -> float:
         """The objective of parts, from the full model."""
-        system = self.objective.prepared.system
-        system = system.with_springs(stiffness - mount_stiffness(system.vehicle))
-        return float(
-            self.objective.criterion.total(self.objective.exact_response_of(system, stiffness))
-        )
+        return exact_objective(self.objective, stiffness)
 
 
 def robust(
-    objective: Objective,
+    objective: Objective | Integral,
     tolerance: Tolerance,
     percent: float = 95.0,
     n_samples: int = 100,
@@ -124,7 +120,7 @@ def robust_search(search: Search, tolerance: Tolerance, percent: float = 95.0) -
     Raises:
         SolveError: the goal does not scatter, or as `robust`.
     """
-    if not isinstance(search.goal, Objective):
+    if not isinstance(search.goal, (Objective, Integral)):
         raise SolveError(
             "the goal does not scatter with parts: a robust search needs one that is made of "
             "accelerations, such as accelerations, peak or rating"

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from modeviz.dynamics.galerkin import reduced
 from modeviz.dynamics.lines import FewLines, few_lines
 from modeviz.dynamics.reanalysis import Receptances
+from modeviz.dynamics.resonances import resonances_at, swept
 from modeviz.errors import SolveError, VehicleError, unknown
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
 from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.integral import Integral
 from modeviz.tuning.objective import Criterion, Objective
 from modeviz.tuning.parts import Parts
 from modeviz.tuning.preparation import Prepared
@@ -23,6 +25,12 @@ from modeviz.vehicle.arrays import Complexes, Floats
 
 CHUNK = 100
 """Vehicles that are solved at a time, wherever they are, so that numbers never depend on where."""
+
+MOST_KEPT = 1000
+"""Lines at which the PSDs of all vehicles are kept."""
+
+TOO_FAR = 5e-4
+"""Relative error of mean squares and goals from which all frequencies are solved after all."""
 
 N_TAUGHT, N_CHECKED = 64, 16
 """Vehicles solved at all frequencies: to choose a few of these, and to see what that costs."""
@@ -68,7 +76,7 @@ def scatter(
     prepared: Prepared,
     parts: Parts,
     conditions: Conditions,
-    objective: Objective,
+    objective: Objective | Integral,
     n_samples: int,
     seed: int = 0,
     points: Sequence[str] = (),
@@ -104,11 +112,14 @@ def scatter(
         raise SolveError(f"samples: found {n_samples}, expected 2 or more")
     numbers = _points(prepared, points)
     control = control or Control()
+    deviations = parts.samples(n_samples, seed)
+    prepared = _ready(prepared, parts, seed)
+    if isinstance(objective, Integral):
+        objective = objective.on(prepared.frequency_hz)
     given = prepared, conditions, objective, parts, numbers, control
     ((study, nominal, errors),) = HERE.map(_study, given, [seed], control)  # where it can be left
-    deviations = parts.samples(n_samples, seed)
     chunks = [deviations[i : i + CHUNK] for i in range(0, n_samples, CHUNK)]
-    psd = np.empty((n_samples, len(prepared.frequency_hz), len(numbers), 3), np.float32)
+    psd = np.empty((n_samples, len(study.kept), len(numbers), 3), np.float32)
     roots, goal = np.empty((n_samples, len(numbers), 3)), np.empty(n_samples)
     done = 0
     try:
@@ -124,7 +135,7 @@ def scatter(
         parts=parts,
         deviations=deviations[:done],
         points=tuple(prepared.vehicle.response_points[i].name for i in numbers),
-        frequency_hz=prepared.frequency_hz,
+        frequency_hz=study.frequency_hz[study.kept],
         rms=roots[:done],
         goal=goal[:done],
         psd=psd[:done],
@@ -161,15 +172,21 @@ class _Study:
     ride: FewLines | Receptances
     goal: FewLines | Receptances
     criterion: Criterion
+    band: tuple[float, float]
+
+    @property
+    def kept(self) -> NDArray[np.intp]:
+        """The lines whose PSDs are kept, not more than memory is made for."""
+        return np.arange(0, len(self.frequency_hz), -(-len(self.frequency_hz) // MOST_KEPT))
 
     def sample(self, deviations: Floats) -> _Sampled:
         """What vehicles of some deviations, (n, n_deviations), do."""
         stiffness = self.parts.stiffness(deviations)
         psd = acceleration_psd(self.frequency_hz, self.ride.responses(stiffness), self.spectrum)
         psd = psd.reshape(*psd.shape[:2], -1, 3)
-        roots = rms(self.frequency_hz, psd.swapaxes(0, 1))
+        roots = rms(self.frequency_hz, psd.swapaxes(0, 1), self.band)
         goal = self.criterion.total(self.goal.responses(stiffness))
-        return _Sampled(psd.astype(np.float32), roots, goal)
+        return _Sampled(psd[:, self.kept].astype(np.float32), roots, goal)
 
 
 def _study(
@@ -180,7 +197,7 @@ def _study(
     on_road = drive(prepared, conditions)
     outputs = (3 * points[:, None] + np.arange(3)).ravel()
     ride = on_road.receptances.with_outputs(outputs)
-    others = parts.samples(N_TAUGHT + N_CHECKED, np.random.default_rng([seed, N_TAUGHT]))
+    others = _others(parts, seed)
     drawn = np.zeros((1, parts.n_deviations))
     checks = others[N_TAUGHT:]
     taught = parts.stiffness(np.vstack([drawn, others[:N_TAUGHT]]))
@@ -190,17 +207,34 @@ def _study(
     control.check()
     study = _Study(
         parts,
-        prepared.frequency_hz,
-        on_road.spectrum,
+        on_road.frequency_hz,
+        on_road.spectrum_at(on_road.frequency_hz),
         replace(few, receptances=reduced(ride.at(few.lines), taught)),
         few_goal,
         objective.criterion,
+        (0.0, prepared.vehicle.highest_frequency),
     )
     control.check()
     exact = replace(study, ride=ride, goal=objective.driven)
     found, expected = study.sample(checks), exact.sample(checks)
+    if _error(found.rms**2, expected.rms**2) > TOO_FAR or _error(found.goal, expected.goal) > TOO_FAR:
+        return exact, exact.sample(drawn), (0.0, 0.0)
     errors = _error(found.psd, expected.psd), _error(found.goal, expected.goal)
     return study, exact.sample(drawn), errors
+
+
+def _ready(prepared: Prepared, parts: Parts, seed: int) -> Prepared:
+    """The vehicle at lines that hold the integrals wherever scatter takes its modes."""
+    if not prepared.is_graded:
+        return prepared
+    deviations = np.vstack([np.zeros((1, parts.n_deviations)), _others(parts, seed)])
+    every = [resonances_at(prepared.basis, each) for each in parts.stiffness(deviations)]
+    return prepared.on(prepared.lines(swept(every)))
+
+
+def _others(parts: Parts, seed: int) -> Floats:
+    """Deviations of the vehicles that are solved at all frequencies."""
+    return parts.samples(N_TAUGHT + N_CHECKED, np.random.default_rng([seed, N_TAUGHT]))
 
 
 def _error(found: NDArray, expected: NDArray) -> float:

@@ -6,6 +6,7 @@ import numpy as np
 import scipy.linalg
 
 from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.dynamics.resonances import resonances_at
 from modeviz.ride.psd import acceleration_psd, mean_square, rms
 from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.tuning.results import Conditions, ModalResults, Results, drive
@@ -60,6 +61,8 @@ def frequency_sensitivity(results: ModalResults) -> Floats:
 class RideSensitivity:
     """How accelerations on a road change with each of `rate_variables`."""
 
+    frequency_hz: Floats
+    """(n_freqs,): the lines at these rates, see `Results`."""
     psd: Floats
     """(n_freqs, n_points, 3, n_variables), g²/Hz per N/m."""
     rms: Floats
@@ -68,16 +71,17 @@ class RideSensitivity:
 
 def ride_sensitivity(prepared: Prepared, rates: Rates, conditions: Conditions) -> RideSensitivity:
     """The derivatives of a ride; arguments and errors as `tuning.results.solve`."""
-    f = prepared.frequency_hz
-    on_road = drive(prepared, conditions)
-    H, a, b = on_road.receptances.response_gradient(prepared.mount_stiffness(rates))
-    change = psd_gradient(f, H, a, b, on_road.spectrum, spring_shares(prepared, rates))
-    psd = acceleration_psd(f, H, on_road.spectrum)
-    root = rms(f, psd)[:, None]
-    square_change = mean_square(f, change)
+    stiffness = prepared.mount_stiffness(rates)
+    on_road, band = drive(prepared, conditions), (0.0, prepared.vehicle.highest_frequency)
+    f = on_road.lines(resonances_at(prepared.basis, stiffness))
+    spectrum = on_road.spectrum_at(f)
+    H, a, b = on_road.response_gradient(stiffness, f)
+    change = psd_gradient(f, H, a, b, spectrum, spring_shares(prepared, rates))
+    root = rms(f, acceleration_psd(f, H, spectrum), band)[:, None]
+    square_change = mean_square(f, change, band)
     rms_change = np.divide(square_change, 2 * root, out=np.zeros_like(square_change), where=root > 0)
     shape = (len(prepared.vehicle.response_points), 3, change.shape[2])
-    return RideSensitivity(change.reshape(len(f), *shape), rms_change.reshape(shape))
+    return RideSensitivity(f, change.reshape(len(f), *shape), rms_change.reshape(shape))
 
 
 def psd_gradient(

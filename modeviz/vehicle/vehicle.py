@@ -41,6 +41,12 @@ REACH = 0.10
 USUAL_SPEED = 20.0
 """m/s: 72 km/h."""
 
+FEWEST_LINES, MOST_LINES = 10, 5000
+"""Of a band: each is a solution of the vehicle's equations, kept in memory."""
+
+WHOLE = 1e-9
+"""Relative: a number of steps this close to a whole one is whole."""
+
 
 @dataclass(frozen=True, eq=False)
 class Vehicle:
@@ -60,6 +66,10 @@ class Vehicle:
     """Named sets of rates besides the vehicle's own."""
     speed: float = USUAL_SPEED
     """m/s."""
+    highest_frequency: float = 40.0
+    """Hz: up to where modes and responses are looked at; 40 is that of the paper's RMS values."""
+    frequency_step: float = 0.1
+    """Hz: between the lines at which responses are given; where a mode is sharp there are more."""
     problems: tuple[Problem, ...] = ()
     """What the mounts are to be optimised for; the first is the usual one."""
     forces: tuple[Force, ...] = ()
@@ -76,6 +86,7 @@ class Vehicle:
             raise VehicleError(f"vehicle {self.name!r} has no bodies")
         if not (np.isfinite(self.speed) and self.speed > 0):
             raise VehicleError(f"speed: found {self.speed} m/s, expected more than 0")
+        self._check_band()
         self._check_names()
         for connection in self.all_connections:
             self._check_ends(connection)
@@ -89,6 +100,14 @@ class Vehicle:
         self._check_references()
 
     @cached_property
+    def frequency_hz(self) -> Floats:
+        """The lines of the band, (n_freqs,), zero left out: every `frequency_step`."""
+        count = round(self.highest_frequency / self.frequency_step)
+        lines = np.round(np.arange(1, count + 1) * self.frequency_step, 12).astype(np.float64)
+        lines.flags.writeable = False
+        return lines
+
+    @cached_property
     def all_connections(self) -> tuple[Connection, ...]:
         """Mounts first, group by group, then the rest."""
         return (*self.mounts, *self.connections)
@@ -98,7 +117,7 @@ class Vehicle:
         """Every mount, group by group."""
         return tuple(m for g in self.mount_groups for m in g.mounts)
 
-    @property
+    @cached_property
     def tyres(self) -> tuple[Tyre, ...]:
         return tuple(c for c in self.connections if isinstance(c, Tyre))
 
@@ -199,6 +218,23 @@ class Vehicle:
                     raise VehicleError(unknown("response point", point, points))
         if problem.reference and problem.reference not in self.rate_sets:
             raise VehicleError(unknown("set of rates", problem.reference, self.rate_sets))
+
+    def _check_band(self) -> None:
+        for key in ("highest_frequency", "frequency_step"):
+            value = getattr(self, key)
+            if not (np.isfinite(value) and value > 0):
+                raise VehicleError(f"{key}: found {value} Hz, expected more than 0")
+        count = self.highest_frequency / self.frequency_step
+        if abs(count - round(count)) > WHOLE * count:
+            raise VehicleError(
+                f"highest_frequency: found {self.highest_frequency:g} Hz, expected a whole multiple of "
+                f"frequency_step, {self.frequency_step:g} Hz"
+            )
+        if not FEWEST_LINES <= round(count) <= MOST_LINES:
+            raise VehicleError(
+                f"frequency_step: found {self.frequency_step:g} Hz for {self.highest_frequency:g} Hz, "
+                f"which makes {round(count)} lines; expected {FEWEST_LINES} to {MOST_LINES}"
+            )
 
     def _check_names(self) -> None:
         for kind, items in (

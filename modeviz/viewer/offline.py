@@ -10,7 +10,7 @@ import numpy as np
 import viser
 from viser import _messages
 
-from modeviz.export.axes import Axis
+from modeviz.export.axes import Axis, shown_hz
 from modeviz.export.charts import BASE, Curve, line_chart
 from modeviz.export.charts import NOW as NOW_COLOR
 from modeviz.export.wording import signed
@@ -25,7 +25,7 @@ from modeviz.viewer.panels.charts import chart_lines, legend
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.panels.peaks import strongest
-from modeviz.viewer.plots import SHOWN_HZ, Line, Scale, level_axis, level_range
+from modeviz.viewer.plots import Line, Scale, level_axis, level_range
 from modeviz.viewer.responses import NOW, Responses, curve_label
 from modeviz.viewer.state import Curve as ResponseCurve
 
@@ -100,23 +100,23 @@ def _charts(solved: Solved) -> str:
 
 
 def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response: ResponseCurve) -> str:
-    state, f = solved.state, solved.now.frequency_hz
+    state, vehicle = solved.state, solved.now.prepared.vehicle
+    shown = shown_hz(vehicle.highest_frequency)
     scale = Scale(responses.quantity, state.decibels, state.log_frequency)
     names = [state.against, *responses.overlaid, NOW]
-    levels = np.stack([responses.of(name, response) for name in names])
-    decibels = scale.quantity.decibels(levels)
-    drawn = decibels if state.decibels else levels
+    every = [(responses.lines(name), responses.of(name, response)) for name in names]
+    decibels = [scale.quantity.decibels(level) for _, level in every]
     curves = [
-        Curve("", f, level, line.color, line.thickness, dash=line.dash)
-        for line, level in zip(lines, drawn, strict=True)
+        Curve("", f, db if state.decibels else level, line.color, line.thickness, dash=line.dash)
+        for line, (f, level), db in zip(lines, every, decibels, strict=True)
     ]
     curves[-1] = replace(curves[-1], peaks=strongest(responses, response, solved))
-    inside = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
-    label = curve_label(solved.now.vehicle, response)
+    inside = [db[(f >= shown[0]) & (f <= shown[1])] for (f, _), db in zip(every, decibels, strict=True)]
+    label = curve_label(vehicle, response)
     chart = line_chart(
         curves,
-        Axis("Frequency, Hz", *SHOWN_HZ, state.log_frequency),
-        level_axis(scale, *level_range(decibels[:, inside])),
+        Axis("Frequency, Hz", *shown, state.log_frequency),
+        level_axis(scale, *level_range(np.concatenate(inside))),
         f"Acceleration, {label}",
         width=420,
         height=190,

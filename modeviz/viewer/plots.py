@@ -7,13 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
-from modeviz.export.axes import DECIBELS, Axis
+from modeviz.export.axes import DECIBELS, USUAL_SHOWN_HZ, Axis
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.assign import send_together
 from modeviz.viewer.responses import Quantity
 
-SHOWN_HZ = (1.0, 25.0)
+SHOWN_HZ = USUAL_SHOWN_HZ
 TICKS_HZ, LOG_TICKS_HZ = (1.0, 5.0, 10.0, 15.0, 20.0, 25.0), (1.0, 2.0, 5.0, 10.0, 25.0)
+"""Of what is shown of the usual band."""
 FONT = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
 GRID = {"show": True, "width": 1, "stroke": "rgba(128,138,150,0.16)"}
 NO_TICKS = {"show": False, "size": 0}
@@ -64,11 +65,12 @@ class ResponsePlot:
     their own.
     """
 
-    def __init__(self, gui: viser.GuiApi, frequency_hz: Floats, dark: bool, height: int = 130) -> None:
+    def __init__(
+        self, gui: viser.GuiApi, shown_hz: tuple[float, float], dark: bool, height: int = 130
+    ) -> None:
         """Draws an empty chart; `show` fills it."""
-        self._inside = (frequency_hz >= SHOWN_HZ[0]) & (frequency_hz <= SHOWN_HZ[1])
-        self._lines = np.flatnonzero(self._inside)
-        self._f = frequency_hz[self._inside]
+        self._shown_hz = shown_hz
+        self._f = np.array(shown_hz)
         self._text_color = "#b4bcc6" if dark else "#5b6670"
         self._paper = "#242424" if dark else "#ffffff"
         self._subject: Hashable = None
@@ -77,7 +79,7 @@ class ResponsePlot:
         self._chart = gui.add_uplot(
             (self._f, np.full(len(self._f), np.nan)),
             ({"label": "Hz"}, {"label": "now"}),
-            scales={"x": {"time": False, "range": SHOWN_HZ}, "y": {"range": (-80, -20)}},
+            scales={"x": {"time": False, "range": shown_hz}, "y": {"range": (-80, -20)}},
             legend={"show": False},
             cursor={"sync": {"key": "response"}, "drag": {"x": True, "y": False}},
             padding=(6, 18, 0, 0),
@@ -89,6 +91,7 @@ class ResponsePlot:
         subject: Hashable,
         scale: Scale,
         lines: Sequence[Line],
+        frequency_hz: Floats,
         levels: Floats,
         peaks: Sequence[int],
         band: Floats | None = None,
@@ -99,25 +102,29 @@ class ResponsePlot:
             subject: what is drawn; with another one the axes are chosen anew.
             scale: how.
             lines: one for each curve.
+            frequency_hz: (n_freqs,).
             levels: (n_curves, n_freqs), in the unit of the scale's quantity; the last is the present.
             peaks: numbers of the frequencies at which that one is marked.
             band: (2, n_freqs), the levels between which the paper is shaded, if any.
         """
-        shaded = np.zeros((0, len(self._f))) if band is None else band[:, self._inside]
-        levels = levels[:, self._inside]
+        inside = (frequency_hz >= self._shown_hz[0]) & (frequency_hz <= self._shown_hz[1])
+        f, levels = frequency_hz[inside], levels[:, inside]
+        shaded = np.zeros((0, len(f))) if band is None else band[:, inside]
         decibels = scale.quantity.decibels(levels)
         every = np.vstack([shaded, levels])
         drawn = scale.quantity.decibels(every) if scale.decibels else every
-        data = np.vstack([drawn, np.where(np.isin(self._lines, peaks), drawn[-1], np.nan)])
+        data = np.vstack([drawn, np.where(np.isin(np.flatnonzero(inside), peaks), drawn[-1], np.nan)])
         axes = {}
         key = (subject, scale, tuple(lines), band is None)
-        if key != self._subject or decibels[-1].max() > self._top:
+        highest = np.nanmax(decibels[-1], initial=-np.inf)
+        if key != self._subject or highest > self._top:
             self._subject = key
-            bottom, self._top = level_range(decibels)
+            bottom, self._top = level_range(decibels[np.isfinite(decibels)])
             axes = self._axes(scale, bottom, self._top) | self._series(lines, band is not None)
+        data = np.vstack([f, data])
         if axes or not np.array_equal(data, self._data, equal_nan=True):
             self._data = data
-            drawn_from = (self._f, *data.astype(np.float32))  # a chart can only be sent as a whole
+            drawn_from = (f, *data[1:].astype(np.float32))  # a chart can only be sent as a whole
             send_together(self._chart, data=drawn_from, **axes)
 
     def _series(self, lines: Sequence[Line], is_shaded: bool) -> dict:
@@ -144,12 +151,12 @@ class ResponsePlot:
 
     def _axes(self, scale: Scale, bottom: int, top: int) -> dict:
         y = level_axis(scale, bottom, top)
-        *inner, end = LOG_TICKS_HZ if scale.log_frequency else TICKS_HZ
+        *inner, end = self._ticks_hz(scale.log_frequency)
         x_ticks = [*((f, f"{f:g}") for f in inner), (end, f"{end:g} Hz")]
         common = {"font": FONT, "stroke": self._text_color, "ticks": NO_TICKS, "grid": GRID, "space": 1}
         return {
             "scales": {
-                "x": {"time": False, "range": SHOWN_HZ} | _distribution(scale.log_frequency),
+                "x": {"time": False, "range": self._shown_hz} | _distribution(scale.log_frequency),
                 "y": {"range": (y.low, y.high)} | _distribution(y.is_logarithmic),
             },
             "axes": (
@@ -157,6 +164,11 @@ class ResponsePlot:
                 _ticks(_thinned(y.ticks())) | {"size": 34, "gap": 4} | common,
             ),
         }
+
+    def _ticks_hz(self, is_logarithmic: bool) -> Sequence[float]:
+        if self._shown_hz == SHOWN_HZ:
+            return LOG_TICKS_HZ if is_logarithmic else TICKS_HZ
+        return [f for f, _ in Axis("", *self._shown_hz, is_logarithmic).ticks()]
 
 
 def level_axis(scale: Scale, bottom: int, top: int) -> Axis:
@@ -183,6 +195,8 @@ def _thinned(ticks: list[tuple[float, str]]) -> list[tuple[float, str]]:
 
 def level_range(decibels: Floats) -> tuple[int, int]:
     """Whole tens of dB that hold the curves, at most `DECIBELS` below the top."""
+    if not decibels.size:
+        return -80, -20
     top = 10 * math.ceil((decibels.max() + HEADROOM) / 10)
     bottom = 10 * math.floor(decibels.min() / 10)
     return max(min(bottom, top - 20), top - DECIBELS), top

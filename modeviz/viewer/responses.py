@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from modeviz.export.tables import WHEEL_BAND
+from modeviz.export.tables import wheel_band
 from modeviz.export.wording import sentence_case
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import amplitude_decibels, power_decibels
@@ -57,12 +57,19 @@ class Responses:
         g = self._solved.wheels[name].acceleration_g
         return g[:, self._load, curve.point, AXIS[curve.direction]]
 
+    def lines(self, name: str) -> Floats:
+        """The frequencies of that, (n_freqs,)."""
+        if self._load is None:
+            return self._results(name).frequency_hz
+        return self._solved.wheels[name].frequency_hz
+
     def figure(self, name: str, curve: Curve) -> float:
         """The RMS on the road, or the mean over the paper's band under a wheel load, g."""
         at = curve.point, AXIS[curve.direction]
         if self._load is None:
             return float(self._results(name).rms[at])
-        return float(self._solved.wheels[name].mean(WHEEL_BAND)[self._load][at])
+        band = wheel_band(self._solved.now.prepared.vehicle.highest_frequency)
+        return float(self._solved.wheels[name].mean(band)[self._load][at])
 
     def peak_lines(self, curve: Curve) -> list[int]:
         """Where the present response has its peaks, numbers of frequencies."""

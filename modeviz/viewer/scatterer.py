@@ -6,6 +6,7 @@ from functools import cached_property
 
 from modeviz.tuning.control import Control
 from modeviz.tuning.goals import prepare_goal
+from modeviz.tuning.integral import Integral
 from modeviz.tuning.objective import Objective
 from modeviz.tuning.parts import Tolerance, scattered_parts
 from modeviz.tuning.results import AXIS, Conditions
@@ -84,17 +85,21 @@ class Scatterer:
         """Ends what is running; nothing of it is kept."""
         self._beside.cancel()
 
-    def band(self, state: State, curve: Curve) -> Floats | None:
-        """Between what a curve scatters, (2, n_freqs), g²/Hz, if that is known for a state."""
+    def band(self, state: State, curve: Curve) -> tuple[Floats, Floats] | None:
+        """Frequencies and between what a curve scatters, (2, n_freqs), g²/Hz, if known for a state."""
         job = self.job
         if job is None or job.found is None or state.load or not job.asked.is_of(state):
             return None
-        return job.found.percentiles[:, :, curve.point, AXIS[curve.direction]]
+        found = job.found
+        return (
+            found.scatter.frequency_hz,
+            found.percentiles[:, :, curve.point, AXIS[curve.direction]],
+        )
 
     def _scatter(self, build: Build, control: Control, tell: Tell[Scattered]) -> Scattered:
         vehicle, prepared = self._session.vehicle, self._session.prepared
         goal = prepare_goal(vehicle, build.problem, build.rates, build.conditions.speed)
-        assert isinstance(goal, Objective)
+        assert isinstance(goal, (Objective, Integral))
         control.check()
         found = scatter(
             prepared,

@@ -7,9 +7,9 @@ from html import escape
 import numpy as np
 
 from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.export.axes import shown_hz
 from modeviz.export.markup import NONE, change, note, section, span, table, title
 from modeviz.export.optimum import objective_words
-from modeviz.export.report.sides import SHOWN_HZ
 from modeviz.export.space import outside_words, ratio_words
 from modeviz.export.wording import number, percent_change, signed, significant
 from modeviz.ride.psd import power_decibels
@@ -206,7 +206,7 @@ def participation(comparison: Comparison) -> str:
 
 def _peak_rows(results: Results, direction: str) -> Iterator[list[str]]:
     f, names = results.modes.frequency_hz, results.names
-    low, high = SHOWN_HZ
+    low, high = shown_hz(results.prepared.vehicle.highest_frequency)
     for peak in results.peaks(0, direction, 2):
         if low <= peak.frequency_hz <= high:
             cells = [f"{peak.frequency_hz:.1f}", number(float(power_decibels(np.array(peak.level))), 1)]

@@ -2,6 +2,7 @@
 
 from html import escape
 
+from modeviz.export.coverage import band_text, coverage_note
 from modeviz.export.markup import note, section, table
 from modeviz.export.report.sides import DIRECTIONS, by_direction, chart, compared
 from modeviz.export.wording import number, signed
@@ -24,7 +25,7 @@ def _spectrum(comparison: Comparison, rides: tuple[Results, Results], direction:
     levels = [power_decibels(r.response(0, direction)) for r in rides]
     peaks = [r.peak_lines(0, direction) for r in rides]
     heading = f"{direction.capitalize()} acceleration PSD"
-    return chart(comparison, rides[0].frequency_hz, levels, peaks, heading, "dB re 1 g²/Hz")
+    return chart(comparison, [r.frequency_hz for r in rides], levels, peaks, heading, "dB re 1 g²/Hz")
 
 
 def levels(comparison: Comparison) -> str:
@@ -55,9 +56,10 @@ def levels(comparison: Comparison) -> str:
     remarks = {r.note for r in ratings if r.note}
     return section(
         "Ride",
-        "<h3>RMS acceleration, 0 to 40 Hz, g</h3>",
+        f"<h3>RMS acceleration, {band_text(rides[0])}, g</h3>",
         by_direction(comparison, points, *(r.rms for r in rides), decimals=4),
         f"<h3>Rating at {escape(points[0])}</h3>",
         table(["", "Unit", *map(escape, comparison.names), "Change"], rows),
         *(note(f"The mean personal rating is {escape(remark)}.") for remark in sorted(remarks)),
+        *(note(f"{escape(about)}.") for about in filter(None, [coverage_note(rides[0])])),
     )

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from html import escape
 
-from modeviz.export.axes import Axis, decibel_axis
+from modeviz.export.axes import USUAL_SHOWN_HZ, Axis, decibel_axis, shown_hz
 from modeviz.export.charts import BASE, NOW, Curve, line_chart
 from modeviz.export.markup import change, table, title
 from modeviz.export.wording import number
@@ -11,8 +11,8 @@ from modeviz.tuning.comparison import Comparison
 from modeviz.tuning.results import AXIS
 from modeviz.vehicle.arrays import Floats
 
-SHOWN_HZ = (1.0, 25.0)
-"""What is drawn, and whose peaks are listed."""
+SHOWN_HZ = USUAL_SHOWN_HZ
+"""What is drawn of the usual band."""
 
 DIRECTIONS = ("lateral", "vertical", "fore-aft")
 """In the order of the paper's figures."""
@@ -20,7 +20,7 @@ DIRECTIONS = ("lateral", "vertical", "fore-aft")
 
 def chart(
     comparison: Comparison,
-    frequency_hz: Floats,
+    frequency_hz: Sequence[Floats],
     levels: Sequence[Floats],
     peaks: Sequence[Sequence[int]],
     heading: str,
@@ -30,18 +30,18 @@ def chart(
 
     Args:
         comparison: whose sets of rates they are.
-        frequency_hz: (n_freqs,).
+        frequency_hz: (n_freqs,) of each set.
         levels: (n_freqs,) of each set, dB.
         peaks: the lines of each set's peaks.
         heading: what is drawn, as HTML.
         unit: of the levels.
     """
-    f = frequency_hz
-    shown = (f >= SHOWN_HZ[0]) & (f <= SHOWN_HZ[1])
-    styles = zip(comparison.names, levels, (BASE, NOW), (1.6, 2.2), peaks, strict=True)
-    curves = [Curve(name, f, level, color, width, lines) for name, level, color, width, lines in styles]
-    y = decibel_axis(unit, [level[shown] for level in levels])
-    svg = line_chart(curves, Axis("Frequency, Hz", *SHOWN_HZ), y, heading, 900, 270)
+    low, high = shown_hz(comparison.vehicle.highest_frequency)
+    styles = zip(comparison.names, frequency_hz, levels, (BASE, NOW), (1.6, 2.2), peaks, strict=True)
+    curves = [Curve(*style) for style in styles]
+    shown = [c.y[(c.x >= low) & (c.x <= high)] for c in curves]
+    y = decibel_axis(unit, [level for level in shown if len(level)] or list(levels))
+    svg = line_chart(curves, Axis("Frequency, Hz", low, high), y, heading, 900, 270)
     return f"<figure>{svg}<figcaption>{escape(heading)}; peaks in Hz</figcaption></figure>"
 
 

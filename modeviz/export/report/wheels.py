@@ -6,7 +6,7 @@ import numpy as np
 
 from modeviz.export.markup import note, section, title
 from modeviz.export.report.sides import DIRECTIONS, by_direction, chart
-from modeviz.export.tables import WHEEL_BAND
+from modeviz.export.tables import wheel_band
 from modeviz.export.wording import number, within_sentence
 from modeviz.ride.psd import amplitude_decibels
 from modeviz.tuning.comparison import Comparison
@@ -27,14 +27,14 @@ def wheels(comparison: Comparison) -> str:
     if comparison.wheels is None:
         return ""
     vehicle = comparison.vehicle
-    base, now = (1000 * w.mean(WHEEL_BAND) for w in comparison.wheels)
+    low, high = wheel_band(vehicle.highest_frequency)
+    base, now = (1000 * w.mean((low, high)) for w in comparison.wheels)
     loads = [load.name for load in vehicle.harmonic_loads]
     tables = (
         f"<h3>{title(point.name)}</h3>"
         + by_direction(comparison, loads, base[:, i], now[:, i], 2, common=float(base.max()))
         for i, point in enumerate(vehicle.response_points)
     )
-    low, high = WHEEL_BAND
     return section(
         "Unbalance and tyre force variation",
         *(_harmonic(comparison, direction) for direction in DRAWN),
@@ -56,7 +56,12 @@ def _harmonic(comparison: Comparison, direction: str) -> str:
     point, name = vehicle.response_points[DRIVER].name, vehicle.harmonic_loads[load].name
     heading = f"{direction.capitalize()} acceleration at {point} under {name}"
     return chart(
-        comparison, comparison.wheels[0].frequency_hz, levels, peaks, heading, "dB re 1 g, peak"
+        comparison,
+        [w.frequency_hz for w in comparison.wheels],
+        levels,
+        peaks,
+        heading,
+        "dB re 1 g, peak",
     )
 
 

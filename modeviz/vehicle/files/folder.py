@@ -173,6 +173,8 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         },
         problems=built(record.problem, "problem", ProblemRecord.build),
         speed=record.speed or USUAL_SPEED,
+        highest_frequency=record.highest_frequency,
+        frequency_step=record.frequency_step,
         mode_damping=built(record.mode_damping, "mode_damping", ModeDampingRecord.build),
     )
     axes = source.conventions.axes
@@ -198,6 +200,8 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         units=WRITTEN_UNITS,
         name=vehicle.name,
         speed=vehicle.speed,
+        highest_frequency=vehicle.highest_frequency,
+        frequency_step=vehicle.frequency_step,
         flexible_body=[_record_of_flexible(b, stems[b.name], folder) for b in flexible],
         rigid_body=[RigidBodyRecord.of(b, _mesh_file(b, stems[b.name], folder)) for b in rigid],
         added_mass=[AddedMassRecord.of(m) for m in vehicle.added_masses],

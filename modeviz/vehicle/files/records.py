@@ -53,7 +53,7 @@ from modeviz.vehicle.files.quantities import (
     Speed,
     Stiffness,
 )
-from modeviz.vehicle.files.record import FileRecord, Name, NonNegative, RatesRecord, Record
+from modeviz.vehicle.files.record import FileRecord, Name, NonNegative, Positive, RatesRecord, Record
 from modeviz.vehicle.files.source import Source
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mode_damping import ModeDamping
@@ -405,6 +405,10 @@ class VehicleRecord(FileRecord, kw_only=True):
     """See `axes_of`."""
     speed: Speed | None = None
     """`USUAL_SPEED`, if not given."""
+    highest_frequency: Positive = 40.0
+    """Hz: up to where modes and responses are looked at."""
+    frequency_step: Positive = 0.1
+    """Hz: between the lines at which responses are given."""
     flexible_body: list[FlexibleBodyRecord] = msgspec.field(default_factory=list)
     rigid_body: list[RigidBodyRecord] = msgspec.field(default_factory=list)
     added_mass: list[AddedMassRecord] = msgspec.field(default_factory=list)

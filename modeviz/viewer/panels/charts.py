@@ -6,7 +6,8 @@ from html import escape
 import numpy as np
 import viser
 
-from modeviz.tuning.preparation import FREQUENCY_HZ
+from modeviz.export.axes import shown_hz
+from modeviz.ride.psd import FLOOR
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
@@ -43,7 +44,7 @@ class ChartsPanel:
         solved: Solved,
         responses: Responses,
         peaks: list[list[int]],
-        band: Callable[[Curve], Floats | None],
+        band: Callable[[Curve], tuple[Floats, Floats] | None],
     ) -> None:
         """Draws an answer.
 
@@ -51,7 +52,8 @@ class ChartsPanel:
             solved: the answer.
             responses: its responses.
             peaks: for each chart the numbers of the frequencies that are marked.
-            band: gives what a curve scatters between, (2, n_freqs), if that is known.
+            band: gives frequencies and what a curve scatters between there, (2, n_freqs), if that is
+                known.
         """
         state = solved.state
         scale = Scale(responses.quantity, state.decibels, state.log_frequency)
@@ -64,9 +66,13 @@ class ChartsPanel:
             state.curves, self._choices, self._plots, peaks, strict=True
         ):
             assign(choice, label=unit)
-            levels = np.stack([responses.of(name, curve) for name in names])
+            f = np.unique(np.concatenate([responses.lines(name) for name in names]))
+            levels = [drawn_at(f, responses.lines(name), responses.of(name, curve)) for name in names]
+            shaded = band(curve)
+            between = None if shaded is None else drawn_at(f, *shaded)
+            peaks_at = np.searchsorted(f, responses.lines(NOW)[marked])
             subject = curve, state.load, state.conditions
-            plot.show(subject, scale, lines, levels, marked, band(curve))
+            plot.show(subject, scale, lines, f, np.stack(levels), peaks_at.tolist(), between)
 
     def _add_chart(self, gui: viser.GuiApi, i: int, dark: bool) -> None:
         choice = gui.add_dropdown(
@@ -85,7 +91,23 @@ class ChartsPanel:
 
         self._choices.append(choice)
         self._bindings.append(Binding(choice, self._session, read, write))
-        self._plots.append(ResponsePlot(gui, FREQUENCY_HZ, dark))
+        self._plots.append(ResponsePlot(gui, shown_hz(self._session.vehicle.highest_frequency), dark))
+
+
+def drawn_at(frequency_hz: Floats, lines: Floats, levels: Floats) -> Floats:
+    """A curve that is straight in decibels between its lines, at other frequencies; else no number.
+
+    Args:
+        frequency_hz: (n_freqs,).
+        lines: (n_lines,).
+        levels: (..., n_lines).
+    """
+    logarithms = np.log(np.maximum(levels, FLOOR))
+    rows = [
+        np.interp(frequency_hz, lines, row, np.nan, np.nan)
+        for row in logarithms.reshape(-1, len(lines))
+    ]
+    return np.exp(rows).reshape(*levels.shape[:-1], len(frequency_hz))
 
 
 def chart_lines(solved: Solved, responses: Responses, base: str, now: str) -> list[Line]:

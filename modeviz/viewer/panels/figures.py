@@ -4,10 +4,12 @@ from html import escape
 
 import viser
 
-from modeviz.export.tables import WHEEL_BAND
+from modeviz.export.coverage import band_text, coverage_note
+from modeviz.export.tables import wheel_band
 from modeviz.export.wording import number, sentence_case, signed
 from modeviz.ride.psd import rms
 from modeviz.tuning.results import Results
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
@@ -77,13 +79,16 @@ def _road_figures(solved: Solved, responses: Responses) -> str:
     for direction in ("lateral", "vertical"):
         curve = Curve(DRIVER, direction)
         value, old = responses.figure(NOW, curve), responses.figure(solved.state.against, curve)
-        about = f"RMS acceleration, {_point(now)}, {direction}, 0 to 40 Hz"
+        about = f"RMS acceleration, {_point(now)}, {direction}, {band_text(now)}"
         label = f"RMS {direction}"
         figures.append(_figure(label, f"{value:.3f}", "g", change(value, old), about))
     value = _band_rms(now)
     label, about = f"Lat. {BAND[0]:g}–{BAND[1]:g} Hz", f"RMS lateral, {_point(now)}, in this band"
     figures.append(_figure(label, f"{value:.3f}", "g", change(value, _band_rms(base)), about))
-    return f'<div class="figures">{"".join(figures)}</div>'
+    note = coverage_note(now)
+    return f'<div class="figures">{"".join(figures)}</div>' + (
+        span(escape(note), "dim") if note else ""
+    )
 
 
 def _wheel_figures(solved: Solved, responses: Responses) -> str:
@@ -93,12 +98,14 @@ def _wheel_figures(solved: Solved, responses: Responses) -> str:
     for direction in ("lateral", "vertical", "fore-aft"):
         curve = Curve(DRIVER, direction)
         value, old = responses.figure(NOW, curve), responses.figure(against, curve)
-        about = f"Mean peak acceleration, {_point(now)}, {direction}, {_band_text()}"
+        about = f"Mean peak acceleration, {_point(now)}, {direction}, {_band_text(solved)}"
         label = f"Mean {direction}"
         figures.append(_figure(label, f"{1000 * value:.2f}", "10⁻³ g", change(value, old), about))
     lateral = Curve(DRIVER, "lateral")
-    value, old = (_highest(solved, responses.of(name, lateral)) for name in (NOW, against))
-    about = f"Highest peak acceleration, {_point(now)}, lateral, {_band_text()}"
+    value, old = (
+        _highest(solved, responses.lines(name), responses.of(name, lateral)) for name in (NOW, against)
+    )
+    about = f"Highest peak acceleration, {_point(now)}, lateral, {_band_text(solved)}"
     label = "Highest lateral"
     figures.append(_figure(label, f"{1000 * value:.2f}", "10⁻³ g", change(value, old), about))
     return f'<div class="figures">{"".join(figures)}</div>'
@@ -130,7 +137,7 @@ def _all_points(solved: Solved, responses: Responses) -> str:
             ]
             rows.append(row(cells))
     what = "RMS, g" if is_road else "Mean, 10⁻³ g"
-    quiet = "0 to 40 Hz" if is_road else _band_text()
+    quiet = band_text(solved.now) if is_road else _band_text(solved)
     header = ("Point", "", escape(solved.state.against), "now", "change")
     return heading(what, quiet) + table(header, rows)
 
@@ -165,8 +172,9 @@ def _point(results: Results) -> str:
     return sentence_case(results.vehicle.response_points[DRIVER].name)
 
 
-def _band_text() -> str:
-    return f"{WHEEL_BAND[0]:g} to {WHEEL_BAND[1]:g} Hz"
+def _band_text(solved: Solved) -> str:
+    low, high = wheel_band(solved.now.prepared.vehicle.highest_frequency)
+    return f"{low:g} to {high:g} Hz"
 
 
 def _band_rms(results: Results) -> float:
@@ -174,10 +182,10 @@ def _band_rms(results: Results) -> float:
     return float(rms(results.frequency_hz, results.response(DRIVER, "lateral"), BAND))
 
 
-def _highest(solved: Solved, levels) -> float:
+def _highest(solved: Solved, f: Floats, levels: Floats) -> float:
     """Within the paper's band of wheel responses."""
-    f = solved.now.frequency_hz
-    return float(levels[(f >= WHEEL_BAND[0]) & (f <= WHEEL_BAND[1])].max())
+    low, high = wheel_band(solved.now.prepared.vehicle.highest_frequency)
+    return float(levels[(f >= low) & (f <= high)].max())
 
 
 def _about_rating(results: Results) -> str:

@@ -93,7 +93,7 @@ class PeaksPanel:
 
 def strongest(responses: Responses, curve: Curve, solved: Solved) -> list[int]:
     """The lines of the `N_PEAKS` highest peaks within `PEAK_BAND` that stand apart, rising."""
-    f, levels = solved.now.frequency_hz, responses.of("", curve)
+    f, levels = responses.lines(""), responses.of("", curve)
     lines = [i for i in responses.peak_lines(curve) if PEAK_BAND[0] <= f[i] <= PEAK_BAND[1]]
     chosen: list[int] = []
     for line in sorted(lines, key=lambda i: -levels[i]):

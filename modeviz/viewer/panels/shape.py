@@ -6,6 +6,7 @@ import numpy as np
 import viser
 
 from modeviz.dynamics.components import ComponentModes, ComponentShare
+from modeviz.export.axes import shown_hz
 from modeviz.export.wording import told_apart
 from modeviz.ride.participation import peak_lines
 from modeviz.tuning.results import AXIS
@@ -17,7 +18,6 @@ from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding, show_all
 from modeviz.viewer.html import HiddenButtons, block, heading, hinted, row, span, table, title
 from modeviz.viewer.panels.color_scale import color_scale_text
-from modeviz.viewer.plots import SHOWN_HZ
 from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
 from modeviz.viewer.state import Motion, State
@@ -48,7 +48,7 @@ class ShapePanel:
         write_back = WriteBack()
         self._frequency = gui.add_slider(
             "Frequency",
-            *SHOWN_HZ,
+            *shown_hz(session.vehicle.highest_frequency),
             HZ_STEP,
             session.state.operating_hz,
             marks=(),
@@ -201,16 +201,18 @@ def _peaks(solved: Solved) -> dict[str, float]:
     """The highest peaks of what the first chart draws, by rising frequency: Hz by their text."""
     if not solved.state.curves:
         return {}
-    f, level = solved.now.frequency_hz, _first_response(solved)
-    inside = [i for i in peak_lines(level) if SHOWN_HZ[0] <= f[i] <= SHOWN_HZ[1]]
+    f, level = _first_response(solved)
+    low, high = shown_hz(solved.now.prepared.vehicle.highest_frequency)
+    inside = [i for i in peak_lines(level) if low <= f[i] <= high]
     highest = sorted(sorted(inside, key=lambda i: -level[i])[:N_PEAKS])
     return {f"{f[i]:.1f}": float(f[i]) for i in highest}
 
 
-def _first_response(solved: Solved) -> Floats:
-    """The power of the response in the first chart, (n_freqs,)."""
+def _first_response(solved: Solved) -> tuple[Floats, Floats]:
+    """Frequencies and the power of the response in the first chart there, (n_freqs,) both."""
     state, curve = solved.state, solved.state.curves[0]
     if not state.load:
-        return solved.now.response(curve.point, curve.direction)
+        return solved.now.frequency_hz, solved.now.response(curve.point, curve.direction)
     load = [load.name for load in solved.now.vehicle.harmonic_loads].index(state.load)
-    return np.square(solved.wheels[""].acceleration_g[:, load, curve.point, AXIS[curve.direction]])
+    wheels, axis = solved.wheels[""], AXIS[curve.direction]
+    return wheels.frequency_hz, np.square(wheels.acceleration_g[:, load, curve.point, axis])

@@ -8,7 +8,6 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
-from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import VehicleError
 from modeviz.tuning.default_problem import problem_called, problems
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Goal, Performance, Problem
@@ -40,8 +39,8 @@ class Plan:
     mode: str = ""
     """The mode whose frequency is held, or none."""
     low_hz: float = 0.0
-    high_hz: float = TOP_HZ
-    """From `TOP_HZ` on there is no limit."""
+    high_hz: float = math.inf
+    """At the end of the vehicle's band and beyond there is no limit."""
     is_inside: bool = True
     """Whether the mode is held in that band, or out of it."""
     n_starts: int = N_STARTS
@@ -99,11 +98,12 @@ def plan_of(vehicle: Vehicle, problem: Problem) -> Plan:
         tuple(load_plan(vehicle, performance) for performance in problem.performance),
         spare_load(vehicle),
         problem.groups[0].group,
+        high_hz=vehicle.highest_frequency,
     )
     if not problem.windows:
         return plan
     window = problem.windows[0]
-    high = min(window.high_hz, TOP_HZ)
+    high = min(window.high_hz, vehicle.highest_frequency)
     return replace(
         plan, mode=window.mode, low_hz=window.low_hz, high_hz=high, is_inside=window.is_inside
     )
@@ -124,7 +124,7 @@ def planned(vehicle: Vehicle, plan: Plan) -> Problem:
         is_normalised=plan.is_normalised,
         groups=_groups(vehicle, plan, problem),
         performance=_performance(vehicle, plan, problem),
-        windows=(*_window(plan), *problem.windows[1:]),
+        windows=(*_window(vehicle, plan), *problem.windows[1:]),
     )
 
 
@@ -149,8 +149,9 @@ def _performance(vehicle: Vehicle, plan: Plan, problem: Problem) -> tuple[Perfor
     return tuple(own.get(load) or load.performance(vehicle) for load in plan.loads)
 
 
-def _window(plan: Plan) -> tuple[FrequencyWindow, ...]:
+def _window(vehicle: Vehicle, plan: Plan) -> tuple[FrequencyWindow, ...]:
     if not plan.mode:
         return ()
-    high = math.inf if plan.is_inside and plan.high_hz >= TOP_HZ else plan.high_hz
+    is_open = plan.is_inside and plan.high_hz >= vehicle.highest_frequency
+    high = math.inf if is_open else plan.high_hz
     return (FrequencyWindow(plan.mode, plan.low_hz, high, plan.is_inside),)

@@ -6,7 +6,6 @@ from typing import get_args
 
 import viser
 
-from modeviz.dynamics.basis import TOP_HZ
 from modeviz.errors import ModevizError
 from modeviz.export.wording import file_name, sentence_case
 from modeviz.tuning.default_problem import problem_called, problems
@@ -158,7 +157,7 @@ class ProblemEditor:
             "From, to, Hz",
             lambda _, p: (p.low_hz, p.high_hz),
             lambda ends: put(low_hz=ends[0], high_hz=ends[1]),
-            f"0 is no lower limit, {TOP_HZ:g} no upper one",
+            f"0 is no lower limit, {self._session.vehicle.highest_frequency:g} no upper one",
         )
         self._band = (side, band)
 

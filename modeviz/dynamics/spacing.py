@@ -1,0 +1,173 @@
+"""Frequencies at which responses are solved: evenly spaced, and closer where a mode is sharp.
+
+The lines are where a counting function t(f) is whole,
+
+    t = f/h + Σ_r N_r Φ((f - f_r)/γ_r),
+
+γ = ζ f_n being half the width of a resonance at half its power and Φ' about 1/√(γ² + (f - f_r)²) near
+it. So N_r lines are added to those around a mode, in a grading that turns a resonance into a smooth
+function of t, whose integral a sum of equal steps gives; the lines away from sharp modes stay.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from modeviz.vehicle.arrays import Floats
+
+FINE = 3.0
+"""How far from the real axis of t a resonance's pole is, in steps: sums are right to 2 e^{-2πt}."""
+
+REACH = 3.5
+"""Steps from a mode within which lines are added."""
+
+NEAR = 4.0
+"""Beyond so many times `REACH` lines stay where they are."""
+
+PHASE = 3.0
+"""How far around a mode, in units of asinh((f - f_r)/γ), lines are shifted to have one on the mode."""
+
+SHARPEST = 1e-5
+"""Damping ratio below which a mode counts as undamped: no lines resolve it."""
+
+N_TABLE = 120
+"""Values that tell where lines are added, for each mode."""
+
+SLIGHT = 1e-3
+"""Of a line: by so much the ends of the band may be shifted."""
+
+SHARED = 0.3
+"""Relative singular value below which modes share their lines."""
+
+N_LOOKED_AT = 25
+"""Places around each mode that are counted, before whole numbers are looked for."""
+
+SAME = 1e-4
+"""Of a step of the grid: lines that moved less have not."""
+
+BESIDE = 1.5
+"""Steps of the grid: places farther apart have lines of the grid alone between them."""
+
+N_STEPS = 2
+"""Of Newton's method, to find where the counting function is whole."""
+
+
+def placed_lines(grid_hz: Floats, natural_frequency_hz: Floats, damping_ratio: Floats) -> Floats:
+    """Lines for modes, (n_lines,), rising: a grid whose lines move and have others beside sharp modes.
+
+    Args:
+        grid_hz: (n_freqs,), evenly spaced.
+        natural_frequency_hz: (n_modes,).
+        damping_ratio: (n_modes,); undamped modes are passed over.
+    """
+    if len(grid_hz) < 2:
+        return grid_hz
+    start, h = grid_hz[0], (grid_hz[-1] - grid_hz[0]) / (len(grid_hz) - 1)
+    f = (natural_frequency_hz - start) / h
+    gamma = damping_ratio * natural_frequency_hz / h
+    is_sharp = (damping_ratio > SHARPEST) & (gamma < FINE)
+    is_sharp &= (f > -NEAR * REACH) & (f < len(grid_hz) - 1 + NEAR * REACH)
+    if not is_sharp.any():
+        return grid_hz
+    lines = _lines(_counting(f[is_sharp], gamma[is_sharp], len(grid_hz) - 1))
+    placed, on_grid = start + h * lines, lines == np.round(lines)
+    placed[on_grid] = grid_hz[lines[on_grid].astype(int)]
+    return placed
+
+
+@dataclass(frozen=True, eq=False)
+class _Counting:
+    """t of x, which is the number of a line of the grid if that is whole."""
+
+    center: Floats
+    gamma: Floats
+    """(n_modes,): where modes are and half their widths, in steps of the grid."""
+    ends: Floats
+    """(n_modes,): asinh(x/γ) where the tables end, equal steps of which they have."""
+    table: Floats
+    slopes: Floats
+    """(n_modes, N_TABLE): how many lines are added up to there, and that differentiated by the step."""
+    phase: Floats
+    """(n_modes,): by how many lines t is shifted on the mode."""
+    last: int
+    """Number of the grid's last line."""
+
+    def __call__(self, x: Floats) -> tuple[Floats, Floats]:
+        """T and dt/dx, (n,) both."""
+        stretched = self.stretched(x)
+        added, slope = self.added(*stretched)
+        shift, turn = self.shift(*stretched)
+        return x + added.sum(axis=1) + shift @ self.phase, 1 + slope.sum(axis=1) + turn @ self.phase
+
+    def added(self, d: Floats, u: Floats, width: Floats) -> tuple[Floats, Floats]:
+        """How many lines each mode adds up to places, and that differentiated, (n, n_modes)."""
+        per_u = (N_TABLE - 1) / (2 * self.ends)
+        place = np.clip((u + self.ends) * per_u, 0, N_TABLE - 1)
+        i, mode = np.minimum(place.astype(int), N_TABLE - 2), np.arange(len(self.center))
+        w = place - i
+        (a, b), (p, q) = ((v[mode, i], v[mode, i + 1]) for v in (self.table, self.slopes))
+        c, d = 3 * (b - a) - 2 * p - q, 2 * (a - b) + p + q
+        slope = np.where(np.abs(u) < self.ends, p + w * (2 * c + 3 * w * d), 0.0)
+        return a + w * (p + w * (c + w * d)), slope * per_u / width
+
+    def shift(self, d: Floats, u: Floats, width: Floats) -> tuple[Floats, Floats]:
+        """One on a mode, falling to zero beside it, and that differentiated, (n, n_modes)."""
+        shift = np.exp(-((u / PHASE) ** 2) - (d / REACH) ** 2)
+        return shift, -2 * shift * (u / PHASE**2 / width + d / REACH**2)
+
+    def stretched(self, x: Floats) -> tuple[Floats, Floats, Floats]:
+        """D = x - center, u = asinh(d/γ) and what one of that is in x, (n, n_modes) each."""
+        d = x[:, None] - self.center
+        width = np.sqrt(self.gamma**2 + d**2)
+        return d, np.arcsinh(d / self.gamma), width
+
+
+def _counting(center: Floats, gamma: Floats, last: int) -> _Counting:
+    """The counting function of modes at places on the grid."""
+    gamma_, ends = gamma[:, None], np.arcsinh(NEAR * REACH / gamma)
+    u = np.linspace(-1, 1, N_TABLE) * ends[:, None]
+    step, d = 2 * ends[:, None] / (N_TABLE - 1), gamma_ * np.sinh(u)
+    slopes = 2 / np.pi * (FINE - gamma_) * np.exp(-((d / REACH) ** 2)) * step
+    bend = slopes * step * np.hypot(gamma_, d) * -2 * d / REACH**2
+    parts = (slopes[:, :-1] + slopes[:, 1:]) / 2 + (bend[:, :-1] - bend[:, 1:]) / 12
+    table = np.hstack([np.zeros((len(center), 1)), np.cumsum(parts, axis=1)])
+    counting = _Counting(center, gamma, ends, table, slopes, np.zeros(len(center)), last)
+    before, after = counting.added(*counting.stretched(np.array([0.0, last])))[0]
+    factor = (np.ceil(after - before) / (after - before))[:, None]
+    counting = replace(counting, table=(table - before[:, None]) * factor, slopes=slopes * factor)
+    return replace(counting, phase=_phase(counting))
+
+
+def _phase(counting: _Counting) -> Floats:
+    """What brings a line onto each mode, (n_modes,), as far as modes do not share their lines."""
+    ends = counting.stretched(np.array([0.0, counting.last]))
+    free = np.flatnonzero(counting.shift(*ends)[0].max(axis=0) < SLIGHT)
+    t, _ = counting(counting.center[free])
+    shares = counting.shift(*counting.stretched(counting.center[free]))[0][:, free]
+    phase = np.zeros(len(counting.center))
+    phase[free] = np.clip(np.linalg.lstsq(shares, np.round(t) - t, rcond=SHARED)[0], -0.5, 0.5)
+    return phase
+
+
+def _lines(counting: _Counting) -> Floats:
+    """Where the counting function is whole, from the grid's first line to its last."""
+    last = counting.last
+    grid = np.arange(last + 1.0)
+    is_near = (np.abs(grid[:, None] - counting.center) < NEAR * REACH + 1).any(axis=1)
+    u = np.linspace(-1, 1, N_LOOKED_AT)[:, None] * counting.ends
+    around = (counting.center + counting.gamma * np.sinh(u)).ravel()
+    x = np.sort(np.concatenate([grid[is_near], around[(around > 0) & (around < last)]]))
+    t, _ = counting(x)
+    whole = np.arange(np.ceil(t[0] - SAME), np.floor(t[-1] + SAME) + 1)
+    after = np.clip(np.searchsorted(t, whole), 1, len(x) - 1)
+    low, high = x[after - 1], x[after]
+    is_within = high - low < BESIDE
+    whole, low, high = whole[is_within], low[is_within], high[is_within]
+    lines = np.interp(whole, t, x)
+    for _ in range(N_STEPS):
+        reached, slope = counting(lines)
+        lines = np.clip(lines - (reached - whole) / slope, low, high)
+    nearest = np.round(lines)
+    lines = np.where(np.abs(lines - nearest) < SAME, nearest, lines)
+    resting = x[(np.abs(t - np.round(t)) < SAME) & (x == np.round(x))]
+    return np.unique(np.concatenate([grid[~is_near], resting, lines, [0.0, last]]))

@@ -1,0 +1,24 @@
+"""Of which part of a vehicle's band an answer speaks, in words."""
+
+from modeviz.tuning.results import Results
+from modeviz.units import factor
+
+
+def band_text(results: Results) -> str:
+    """Over what RMS values are taken: "0 to 40 Hz"."""
+    low, high = results.drive.known
+    starts_late = low > results.prepared.frequency_hz[0]
+    return f"{low if starts_late else 0.0:g} to {high:g} Hz"
+
+
+def coverage_note(results: Results) -> str:
+    """What is not known because the road's table does not hold it; nothing if it holds all."""
+    if not results.drive.is_partial:
+        return ""
+    road, speed = results.conditions.road, results.conditions.speed / factor("km/h", "speed")
+    low, high = results.drive.known
+    whole = results.prepared.frequency_hz
+    return (
+        f"{road} is known from {low:g} to {high:g} Hz at {speed:g} km/h: the answer is for this part, "
+        f"and what the rest of {whole[0]:g} to {whole[-1]:g} Hz would add is unknown"
+    )
