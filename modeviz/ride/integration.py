@@ -43,7 +43,7 @@ def _weights(frequency_hz: bytes, band: tuple[float, float]) -> Floats:
     f = np.frombuffer(frequency_hz)
     if len(f) <= N_SLOPE:
         return _trapezia(f, band)
-    slope = _slope(f)
+    slope = line_distances(f)
     polygon = np.gradient(f)
     if (np.abs(slope - polygon) > SMOOTH * polygon).any():
         return _trapezia(f, band)
@@ -59,8 +59,11 @@ def _trapezia(f: Floats, band: tuple[float, float]) -> Floats:
     return np.append(length - of_right, 0.0) + np.insert(of_right, 0, 0.0)
 
 
-def _slope(f: Floats) -> Floats:
-    """f'(t) at every line, (n_freqs,), by the polynomials through lines around it."""
+def line_distances(f: Floats) -> Floats:
+    """What each of `N_SLOPE` lines or more stands for, f'(t), (n_freqs,), Hz.
+
+    By the polynomials through the lines around it.
+    """
     half = N_SLOPE // 2
     slope = np.empty(len(f))
     slope[half:-half] = np.correlate(f, _derivative(half))

@@ -18,7 +18,7 @@ from modeviz.dynamics.response import modal_coordinates
 from modeviz.dynamics.trust import Trust
 from modeviz.errors import ModevizError
 from modeviz.ride.excitation import Load, excitation, input_spectrum, known_part
-from modeviz.ride.integration import integration_weights
+from modeviz.ride.integration import line_distances
 from modeviz.ride.participation import Peak, participation, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
@@ -309,9 +309,8 @@ class WheelResults:
     def mean(self, band: tuple[float, float]) -> Floats:
         """Mean over a band, ends included, (n_loads, n_points, 3), g."""
         f = self.frequency_hz
-        weights = 1.0 * ((f > band[0] - 1e-6) & (f < band[1] + 1e-6))
-        if self.is_graded:
-            weights = integration_weights(f, band)
+        inside = (f > band[0] - 1e-6) & (f < band[1] + 1e-6)
+        weights = inside * line_distances(f) if self.is_graded else 1.0 * inside
         return np.tensordot(weights, self.acceleration_g, 1) / weights.sum()
 
 
