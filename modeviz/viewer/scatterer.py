@@ -85,16 +85,18 @@ class Scatterer:
         """Ends what is running; nothing of it is kept."""
         self._beside.cancel()
 
-    def band(self, state: State, curve: Curve) -> tuple[Floats, Floats] | None:
-        """Frequencies and between what a curve scatters, (2, n_freqs), g²/Hz, if known for a state."""
+    def band(self, state: State, curve: Curve) -> Floats | None:
+        """Between what a curve scatters, (2, n_freqs), g²/Hz, if that is known for a state."""
+        shaded = self.shaded(state, curve)
+        return None if shaded is None else shaded[1]
+
+    def shaded(self, state: State, curve: Curve) -> tuple[Floats, Floats] | None:
+        """That with its frequencies, (n_freqs,)."""
         job = self.job
         if job is None or job.found is None or state.load or not job.asked.is_of(state):
             return None
-        found = job.found
-        return (
-            found.scatter.frequency_hz,
-            found.percentiles[:, :, curve.point, AXIS[curve.direction]],
-        )
+        axis = AXIS[curve.direction]
+        return job.found.scatter.frequency_hz, job.found.percentiles[:, :, curve.point, axis]
 
     def _scatter(self, build: Build, control: Control, tell: Tell[Scattered]) -> Scattered:
         vehicle, prepared = self._session.vehicle, self._session.prepared

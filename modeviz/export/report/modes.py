@@ -209,7 +209,7 @@ def _peak_rows(results: Results, direction: str) -> Iterator[list[str]]:
     low, high = shown_hz(results.prepared.vehicle.highest_frequency)
     for peak in results.peaks(0, direction, 2):
         if low <= peak.frequency_hz <= high:
-            cells = [f"{peak.frequency_hz:.1f}", number(float(power_decibels(np.array(peak.level))), 1)]
+            cells = [f"{peak.frequency_hz:.2f}", number(float(power_decibels(np.array(peak.level))), 1)]
             for c in peak.contributors:
                 cells += [f"{f[c.mode]:.2f}", escape(names[c.mode].spoken)]
             if len(peak.contributors) == 2:

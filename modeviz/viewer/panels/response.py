@@ -33,4 +33,5 @@ class ResponsePanel:
             return
         if solved.is_detailed:
             self._marked = self._peaks.show(solved, responses)
-        self._charts.show(solved, responses, self._marked, partial(self._scatterer.band, solved.state))
+        shaded = partial(self._scatterer.shaded, solved.state)
+        self._charts.show(solved, responses, self._marked, shaded)
