@@ -37,7 +37,8 @@ def figures(size: Size | None, n_freqs: int, top_hz: float = TOP_HZ) -> SizeRow:
     """
     vehicle = scaled_vehicle(size) if size else read_vehicle(builtin_vehicle())
     begin = time.perf_counter()
-    prepared = prepare(vehicle, FREQUENCY_HZ[:: len(FREQUENCY_HZ) // n_freqs], top_hz=top_hz)
+    every = len(FREQUENCY_HZ) // n_freqs
+    prepared = prepare(vehicle, FREQUENCY_HZ[::every] if every > 1 else None, top_hz=top_hz)
     prepare_s = time.perf_counter() - begin
     work = Work(prepared, _stiffer(vehicle))
     response_ms = _median_ms(lambda: work.receptances.response(work.mount_stiffness))

@@ -1,0 +1,42 @@
+"""The band of a vehicle: its own, and as much of it as a road is known in."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.errors import VehicleError
+from modeviz.export.coverage import band_text, coverage_note
+from modeviz.export.records import psd_record
+from modeviz.export.tables import psd_table
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions, solve
+
+
+def test_a_vehicle_has_the_lines_and_modes_of_its_own_band():
+    prepared = prepare(replace(mounted_cabin(), highest_frequency=50.0, frequency_step=0.25))
+    assert prepared.frequency_hz[[0, -1]].tolist() == [0.25, 50.0]
+    assert prepared.basis.top_hz == pytest.approx(50.0)
+    assert band_text(solve(prepared, {}, Conditions("flat", 20.0))) == "0 to 50 Hz"
+
+
+def test_a_road_answers_for_the_part_that_its_table_holds_and_says_so():
+    whole = prepare(mounted_cabin())
+    results = solve(whole, {}, Conditions("flat", 10.0))
+    assert results.frequency_hz[-1] == pytest.approx(30.0)
+    assert np.isfinite(results.rms).all()
+    assert results.rms[0, 2] > 0
+    assert "unknown" in coverage_note(results)
+    assert "RMS 0 to 30 Hz" in psd_table(results)
+    assert psd_record(results)["known_hz"] == [0.1, 30.0]
+    assert not coverage_note(solve(whole, {}, Conditions("flat", 20.0)))
+
+
+@pytest.mark.parametrize(
+    "band",
+    [{"frequency_step": 1e-4}, {"frequency_step": 7.0}, {"highest_frequency": np.inf}],
+)
+def test_a_band_that_cannot_be_is_refused(band):
+    with pytest.raises(VehicleError, match="frequency"):
+        replace(mounted_cabin(), **band)
