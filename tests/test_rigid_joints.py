@@ -193,6 +193,12 @@ def test_only_springs_rods_and_bolts_are_rigid():
         Vehicle("held", (block("a"),), (damper,))
 
 
+def test_a_vehicle_that_is_held_altogether_is_refused():
+    joint = Bolt("b", "bolts", ("a", GROUND), np.zeros((2, 3)), rigid=MOTIONS)
+    with pytest.raises(VehicleError, match="the rigid connections hold everything"):
+        assemble(Vehicle("held", (block("a"),), (joint,)))
+
+
 def test_an_unknown_motion_is_named():
     with pytest.raises(VehicleError, match=r"rigid: unknown motion 'up'.*x, y, z, rx, ry, rz"):
         Bolt("b", "bolts", ("a", "c"), np.zeros((2, 3)), rigid=("up",))

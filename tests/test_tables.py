@@ -29,6 +29,7 @@ AS_LEFT_BY = {
     "columns of nothing": PLAIN.replace("\n", ",,\n"),
     "spaces": PLAIN.replace(",", " , "),
     "quotes": PLAIN.replace("left", '"left"').replace("1.5e-6", '"1.5e-6"'),
+    "spaces around quotes": PLAIN.replace("left", ' "left" ').replace("1e-9,0", '1e-9 , "0" '),
     "semicolons": PLAIN.replace(",", ";"),
     "decimal commas": PLAIN.replace(",", ";").replace(".", ","),
     "quoted decimal commas": PLAIN.replace(",", ";").replace("1.5e-6", '"1,5e-6"'),
@@ -128,6 +129,20 @@ def test_coherence_of_one_in_five_digits_is_one(tmp_path):
     coherence = np.abs(S[:, 0, 1]) ** 2 / (S[:, 0, 0] * S[:, 1, 1]).real
     assert coherence.max() < 1 + 1e-12
     assert coherence.min() > 1 - 4e-4
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"PK\x03\x04\x14\x00\x06\x00", "found no text, such as in a workbook"),
+        (HEADER.encode(), "found 0 lines above 0 Hz, expected two or more"),
+        ((HEADER + "1,1,1,0,0\n").encode(), "found 1 line above 0 Hz, expected two or more"),
+    ],
+)
+def test_a_file_without_a_road_is_refused(tmp_path, content, words):
+    (tmp_path / "r.csv").write_bytes(content)
+    with pytest.raises(VehicleError, match=words):
+        road(tmp_path / "r.csv")
 
 
 @pytest.mark.parametrize(

@@ -26,6 +26,8 @@ PLAIN = {
 }  # fmt: skip
 """What stands for letters that a terminal lacks, where taking off their accents doesn't do."""
 
+POWER_OF_TEN = re.compile("(?<=10)[⁻⁰¹²³⁴-⁹]+")
+
 
 def printable(text: str) -> str:
     """The text with control characters as their codes, which are those of JSON."""
@@ -42,7 +44,8 @@ def plain(text: str, encoding: str) -> str:
     try:
         text.encode(encoding)
     except UnicodeEncodeError:
-        return "".join(_plain_letter(letter, encoding) for letter in text)
+        level = POWER_OF_TEN.sub(lambda power: "^" + unicodedata.normalize("NFKD", power[0]), text)
+        return "".join(_plain_letter(letter, encoding) for letter in level)
     return text
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.dynamics.rigid_joints import RigidJoints, rigid_joints
+from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.connections import GROUND, MOTIONS, Connection, Rates
@@ -146,7 +147,11 @@ class System:
 
 
 def assemble(vehicle: Vehicle) -> System:
-    """The system matrices of a vehicle with the mount rates it has."""
+    """The system matrices of a vehicle with the mount rates it has.
+
+    Raises:
+        VehicleError: rigid connections leave nothing that moves.
+    """
     dofs = _number(vehicle)
     n_dofs = max(s.stop for s in dofs.values())
     M, C, K, K_g = np.zeros((4, n_dofs, n_dofs))
@@ -165,6 +170,11 @@ def assemble(vehicle: Vehicle) -> System:
         for v in zip(*map(connection_coefficients, vehicle.all_connections), strict=True)
     )
     held = np.array([m in c.rigid for c in vehicle.all_connections for m in MOTIONS])
+    joints = rigid_joints(M, R[held]) if held.any() else None
+    if joints and not joints.freedom.size:
+        raise VehicleError(
+            "the rigid connections hold everything, expected a vehicle in which something can move"
+        )
     return System(
         vehicle,
         dofs,
@@ -173,7 +183,7 @@ def assemble(vehicle: Vehicle) -> System:
         stiffness=K + (R.T * k) @ R,
         structural_damping=K_g + (R.T * (g * k)) @ R,
         connection_motions=R,
-        rigid_joints=rigid_joints(M, R[held]) if held.any() else None,
+        rigid_joints=joints,
     )
 
 

@@ -67,6 +67,10 @@ def read_text(path: Path, most: int = LARGEST_TEXT, otherwise: str | None = None
     """
     content = read_bytes(path, most)
     is_wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    if b"\0" in content and not is_wide:
+        raise VehicleError(
+            f"{path}: found no text, such as in a workbook of a spreadsheet; save it as text"
+        )
     try:
         return content.decode("utf-16" if is_wide else "utf-8-sig")
     except UnicodeDecodeError as error:

@@ -58,6 +58,9 @@ def read_spectrum_table(
         if not text.endswith(("\n", "\r")):
             note(f"{path.name}: the last line does not end; the file may be cut")
         rows = _above_zero(table.rows, path.name, note)
+        if len(rows) < 2:
+            lines = "1 line" if rows else "0 lines"
+            raise VehicleError(f"found {lines} above 0 Hz, expected two or more")
         units = [_unit(c, table.units[c], quantity, conventions) for c in columns[1:]]
         found = [[row.number(c, 0 if c in powers else -np.inf) for c in columns[1:]] for row in rows]
         values = np.array(found).reshape(-1, len(units)) * units

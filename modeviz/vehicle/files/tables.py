@@ -97,7 +97,9 @@ def _separator(header: str) -> str:
 
 def _cells(lines: list[str], first: int, separator: str):
     """The lines that are not empty, from the first on, with their numbers and cells."""
-    reader = csv.reader(lines[first:], delimiter=separator, strict=True, skipinitialspace=True)
+    after_quotes = re.compile(f'" +(?={re.escape(separator)}|$)')
+    tight = [after_quotes.sub('"', line) for line in lines[first:]]
+    reader = csv.reader(tight, delimiter=separator, strict=True, skipinitialspace=True)
     while True:
         line = first + reader.line_num + 1
         try:
