@@ -20,7 +20,7 @@ from modeviz.tuning.comparison import RateSet, compare
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.connections import GROUND, Spring
+from modeviz.vehicle.connections import GROUND, MOTIONS, Spring
 from modeviz.vehicle.files import write_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Rest
@@ -66,6 +66,20 @@ def test_the_change_is_that_of_a_body_made_with_fewer_modes(n_modes, n_fewer, lo
     worst = np.abs(f - trust.at_hz).argmin()
     assert expected[worst] == pytest.approx(expected.max(), rel=1e-5, abs=1e-12)
     assert trust.highest_hz == pytest.approx(body.natural_frequency_hz[n_modes - 1])
+
+
+def test_a_body_of_which_nothing_is_left_that_moves_needs_more_modes(tmp_path, printed_json, capsys):
+    """Of eight motions rigid springs hold seven, among them what the last but one makes move."""
+    body = BEAM.body("beam", n_modes=8)
+    springs = [
+        Spring(f"{node}", "s", (body.name, GROUND), np.tile(body.nodes[node], (2, 1)), rigid=rigid)
+        for node, rigid in ((0, MOTIONS), (10, ("z",)))
+    ]
+    vehicle = Vehicle("v", (body,), tuple(springs))
+    write_vehicle(vehicle, tmp_path / "v")
+    assert main(["modes", str(tmp_path / "v")]) == 0
+    assert "without its last mode nothing moves; it needs more modes" in capsys.readouterr().out
+    assert printed_json("modes", str(tmp_path / "v"))["components"][0]["change"] is None
 
 
 def test_few_modes_are_worth_less_than_many():

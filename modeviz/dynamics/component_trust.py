@@ -36,7 +36,8 @@ class ComponentTrust:
     n_left_out: int
     """How many of its elastic modes are a fifth."""
     change: float
-    """What leaving these out does to natural frequencies of the band at most, a part of them."""
+    """What leaving these out does to natural frequencies of the band at most, a part of them; infinite
+    where rigid connections then leave nothing that moves."""
     at_hz: float
     """The natural frequency that it does most to; zero if there is none."""
 
@@ -112,6 +113,8 @@ def _changes(system: System, coordinates: Floats, frequency_hz: Floats) -> Float
     if system.rigid_joints is not None:
         joints = rigid_joints(T.T @ system.mass @ T, system.rigid_joints.held @ T)
         T = T @ joints.freedom
+    if not T.size:
+        return np.full(len(frequency_hz), np.inf)
     K, M = T.T @ system.stiffness @ T, T.T @ system.mass @ T
     last = min(len(frequency_hz), len(M)) - 1
     squares = scipy.linalg.eigh(K, M, eigvals_only=True, subset_by_index=[0, last])

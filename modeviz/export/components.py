@@ -1,5 +1,8 @@
 """How far the components of a vehicle are believed, in words."""
 
+import math
+from dataclasses import asdict
+
 from modeviz.dynamics.component_trust import ComponentTrust
 from modeviz.tuning.results import ModalResults
 
@@ -24,8 +27,15 @@ def believed(results: ModalResults) -> tuple[str, ...]:
     return tuple(_words(trust, top_hz) for trust in results.prepared.components)
 
 
+def component_record(trust: ComponentTrust) -> dict[str, str | float | None]:
+    """The fields of a component's trust as JSON has them, a change that is infinite as null."""
+    return asdict(trust) | {"change": trust.change if math.isfinite(trust.change) else None}
+
+
 def change_words(trust: ComponentTrust) -> str:
     """What leaving out the last fifth of a body's modes does."""
+    if math.isinf(trust.change):
+        return "nothing moves"
     if trust.change < LEAST_SAID:
         return f"no frequency changes by {100 * LEAST_SAID:g} %"
     return f"frequencies rise by up to {100 * trust.change:.2g} % (at {trust.at_hz:.2f} Hz)"

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from modeviz.export.components import component_record
 from modeviz.ride.psd import amplitude_decibels
 from modeviz.tuning.following import Followed
 from modeviz.tuning.results import AXIS, ModalResults, Results, WheelResults
@@ -45,7 +46,7 @@ def modes_record(followed: Followed, below_hz: float) -> Record:
         "n_missed": results.trust.n_missed,
         "modes": [_mode_record(results, i) for i in _below(results, below_hz)],
         "original": [_origin_record(followed, i) for i in _below(followed.base, below_hz)],
-        "components": [asdict(trust) for trust in results.prepared.components],
+        "components": [component_record(trust) for trust in results.prepared.components],
     }
 
 
