@@ -16,6 +16,7 @@ from folders import one_of_everything
 from modeviz.cli import main
 from modeviz.errors import VehicleError
 from modeviz.vehicle.files import read_vehicle, write_vehicle
+from modeviz.vehicle.files.limits import check_size
 from modeviz.vehicle.files.modal import KINDS
 
 FILES = ["vehicle.toml", "roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"]
@@ -94,7 +95,7 @@ def test_a_file_of_three_gigabytes_is_not_read(complaint, folder, name):
     sparse(folder / name, 3_000_000_000)
     text = complaint(folder)
     assert f"{name}: found 3,000,000,000 bytes, expected at most" in text
-    assert "MODEVIZ_LIMIT=" in text
+    assert ("MODEVIZ_LIMIT=" in text) == (name != "vehicle.toml")  # 1500 times its limit
 
 
 @pytest.mark.parametrize(
@@ -248,6 +249,13 @@ def test_an_archive_of_very_many_names_is_refused_in_a_sentence(complaint, folde
         for i in range(20_000):
             archive.writestr(f"array {i}.npy", b"")
     assert "omega_n_squared: missing; there are array 0, array 1, " in complaint(folder)
+
+
+def test_no_limit_is_proposed_that_would_be_refused():
+    with pytest.raises(VehicleError, match="MODEVIZ_LIMIT=1000 in the environment would allow them"):
+        check_size("bytes", 1_000_000, 1000)
+    with pytest.raises(VehicleError, match=r"^found 1,000,001 bytes, expected at most 1,000$"):
+        check_size("bytes", 1_000_001, 1000)
 
 
 def test_limits_are_raised_by_the_environment(tmp_path, monkeypatch):

@@ -7,6 +7,9 @@ from modeviz.errors import VehicleError
 VARIABLE = "MODEVIZ_LIMIT"
 """The environment variable that allows everything to be so many times as large."""
 
+LARGEST_FACTOR = 1000
+"""The most that it may say."""
+
 
 def check_size(what: str, found: int, most: int) -> None:
     """Checks that there is not too much of something.
@@ -21,9 +24,11 @@ def check_size(what: str, found: int, most: int) -> None:
     """
     allowed = int(most * _factor())
     if found > allowed:
+        needed = -(-found // most)
+        advice = f"; {VARIABLE}={needed} in the environment would allow them"
         raise VehicleError(
-            f"found {found:,} {what}, expected at most {allowed:,}; "
-            f"{VARIABLE}={-(-found // most)} in the environment would allow them"
+            f"found {found:,} {what}, expected at most {allowed:,}"
+            f"{advice if needed <= LARGEST_FACTOR else ''}"
         )
 
 
@@ -38,6 +43,6 @@ def _factor() -> float:
         factor = float(text)
     except ValueError:
         factor = 0.0
-    if not 1 <= factor <= 1000:
-        raise VehicleError(f"{VARIABLE}: found {text!r}, expected a number from 1 to 1000")
+    if not 1 <= factor <= LARGEST_FACTOR:
+        raise VehicleError(f"{VARIABLE}: found {text!r}, expected a number from 1 to {LARGEST_FACTOR}")
     return factor
