@@ -81,6 +81,8 @@ class RandomFolder:
             f'name = "random {seed}"',
             f'axes = "{self.axes}"',
             f"speed = {self.value(23.0, 'speed')}",
+            f"highest_frequency = {self.rng.choice([30.0, 50.0])}",
+            f"frequency_step = {self.rng.choice([0.1, 0.25])}",
         ]
         for key, table in self._tables():
             lines += [f"[{key}]" if key == "units" else f"[[{key}]]"]
