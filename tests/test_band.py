@@ -12,6 +12,7 @@ from modeviz.export.records import psd_record
 from modeviz.export.tables import psd_table
 from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve
+from modeviz.vehicle.loads import Force, Spectrum
 
 
 def test_a_vehicle_has_the_lines_and_modes_of_its_own_band():
@@ -27,10 +28,19 @@ def test_a_road_answers_for_the_part_that_its_table_holds_and_says_so():
     assert results.frequency_hz[-1] == pytest.approx(30.0)
     assert np.isfinite(results.rms).all()
     assert results.rms[0, 2] > 0
-    assert "unknown" in coverage_note(results)
+    assert "to 30 Hz at 36 km/h: the answer is for this part" in coverage_note(results)
     assert "RMS 0 to 30 Hz" in psd_table(results)
     assert psd_record(results)["known_hz"] == [0.1, 30.0]
     assert not coverage_note(solve(whole, {}, Conditions("flat", 20.0)))
+
+
+def test_a_force_is_known_in_a_part_at_any_speed():
+    cabin = mounted_cabin()
+    seat = cabin.response_points[0]
+    known = Spectrum(np.array([1.0, 20.0]), np.ones(2))
+    shaker = Force("shaker", seat.body, seat.position, np.array([0.0, 0.0, 1.0]), known)
+    results = solve(prepare(replace(cabin, forces=(shaker,))), {}, Conditions("shaker", 10.0))
+    assert "shaker is known from 1 to 20 Hz: the answer is for this part" in coverage_note(results)
 
 
 @pytest.mark.parametrize(

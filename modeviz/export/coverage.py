@@ -2,6 +2,7 @@
 
 from modeviz.tuning.results import Results
 from modeviz.units import factor
+from modeviz.vehicle.loads import Road
 
 
 def band_text(results: Results) -> str:
@@ -12,13 +13,14 @@ def band_text(results: Results) -> str:
 
 
 def coverage_note(results: Results) -> str:
-    """What is not known because the road's table does not hold it; nothing if it holds all."""
+    """What is not known because the load's table does not hold it; nothing if it holds all."""
     if not results.drive.is_partial:
         return ""
-    road, speed = results.conditions.road, results.conditions.speed / factor("km/h", "speed")
+    name, speed = results.conditions.road, results.conditions.speed / factor("km/h", "speed")
+    at_speed = f" at {speed:g} km/h" if isinstance(results.drive.load, Road) else ""
     low, high = results.drive.known
     whole = results.prepared.frequency_hz
     return (
-        f"{road} is known from {low:g} to {high:g} Hz at {speed:g} km/h: the answer is for this part, "
-        f"and what the rest of {whole[0]:g} to {whole[-1]:g} Hz would add is unknown"
+        f"{name} is known from {low:g} to {high:g} Hz{at_speed}: the answer is for this part, and what "
+        f"the rest of {whole[0]:g} to {whole[-1]:g} Hz would add is unknown"
     )
