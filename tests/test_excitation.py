@@ -187,10 +187,10 @@ def test_every_way_to_solve_agrees_where_the_ground_moves_mounts():
             H = direct_response(system, f, forces, prepared.outputs)[:, :, 0]
             expected = np.abs(H) * (2 * np.pi * f[:, None]) ** 2 / STANDARD_GRAVITY
             error = np.abs(found[:, i].reshape(len(f), -1) - expected).max()
-            assert error < 1e-7 * expected.max()
+            assert error < 1e-9 * expected.max()
     results = mv.solve(prepared, rates, Conditions("random floor", 20.0))
     *_, check = check_exactly(results)
-    assert check.error < 1e-6
+    assert check.error < 1e-8
 
 
 def test_what_is_shown_moving_is_what_the_spectrum_is_of():

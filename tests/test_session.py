@@ -58,7 +58,7 @@ def test_a_change_of_rates_is_answered_with_what_solve_gives(session):
     vehicle = mounted_cabin()
     rates = {"A": replace(vehicle.rates["A"], lateral=1e5), "B": MountRates(5e5, 2e5, 3e5)}
     expected = solve(prepare(vehicle), rates, FLAT)
-    np.testing.assert_allclose(solved.now.psd, expected.psd, rtol=1e-9)
+    assert (np.abs(solved.now.psd - expected.psd) < 1e-8 * expected.psd.max(axis=0)).all()
     assert solved.state.rates == rates
 
 
@@ -167,7 +167,7 @@ def test_an_answer_at_rest_is_checked_against_the_full_model(session):
     assert session.wait_checked(60)
     check = session.answers[-1].rest.check
     assert check.is_complete
-    assert check.error < 1e-6
+    assert check.error < 1e-8
 
 
 def test_the_track_is_that_from_the_bases_modes_whatever_came_between(session):
@@ -273,8 +273,8 @@ def test_from_nearly_rigid_mounts_the_original_comes_back_exactly(session):
     assert session.wait_checked(60)
     solved = session.answers[-1]
     expected = solve(prepare(session.vehicle), solved.state.rates, FLAT)
-    np.testing.assert_allclose(solved.now.psd, expected.psd, rtol=1e-6)
-    assert solved.rest.check.error < 1e-6
+    assert (np.abs(solved.now.psd - expected.psd) < 1e-8 * expected.psd.max(axis=0)).all()
+    assert solved.rest.check.error < 1e-8
 
 
 def test_undo_and_redo_are_answered(session):

@@ -61,24 +61,6 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
     return BandModes(modes, viscous, structural, trust)
 
 
-def ritz_modes(basis: EnrichedBasis, stiffness: Complexes, below_hz: float) -> Modes:
-    """The modes below a frequency at other mount rates, as well as the basis holds them.
-
-    Args:
-        basis: of the vehicle; it is as good as for the band only up to the top of that.
-        stiffness: (n_springs,), complex rates, N/m.
-        below_hz: up to where.
-    """
-    change = stiffness - basis.mount_stiffness
-    R = basis.spring_motions
-    omega_squared, y = np.linalg.eigh(basis.stiffness + (R.T * change.real) @ R)
-    below = omega_squared < (2 * np.pi * below_hz) ** 2
-    omega, y = np.sqrt(np.maximum(omega_squared[below], 0.0)), y[:, below]
-    structural = _quadratic(basis.structural_damping, y) + change.imag @ (R @ y) ** 2
-    ratio = damping_ratio(omega, _quadratic(basis.damping, y), structural)
-    return Modes(omega / (2 * np.pi), basis.vectors @ y, ratio)
-
-
 def natural_frequencies(basis: EnrichedBasis, stiffness: Complexes) -> Floats:
     """The lowest natural frequencies, Hz, as many as the band has at the base rates.
 

@@ -16,10 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.band import ritz_modes
 from modeviz.dynamics.basis import EnrichedBasis
 from modeviz.dynamics.modes import RESOLVED_HZ
-from modeviz.dynamics.poles import poles_near
+from modeviz.dynamics.poles import poles_near, ritz_poles
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.vehicle.arrays import Complexes, Floats
 
@@ -32,9 +31,6 @@ N_POLES = 10
 LOCAL = 14.0
 """Distances of lines within which a pole is near."""
 
-WIDE = 8.0
-"""Distances of lines that a mode's half width may be for its pole to be looked for."""
-
 
 @dataclass(frozen=True, eq=False)
 class Between:
@@ -42,7 +38,7 @@ class Between:
 
     known: Receptances
     poles: Complexes
-    """(n_poles,), Hz: those near the real axis, and their images at negative frequencies."""
+    """(n_poles,), Hz: those near the lines."""
 
     @property
     def n_bytes(self) -> int:
@@ -117,7 +113,7 @@ def prepare_between(
     known: Receptances,
     basis: EnrichedBasis,
     rows: tuple[Floats, Floats],
-    along: Callable[[Complexes, Floats], Complexes],
+    along: Callable[[Complexes, Complexes], Complexes],
 ) -> Between:
     """What is needed to know receptances between their lines.
 
@@ -129,15 +125,14 @@ def prepare_between(
             mount springs, the outputs and the inputs.
     """
     f = known.frequency_hz
-    step = (f[-1] - f[0]) / max(len(f) - 1, 1)
-    modes = ritz_modes(basis, known.mount_stiffness, f[-1] + LOCAL * step)
-    gamma = modes.damping_ratio * modes.frequency_hz
-    sharp = (modes.frequency_hz > RESOLVED_HZ) & (gamma < WIDE * step)
-    starts = (modes.frequency_hz + 1j * gamma)[sharp]
-    motions = np.vstack([basis.system.mount_motions, *rows]) @ modes.shapes[:, sharp]
-    found = poles_near(starts, motions.T, along)
-    at_rest = np.zeros(2 if (modes.frequency_hz < RESOLVED_HZ).any() else 0, complex)
-    return Between(known, np.concatenate([at_rest, found, -found.conj()]))
+    reach = LOCAL * (f[-1] - f[0]) / max(len(f) - 1, 1)
+    poles, shapes = ritz_poles(basis, known.mount_stiffness)
+    is_free = np.abs(poles) < RESOLVED_HZ
+    is_near = (np.abs(poles.imag) < reach) & (f[0] - reach < poles.real) & (poles.real < f[-1] + reach)
+    wanted = is_near & ~is_free
+    motions = np.vstack([basis.system.mount_motions, *rows]) @ shapes[:, wanted]
+    found = poles_near(poles[wanted], motions.T, along)
+    return Between(known, np.concatenate([np.zeros(2 if is_free.any() else 0, complex), found]))
 
 
 def modified_between(
@@ -149,7 +144,7 @@ def modified_between(
         SolveError: with these rates an undamped resonance lies on a line.
     """
 
-    def along(frequency_hz: Complexes, directions: Floats) -> Complexes:
+    def along(frequency_hz: Complexes, directions: Complexes) -> Complexes:
         order = np.argsort(frequency_hz.real)
         G = between.at(frequency_hz[order]).modified(stiffness, pole=np.inf)
         n_springs, n_outputs = G.outputs.shape[1:]
@@ -166,6 +161,6 @@ def modified_between(
     return prepare_between(between.known.modified(stiffness), basis, rows, along)
 
 
-def _between(left: Floats, matrices: Complexes, right: Floats) -> Complexes:
+def _between(left: Complexes, matrices: Complexes, right: Complexes) -> Complexes:
     """leftᵀ A right of each, (n,)."""
     return np.einsum("ni,nij,nj->n", left, matrices, right)

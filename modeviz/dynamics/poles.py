@@ -4,9 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.dynamics.basis import EnrichedBasis
+from modeviz.vehicle.arrays import Complexes
 
-SECANT, ASTRAY = 1e-5, 0.1
+SECANT, ASTRAY = 1e-5, 1e-2
 """Relative to a pole: the first step to it, and how far it may be from where it is looked for."""
 
 BESIDE = 3.0
@@ -22,8 +23,29 @@ SAME = 1e-7
 """Relative distance of poles that are one."""
 
 
+def ritz_poles(basis: EnrichedBasis, stiffness: Complexes) -> tuple[Complexes, Complexes]:
+    """All poles, complex, Hz, (2 n_vectors,), and their shapes, (n_dofs, 2 n_vectors), with damping.
+
+    They are those of (K + jK_g + jωC - ω²) y = 0 in the enriched basis: of a real frequency's
+    equations, so that with structural damping a pole at negative frequency is no image of another.
+
+    Args:
+        basis: of the vehicle; it holds the poles of the band, others as well as it can.
+        stiffness: (n_springs,), complex rates, N/m.
+    """
+    R, n = basis.spring_motions, len(basis.stiffness)
+    scale = 2 * np.pi * basis.top_hz
+    change = stiffness - basis.mount_stiffness
+    pencil = np.zeros((2 * n, 2 * n), complex)
+    pencil[:n, n:] = np.eye(n)
+    K = basis.stiffness + 1j * basis.structural_damping + (R.T * change) @ R
+    pencil[n:, :n], pencil[n:, n:] = K / scale**2, 1j * basis.damping / scale
+    poles, y = np.linalg.eig(pencil)
+    return poles * basis.top_hz, basis.vectors @ y[:n]
+
+
 def poles_near(
-    starts: Complexes, directions: Floats, along: Callable[[Complexes, Floats], Complexes]
+    starts: Complexes, directions: Complexes, along: Callable[[Complexes, Complexes], Complexes]
 ) -> Complexes:
     """The poles near some frequencies, complex, Hz, rising, each once; no others than were found.
 

@@ -73,7 +73,7 @@ def receptances(
     return G
 
 
-def receptances_along(system: System, rows: Floats) -> "Callable[[Complexes, Floats], Complexes]":
+def receptances_along(system: System, rows: Floats) -> Callable[[Complexes, Complexes], Complexes]:
     """A function of complex frequencies (n,), Hz, and directions v, (n, n_rows): vᵀGv, (n,).
 
     Args:
@@ -82,13 +82,13 @@ def receptances_along(system: System, rows: Floats) -> "Callable[[Complexes, Flo
     """
     parts = _disassemble(system, rows)
 
-    def one(frequency_hz: complex, v: Floats) -> complex:
+    def one(frequency_hz: complex, v: Complexes) -> complex:
         try:
             return complex(v @ parts.solution(frequency_hz)[2] @ v)
         except SolveError:
             return complex(np.inf, 0)
 
-    def along(frequency_hz: Complexes, directions: Floats) -> Complexes:
+    def along(frequency_hz: Complexes, directions: Complexes) -> Complexes:
         with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(N_THREADS) as pool:
             return np.array(list(pool.map(one, frequency_hz, directions)), complex)
 
