@@ -175,11 +175,17 @@ def test_bodies_that_name_the_same_modes_count_each(folder, monkeypatch):
         read_vehicle(folder)
 
 
+POINT = '[[response_point]]\nname = "p{0}"\nbody = "b0"\nat = [0.0, 0.0, 0.0]\n'
+
 TEXTS = {
     "2 000 free bodies": (
         HEAD + "".join(BODY.format(i, 1) for i in range(2_000)),
-        "found 12,000 coordinates (6 of a rigid body, the modes of a flexible one), expected at most "
-        "2,000; MODEVIZ_LIMIT=6 in the environment would allow them",
+        "found 2,000 bodies, expected at most 200; MODEVIZ_LIMIT=10 in the environment",
+    ),
+    "a thousand response points": (
+        HEAD + BODY.format(0, 1) + "".join(POINT.format(i) for i in range(1_000)),
+        "found 3,600,000,000 responses between 3,000 directions of mounts, points and tyres at 400 "
+        "frequencies, expected at most 100,000,000; MODEVIZ_LIMIT=36",
     ),
     "100 000 free bodies": (
         HEAD + "".join(BODY.format(i, 1) for i in range(100_000)),

@@ -66,6 +66,12 @@ MOST_TABLES = 2_000
 COORDINATES, MOST_COORDINATES = "coordinates (6 of a rigid body, the modes of a flexible one)", 2_000
 """Five times the truck's; their time rises with the cube, their memory with the square."""
 
+MOST_BODIES = 200
+"""All that move freely have modes in the band, each of which takes time and is named."""
+
+MOST_RECEPTANCES = 100_000_000
+"""Complex numbers, 1.6 GB: between mount springs, points and loads at the lines of the band."""
+
 CONNECTION_KINDS: dict[str, type[Connection]] = {
     "spring": Spring,
     "rod": Rod,
@@ -142,6 +148,7 @@ def _check_counts(record: VehicleRecord) -> None:
         tables = getattr(record, key)
         if isinstance(tables, list):
             check_size(f"tables [[{key}]]", len(tables), MOST_TABLES)
+    check_size("bodies", len(record.rigid_body) + len(record.flexible_body), MOST_BODIES)
     check_size("mounts", sum(len(group.mount) for group in record.mount_group), MOST_TABLES)
     check_size(COORDINATES, 6 * len(record.rigid_body), MOST_COORDINATES)
 
@@ -177,10 +184,22 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         frequency_step=record.frequency_step,
         mode_damping=built(record.mode_damping, "mode_damping", ModeDampingRecord.build),
     )
+    _check_receptances(vehicle)
     axes = source.conventions.axes
     for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
         source.note(doubt)
     return replace(vehicle, notes=source.notes)
+
+
+def _check_receptances(vehicle: Vehicle) -> None:
+    """Raises VehicleError for more than fits into memory."""
+    n = 3 * (len(vehicle.mounts) + len(vehicle.response_points)) + 6 * len(vehicle.tyres)
+    n_lines = len(vehicle.frequency_hz)
+    check_size(
+        f"responses between {n:,} directions of mounts, points and tyres at {n_lines:,} frequencies",
+        n**2 * n_lines,
+        MOST_RECEPTANCES,
+    )
 
 
 def _write_content(vehicle: Vehicle, folder: Path) -> None:
