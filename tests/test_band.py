@@ -34,6 +34,16 @@ def test_a_road_answers_for_the_part_that_its_table_holds_and_says_so():
     assert not coverage_note(solve(whole, {}, Conditions("flat", 20.0)))
 
 
+def test_a_rating_says_of_which_part_of_its_band_it_is():
+    whole, short = mounted_cabin(), replace(mounted_cabin(), highest_frequency=30.0)
+    on_road = solve(prepare(whole), {}, Conditions("flat", 10.0))
+    for results in (on_road, solve(prepare(short), {}, Conditions("flat", 20.0))):
+        assert "of 0 to 30 Hz only" in results.rating.note
+        assert f"({results.rating.note})" in psd_table(results)
+        assert psd_record(results)["rating"]["note"] == results.rating.note
+    assert "of 0 to" not in solve(prepare(whole), {}, Conditions("flat", 20.0)).rating.note
+
+
 def test_a_force_is_known_in_a_part_at_any_speed():
     cabin = mounted_cabin()
     seat = cabin.response_points[0]
@@ -41,6 +51,7 @@ def test_a_force_is_known_in_a_part_at_any_speed():
     shaker = Force("shaker", seat.body, seat.position, np.array([0.0, 0.0, 1.0]), known)
     results = solve(prepare(replace(cabin, forces=(shaker,))), {}, Conditions("shaker", 10.0))
     assert "shaker is known from 1 to 20 Hz: the answer is for this part" in coverage_note(results)
+    assert "of 1 to 20 Hz only" in results.rating.note
 
 
 @pytest.mark.parametrize(

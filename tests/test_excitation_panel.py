@@ -1,5 +1,6 @@
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from modeviz.units import factor
@@ -15,12 +16,16 @@ def road(low_hz, high_hz, speed=20.0):
 @pytest.mark.parametrize(
     ("roads", "speed", "limits"),
     [
-        ([road(0.05, 60)], 20.0, (48, 144)),  # 20 m/s are 72 km/h
-        ([road(0.1, 40)], 20.0, (72, 73)),
-        ([road(0.1, 80), road(0.05, 40)], 20.0, (72, 73)),
-        ([road(0.1, 80, 10.0), road(0.05, 40)], 20.0, (72, 73)),
-        ([road(0.01, 400)], 50.0, (20, 180)),
+        ([road(0.05, 60)], 20.0, (5, 200)),  # 20 m/s are 72 km/h
+        ([road(0.1, 40)], 20.0, (5, 200)),
+        ([road(1.0, 2.0)], 20.0, (8, 200)),  # 0.2 Hz, the band's second line, at 7.2 km/h
+        ([road(30.0, 60.0)], 20.0, (5, 95)),  # 39.9 Hz at 95.8 km/h
+        ([road(1.0, 2.0), road(30.0, 60.0)], 20.0, (8, 95)),
+        ([road(0.01, 400)], 60.0, (5, 216)),
+        ([road(0.01, 400)], 1.0, (4, 200)),
+        ([], 20.0, (5, 200)),
     ],
 )
-def test_speeds_are_those_of_every_road_and_the_present_one(roads, speed, limits):
-    assert _speed_limits(roads, speed) == limits
+def test_speeds_are_those_at_which_every_road_says_something_and_the_present_one(roads, speed, limits):
+    vehicle = SimpleNamespace(roads=roads, frequency_hz=np.arange(1, 401) / 10)
+    assert _speed_limits(vehicle, speed) == limits

@@ -7,9 +7,7 @@ from modeviz.vehicle.loads import Road
 
 def band_text(results: Results) -> str:
     """Over what RMS values are taken: "0 to 40 Hz"."""
-    low, high = results.drive.known
-    starts_late = low > results.prepared.frequency_hz[0]
-    return f"{low if starts_late else 0.0:g} to {high:g} Hz"
+    return f"{results.drive.known_from_hz:g} to {results.drive.known[1]:g} Hz"
 
 
 def coverage_note(results: Results) -> str:

@@ -5,9 +5,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from modeviz.ride.psd import rms
+from modeviz.ride.psd import RIDE_BAND, rms
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
+
+WHOLE = 1e-9
+"""Relative: a band that ends so little below that of the rating is all of it."""
 
 COMFORT_FACTORS = (1.0, 1.0, 1.0)
 """k of x, y, z for the comfort of a seated person, at the seat's surface (ISO 2631-1, 8.2.2.1)."""
@@ -31,7 +34,7 @@ class Rating:
     """ISO 2631-1 vibration total value a_v = √Σ(k a_w)², m/s², comfort factors."""
 
 
-def rate(frequency_hz: Floats, acceleration_psd: Floats) -> Rating:
+def rate(frequency_hz: Floats, acceleration_psd: Floats, known_from_hz: float = 0.0) -> Rating:
     """The rating of a ride from the accelerations at the seat.
 
     The weightings of ISO 2631-1 are meant for the seat's surface; at the seat track they rate a
@@ -40,6 +43,7 @@ def rate(frequency_hz: Floats, acceleration_psd: Floats) -> Rating:
     Args:
         frequency_hz: (n_freqs,).
         acceleration_psd: (n_freqs, 3) fore-aft, lateral, vertical, g²/Hz.
+        known_from_hz: below it nothing is known; up to the last frequency everything is.
     """
     _, lateral, vertical = rms(frequency_hz, acceleration_psd)
     combined = float(np.hypot(lateral, vertical))
@@ -50,7 +54,7 @@ def rate(frequency_hz: Floats, acceleration_psd: Floats) -> Rating:
         rms_vertical_g=float(vertical),
         combined_g=combined,
         mean_personal_rating=rating,
-        note=_note(combined, rating),
+        note=_note(combined, rating, (known_from_hz, float(frequency_hz[-1]))),
         weighted_rms=weighted,
         weighted_total=float(np.linalg.norm(np.multiply(COMFORT_FACTORS, weighted))),
     )
@@ -65,12 +69,23 @@ def mean_personal_rating(combined_g: float) -> float:
     return 10.9 - 80.0 * combined_g
 
 
-def _note(combined_g: float, rating: float) -> str:
+def _note(combined_g: float, rating: float, known_hz: tuple[float, float]) -> str:
     if combined_g == 0:
         return "nothing that shakes the vehicle gets to this point"
-    if 0 <= rating <= 10:
+    notes = [_part(*known_hz)]
+    if not 0 <= rating <= 10:
+        notes.append("outside of the scale from 0 to 10: compare differences, not the value")
+    return "; ".join(filter(None, notes))
+
+
+def _part(low_hz: float, high_hz: float) -> str:
+    """Of which part of its band a rating is, nothing if of all."""
+    low, high = RIDE_BAND
+    if low_hz <= low and high_hz >= high * (1 - WHOLE):
         return ""
-    return "outside of the scale from 0 to 10: compare differences, not the value"
+    return (
+        f"of {low_hz:g} to {min(high_hz, high):g} Hz only, where the scale is of {low:g} to {high:g} Hz"
+    )
 
 
 def weighted_rms(frequency_hz: Floats, acceleration_psd: Floats) -> tuple[float, float, float]:

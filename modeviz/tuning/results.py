@@ -70,6 +70,12 @@ class Drive(Driven):
         return float(self.frequency_hz[0]), float(self.frequency_hz[-1])
 
     @property
+    def known_from_hz(self) -> float:
+        """Below it nothing is known: zero where the load is known from the band's first line."""
+        low = float(self.frequency_hz[0])
+        return low if low > self.prepared.frequency_hz[0] else 0.0
+
+    @property
     def is_partial(self) -> bool:
         """Whether there is more of the band, of which nothing is known."""
         return len(self.frequency_hz) < len(self.prepared.frequency_hz)
@@ -180,7 +186,7 @@ class Results(ModalResults):
     @cached_property
     def rating(self) -> Rating:
         """Of the first response point, the driver's."""
-        return rate(self.frequency_hz, self.psd[:, 0])
+        return rate(self.frequency_hz, self.psd[:, 0], self.drive.known_from_hz)
 
     def response(self, point: int, direction: str) -> Floats:
         """Acceleration PSD of a response point along one of `DIRECTIONS`, (n_freqs,), g²/Hz."""

@@ -1,7 +1,7 @@
 """Right column: what excites the vehicle, and the scales of the charts."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -9,9 +9,8 @@ import numpy as np
 import viser
 
 from modeviz.export.wording import sentence_case, told_apart
-from modeviz.tuning.preparation import FREQUENCY_HZ
 from modeviz.units import factor
-from modeviz.vehicle.loads import Road
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding, show_all
@@ -20,7 +19,7 @@ from modeviz.viewer.session import Session
 from modeviz.viewer.settle import WriteBack
 from modeviz.viewer.state import State
 
-SPEEDS = (20, 160)
+SPEEDS = (5, 200)
 """km/h: what is of interest."""
 
 PER_KMH = factor("km/h", "speed")
@@ -54,7 +53,7 @@ class ExcitationPanel:
             lambda state: state.conditions.road,
             lambda road: self._drive(road=road),
         )
-        self._add_speed(gui, _speed_limits(vehicle.roads, session.state.conditions.speed))
+        self._add_speed(gui, _speed_limits(vehicle, session.state.conditions.speed))
         self._about = gui.add_html("")
         self._add_choice(
             gui,
@@ -139,13 +138,15 @@ def _about(state: State) -> str:
     return "The rear wheels meet the same road later, by wheelbase and speed."
 
 
-def _speed_limits(roads: Sequence[Road], speed: float) -> tuple[int, int]:
-    """The speeds, whole km/h within `SPEEDS`, at which every road's table holds the whole band.
+def _speed_limits(vehicle: Vehicle, speed: float) -> tuple[int, int]:
+    """The speeds, whole km/h within `SPEEDS`, at which every road's table holds something of the band.
 
     One more than that, where there is none but the present one, m/s: a slider needs two ends.
     """
-    slowest = max((FREQUENCY_HZ[-1] / r.frequency_hz[-1] * r.speed for r in roads), default=0.0)
-    fastest = min((FREQUENCY_HZ[0] / r.frequency_hz[0] * r.speed for r in roads), default=np.inf)
+    roads, band = vehicle.roads, vehicle.frequency_hz
+    second, last_but_one = band[:2][-1], band[-2:][0]
+    slowest = max((second / r.frequency_hz[-1] * r.speed for r in roads), default=0.0)
+    fastest = min((last_but_one / r.frequency_hz[0] * r.speed for r in roads), default=np.inf)
     present = round(speed / PER_KMH)
     low = min(max(math.ceil(slowest / PER_KMH), SPEEDS[0]), present)
     high = max(math.floor(min(fastest / PER_KMH, SPEEDS[1])), present)

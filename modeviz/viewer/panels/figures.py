@@ -85,10 +85,9 @@ def _road_figures(solved: Solved, responses: Responses) -> str:
     value = _band_rms(now)
     label, about = f"Lat. {BAND[0]:g}–{BAND[1]:g} Hz", f"RMS lateral, {_point(now)}, in this band"
     figures.append(_figure(label, f"{value:.3f}", "g", change(value, _band_rms(base)), about))
-    note = coverage_note(now)
-    return f'<div class="figures">{"".join(figures)}</div>' + (
-        span(escape(note), "dim") if note else ""
-    )
+    about_rating = f"Rating: {now.rating.note}" if now.rating.note else ""
+    notes = (span(escape(note), "dim") for note in (coverage_note(now), about_rating) if note)
+    return f'<div class="figures">{"".join(figures)}</div>' + "<br>".join(notes)
 
 
 def _wheel_figures(solved: Solved, responses: Responses) -> str:
