@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from modeviz.ride.participation import Peak
 from modeviz.ride.psd import rms
 from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import AXIS, Conditions, Results, solve, solve_wheels
@@ -134,7 +135,7 @@ class Comparison:
             results = solve(prepared, {}, Conditions(road, prepared.vehicle.speed))
             lines = [int(np.abs(results.frequency_hz - f).argmin()) for f, *_ in peaks]
             for peak in results.peaks(0, direction, len(results.names), lines):
-                rows.append({results.names[c.mode].name: c.ratio for c in peak.contributors})
+                rows.append(_by_name(results, peak))
         return tuple(rows)
 
     @property
@@ -251,7 +252,7 @@ def _participation(comparison: Comparison) -> list[str]:
         found = results.peaks(0, direction, 2)
         for f, first, second, ratio in peaks:
             peak = min(found, key=lambda peak, f=f: abs(peak.frequency_hz - f))
-            near = {results.names[c.mode].name: c.ratio for c in peak.contributors}
+            near = _by_name(results, peak)
             cells = (
                 f"{road}, {direction}",
                 f"{f:.1f} Hz: {first}, {second} {ratio:.2f}",
@@ -260,6 +261,12 @@ def _participation(comparison: Comparison) -> list[str]:
             )
             lines.append(f"| {' | '.join(cells)} |")
     return lines
+
+
+def _by_name(results: Results, peak: Peak) -> dict[str, float]:
+    """The ratios of the band's modes in a peak."""
+    names = results.names
+    return {names[c.mode].name: c.ratio for c in peak.contributors if c.mode < len(names)}
 
 
 def _largest(contributors: Mapping[str, float]) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.dynamics.basis import REACH
 from modeviz.errors import VehicleError
 from modeviz.export.coverage import band_text, coverage_note
 from modeviz.export.records import psd_record
@@ -61,3 +62,27 @@ def test_a_force_is_known_in_a_part_at_any_speed():
 def test_a_band_that_cannot_be_is_refused(band):
     with pytest.raises(VehicleError, match="frequency"):
         replace(mounted_cabin(), **band)
+
+
+@pytest.mark.parametrize("direction", ["vertical", "lateral", "fore-aft"])
+def test_modes_above_the_band_have_the_part_in_a_peak_that_a_wider_band_gives_them(direction):
+    """Within what damping couples, which for modes above the band is left out."""
+    top = 10.5
+    short, wide = (
+        solve(prepare(replace(mounted_cabin(), highest_frequency=f)), {}, Conditions("flat", 20.0))
+        for f in (top, 20.0)
+    )
+    found, expected = (
+        results.peaks(0, direction, 5, [int(np.abs(results.frequency_hz - top).argmin())])[
+            0
+        ].contributors
+        for results in (short, wide)
+    )
+    assert any((short.part_frequency(c.mode) or 0) > top for c in found)
+    for ours, true in zip(found, expected, strict=True):
+        f = wide.part_frequency(true.mode)
+        if f < REACH * top:
+            assert short.part_frequency(ours.mode) == pytest.approx(f, rel=1e-6)
+        else:
+            assert short.part_name(ours.mode) == "static rest"
+        assert ours.ratio == pytest.approx(true.ratio, abs=0.01)

@@ -61,6 +61,25 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
     return BandModes(modes, viscous, structural, trust)
 
 
+def modes_above(basis: EnrichedBasis, stiffness: Complexes, n_band: int) -> Modes:
+    """The modes of the basis above those of the band, as well as it holds them.
+
+    Up to `REACH` times the band they are modes of the vehicle, the others what stands for the rest.
+
+    Args:
+        basis: of the vehicle.
+        stiffness: (n_springs,), complex rates, N/m.
+        n_band: how many modes the band has.
+    """
+    change = stiffness - basis.mount_stiffness
+    R = basis.spring_motions
+    omega_squared, y = np.linalg.eigh(basis.stiffness + (R.T * change.real) @ R)
+    omega, y = np.sqrt(np.maximum(omega_squared[n_band:], 0.0)), y[:, n_band:]
+    structural = _quadratic(basis.structural_damping, y) + change.imag @ (R @ y) ** 2
+    ratio = damping_ratio(omega, _quadratic(basis.damping, y), structural)
+    return Modes(omega / (2 * np.pi), basis.vectors @ y, ratio)
+
+
 def natural_frequencies(basis: EnrichedBasis, stiffness: Complexes) -> Floats:
     """The lowest natural frequencies, Hz, as many as the band has at the base rates.
 

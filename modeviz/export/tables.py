@@ -150,4 +150,4 @@ def _largest(energy: Mapping[str, Floats], mode: int) -> str:
 
 
 def _modes_in(results: Results, peak: Peak) -> str:
-    return ", ".join(f"{results.names[c.mode].spoken} {c.ratio:.2f}" for c in peak.contributors)
+    return ", ".join(f"{results.part_name(c.mode)} {c.ratio:.2f}" for c in peak.contributors)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.modes import Modes
 from modeviz.ride.psd import power_decibels
 from modeviz.vehicle.arrays import Complexes, Floats
 
@@ -17,7 +18,7 @@ class Contributor:
     """A mode's part in a response."""
 
     mode: int
-    """Its index, from zero."""
+    """Its index, from zero; those above the band follow those of the band, and last comes the rest."""
     ratio: float
     """Of its participation to the largest one."""
 
@@ -47,6 +48,32 @@ def participation(output_shapes: Floats, modal_coordinates: Complexes, input_psd
     q = modal_coordinates
     own = ((q @ input_psd) * q.conj()).sum(axis=2).real
     return np.abs(output_shapes) * np.sqrt(np.maximum(own, 0.0))
+
+
+def participation_above(
+    modes: Modes,
+    n_single: int,
+    output_shapes: Floats,
+    modal_forces: Complexes,
+    frequency_hz: Floats,
+    input_psd: Complexes,
+) -> Floats:
+    """That of modes which damping couples to no other, and of the rest, (n_freqs, n_single + 1).
+
+    Args:
+        modes: rising.
+        n_single: how many stand for themselves; the others count together.
+        output_shapes: φ_o, (n_modes,).
+        modal_forces: φᵀF, (n_freqs, n_modes, n_inputs).
+        frequency_hz: (n_freqs,).
+        input_psd: S_ff, (n_freqs, n_inputs, n_inputs).
+    """
+    omega, omega_n = 2 * np.pi * np.asarray(frequency_hz)[:, None], 2 * np.pi * modes.frequency_hz
+    Z = omega_n**2 - omega**2 + 2j * modes.damping_ratio * omega_n * omega
+    moved = output_shapes[:, None] * modal_forces / Z[:, :, None]
+    rest = moved[:, n_single:].sum(axis=1, keepdims=True)
+    parts = np.concatenate([moved[:, :n_single], rest], axis=1)
+    return participation(np.ones(n_single + 1), parts, input_psd)
 
 
 def contributors(participations: Floats, count: int) -> tuple[Contributor, ...]:

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System
-from modeviz.dynamics.band import BandModes, Method, band_modes
+from modeviz.dynamics.band import BandModes, Method, band_modes, modes_above
+from modeviz.dynamics.basis import REACH
 from modeviz.dynamics.damped import DampedModes, damped_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
@@ -19,7 +20,7 @@ from modeviz.dynamics.trust import Trust
 from modeviz.errors import ModevizError
 from modeviz.ride.excitation import Load, excitation, input_spectrum, known_part
 from modeviz.ride.integration import line_distances
-from modeviz.ride.participation import Peak, participation, peak_lines, peaks
+from modeviz.ride.participation import Peak, participation, participation_above, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
 from modeviz.tuning.driven import Driven, driven
@@ -199,7 +200,7 @@ class Results(ModalResults):
     def peaks(
         self, point: int, direction: str, count: int = 3, lines: Sequence[int] | None = None
     ) -> tuple[Peak, ...]:
-        """Peaks of that response with the `count` modes of the band that make most of each.
+        """Peaks of that response with the `count` modes that make most of each, see `part_name`.
 
         Args:
             point: number of the response point.
@@ -208,23 +209,65 @@ class Results(ModalResults):
             lines: which peaks, all of `peak_lines` if None.
         """
         at = np.asarray(self.peak_lines(point, direction) if lines is None else lines, int)
-        output = self.prepared.outputs[3 * point + AXIS[direction]] @ self.modes.shapes
-        coordinates = self.modal_coordinates(self.drive.load, self.frequency_hz[at])
-        parts = participation(output, coordinates, self.drive.spectrum_at(self.frequency_hz[at]))
-        return peaks(self.frequency_hz[at], self.response(point, direction)[at], parts, count)
+        f = self.frequency_hz[at]
+        output = 3 * point + AXIS[direction]
+        parts = self.participation(output, self.drive.load, f, self.drive.spectrum_at(f))
+        return peaks(f, self.response(point, direction)[at], parts, count)
 
-    def modal_coordinates(self, load: Load, frequency_hz: Floats) -> Complexes:
-        """How much of each mode each input of a load makes, (n_freqs, n_modes, n_inputs)."""
-        band, prepared = self.band, self.prepared
+    def participation(
+        self, output: int, load: Load, frequency_hz: Floats, input_psd: Complexes
+    ) -> Floats:
+        """That of the band's modes, of those above, and of the rest, (n_freqs, n_parts).
+
+        Args:
+            output: which row of the prepared outputs.
+            load: what shakes.
+            frequency_hz: (n_freqs,).
+            input_psd: of its inputs, (n_freqs, n_inputs, n_inputs).
+        """
+        band, above, prepared = self.band, self.above, self.prepared
         stiffness = prepared.mount_stiffness(self.rates)
         inputs = excitation(prepared.vehicle, load, frequency_hz, self.conditions.speed, stiffness)
-        return modal_coordinates(
+        q = modal_coordinates(
             band.modes.omega_n_squared,
             band.damping,
             band.structural_damping,
             frequency_hz,
             self._stretches.T @ inputs.forces,
         )
+        row = prepared.outputs[output]
+        forces = (prepared.input_directions @ above.shapes).T @ inputs.forces
+        return np.hstack(
+            [
+                participation(row @ self.modes.shapes, q, input_psd),
+                participation_above(
+                    above, self._n_above, row @ above.shapes, forces, frequency_hz, input_psd
+                ),
+            ]
+        )
+
+    def part_name(self, part: int) -> str:
+        """What a contributor to a peak is called where it is spoken of."""
+        if part < len(self.names):
+            return self.names[part].spoken
+        f = self.part_frequency(part)
+        return "static rest" if f is None else f"mode above the band, {f:.1f} Hz"
+
+    def part_frequency(self, part: int) -> float | None:
+        """The frequency of a contributor to a peak, Hz; the rest has none."""
+        frequencies = [*self.modes.frequency_hz, *self.above.frequency_hz[: self._n_above]]
+        return float(frequencies[part]) if part < len(frequencies) else None
+
+    @cached_property
+    def above(self) -> Modes:
+        """The modes of the basis above those of the band."""
+        stiffness = self.prepared.mount_stiffness(self.rates)
+        return modes_above(self.prepared.basis, stiffness, len(self.modes.frequency_hz))
+
+    @cached_property
+    def _n_above(self) -> int:
+        """How many of these are modes of the vehicle and not of the basis alone."""
+        return int(np.searchsorted(self.above.frequency_hz, REACH * self.prepared.basis.top_hz))
 
     @cached_property
     def _stretches(self) -> Floats:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeviz.ride.participation import Peak, participation, peak_lines, peaks
+from modeviz.ride.participation import Peak, peak_lines, peaks
 from modeviz.tuning.results import AXIS, Results, WheelResults
 
 
@@ -35,8 +35,7 @@ def wheel_peaks(
     """
     found = wheel_peak_lines(wheels, load, point, direction) if lines is None else lines
     at = np.asarray(found, int)
-    prepared, f = results.prepared, results.frequency_hz[at]
-    q = results.modal_coordinates(prepared.vehicle.harmonic_loads[load], f)
-    output = prepared.outputs[3 * point + AXIS[direction]] @ results.modes.shapes
-    parts = participation(output, q, np.ones((len(at), 1, 1), complex))
+    f, shaken = wheels.frequency_hz[at], results.prepared.vehicle.harmonic_loads[load]
+    one = np.ones((len(at), 1, 1), complex)
+    parts = results.participation(3 * point + AXIS[direction], shaken, f, one)
     return peaks(f, wheels.acceleration_g[at, load, point, AXIS[direction]], parts, count)

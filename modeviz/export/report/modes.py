@@ -205,13 +205,13 @@ def participation(comparison: Comparison) -> str:
 
 
 def _peak_rows(results: Results, direction: str) -> Iterator[list[str]]:
-    f, names = results.modes.frequency_hz, results.names
     low, high = shown_hz(results.prepared.vehicle.highest_frequency)
     for peak in results.peaks(0, direction, 2):
         if low <= peak.frequency_hz <= high:
             cells = [f"{peak.frequency_hz:.2f}", number(float(power_decibels(np.array(peak.level))), 1)]
             for c in peak.contributors:
-                cells += [f"{f[c.mode]:.2f}", escape(names[c.mode].spoken)]
+                f = results.part_frequency(c.mode)
+                cells += [NONE if f is None else f"{f:.2f}", escape(results.part_name(c.mode))]
             if len(peak.contributors) == 2:
                 cells.append(f"{peak.contributors[1].ratio:.2f}")
             yield cells + [NONE] * (7 - len(cells))

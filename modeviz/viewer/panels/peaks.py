@@ -75,7 +75,7 @@ class PeaksPanel:
         """A peak's modes, which are added to those that can be clicked."""
         pills = []
         for part in peak.contributors:
-            name = sentence_case(solved.now.names[part.mode].spoken)
+            name = sentence_case(solved.now.part_name(part.mode))
             about = f"{name}: {part.ratio:.2f} of the largest part in this peak"
             text = f"<span>{escape(name)}</span><b>{part.ratio:.2f}</b>"
             on = " on" if part.mode == solved.mode else ""
@@ -88,7 +88,8 @@ class PeaksPanel:
         contributors = self._contributors
         if i < len(contributors):  # else another answer came between the click and here
             chosen, results = contributors[i], contributors[i].results
-            self._session.show_mode(results.names[chosen.mode].name, results.rates, chosen.group)
+            if chosen.mode < len(results.names):
+                self._session.show_mode(results.names[chosen.mode].name, results.rates, chosen.group)
 
 
 def strongest(responses: Responses, curve: Curve, solved: Solved) -> list[int]:
