@@ -84,7 +84,7 @@ def test_the_seat_moves_at_its_peak_mostly_by_the_cab_yaw_and_the_tramp():
     )
     assert 0.05 < moving.likeness(moving.on_road, moving.damped.shape) < 0.5
     assert moving.likeness(moving.damped.shape, moving.damped.shape) == pytest.approx(1.0)
-    assert moving.shares[0].name == "lateral"
+    assert moving.shares[0].name == "yaw"
 
 
 @pytest.fixture(scope="module")

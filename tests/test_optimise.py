@@ -288,16 +288,16 @@ def test_on_the_truck_a_window_that_the_best_design_keeps_by_itself_costs_nothin
 
 
 @pytest.mark.slow
-def test_on_the_truck_twenty_starts_find_the_same_best_whatever_the_seed():
+def test_on_the_truck_forty_starts_find_the_same_best_whatever_the_seed():
     vehicle = mv.read_vehicle(mv.builtin_vehicle())
     problem = vehicle.problem("paper")
     with threadpool_limits(limits=1, user_api="blas"):
         search = prepare_search(vehicle, problem, vehicle.rates, vehicle.speed)
-        found = [optimise(search, start_points(search, {}, 20, seed)) for seed in (0, 1)]
+        found = [optimise(search, start_points(search, {}, 40, seed)) for seed in (0, 1)]
         paper = search.goal.value(vehicle.rate_sets[problem.reference])
     for optimum in found:
         assert optimum.converged
-        assert optimum.value == pytest.approx(0.326, rel=1e-2)
+        assert optimum.value == pytest.approx(0.265, rel=1e-2)
         assert optimum.value < paper < 1
         assert excess(search.space, optimum.x) < 1e-12
         assert optimum.verification.difference < 1e-9

@@ -81,4 +81,4 @@ def test_every_mode_below_20_hz_is_within_0_005_percent_of_the_full_model(case):
 def test_the_papers_modes_alone_are_percents_off(case):
     full, paper, _ = paired_frequencies(case, case.paper)
     worst = np.abs(paper / full - 1).max()
-    assert 0.015 < worst < 0.05
+    assert 0.03 < worst < 0.12

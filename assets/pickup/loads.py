@@ -20,8 +20,8 @@ FOOTPRINTS = {
 }
 """Where each added mass is held; it follows the least-squares rigid motion of these points."""
 
-RADIAL_FORCE = {"front": 27.4, "rear": 35.3}
-LATERAL_FORCE = {"front": 41.3, "rear": 61.2}
+RADIAL_FORCE = {"front": 24.3, "rear": 39.1}
+LATERAL_FORCE = {"front": 43.9, "rear": 73.1}
 """Peak force variation of a tyre, N, flat in frequency: fitted to the levels of Tables 5 and 6."""
 UNBALANCE = 0.015 * 0.19
 """kg m: 15 g at the rim, what a wheel balanced in service is left with."""

@@ -30,10 +30,10 @@ def rigid_bodies(p: Parameters, meshes: dict[str, Mesh]) -> tuple[RigidBody, ...
             "unsprung",
             p.axle_mass,
             (WHEELBASE, 0.0, WHEEL_RADIUS),
-            np.diag([p.axle_ixx, p.axle_iyy, 52.0]),
+            np.diag([p.axle_ixx, p.axle_iyy, p.axle_ixx]),
         ),
         body(
-            "propshaft", "linkage", PROPSHAFT_MASS, (1.95, 0.0, 0.42), np.diag([0.05, slender, slender])
+            "propshaft", "linkage", PROPSHAFT_MASS, (1.95, 0.0, 0.42), np.diag([0.06, slender, slender])
         ),
         body("steering linkage", "linkage", 8.0, (-0.16, 0.0, 0.42), np.diag([0.30, 0.05, 0.30])),
     ]
