@@ -31,6 +31,9 @@ class BandModes:
     structural_damping: Floats
     """φᵀK_gφ, (n_modes, n_modes)."""
     trust: Trust
+    ritz: tuple[Floats, Floats] | None
+    """ω² (n_vectors,) and vectors (n_vectors, n_vectors) of all modes of the enriched basis; None if
+    the band's were found otherwise."""
 
 
 def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enriched") -> BandModes:
@@ -58,26 +61,27 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
         missed(n_counted, solution.omega_squared, basis.top),
     )
     modes = Modes(omega / (2 * np.pi), solution.shapes, ratio)
-    return BandModes(modes, viscous, structural, trust)
+    return BandModes(modes, viscous, structural, trust, solution.ritz)
 
 
-def modes_above(basis: EnrichedBasis, stiffness: Complexes, n_band: int) -> Modes:
-    """The modes of the basis above those of the band, as well as it holds them.
+def modes_above(basis: EnrichedBasis, stiffness: Complexes, band: BandModes) -> Modes:
+    """The modes of the basis above those of the band, as well as it holds them, in its vectors.
 
     Up to `REACH` times the band they are modes of the vehicle, the others what stands for the rest.
 
     Args:
         basis: of the vehicle.
         stiffness: (n_springs,), complex rates, N/m.
-        n_band: how many modes the band has.
+        band: its modes at these rates.
     """
     change = stiffness - basis.mount_stiffness
     R = basis.spring_motions
-    omega_squared, y = np.linalg.eigh(basis.stiffness + (R.T * change.real) @ R)
+    omega_squared, y = band.ritz or np.linalg.eigh(basis.stiffness + (R.T * change.real) @ R)
+    n_band = len(band.modes.frequency_hz)
     omega, y = np.sqrt(np.maximum(omega_squared[n_band:], 0.0)), y[:, n_band:]
     structural = _quadratic(basis.structural_damping, y) + change.imag @ (R @ y) ** 2
     ratio = damping_ratio(omega, _quadratic(basis.damping, y), structural)
-    return Modes(omega / (2 * np.pi), basis.vectors @ y, ratio)
+    return Modes(omega / (2 * np.pi), y, ratio)
 
 
 def natural_frequencies(basis: EnrichedBasis, stiffness: Complexes) -> Floats:
@@ -122,6 +126,8 @@ class _Solution:
     """See `Trust.residual`."""
     error: Floats
     """See `Trust`, of ω², but for rounding."""
+    ritz: tuple[Floats, Floats] | None = None
+    """See `BandModes`."""
 
 
 def _ritz(basis: EnrichedBasis, change: Floats, method: Method) -> _Solution:
@@ -129,8 +135,8 @@ def _ritz(basis: EnrichedBasis, change: Floats, method: Method) -> _Solution:
     n = basis.n_modes if method == "classic" else basis.vectors.shape[1]
     R = basis.spring_motions
     A = basis.stiffness + (R.T * change) @ R
-    roughly, y = np.linalg.eigh(A[:n, :n])
-    y = y[:, roughly < 2 * basis.top]
+    roughly, every = np.linalg.eigh(A[:n, :n])
+    y = every[:, roughly < 2 * basis.top]
     omega_squared, y = _lowest(basis, basis.stiffness[:n, :n], R[:, :n], change, y)
     stretch = R[:, :n] @ y
     inside = A[:, :n] @ y
@@ -146,6 +152,7 @@ def _ritz(basis: EnrichedBasis, change: Floats, method: Method) -> _Solution:
         np.hypot(inside_norm, np.linalg.norm(outside, axis=0)),
         _amplification(basis, omega_squared)
         * (_quadratic(basis.remainder_compliance, outside) + _compliance_of(A[n:, n:], inside[n:])),
+        (roughly, every) if method == "enriched" else None,
     )
 
 

@@ -101,6 +101,11 @@ class Prepared(PreparedModes):
     outputs: Floats
     """Rows (3 n_points, n_dofs) that read x, y, z of every response point."""
 
+    @cached_property
+    def input_motions(self) -> Floats:
+        """How far each vector of the basis moves along these directions, (n_directions, n_vectors)."""
+        return self.input_directions @ self.basis.vectors
+
     @property
     def frequency_hz(self) -> Floats:
         """(n_freqs,): where responses are given; others are where `lines` puts them."""

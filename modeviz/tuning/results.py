@@ -236,12 +236,17 @@ class Results(ModalResults):
             self._stretches.T @ inputs.forces,
         )
         row = prepared.outputs[output]
-        forces = (prepared.input_directions @ above.shapes).T @ inputs.forces
+        forces = (prepared.input_motions @ above.shapes).T @ inputs.forces
         return np.hstack(
             [
                 participation(row @ self.modes.shapes, q, input_psd),
                 participation_above(
-                    above, self._n_above, row @ above.shapes, forces, frequency_hz, input_psd
+                    above,
+                    self._n_above,
+                    row @ prepared.basis.vectors @ above.shapes,
+                    forces,
+                    frequency_hz,
+                    input_psd,
                 ),
             ]
         )
@@ -260,9 +265,9 @@ class Results(ModalResults):
 
     @cached_property
     def above(self) -> Modes:
-        """The modes of the basis above those of the band."""
+        """The modes of the basis above those of the band, in its vectors."""
         stiffness = self.prepared.mount_stiffness(self.rates)
-        return modes_above(self.prepared.basis, stiffness, len(self.modes.frequency_hz))
+        return modes_above(self.prepared.basis, stiffness, self.band)
 
     @cached_property
     def _n_above(self) -> int:
