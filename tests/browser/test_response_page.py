@@ -5,11 +5,12 @@ import json
 import numpy as np
 import pytest
 from apps import open_app
+from charts import at_lines, has_lines
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
 from modeviz.cli import main
-from modeviz.tuning.preparation import FREQUENCY_HZ, prepare
+from modeviz.tuning.preparation import prepare
 from modeviz.tuning.results import Conditions, solve
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import write_vehicle
@@ -21,14 +22,13 @@ SINGLE = 2.0**-23  # relative, between neighbours in single precision
 FLAT = Conditions("flat", 20.0)
 CURVES = Curve(0, "lateral"), Curve(0, "vertical")
 LOW, HIGH = SHOWN_HZ
-SHOWN = (FREQUENCY_HZ >= LOW) & (FREQUENCY_HZ <= HIGH)
 CHARTS = """
   Object.values(window.__viserTestpoints?.uplots ?? {}).sort((one, other) =>
     one.chart.root.getBoundingClientRect().top - other.chart.root.getBoundingClientRect().top)
 """
 DRAWN = f"""
   {CHARTS}.map(({{ chart }}) => Object.fromEntries(
-    chart.series.slice(1).map((s, i) => [s.label, Array.from(chart.data[i + 1])])))
+    chart.series.map((s, i) => [i ? s.label : "Hz", Array.from(chart.data[i])])))
 """
 
 
@@ -79,7 +79,7 @@ def zoom(page, chart, low, high):
 
 
 def decibels_of(app, curve):
-    return 10 * np.log10(shown(app._last.now.response(curve.point, curve.direction)))
+    return decibels(app._last.now, curve)
 
 
 def range_of(chart):
@@ -104,17 +104,27 @@ def test_a_chart_keeps_its_zoom_when_another_response_is_chosen(app, page):
     assert page.evaluate(range_of(0)) == [LOW, HIGH]
 
 
-def shown(response):
-    return np.asarray(response)[SHOWN]
+def spectrum(results, curve):
+    """A response with its lines."""
+    return results.frequency_hz, results.response(curve.point, curve.direction)
+
+
+def decibels(results, curve):
+    f, psd = spectrum(results, curve)
+    return f, 10 * np.log10(psd)
 
 
 def assert_drawn(page, chart, label, expected):
-    """Waits until a chart's curve of that name is what is expected."""
+    """Waits until a chart's curve of that name is what is expected, frequencies and values."""
 
     def is_drawn():
         curves = page.evaluate(DRAWN)
-        found = curves[chart].get(label) if len(curves) > chart else None
-        return found is not None and np.allclose(found, expected, rtol=SINGLE, atol=0)
+        if len(curves) <= chart or label not in curves[chart]:
+            return False
+        lines, found = curves[chart]["Hz"], curves[chart][label]
+        return has_lines(lines, expected[0]) and np.allclose(
+            *at_lines(lines, found, *expected), rtol=SINGLE, atol=0
+        )
 
     wait_until(page, is_drawn)
 
@@ -130,27 +140,25 @@ def test_curves_are_the_results_in_decibels_and_in_their_unit(app, page):
     prepared = prepare(mounted_cabin())
     now, base = solve(prepared, rates, FLAT), solve(prepared, {}, FLAT)
     for chart, curve in enumerate(CURVES):
-        psd = shown(now.response(curve.point, curve.direction))
-        assert_drawn(page, chart, "now", 10 * np.log10(psd))
-        psd = shown(base.response(curve.point, curve.direction))
-        assert_drawn(page, chart, "Original", 10 * np.log10(psd))
+        assert_drawn(page, chart, "now", decibels(now, curve))
+        assert_drawn(page, chart, "Original", decibels(base, curve))
     page.get_by_role("tab", name="Road").click()
     choose(page, "Level", "Linear unit, logarithmic axis")
     page.get_by_role("tab", name="Response").click()
-    assert_drawn(page, 0, "now", shown(now.response(0, "lateral")))
+    assert_drawn(page, 0, "now", spectrum(now, Curve(0, "lateral")))
 
 
 def test_another_direction_is_drawn_where_it_is_chosen(app, page):
     page.get_by_role("combobox", name="dB re 1 g²/Hz").first.click()
     page.get_by_role("option", name="Seat, fore-aft").click()
-    response = app.session.wait(SOLVE_S) and app._last.now.response(0, "fore-aft")
-    assert_drawn(page, 0, "now", 10 * np.log10(shown(response)))
+    assert app.session.wait(SOLVE_S)
+    assert_drawn(page, 0, "now", decibels_of(app, Curve(0, "fore-aft")))
 
 
 def test_an_overlaid_set_is_drawn_as_a_curve_of_its_own_and_named(app, page):
     app.session.overlay("Soft", True)
     soft = solve(prepare(mounted_cabin()), mounted_cabin().rate_sets["soft"], FLAT)
-    assert_drawn(page, 1, "Soft", 10 * np.log10(shown(soft.response(0, "vertical"))))
+    assert_drawn(page, 1, "Soft", decibels(soft, Curve(0, "vertical")))
     wait_for(page, "document.querySelector('.mv .keyed')?.textContent.includes('Soft')")
 
 
@@ -161,10 +169,11 @@ def test_a_wheel_load_is_drawn_as_the_command_line_prints_it(app, page, tmp_path
     write_vehicle(mounted_cabin(), tmp_path / "cabin")
     capsys.readouterr()
     assert main(["wheels", str(tmp_path / "cabin"), "--json"]) == 0
-    (load,) = json.loads(capsys.readouterr().out)["loads"]
+    record = json.loads(capsys.readouterr().out)
+    (load,) = record["loads"]
     for chart, curve in enumerate(CURVES):
         (printed,) = [r for r in load["responses"] if r["direction"] == curve.direction]
-        assert_drawn(page, chart, "now", shown(printed["acceleration_db"]))
+        assert_drawn(page, chart, "now", (record["frequency_hz"], printed["acceleration_db"]))
         wait_for(page, "document.body.textContent.includes('dB re 1 g')")
     wait_for(page, "document.querySelector('.mv .figures')?.textContent.includes('Mean lateral')")
 
@@ -172,14 +181,12 @@ def test_a_wheel_load_is_drawn_as_the_command_line_prints_it(app, page, tmp_path
 def test_the_zoom_stays_while_rates_move(app, page):
     zoom = f"{CHARTS}.map(({{ chart }}) => [chart.scales.x.min, chart.scales.x.max])"
     for chart, curve in enumerate(CURVES):
-        response = app._last.now.response(curve.point, curve.direction)
-        assert_drawn(page, chart, "now", 10 * np.log10(shown(response)))
+        assert_drawn(page, chart, "now", decibels_of(app, curve))
     page.evaluate(f"{CHARTS}.forEach(c => c.chart.setScale('x', {{ min: 8, max: 14 }}))")
     for rate in (2.9e5, 2.5e5, 2e5):
         app.session.set_rate("A", "lateral", rate)
         assert app.session.wait(SOLVE_S)
-        response = app._last.now.response(0, "lateral")
-        assert_drawn(page, 0, "now", 10 * np.log10(shown(response)))
+        assert_drawn(page, 0, "now", decibels_of(app, Curve(0, "lateral")))
     assert page.evaluate(zoom) == [[8, 14], [8, 14]]
 
 
