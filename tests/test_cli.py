@@ -103,12 +103,12 @@ def test_tables_name_points_and_directions(capsys, folder, command):
         (["psd", "{}", "--road", "moon"], "unknown random load 'moon'"),
         (["psd", "{}", "--speed", "0 km/h"], "more than zero"),
         (["psd", "{}", "--speed", "fast"], "--speed: found 'fast'"),
-        (["psd", "{}", "--speed", "9000 km/h"], "its table holds"),
+        (["psd", "{}", "--speed", "9000000 km/h"], "its table holds"),
         (["modes", "{}", "--below", "nan"], "--below: found nan Hz"),
         (["modes", "{}", "--below", "inf"], "--below: found inf Hz"),
         (["view", "{}", "--port", "99999999"], "expected 0 to 65535"),
         (["view", "{}", "--port", "-1"], "expected 0 to 65535"),
-        (["view", "{}", "--port", "0", "--speed", "9000 km/h"], "its table holds"),
+        (["view", "{}", "--port", "0", "--speed", "9000000 km/h"], "its table holds"),
     ],
 )
 def test_what_the_user_can_put_right_is_one_message_and_status_2(capsys, folder, arguments, message):

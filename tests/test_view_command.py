@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from urllib.parse import urlsplit
 
 import pytest
+from usual_signals import usual_signals
 
 from modeviz.cli import main
 
@@ -21,7 +22,10 @@ def served(folder, *options, token=""):
     """The link that is printed while the page is served."""
     command = [sys.executable, "-m", "modeviz", "view", folder, "--port", "0", *options]
     environment = {**os.environ, "MODEVIZ_TOKEN": token}
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run:
+    with (
+        usual_signals(),
+        subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run,
+    ):
         assert run.stdout
         match = LINK.fullmatch(run.stdout.readline())
         assert match

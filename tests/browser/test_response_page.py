@@ -97,6 +97,7 @@ def test_a_chart_keeps_its_zoom_when_another_response_is_chosen(app, page):
                  low=seen[0], high=seen[1])  # fmt: skip
     page.evaluate(f"{CHARTS}[0].chart.over.dispatchEvent(new MouseEvent('dblclick'))")
     wait_for(page, f"(([low, high]) => low === {LOW} && high === {HIGH})({range_of(0)})")
+    page.evaluate("() => new Promise(requestAnimationFrame)")  # in which the page takes note of it
     app.session.change(curves=CURVES)
     assert app.session.wait(SOLVE_S)
     assert_drawn(page, 0, "now", decibels_of(app, CURVES[0]))
