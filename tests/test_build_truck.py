@@ -21,7 +21,7 @@ from pickup.vehicle import components, pickup
 from modeviz.fem.free import center_of_gravity, free_modes
 from modeviz.fem.matrices import assemble
 from modeviz.units import factor
-from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.files.meshes import read_mesh
 from modeviz.vehicle.files.problems import ProblemRecord
@@ -212,6 +212,13 @@ def test_only_loads_and_steering_tell_left_from_right():
         if "right" in connection.name and connection.group != "steering":
             np.testing.assert_array_equal(connection.stiffness, sides[connection.name].stiffness)
             np.testing.assert_allclose(connection.points * MIRROR, sides[connection.name].points)
+
+
+def test_rigid_bodies_are_well_within_what_inertias_can_be():
+    for body in truck().bodies:
+        if isinstance(body, RigidBody):
+            *others, largest = np.linalg.eigvalsh(body.inertia)
+            assert largest < 0.98 * sum(others), body.name
 
 
 def test_roads_can_be():

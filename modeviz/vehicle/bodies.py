@@ -8,7 +8,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen, frozen_places
-from modeviz.vehicle.inertia import BEYOND_DOUBT, impossible
+from modeviz.vehicle.inertia import impossible
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.rigid_fit import RigidFit, fit_rigid
 
@@ -305,7 +305,7 @@ class RigidBody:
                 f"body {self.name!r}: inertia: expected a symmetric matrix with positive principal "
                 f"moments, found {self.inertia.tolist()}"
             )
-        if reason := impossible(self.inertia, BEYOND_DOUBT - 1):
+        if reason := impossible(self.inertia):
             raise VehicleError(f"body {self.name!r}: inertia: {reason}, as of no body")
 
 

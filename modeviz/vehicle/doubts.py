@@ -37,8 +37,6 @@ def doubts(vehicle: Vehicle) -> Iterator[str]:
         if isinstance(body, FlexibleBody):
             for doubt in (*_of_rigid_modes(body), *_of_mass(body), *_of_elastic_modes(body)):
                 yield f"body {body.name!r}: {doubt}"
-        elif reason := impossible(body.inertia):
-            yield f"body {body.name!r}: inertia: {reason}, as of no body"
     for tyre in vehicle.tyres:
         if tyre.is_in_the_middle and tyre.track is None:
             yield (

@@ -7,9 +7,6 @@ from modeviz.vehicle.arrays import Floats
 ROUNDING = 1e-3
 """Moments are often given to three digits, and a flat body is at the limit."""
 
-BEYOND_DOUBT = 2.0
-"""A moment more than so many times both others together comes of no rounding and no measurement."""
-
 
 def impossible(inertia: Floats, tolerance: float = ROUNDING) -> str:
     """Why no body has that inertia, in words; nothing if one may.
