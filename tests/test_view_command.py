@@ -75,7 +75,7 @@ def test_the_link_of_a_server_for_others_names_an_address_of_this_machine(folder
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--host", "0.0.0.0", "--no-token"], "a token is needed"),
+        (["--host", "0.0.0.0", "--no-token"], "a token is needed, so leave out --no-token"),
         (["--token", "sesame"], "--token: found 6 characters, expected 12 to 256"),
         (["--token", ""], "--token: expected letters"),
         (["--token-file", "no/such/file"], "--token-file no/such/file: No such file"),

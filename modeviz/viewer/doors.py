@@ -101,7 +101,7 @@ def open_server(
             the token is missing or no good one.
     """
     if host not in LOOPBACK and token is None:
-        raise ModevizError(f"other machines reach {host}: a token is needed, give one with --token")
+        raise ModevizError(f"other machines reach {host}: a token is needed, so leave out --no-token")
     if token is not None:
         checked_token(token, "token")
     for name in public_names:
