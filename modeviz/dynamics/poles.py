@@ -40,7 +40,9 @@ def ritz_poles(basis: EnrichedBasis, stiffness: Complexes) -> tuple[Complexes, C
     pencil[:n, n:] = np.eye(n)
     K = basis.stiffness + 1j * basis.structural_damping + (R.T * change) @ R
     pencil[n:, :n], pencil[n:, n:] = K / scale**2, 1j * basis.damping / scale
-    poles, y = np.linalg.eig(pencil)
+    solution = np.linalg.eig(pencil)
+    poles: Complexes = np.asarray(solution.eigenvalues, complex)
+    y: Complexes = np.asarray(solution.eigenvectors, complex)
     return poles * basis.top_hz, basis.vectors @ y[:n]
 
 
