@@ -279,7 +279,7 @@ def test_on_the_truck_a_window_that_the_best_design_keeps_by_itself_costs_nothin
     window = FrequencyWindow("cab yaw", high_hz=10.0)
     free = prepare_search(vehicle, vehicle.problem("paper"), vehicle.rates, vehicle.speed)
     held = replace(free, windows=prepare_windows(prepare_modes(vehicle), [window]))
-    start = start_points(free, {}, 2, 0)[1]
+    start = start_points(free, {}, 3, 0)[1]
     best = optimise(free, [start])
     assert held.allows(best.x)
     found = optimise(held, [start])
