@@ -12,7 +12,8 @@ EVERYWHERE = {
 
 def local_link(host: str, port: int, token: str | None) -> str:
     """What opens the page in a browser of this machine; ready for `&name=value`."""
-    here = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
+    family, _ = EVERYWHERE.get(host, (None, ""))
+    here = {socket.AF_INET: "127.0.0.1", socket.AF_INET6: "::1", None: host}[family]
     return f"{_site(here, port)}/?token={token or ''}"
 
 

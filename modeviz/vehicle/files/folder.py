@@ -98,13 +98,14 @@ def builtin_vehicle() -> Path:
     )
 
 
-def read_vehicle(folder: Path) -> Vehicle:
+def read_vehicle(folder: Path | str) -> Vehicle:
     """The vehicle in a folder: flexible bodies first, connections as in `CONNECTION_KINDS`.
 
     Raises:
         VehicleError: something is missing, damaged or wrong; the text names file, key, what was found
             and what would be right.
     """
+    folder = Path(folder)
     path = folder / VEHICLE_FILE
     if not path.is_file():
         raise VehicleError(
