@@ -82,7 +82,7 @@ class RandomFolder:
             f'axes = "{self.axes}"',
             f"speed = {self.value(23.0, 'speed')}",
             f"highest_frequency = {self.rng.choice([30.0, 50.0])}",
-            f"frequency_step = {self.rng.choice([0.1, 0.25])}",
+            f"frequency_step = {self.rng.choice([0.1, 0.08])}",
         ]
         for key, table in self._tables():
             lines += [f"[{key}]" if key == "units" else f"[[{key}]]"]

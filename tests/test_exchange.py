@@ -21,7 +21,7 @@ def test_a_file_gives_the_rates_that_were_written(name):
         ("set.txt", b"", "found '.txt', expected a file of rates, .csv or .json"),
         ("set", b"", "found '', expected a file of rates"),
         ("set.csv", b"\xff", "not a text in UTF-8"),
-        ("set.csv", b"", "expected group,units,vertical,lateral,fore_aft"),
+        ("set.csv", b"", "expected the columns group, vertical, lateral, fore_aft"),
         ("set.json", b'{"rates": {}}', "found no rates"),
         ("set.csv", b"group,units,vertical,lateral,fore_aft\nZ,N/mm,1,1,1\n", "'Z'"),
     ],
