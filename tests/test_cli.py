@@ -57,7 +57,8 @@ def test_psd_json_is_the_solution_of_the_tuned_vehicle(printed_json, folder):
         "--set", "B.loss_factor=0.3", "--road", "rough", "--speed", "90 km/h",
     )  # fmt: skip
     assert set(record) == {
-        "vehicle", "rates", "road", "speed_m_per_s", "frequency_hz", "responses", "rating",
+        "vehicle", "rates", "road", "speed_m_per_s", "band_hz", "known_hz", "frequency_hz",
+        "responses", "rating",
     }  # fmt: skip
     rates = {"A": MountRates(2e5, 1e5, 1e5), "B": MountRates(8e5, 3e5, 1.31e5, 0.3)}
     assert [record["rates"][group]["loss_factor"] for group in "AB"] == [0.15, 0.3]

@@ -406,7 +406,7 @@ def test_the_check_finds_a_truck_without_mounts_as_still_as_it_is(prepared, road
     loose = dict.fromkeys(prepared.vehicle.rates, MountRates(0.0, 0.0, 0.0))
     *_, check = islice(check_exactly(solve(prepared, loose, road)), 2)
     assert check.frequency_error < 1e-7
-    # Between the prepared lines 1e-9 of what the base does, squared, is left: 1e-22 against 1e-20 g²/Hz.
+    # Between lines 1e-9 of what the base does, squared, is left: 1e-22 g²/Hz against a floor of 1e-20.
     assert check.psd_error < 0.05
 
 
