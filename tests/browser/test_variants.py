@@ -124,7 +124,7 @@ def test_a_file_called_as_another_set_is_one_beside_it_and_says_so(app, page, tm
 @pytest.mark.parametrize(
     ("name", "content", "complaint"),
     [
-        ("wrong.csv", b"group,units\nA,N/mm\n", "expected group,units,vertical"),
+        ("wrong.csv", b"group,units\nA,N/mm\n", "expected the columns group, vertical"),
         ("wrong.json", b"\xff\xfe", "not a text in UTF-8"),
         ("wrong.png", b"", "expected a file of rates, .csv or .json"),
         ("large.csv", b" " * (LARGEST_FILE + 1), "expected a file of at most 1000 kB"),
