@@ -16,7 +16,7 @@ class Works:
     def __init__(self):
         self._told = threading.Condition()
         self.may_end = {name: threading.Event() for name in ("first", "second")}
-        self.beside = Beside("work", self._work, self._tell)
+        self.beside = Beside("work", self._work, self._tell, print)
 
     def _tell(self):
         with self._told:
@@ -83,13 +83,14 @@ def test_what_was_cancelled_tells_nothing_of_the_next(works):
 @pytest.mark.parametrize(
     ("error", "said"), [(SolveError("too stiff"), "too stiff"), (RuntimeError("a bug"), "our mistake")]
 )
-def test_a_failure_is_told(error, said, capsys):
+def test_a_failure_is_told(error, said):
     def fails(asked, control, tell):
         raise error
 
-    failed = threading.Event()
-    beside = Beside("work", fails, lambda: beside.job.failure and failed.set())
+    failed, reported = threading.Event(), []
+    beside = Beside("work", fails, lambda: beside.job.failure and failed.set(), reported.append)
     beside.start(None)
     assert failed.wait(SOON)
     assert beside.job.phase == "failed"
     assert said in beside.job.failure
+    assert reported == [error] * isinstance(error, RuntimeError)

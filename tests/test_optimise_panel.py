@@ -141,7 +141,7 @@ def test_a_vehicle_without_response_points_says_what_it_lacks():
     texts = []
     add, server.gui.add_html = server.gui.add_html, texts.append
     try:
-        OptimisePanel(server.gui, session, Optimiser(session, print), dark=False)
+        OptimisePanel(server.gui, session, Optimiser(session, print, print), dark=False)
     finally:
         server.gui.add_html = add
         session.close()

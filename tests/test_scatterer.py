@@ -32,7 +32,7 @@ def scatterer(session):
         watcher.wait(lambda: not scatterer.job.is_running)
         return scatterer.job
 
-    scatterer = Scatterer(session, watcher.tell)
+    scatterer = Scatterer(session, watcher.tell, print)
     scatterer.finish = finish
     yield scatterer
     scatterer.cancel()

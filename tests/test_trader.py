@@ -31,7 +31,7 @@ def short(monkeypatch):
 @pytest.fixture
 def trader(session):
     watcher = Watcher()
-    trader = Trader(session, watcher.tell)
+    trader = Trader(session, watcher.tell, print)
     trader.wait = watcher.wait
     yield trader
     trader.cancel()

@@ -85,9 +85,10 @@ class App:
         self.session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
-        self.optimiser = Optimiser(self.session, lambda: self._optimise.follow())
-        self.trader = Trader(self.session, lambda: self._trade_off.follow())
-        self.scatterer = Scatterer(self.session, lambda: self._scatter.follow())
+        mistake = server.notices.mistake
+        self.optimiser = Optimiser(self.session, lambda: self._optimise.follow(), mistake)
+        self.trader = Trader(self.session, lambda: self._trade_off.follow(), mistake)
+        self.scatterer = Scatterer(self.session, lambda: self._scatter.follow(), mistake)
         scripts.run(self._gui, "style.js", style_sheet())
         scripts.run(self._gui, "delivery.js")
         scripts.run(self._gui, "numbers.js")

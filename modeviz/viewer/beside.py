@@ -2,7 +2,6 @@
 
 import threading
 import time
-import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Generic, Literal, Protocol, TypeVar
@@ -54,6 +53,7 @@ class Beside(Generic[Asked, Found]):
         what: str,
         work: Callable[[Asked, Control, Tell[Found]], Found],
         changed: Callable[[], None],
+        report: Callable[[Exception], None],
     ) -> None:
         """Starts nothing.
 
@@ -61,7 +61,9 @@ class Beside(Generic[Asked, Found]):
             what: it is: "scatter".
             work: does it, asks the control often and tells how far it is.
             changed: told that there is something new to look at.
+            report: told what is our mistake.
         """
+        self._report = report
         self._what, self._work, self._changed = what, work, changed
         self._lock = threading.Lock()
         self._control = Control()
@@ -102,7 +104,7 @@ class Beside(Generic[Asked, Found]):
         except ModevizError as error:
             self._put(control, phase="failed", failure=str(error))
         except Exception as error:
-            traceback.print_exception(error)
+            self._report(error)
             self._put(control, phase="failed", failure=OUR_MISTAKE)
         else:
             self._put(control, phase="ended", done=1.0, found=found)

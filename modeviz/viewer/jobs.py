@@ -7,6 +7,7 @@ from contextlib import contextmanager
 import viser
 
 from modeviz.errors import ModevizError
+from modeviz.viewer.beside import OUR_MISTAKE
 
 Tell = Callable[[float], None]
 """Told the fraction that is done; raises `CancelledError` once that is wanted."""
@@ -58,9 +59,7 @@ def run(
             client.add_notification("Not saved", str(error), color="red")
     except Exception as error:
         report(error)
-        client.add_notification(
-            "Not saved", "This is our mistake: the terminal says more.", color="red"
-        )
+        client.add_notification("Not saved", OUR_MISTAKE, color="red")
     finally:
         window.close()
 

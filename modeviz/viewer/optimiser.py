@@ -2,7 +2,6 @@
 
 import threading
 import time
-import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import count
@@ -67,12 +66,15 @@ class Pursuit:
     They follow as long as nobody else changes them: no slider is taken out of anybody's hand.
     """
 
-    def __init__(self, session: Session, changed: Callable[[], None]) -> None:
+    def __init__(
+        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
+    ) -> None:
         """Starts it.
 
         Args:
             session: whose state says what is sought, and from where.
             changed: told that there is something new to look at.
+            report: told what is our mistake.
 
         Raises:
             VehicleError: the state's plan asks for what cannot be.
@@ -80,7 +82,8 @@ class Pursuit:
         state, vehicle = session.state, session.vehicle
         assert state.plan is not None
         self.look = Look(planned(vehicle, state.plan), state.rates)
-        self._session, self._changed, self._state, self._plan = session, changed, state, state.plan
+        self._session, self._changed, self._report = session, changed, report
+        self._state, self._plan = state, state.plan
         self._control, self._lock = Control(), threading.Lock()
         self._followed: Rates = state.rates
         self._told = 0.0
@@ -121,7 +124,7 @@ class Pursuit:
         except ModevizError as error:
             self._fail(str(error))
         except Exception as error:
-            traceback.print_exception(error)
+            self._report(error)
             self._fail(OUR_MISTAKE)
         else:
             self._end(optimum)
@@ -212,9 +215,11 @@ class Pursuit:
 class Optimiser:
     """The searches of a session, one at a time."""
 
-    def __init__(self, session: Session, changed: Callable[[], None]) -> None:
+    def __init__(
+        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
+    ) -> None:
         """Starts nothing; arguments as of `Pursuit`."""
-        self._session, self._changed = session, changed
+        self._session, self._changed, self._report = session, changed, report
         self._lock = threading.Lock()
         self._pursuit: Pursuit | None = None
 
@@ -232,7 +237,7 @@ class Optimiser:
         with self._lock:
             if self.look is not None and self.look.is_running:
                 raise ModevizError("a search is running: cancel it first")
-            self._pursuit = Pursuit(self._session, self._changed)
+            self._pursuit = Pursuit(self._session, self._changed, self._report)
         self._changed()
 
     def pause(self) -> None:

@@ -53,15 +53,18 @@ class Scattered:
 class Scatterer:
     """Scatters the mounts of a session's present rates."""
 
-    def __init__(self, session: Session, changed: Callable[[], None]) -> None:
+    def __init__(
+        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
+    ) -> None:
         """Starts nothing.
 
         Args:
             session: whose rates, road and speed.
             changed: told that there is something new to look at.
+            report: told what is our mistake.
         """
         self._session, self._changed = session, changed
-        self._beside = Beside[Build, Scattered]("scatter", self._scatter, self._tell)
+        self._beside = Beside[Build, Scattered]("scatter", self._scatter, self._tell, report)
 
     @property
     def job(self) -> Job[Build, Scattered] | None:

@@ -35,15 +35,18 @@ class Trade:
 class Trader:
     """Finds the front between two sides of a session's problem."""
 
-    def __init__(self, session: Session, changed: Callable[[], None]) -> None:
+    def __init__(
+        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
+    ) -> None:
         """Starts nothing.
 
         Args:
             session: whose plan, rates and speed.
             changed: told that there is something new to look at.
+            report: told what is our mistake.
         """
         self._session = session
-        self._beside = Beside[Trade, Designs]("search for a front", self._find, changed)
+        self._beside = Beside[Trade, Designs]("search for a front", self._find, changed, report)
 
     @property
     def job(self) -> Job[Trade, Designs] | None:
