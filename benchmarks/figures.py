@@ -1,8 +1,9 @@
 """What modeviz itself takes: preparation, one event, many sets of rates, memory."""
 
+import itertools
 import statistics
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -15,13 +16,16 @@ from benchmarks.work import Work
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.tuning.batch import solve_many
 from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
-from modeviz.tuning.results import Conditions, solve
+from modeviz.tuning.results import Conditions, drive, solve_on
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 N_SETS = 10
 """Sets of rates in a batch."""
+
+STEP, N_STEPS = 1.01, 30
+"""Of a slider that is dragged, and how many."""
 
 N_DIRECT = 2
 """Frequencies from which the direct solution's time is scaled."""
@@ -65,18 +69,26 @@ def _median_ms(call: Callable[[], object]) -> float:
 
 
 def _event(prepared: Prepared) -> Callable[[], None]:
-    """A move of a slider after a rest: modes with their names, spectra, RMS values and rating."""
+    """A slider's next step after a rest: modes with their names, spectra, RMS values and rating."""
     vehicle = prepared.vehicle
-    near = prepared.near(vehicle.rates)
-    moved = dict([next(iter(_stiffer(vehicle).items()))])
+    ride = drive(prepared.near(vehicle.rates), _conditions(vehicle))
+    drags = itertools.cycle(_drags(vehicle))
 
     def event() -> None:
-        results = solve(near, moved, _conditions(vehicle))
+        results = solve_on(ride, next(drags))
         assert results.names
         assert results.rms.size
         assert results.rating
 
     return event
+
+
+def _drags(vehicle: Vehicle) -> Iterator[Rates]:
+    """The rates of every group in turn, dragged up in steps of a slider."""
+    for name, rates in vehicle.rates.items():
+        for factor in STEP ** np.arange(N_STEPS):
+            moved = replace(rates, vertical=factor * rates.vertical, lateral=factor * rates.lateral)
+            yield {name: moved}
 
 
 def _batch(prepared: Prepared) -> None:

@@ -9,11 +9,11 @@ Algorithms 23, 2000).
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
-from itertools import pairwise
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from modeviz.dynamics.basis import EnrichedBasis
@@ -59,21 +59,14 @@ class Between:
             inputs: which are wanted, all if None.
         """
         x: Any = np.asarray(frequency_hz)
-        lines = self.known.frequency_hz
-        n_nodes = min(N_NODES, len(lines))
-        first = np.searchsorted(lines, x.real) - n_nodes // 2
-        first = np.clip(first, 0, len(lines) - n_nodes)
+        n_lines, n_nodes = len(self.known.frequency_hz), self._n_nodes
+        first = np.searchsorted(self.known.frequency_hz, x.real) - n_nodes // 2
+        first = np.clip(first, 0, n_lines - n_nodes)
         used = np.unique(first[:, None] + np.arange(n_nodes))
-        first = np.searchsorted(used, first)
         wanted = self.known.part(used, springs, inputs)
         arrays = wanted.springs, wanted.outputs, wanted.inputs, wanted.direct
         flat = np.concatenate([a.reshape(len(a), -1) for a in arrays], axis=1)
-        nodes = wanted.frequency_hz[first[:, None] + np.arange(n_nodes)]
-        weights = self._weights(nodes, x)
-        found = np.empty((len(x), flat.shape[1]), complex)
-        starts, places = np.unique(first, return_index=True)
-        for start, own in zip(starts.tolist(), pairwise([*places.tolist(), len(x)]), strict=True):
-            found[slice(*own)] = weights[slice(*own)] @ flat[start : start + n_nodes]
+        found = _banded_product(self._weights(first, x), np.searchsorted(used, first), flat)
         ends = np.cumsum([a[0].size for a in arrays])[:-1]
         values = (
             part.reshape(len(x), *a.shape[1:])
@@ -81,24 +74,61 @@ class Between:
         )
         return Receptances(x, wanted.mount_stiffness, *values)
 
-    def _weights(self, nodes: Floats, x: NDArray) -> Complexes:
-        """What values at even nodes count, (n_x, n_nodes), by the poles near the nodes' middle."""
-        n_nodes = nodes.shape[1]
-        middle, step = (nodes[:, :1] + nodes[:, -1:]) / 2, nodes[:, 1:2] - nodes[:, :1]
-        distance = np.abs(middle - self.poles)
-        n_poles = min(N_POLES, max(n_nodes - 4, 0), len(self.poles))
-        nearest = np.argsort(distance, axis=1)[:, :n_poles]
-        is_local = np.take_along_axis(distance, nearest, 1) < LOCAL * step
-        poles = self.poles[nearest]
-        with_poles = np.where(is_local[:, None], nodes[:, :, None] - poles[:, None], 1).prod(axis=2)
-        with_poles /= np.where(is_local, x[:, None] - poles, 1).prod(axis=1)[:, None]
-        away = x[:, None] - nodes
+    @property
+    def _n_nodes(self) -> int:
+        return min(N_NODES, len(self.known.frequency_hz))
+
+    def _weights(self, first: NDArray[np.intp], x: NDArray) -> Complexes:
+        """What values at even nodes count, (n_x, n_nodes), from the first node on."""
+        factors, poles, is_local = (a[first] for a in self._windows)
+        nodes = self.known.frequency_hz[first[:, None] + np.arange(self._n_nodes)]
+        away, step = x[:, None] - nodes, nodes[:, 1] - nodes[:, 0]
         on_node = away == 0
         away[on_node] = 1
-        weights = with_poles * _lagrange(n_nodes) / away
-        weights *= (away / step).prod(axis=1)[:, None] * step
-        weights[on_node.any(axis=1)] = on_node[on_node.any(axis=1)]
+        of_poles = np.where(is_local, x[:, None] - poles, 1).prod(axis=1)
+        scale = (away / step[:, None]).prod(axis=1) * step / of_poles
+        weights = factors * scale[:, None] / away
+        is_known = on_node.any(axis=1)
+        weights[is_known] = on_node[is_known]
         return weights
+
+    @cached_property
+    def _windows(self) -> tuple[Complexes, Complexes, NDArray[np.bool_]]:
+        """What counts of nodes and poles wherever between the nodes one looks, for each first node.
+
+        Returns:
+            Factors of the nodes, (n_windows, n_nodes); the poles nearest to their middle, (n_windows,
+            n_poles), Hz; and which of these are near enough to count.
+        """
+        nodes = sliding_window_view(self.known.frequency_hz, self._n_nodes)
+        middle, step = (nodes[:, :1] + nodes[:, -1:]) / 2, nodes[:, 1:2] - nodes[:, :1]
+        distance = np.abs(middle - self.poles)
+        n_poles = min(N_POLES, max(self._n_nodes - 4, 0), len(self.poles))
+        nearest = np.argsort(distance, axis=1)[:, :n_poles]
+        poles, is_local = self.poles[nearest], np.take_along_axis(distance, nearest, 1) < LOCAL * step
+        away = np.where(is_local[:, None], nodes[:, :, None] - poles[:, None], 1)
+        return away.prod(axis=2) * _lagrange(self._n_nodes), poles, is_local
+
+
+def _banded_product(band: Complexes, first: NDArray[np.intp], values: Complexes) -> Complexes:
+    """Sums of neighbouring values, (n, n_columns).
+
+    Args:
+        band: (n, n_neighbours), what each counts.
+        first: (n,), rising: the first neighbour's number.
+        values: (n_values, n_columns).
+    """
+    n_neighbours = band.shape[1]
+    found = np.empty((len(band), values.shape[1]), complex)
+    start = 0
+    while start < len(band):
+        end = int(np.searchsorted(first, first[start] + n_neighbours // 2))
+        own = first[start:end] - first[start]
+        weights = np.zeros((len(own), own[-1] + n_neighbours), complex)
+        weights[np.arange(len(own))[:, None], own[:, None] + np.arange(n_neighbours)] = band[start:end]
+        found[start:end] = weights @ values[first[start] : first[start] + weights.shape[1]]
+        start = end
+    return found
 
 
 @lru_cache(maxsize=N_NODES)

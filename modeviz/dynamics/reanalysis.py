@@ -16,7 +16,7 @@ with 204. Where more springs change than there are coordinates, `tuning.results`
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,14 +147,13 @@ class Receptances:
     ) -> "Receptances":
         """The same for some lines, springs and inputs only; None is all."""
         s = np.arange(self.springs.shape[1]) if springs is None else springs
-        i = np.arange(self.inputs.shape[2]) if inputs is None else inputs
-        at = lines[:, None, None]
+        i = slice(None) if inputs is None else inputs
         return Receptances(
             self.frequency_hz[lines],
             self.mount_stiffness[s],
-            self.springs[at, s[:, None], s],
+            self.springs[lines[:, None, None], s[:, None], s],
             self.outputs[lines[:, None], s],
-            self.inputs[at, s[:, None], i],
+            self.inputs[lines[:, None], s][:, :, i],
             self.direct[lines][:, :, i],
         )
 
@@ -259,8 +258,7 @@ def prepare_receptances(
 
 def solve_checked(A: Complexes, b: Complexes, frequency_hz: Floats, pole: float = POLE) -> Complexes:
     """A⁻¹ b, with a probe that no pole escapes."""
-    probe = np.random.default_rng(0).uniform(0.5, 1.0, A.shape[1])
-    columns = np.broadcast_to(probe[:, None], (*A.shape[:2], 1))
+    columns = np.broadcast_to(_probe(A.shape[1])[:, None], (*A.shape[:2], 1))
     try:
         x = np.linalg.solve(A, np.concatenate([b, columns], axis=2))
     except np.linalg.LinAlgError:
@@ -269,6 +267,12 @@ def solve_checked(A: Complexes, b: Complexes, frequency_hz: Floats, pole: float 
     if not (growth < pole).all():
         raise drowned(frequency_hz[int(np.argmax(growth))])
     return x[:, :, :-1]
+
+
+@lru_cache(maxsize=64)
+def _probe(n: int) -> Floats:
+    """Forces, (n,), that stretch every spring."""
+    return np.random.default_rng(0).uniform(0.5, 1.0, n)
 
 
 def _blocks(n_freqs: int, n_bytes: int) -> Iterator[slice]:

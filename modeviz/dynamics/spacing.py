@@ -10,15 +10,16 @@ function of t, whose integral a sum of equal steps gives; the lines away from sh
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
 from modeviz.vehicle.arrays import Floats
 
-FINE = 3.0
+FINE = 2.0
 """How far from the real axis of t a resonance's pole is, in steps: sums are right to 2 e^{-2πt}."""
 
-REACH = 3.5
+REACH = 2.5
 """Steps from a mode within which lines are added."""
 
 NEAR = 4.0
@@ -30,8 +31,11 @@ PHASE = 3.0
 SHARPEST = 1e-5
 """Damping ratio below which a mode counts as undamped: no lines resolve it."""
 
-N_TABLE = 120
-"""Values that tell where lines are added, for each mode."""
+N_CELLS = 120
+"""Cubics that tell where lines are added, for each mode."""
+
+CLASS = 1.1
+"""Factor between half widths that are told apart."""
 
 SLIGHT = 1e-3
 """Of a line: by so much the ends of the band may be shifted."""
@@ -39,7 +43,7 @@ SLIGHT = 1e-3
 SHARED = 0.3
 """Relative singular value below which modes share their lines."""
 
-N_LOOKED_AT = 25
+N_LOOKED_AT = 17
 """Places around each mode that are counted, before whole numbers are looked for."""
 
 SAME = 1e-4
@@ -47,9 +51,6 @@ SAME = 1e-4
 
 BESIDE = 1.5
 """Steps of the grid: places farther apart have lines of the grid alone between them."""
-
-N_STEPS = 2
-"""Of Newton's method, to find where the counting function is whole."""
 
 
 def placed_lines(grid_hz: Floats, natural_frequency_hz: Floats, damping_ratio: Floats) -> Floats:
@@ -69,7 +70,8 @@ def placed_lines(grid_hz: Floats, natural_frequency_hz: Floats, damping_ratio: F
     is_sharp &= (f > -NEAR * REACH) & (f < len(grid_hz) - 1 + NEAR * REACH)
     if not is_sharp.any():
         return grid_hz
-    lines = _lines(_counting(f[is_sharp], gamma[is_sharp], len(grid_hz) - 1))
+    classes = CLASS ** np.floor(np.log(gamma[is_sharp]) / np.log(CLASS))
+    lines = _lines(f[is_sharp].tobytes(), classes.tobytes(), len(grid_hz) - 1)
     placed, on_grid = start + h * lines, lines == np.round(lines)
     placed[on_grid] = grid_hz[lines[on_grid].astype(int)]
     return placed
@@ -82,11 +84,10 @@ class _Counting:
     center: Floats
     gamma: Floats
     """(n_modes,): where modes are and half their widths, in steps of the grid."""
-    ends: Floats
-    """(n_modes,): asinh(x/γ) where the tables end, equal steps of which they have."""
-    table: Floats
-    slopes: Floats
-    """(n_modes, N_TABLE): how many lines are added up to there, and that differentiated by the step."""
+    cells: Floats
+    """(n_modes N_CELLS, 4): of each mode's `_grading`, one after the other."""
+    parts: Floats
+    """(2, n_modes): what each adds is the first plus the second times the grading."""
     phase: Floats
     """(n_modes,): by how many lines t is shifted on the mode."""
     last: int
@@ -97,18 +98,19 @@ class _Counting:
         stretched = self.stretched(x)
         added, slope = self.added(*stretched)
         shift, turn = self.shift(*stretched)
-        return x + added.sum(axis=1) + shift @ self.phase, 1 + slope.sum(axis=1) + turn @ self.phase
+        offset, factor = self.parts
+        t = x + offset.sum() + added @ factor + shift @ self.phase
+        return t, 1 + slope @ factor + turn @ self.phase
 
     def added(self, d: Floats, u: Floats, width: Floats) -> tuple[Floats, Floats]:
-        """How many lines each mode adds up to places, and that differentiated, (n, n_modes)."""
-        per_u = (N_TABLE - 1) / (2 * self.ends)
-        place = np.clip((u + self.ends) * per_u, 0, N_TABLE - 1)
-        i, mode = np.minimum(place.astype(int), N_TABLE - 2), np.arange(len(self.center))
+        """The grading of each mode at places, and that differentiated, (n, n_modes)."""
+        per_u = N_CELLS / (2 * np.arcsinh(NEAR * REACH / self.gamma))
+        place = np.clip(u * per_u + N_CELLS / 2, 0, N_CELLS)
+        i = np.minimum(place.astype(int), N_CELLS - 1)
         w = place - i
-        (a, b), (p, q) = ((v[mode, i], v[mode, i + 1]) for v in (self.table, self.slopes))
-        c, d = 3 * (b - a) - 2 * p - q, 2 * (a - b) + p + q
-        slope = np.where(np.abs(u) < self.ends, p + w * (2 * c + 3 * w * d), 0.0)
-        return a + w * (p + w * (c + w * d)), slope * per_u / width
+        cells = self.cells[i + N_CELLS * np.arange(len(self.center))]
+        a, p, c, d = np.moveaxis(cells, -1, 0)
+        return a + w * (p + w * (c + w * d)), (p + w * (2 * c + 3 * w * d)) * per_u / width
 
     def shift(self, d: Floats, u: Floats, width: Floats) -> tuple[Floats, Floats]:
         """One on a mode, falling to zero beside it, and that differentiated, (n, n_modes)."""
@@ -123,19 +125,33 @@ class _Counting:
 
 
 def _counting(center: Floats, gamma: Floats, last: int) -> _Counting:
-    """The counting function of modes at places on the grid."""
-    gamma_, ends = gamma[:, None], np.arcsinh(NEAR * REACH / gamma)
-    u = np.linspace(-1, 1, N_TABLE) * ends[:, None]
-    step, d = 2 * ends[:, None] / (N_TABLE - 1), gamma_ * np.sinh(u)
-    slopes = 2 / np.pi * (FINE - gamma_) * np.exp(-((d / REACH) ** 2)) * step
-    bend = slopes * step * np.hypot(gamma_, d) * -2 * d / REACH**2
-    parts = (slopes[:, :-1] + slopes[:, 1:]) / 2 + (bend[:, :-1] - bend[:, 1:]) / 12
-    table = np.hstack([np.zeros((len(center), 1)), np.cumsum(parts, axis=1)])
-    counting = _Counting(center, gamma, ends, table, slopes, np.zeros(len(center)), last)
+    """The counting function of modes at places on the grid, whole at both ends of it."""
+    cells = np.concatenate([_grading(each) for each in gamma.tolist()])
+    alone = np.array([np.zeros(len(center)), np.ones(len(center))])
+    counting = _Counting(center, gamma, cells, alone, 0 * center, last)
     before, after = counting.added(*counting.stretched(np.array([0.0, last])))[0]
-    factor = (np.ceil(after - before) / (after - before))[:, None]
-    counting = replace(counting, table=(table - before[:, None]) * factor, slopes=slopes * factor)
+    factor = np.ceil(after - before) / (after - before)
+    counting = replace(counting, parts=np.array([-before * factor, factor]))
     return replace(counting, phase=_phase(counting))
+
+
+@lru_cache(maxsize=512)
+def _grading(gamma: float) -> Floats:
+    """How many lines a mode adds up to places beside it, as cubics, (N_CELLS, 4).
+
+    Equal cells of u = asinh(d/γ), each with its powers of 0 to 1.
+
+    Args:
+        gamma: half the mode's width, in steps of the grid.
+    """
+    end = np.arcsinh(NEAR * REACH / gamma)
+    u, step = np.linspace(-end, end, N_CELLS + 1, retstep=True)
+    d = gamma * np.sinh(u)
+    slopes = 2 / np.pi * (FINE - gamma) * np.exp(-((d / REACH) ** 2)) * step
+    bend = slopes * step * np.hypot(gamma, d) * -2 * d / REACH**2
+    parts = (slopes[:-1] + slopes[1:]) / 2 + (bend[:-1] - bend[1:]) / 12
+    before, p, q = np.cumsum(parts) - parts, slopes[:-1], slopes[1:]
+    return np.stack([before, p, 3 * parts - 2 * p - q, p + q - 2 * parts], axis=1)
 
 
 def _phase(counting: _Counting) -> Floats:
@@ -149,12 +165,20 @@ def _phase(counting: _Counting) -> Floats:
     return phase
 
 
-def _lines(counting: _Counting) -> Floats:
+@lru_cache(maxsize=64)
+def _lines(center: bytes, gamma: bytes, last: int) -> Floats:
+    """Where the counting function is whole, in steps of the grid; kept for the next similar rates."""
+    lines = _whole(_counting(np.frombuffer(center), np.frombuffer(gamma), last))
+    lines.flags.writeable = False
+    return lines
+
+
+def _whole(counting: _Counting) -> Floats:
     """Where the counting function is whole, from the grid's first line to its last."""
     last = counting.last
     grid = np.arange(last + 1.0)
     is_near = (np.abs(grid[:, None] - counting.center) < NEAR * REACH + 1).any(axis=1)
-    u = np.linspace(-1, 1, N_LOOKED_AT)[:, None] * counting.ends
+    u = np.linspace(-1, 1, N_LOOKED_AT)[:, None] * np.arcsinh(NEAR * REACH / counting.gamma)
     around = (counting.center + counting.gamma * np.sinh(u)).ravel()
     x = np.sort(np.concatenate([grid[is_near], around[(around > 0) & (around < last)]]))
     t, _ = counting(x)
@@ -163,10 +187,9 @@ def _lines(counting: _Counting) -> Floats:
     low, high = x[after - 1], x[after]
     is_within = high - low < BESIDE
     whole, low, high = whole[is_within], low[is_within], high[is_within]
-    lines = np.interp(whole, t, x)
-    for _ in range(N_STEPS):
-        reached, slope = counting(lines)
-        lines = np.clip(lines - (reached - whole) / slope, low, high)
+    about = np.interp(whole, t, x)
+    reached, slope = counting(about)
+    lines = np.clip(about - (reached - whole) / slope, low, high)
     nearest = np.round(lines)
     lines = np.where(np.abs(lines - nearest) < SAME, nearest, lines)
     resting = x[(np.abs(t - np.round(t)) < SAME) & (x == np.round(x))]

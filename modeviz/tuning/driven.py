@@ -1,7 +1,7 @@
 """A prepared vehicle that something shakes, solved at lines of its band or between them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.resonances import Resonances
 from modeviz.dynamics.response import direct_response
 from modeviz.ride.excitation import Excitation, Load, excitation, together
+from modeviz.tuning.latest import Latest
 from modeviz.tuning.preparation import Prepared
 from modeviz.vehicle.arrays import Complexes, Floats
 
@@ -24,6 +25,8 @@ class Driven:
     """On a road, m/s."""
     receptances: Receptances
     """Of every output, per unit of each input, at the lines of the band."""
+    latest: Latest[Receptances] = field(default_factory=Latest, init=False)
+    """The same between these, for the next rates that want the same lines."""
 
     @property
     def frequency_hz(self) -> Floats:
@@ -99,6 +102,11 @@ class Driven:
 
     def _between(self, lines: Floats, springs: NDArray[np.intp] | None = None) -> Receptances:
         """Receptances of some springs, or all, at lines between those of the band."""
+        key = lines.tobytes(), None if springs is None else springs.tobytes()
+        return self.latest.get(key, lambda: self._interpolated(lines, springs))
+
+    def _interpolated(self, lines: Floats, springs: NDArray[np.intp] | None) -> Receptances:
+        """The same, found anew."""
         between = self.prepared.between
         inputs = self._inputs(lines, between.known.mount_stiffness)
         used = np.flatnonzero(inputs.forces.any(axis=(0, 2)))

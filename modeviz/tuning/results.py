@@ -1,7 +1,7 @@
 """One solve for screen, report and command line."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -24,6 +24,7 @@ from modeviz.ride.participation import Peak, participation, participation_above,
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
 from modeviz.tuning.driven import Driven, driven
+from modeviz.tuning.latest import Latest
 from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
@@ -55,15 +56,14 @@ class Drive(Driven):
     conditions: Conditions
     load: RandomLoad
     """That of the conditions."""
+    latest_spectrum: Latest[Complexes] = field(default_factory=Latest, init=False)
 
     def spectrum_at(self, frequency_hz: Floats) -> Complexes:
         """Of the load's inputs, (n_freqs, n_inputs, n_inputs), m²/Hz of a road."""
-        return input_spectrum(self.load, frequency_hz, self.conditions.speed)
-
-    @cached_property
-    def spectrum(self) -> Complexes:
-        """That at the lines of the band."""
-        return self.spectrum_at(self.frequency_hz)
+        return self.latest_spectrum.get(
+            frequency_hz.tobytes(),
+            lambda: input_spectrum(self.load, frequency_hz, self.conditions.speed),
+        )
 
     @property
     def known(self) -> tuple[float, float]:
