@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.linalg
 from mounted_cabin import mounted_cabin
 from scipy.integrate import solve_ivp
 from scipy.optimize import linear_sum_assignment
@@ -191,15 +192,28 @@ def test_a_damped_mode_of_the_truck_is_its_undamped_one_followed_as_damping_grow
 @pytest.mark.slow
 @pytest.mark.parametrize("rates", ["original", "optimised"])
 def test_damped_modes_of_the_truck_are_those_of_the_full_model(truck, rates):
-    """430 coordinates: roots within 1e-3, shapes within 1 %."""
+    """430 coordinates: shapes within 1 %, roots as near as the basis can have them.
+
+    λ is off by rᵀ P⁻¹ r / ψᵀP'ψ with the residual r = Pψ, P = λ²M + λC + K over all that the basis
+    leaves out, by less than twice that where it gives way, too. It is what strong dampers couple to the
+    modes above, up to 9e-4 of |λ|.
+    """
     results = solve_modal(truck, truck.vehicle.rate_sets.get(rates, {}))
     system = truck.system.with_rates(results.rates)
     full = solve_complex_modes(system, solve_modes(system))
     size = np.einsum("ij,ij->j", full.shapes.conj(), system.momentum(full.shapes)).real
     shapes = full.shapes / np.sqrt(size)
+    left_out = scipy.linalg.null_space(system.momentum(truck.basis.vectors).T)
+    K = system.stiffness + 1j * system.structural_damping
     for i in np.flatnonzero(results.modes.frequency_hz > 0.1):
         mode = complex_mode(results, i)
         likeness = np.abs(shapes.conj().T @ system.momentum(mode.shape[:, None])[:, 0])
         root = full.eigenvalue[likeness.argmax()]
-        assert abs(mode.eigenvalue - root) < 1e-3 * abs(root)
+        s, psi = mode.eigenvalue, mode.shape
+        P = s**2 * system.mass + s * system.damping + K
+        r = left_out.T @ (P @ psi)
+        missing = r @ np.linalg.solve(left_out.T @ P @ left_out, r)
+        per_root = psi @ (2 * s * system.mass + system.damping) @ psi
+        assert abs(root - s) < 2 * abs(missing / per_root) + 1e-9 * abs(root)
+        assert abs(root - s) < 1e-3 * abs(root)
         assert 1 - likeness.max() ** 2 < 1e-4

@@ -1,6 +1,9 @@
 """The truck's truncated components against its full finite-element model, 41 454 degrees of freedom."""
 
+import re
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +18,8 @@ from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 
 BAND_HZ = 20.0
 N_MODES = 30
+RATES = "original", "optimised"
+README = Path(__file__).parents[1] / "README.md"
 
 
 @dataclass(frozen=True)
@@ -26,10 +31,15 @@ class Case:
     """Modes alone, with residual compliance at the bolts."""
 
 
-@pytest.fixture(scope="module", params=["original", "optimised"])
+@pytest.fixture(scope="module", params=RATES)
 def case(request):
+    return case_of(request.param)
+
+
+@cache
+def case_of(rates: str) -> Case:
     vehicle = read_vehicle(builtin_vehicle())
-    vehicle = vehicle.with_rates(vehicle.rate_sets[request.param])
+    vehicle = vehicle.with_rates(vehicle.rate_sets[rates])
     model = full_model(vehicle, Parameters())
     return Case(
         model,
@@ -78,7 +88,9 @@ def test_every_mode_below_20_hz_is_within_0_005_percent_of_the_full_model(case):
 
 
 @pytest.mark.slow
-def test_the_papers_modes_alone_are_percents_off(case):
-    full, paper, _ = paired_frequencies(case, case.paper)
-    worst = np.abs(paper / full - 1).max()
-    assert 0.03 < worst < 0.12
+def test_the_papers_modes_alone_are_as_far_off_as_the_readme_says():
+    """How far depends on the truck: nothing bounds it, so what is said of it is held."""
+    (said,) = re.findall(r"`modeviz\.modes_only`\), is up to ([\d.]+) % off", README.read_text())
+    pairs = (paired_frequencies(case, case.paper)[:2] for case in map(case_of, RATES))
+    worst = max(np.abs(paper / full - 1).max() for full, paper in pairs)
+    assert 100 * worst == pytest.approx(float(said), abs=0.051)
