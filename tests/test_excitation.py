@@ -120,7 +120,7 @@ def test_a_random_load_has_the_spectrum_of_its_transfer(load):
 def test_a_spectrum_is_a_power_law_between_its_values():
     table = Spectrum(np.array([0.1, 1.0, 50.0]), np.array([4.0, 1e-2, 1e-2]))
     vehicle = shaken_block(Force("random", "block", np.zeros(3), UP, table))
-    found = mv.solve(mv.prepare(vehicle), {}, Conditions("random", 20.0)).drive.spectrum[:, 0, 0]
+    found = mv.solve(mv.prepare(vehicle), {}, Conditions("random", 20.0)).drive.spectrum_at(F)[:, 0, 0]
     np.testing.assert_allclose(found[F == 0.2], 4.0 * 2 ** np.log10(1e-2 / 4.0), rtol=1e-9)
     np.testing.assert_allclose(found[F == 20.0], 1e-2, rtol=1e-12)
 

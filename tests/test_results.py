@@ -134,6 +134,6 @@ def test_more_springs_than_coordinates_are_solved_directly_and_alike(monkeypatch
     psd = solve(prepared, SOFT, FLAT).psd
     assert len(asked) == 1
     H = drive(prepared, FLAT).receptances.response(prepared.mount_stiffness(SOFT))
-    S = drive(prepared, FLAT).spectrum
+    S = drive(prepared, FLAT).spectrum_at(prepared.frequency_hz)
     modified = acceleration_psd(prepared.frequency_hz, H, S)
     np.testing.assert_allclose(psd.reshape(modified.shape), modified, rtol=1e-9)
