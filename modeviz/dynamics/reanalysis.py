@@ -157,6 +157,23 @@ class Receptances:
             self.direct[lines][:, :, i],
         )
 
+    def merged(self, others: "Receptances", is_own: NDArray[np.bool_]) -> "Receptances":
+        """These and others between them; which of all frequencies are these, (n_freqs,)."""
+
+        def both(own: NDArray, other: NDArray) -> NDArray:
+            values = np.empty((len(is_own), *own.shape[1:]), own.dtype)
+            values[is_own], values[~is_own] = own, other
+            return values
+
+        return Receptances(
+            both(self.frequency_hz, others.frequency_hz),
+            self.mount_stiffness,
+            both(self.springs, others.springs),
+            both(self.outputs, others.outputs),
+            both(self.inputs, others.inputs),
+            both(self.direct, others.direct),
+        )
+
     def with_outputs(self, outputs: NDArray[np.intp]) -> "Receptances":
         """The same for some of the outputs only."""
         return replace(self, outputs=self.outputs[:, :, outputs], direct=self.direct[:, outputs])

@@ -131,11 +131,20 @@ def known_part(load: Load, frequency_hz: Floats, speed: float) -> slice:
     Raises:
         ModevizError: none of them.
     """
+    table = table_hz(load, speed)
+    if not table.size:
+        return slice(0, len(frequency_hz))
+    what = f"road {load.name!r}" if isinstance(load, Road) else repr(load.name)
+    return held(what, table, frequency_hz)
+
+
+def table_hz(load: Load, speed: float) -> Floats:
+    """Where the spectrum of a load is given, (n_freqs,), Hz, rising; none of a harmonic load."""
     if isinstance(load, Road):
-        return held(f"road {load.name!r}", load.frequency_hz * speed / load.speed, frequency_hz)
+        return load.frequency_hz * (speed / load.speed)
     if not isinstance(load, WheelLoad) and isinstance(load.amplitude, Spectrum):
-        return held(repr(load.name), load.amplitude.frequency_hz, frequency_hz)
-    return slice(0, len(frequency_hz))
+        return load.amplitude.frequency_hz
+    return np.zeros(0)
 
 
 class _Slots:

@@ -73,7 +73,7 @@ def solve_many(
     _check_stiffness(mount_stiffness, len(prepared.receptances.mount_stiffness))
     on_road = drive(prepared, conditions)
     n_values = prepared.basis.n_below + 3 * len(prepared.vehicle.response_points) * (
-        len(prepared.frequency_hz) + 1
+        len(on_road.frequency_hz) + 1
     )
     n_at_once = max(1, memory // (2 * 8 * n_values))
     if runner is not None:

@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.resonances import Resonances
 from modeviz.dynamics.response import direct_response
-from modeviz.ride.excitation import Excitation, Load, excitation, together
+from modeviz.ride.excitation import Excitation, Load, excitation, known_part, together
+from modeviz.ride.resolution import resolving_lines
 from modeviz.tuning.latest import Latest
 from modeviz.tuning.preparation import Prepared
 from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.loads import RandomLoad
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +26,7 @@ class Driven:
     speed: float
     """On a road, m/s."""
     receptances: Receptances
-    """Of every output, per unit of each input, at the lines of the band."""
+    """Of every output, per unit of each input, at lines that hold what the loads' spectra say."""
     latest: Latest[Receptances] = field(default_factory=Latest, init=False)
     """The same between these, for the next rates that want the same lines."""
 
@@ -95,6 +97,12 @@ class Driven:
             [excitation(vehicle, load, lines, self.speed, stiffness) for load in self.loads]
         )
 
+    def at(self, lines: Floats) -> Receptances:
+        """Receptances at lines, (n_lines,)."""
+        kept, place = self._on_band(lines)
+        known = self.receptances.at(place[kept])
+        return known if kept.all() else known.merged(self._interpolated(lines[~kept], None), kept)
+
     def _on_band(self, lines: Floats) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
         """Which lines are of the band, and where in it."""
         place = np.minimum(np.searchsorted(self.frequency_hz, lines), len(self.frequency_hz) - 1)
@@ -115,11 +123,22 @@ class Driven:
 
 
 def driven(
-    prepared: Prepared, loads: Sequence[Load], speed: float, known: slice = slice(None)
+    prepared: Prepared, loads: Sequence[Load], speed: float, lines: Floats | None = None
 ) -> Driven:
-    """A prepared vehicle under loads, in the part of its band in which they are known."""
-    part, on_band = prepared, prepared.frequency_hz[known]
-    if len(on_band) < len(prepared.frequency_hz):
-        lines = np.arange(len(prepared.frequency_hz))[known]
-        part = replace(prepared, receptances=prepared.receptances.at(lines))
-    return Driven(prepared, tuple(loads), speed, part.excited(loads, speed))
+    """A prepared vehicle under loads, at lines of its band or between them; at those of it if None."""
+    on_band = Driven(prepared, tuple(loads), speed, prepared.excited(loads, speed))
+    if lines is None or np.array_equal(lines, prepared.frequency_hz):
+        return on_band
+    return replace(on_band, receptances=on_band.at(lines))
+
+
+def load_lines(prepared: Prepared, loads: Sequence[tuple[RandomLoad, float]]) -> Floats:
+    """Lines at which some loads, each with the speed on a road in m/s, are to be solved, (n_lines,).
+
+    Raises:
+        ModevizError: nothing of the band is known of a load.
+    """
+    if prepared.is_graded:
+        return resolving_lines(loads, prepared.frequency_hz)
+    parts = [known_part(load, prepared.frequency_hz, speed) for load, speed in loads]
+    return prepared.frequency_hz[min(p.start for p in parts) : max(p.stop for p in parts)]

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -10,12 +11,14 @@ from modeviz.dynamics.resonances import resonances_at
 from modeviz.ride.excitation import known_part
 from modeviz.ride.integration import integration_weights
 from modeviz.ride.rating import squared_weights
+from modeviz.tuning.driven import load_lines
 from modeviz.tuning.objective import LoadCase, Objective, objective_on
 from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import Conditions
 from modeviz.tuning.sensitivity import spring_shares
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.loads import RandomLoad
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -57,6 +60,17 @@ class Integral:
     """At the lines of the band, and between."""
     cases: tuple[BandCase, ...]
 
+    @property
+    def loads(self) -> list[tuple[RandomLoad, float]]:
+        """What shakes in each case, and the speed on a road, m/s."""
+        vehicle = self.prepared.vehicle
+        return [(vehicle.random_load(case.load.road), case.load.speed) for case in self.cases]
+
+    @cached_property
+    def grid(self) -> Floats:
+        """Lines that hold what the loads' spectra say, (n_lines,), Hz, beside which others lie."""
+        return load_lines(self.prepared, self.loads)
+
     def on(self, lines: Floats) -> Objective:
         """The same as a sum over given lines."""
         cases = [case.on(self.prepared.vehicle, lines) for case in self.cases]
@@ -64,7 +78,8 @@ class Integral:
 
     def near(self, stiffness: Complexes) -> Objective:
         """The same as a sum over the lines that mount rates want, (n_springs,), complex, N/m."""
-        return self.on(self.prepared.lines(resonances_at(self.prepared.basis, stiffness)))
+        resonances = resonances_at(self.prepared.basis, stiffness)
+        return self.on(self.prepared.lines(resonances, self.grid))
 
     def value(self, rates: Rates) -> float:
         """F at rates of the groups that differ from the vehicle's own; raises as `solve`."""

@@ -117,14 +117,14 @@ class Prepared(PreparedModes):
         own = self.input_directions.nbytes + self.outputs.nbytes
         return super().n_bytes + self.receptances.n_bytes + own
 
-    def lines(self, resonances: Resonances, band: Floats | None = None) -> Floats:
+    def lines(self, resonances: Resonances, grid: Floats | None = None) -> Floats:
         """The lines at which responses hold the integrals, (n_lines,): closer where modes are sharp.
 
         Args:
             resonances: at the mount rates that are looked at.
-            band: those of `frequency_hz` that matter, all if None.
+            grid: lines that would do if no mode were sharp, evenly spaced, `frequency_hz` if None.
         """
-        lines = self.frequency_hz if band is None else band
+        lines = self.frequency_hz if grid is None else grid
         if not self.is_graded:
             return lines
         seen = resonances.seen(self.outputs, self.input_directions).rounded()

@@ -18,12 +18,12 @@ from modeviz.dynamics.resonances import Resonances, resonances, resonances_at
 from modeviz.dynamics.response import modal_coordinates
 from modeviz.dynamics.trust import Trust
 from modeviz.errors import ModevizError
-from modeviz.ride.excitation import Load, excitation, input_spectrum, known_part
+from modeviz.ride.excitation import Load, excitation, input_spectrum
 from modeviz.ride.integration import line_distances
 from modeviz.ride.participation import Peak, participation, participation_above, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
-from modeviz.tuning.driven import Driven, driven
+from modeviz.tuning.driven import Driven, driven, load_lines
 from modeviz.tuning.latest import Latest
 from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.vehicle.arrays import Complexes, Floats
@@ -79,7 +79,8 @@ class Drive(Driven):
     @property
     def is_partial(self) -> bool:
         """Whether there is more of the band, of which nothing is known."""
-        return len(self.frequency_hz) < len(self.prepared.frequency_hz)
+        whole = self.prepared.frequency_hz
+        return self.known != (float(whole[0]), float(whole[-1]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -327,8 +328,7 @@ def drive(prepared: Prepared, conditions: Conditions) -> Drive:
         ModevizError: nothing of the band is known of the road at that speed.
     """
     load, speed = prepared.vehicle.random_load(conditions.road), conditions.speed
-    known = known_part(load, prepared.frequency_hz, speed)
-    under = driven(prepared, [load], speed, known)
+    under = driven(prepared, [load], speed, load_lines(prepared, [(load, speed)]))
     return Drive(prepared, under.loads, speed, under.receptances, conditions, load)
 
 

@@ -15,6 +15,7 @@ from modeviz.errors import SolveError, VehicleError, unknown
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
 from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.driven import load_lines
 from modeviz.tuning.integral import Integral
 from modeviz.tuning.objective import Criterion, Objective
 from modeviz.tuning.parts import Parts
@@ -22,6 +23,7 @@ from modeviz.tuning.preparation import Prepared
 from modeviz.tuning.results import AXIS, Conditions, drive
 from modeviz.tuning.runner import HERE, Runner
 from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.loads import RandomLoad
 
 CHUNK = 100
 """Vehicles that are solved at a time, wherever they are, so that numbers never depend on where."""
@@ -113,7 +115,10 @@ def scatter(
     numbers = _points(prepared, points)
     control = control or Control()
     deviations = parts.samples(n_samples, seed)
-    prepared = _ready(prepared, parts, seed)
+    loads = [(prepared.vehicle.random_load(conditions.road), conditions.speed)]
+    if isinstance(objective, Integral):
+        loads += objective.loads
+    prepared = _ready(prepared, parts, seed, loads)
     if isinstance(objective, Integral):
         objective = objective.on(prepared.frequency_hz)
     given = prepared, conditions, objective, parts, numbers, control
@@ -223,13 +228,15 @@ def _study(
     return study, exact.sample(drawn), errors
 
 
-def _ready(prepared: Prepared, parts: Parts, seed: int) -> Prepared:
-    """The vehicle at lines that hold the integrals wherever scatter takes its modes."""
+def _ready(
+    prepared: Prepared, parts: Parts, seed: int, loads: Sequence[tuple[RandomLoad, float]]
+) -> Prepared:
+    """The vehicle at lines that hold the integrals of loads wherever scatter takes its modes."""
     if not prepared.is_graded:
         return prepared
     deviations = np.vstack([np.zeros((1, parts.n_deviations)), _others(parts, seed)])
     every = [resonances_at(prepared.basis, each) for each in parts.stiffness(deviations)]
-    return prepared.on(prepared.lines(swept(every)))
+    return prepared.on(prepared.lines(swept(every), load_lines(prepared, loads)))
 
 
 def _others(parts: Parts, seed: int) -> Floats:
