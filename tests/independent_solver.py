@@ -57,6 +57,10 @@ class Link:
         """The force when the ground end moves by one along a direction."""
         return self.rows[:3].T @ (self.dynamic_stiffness(f)[:3] * (self.axes @ direction))
 
+    def given(self, direction):
+        """How far what is held moves when the ground end moves by one along a direction."""
+        return np.r_[self.axes @ direction, np.zeros(3)][self.is_held]
+
 
 class Folder:
     """A vehicle folder, in SI and in axes x rearward, y right, z up."""
@@ -230,7 +234,9 @@ class Folder:
             self.C += link.rows.T @ np.diag(link.damping) @ link.rows
         held = np.vstack([np.zeros((0, self.n)), *(link.rows[link.is_held] for link in self.links)])
         size = np.linalg.norm(held, axis=1, keepdims=True)
-        self.held = scipy.linalg.orth((held / np.where(size > 0, size, 1)).T, rcond=1e-10).T
+        held, of_unit = held / np.where(size > 0, size, 1), 1 / np.where(size > 0, size, 1)
+        self.held = scipy.linalg.orth(held.T, rcond=1e-10).T
+        self.led = np.linalg.pinv(held @ self.held.T) * of_unit.T
         self.free = scipy.linalg.null_space(self.held) if len(self.held) else np.eye(self.n)
 
     def _undamped(self):
@@ -260,16 +266,21 @@ class Folder:
         return omega / (2 * np.pi), self._ratios(omega, phi)
 
     def respond(self, f, force):
-        """Coordinates (n, n_inputs) under generalised forces at one frequency."""
+        """Coordinates (n, n_inputs) at one frequency.
+
+        Under generalised forces, below which may stand motions of the ground ends of what is held.
+        """
         omega, m = 2 * np.pi * f, len(self.held)
         Z = self.K + 1j * self.K_g + 1j * omega * self.C - omega**2 * self.M
         size = np.sqrt(np.abs(np.diag(Z)))
         B = self.held / size
         A = np.zeros((self.n + m, self.n + m), complex)
         A[: self.n, : self.n] = Z / np.outer(size, size)
-        A[self.n :, : self.n] = B / np.linalg.norm(B, axis=1, keepdims=True)
+        of_unit = 1 / np.linalg.norm(B, axis=1, keepdims=True)
+        A[self.n :, : self.n] = B * of_unit
         A[: self.n, self.n :] = A[self.n :, : self.n].T
-        b = np.vstack([force / size[:, None], np.zeros((m, force.shape[1]))])
+        given = force[self.n :]
+        b = np.vstack([force[: self.n] / size[:, None], self.led[:, : len(given)] @ given * of_unit])
         x = np.linalg.solve(A, b)
         x += np.linalg.solve(A, b - A @ x)
         return x[: self.n] / size[:, None]
@@ -341,6 +352,8 @@ class Folder:
         moved = table.get("connections") or [link.name for link in self.links if link.is_grounded]
         direction = self.vector(table["direction"])
         force = sum(link.pull(f, direction) for link in self.links if link.name in moved)
+        ends = [(link.name in moved) * link.given(direction) for link in self.links]
+        force = np.concatenate([force, *ends])
         key = next(k for k in table if k.startswith(("displacement", "acceleration")))
         if key.startswith("displacement"):
             return force, table[key], self.unit("length")

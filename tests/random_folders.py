@@ -28,7 +28,7 @@ CHOICES = {
 
 
 class RandomFolder:
-    """One flexible and three rigid bodies with every kind of connection and load."""
+    """One flexible and four rigid bodies with every kind of connection and load."""
 
     def __init__(self, path: Path, seed: int):
         self.path, self.rng = path, np.random.default_rng(seed)
@@ -37,7 +37,7 @@ class RandomFolder:
         self.units = {q: self.rng.choice(units).item() for q, units in CHOICES.items()}
         self.bodies = {
             name: self.rng.uniform(-1, 1, 3) + np.array([0, 0, 1.5])
-            for name in ("cab", "engine", "axle")
+            for name in ("cab", "engine", "axle", "table")
         }
         self.frame = self.rng.uniform(-1, 1, (8, 3)) * [1.5, 0.6, 0.3] + [0, 0, 1]
         path.mkdir(parents=True, exist_ok=True)
@@ -159,7 +159,8 @@ class RandomFolder:
         } | {"units": own}  # fmt: skip
 
     def _mounts(self):
-        for number, (a, b) in enumerate((("cab", "frame"), ("engine", "frame"), ("engine", "ground"))):
+        pairs = ("cab", "frame"), ("engine", "frame"), ("engine", "ground"), ("table", "cab")
+        for number, (a, b) in enumerate(pairs):
             rates = dict(
                 zip(
                     ("vertical", "lateral", "fore_aft"),
@@ -200,7 +201,11 @@ class RandomFolder:
                 },
             )
         yield "spring", self._joint("ball joint", "axle", "engine") | {"rigid": ["x", "z"]}
+        yield "spring", self._joint("slide", "frame", "ground") | {
+            "rigid": ["y"], "stiffness": [self.value(4e5, "stiffness"), 0, 0],
+        }  # fmt: skip
         yield "bolt", self._joint("bolt", "cab", "engine") | {"rigid": self._rigidly()}
+        yield "bolt", self._joint("anchor", "table", "ground") | {"rigid": True}
         yield (
             "damper",
             self._joint("shock absorber", "axle", "frame")
@@ -266,7 +271,7 @@ class RandomFolder:
                         "amplitude": self.value(30.0, "force")}  # fmt: skip
         yield "force", {"name": "wind", "body": "frame", "at": self.place(self.end("frame")),
                         "direction": "lateral", "psd": "psd.csv"}  # fmt: skip
-        moved = ["spring 2", "M2.0", "tyre 1"]
+        moved = ["spring 2", "M2.0", "tyre 1", "anchor", "slide", "stay"]
         yield "base_motion", {"name": "post", "connections": moved, "direction": direction,
                               "displacement": self.value(2e-3, "length")}  # fmt: skip
         yield "base_motion", {"name": "table", "connections": [*moved, "M2.1", "M2.2"],

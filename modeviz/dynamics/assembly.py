@@ -50,6 +50,17 @@ class System:
     def n_dofs(self) -> int:
         return len(self.mass)
 
+    @cached_property
+    def rigid_motions(self) -> tuple[tuple[str, str], ...]:
+        """The connection and the motion, of `MOTIONS`, of each relative motion that is held."""
+        every = self.vehicle.all_connections
+        return tuple((c.name, m) for c in every for m in MOTIONS if m in c.rigid)
+
+    @property
+    def held_motions(self) -> Floats:
+        """Rows (n_rigid, n_dofs), see `relative_motion`: those of `rigid_motions`."""
+        return self.connection_motions[_is_rigid(self.vehicle)]
+
     @property
     def n_bytes(self) -> int:
         """The memory that the matrices take."""
@@ -169,7 +180,7 @@ def assemble(vehicle: Vehicle) -> System:
         np.concatenate(v)
         for v in zip(*map(connection_coefficients, vehicle.all_connections), strict=True)
     )
-    held = np.array([m in c.rigid for c in vehicle.all_connections for m in MOTIONS])
+    held = _is_rigid(vehicle)
     joints = rigid_joints(M, R[held]) if held.any() else None
     if joints and not joints.freedom.size:
         raise VehicleError(
@@ -185,6 +196,11 @@ def assemble(vehicle: Vehicle) -> System:
         connection_motions=R,
         rigid_joints=joints,
     )
+
+
+def _is_rigid(vehicle: Vehicle) -> NDArray[np.bool_]:
+    """Which relative motions of all connections are held, (6 n_connections,)."""
+    return np.array([m in c.rigid for c in vehicle.all_connections for m in MOTIONS], bool)
 
 
 def mount_stiffness(vehicle: Vehicle) -> Complexes:

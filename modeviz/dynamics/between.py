@@ -16,6 +16,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from modeviz.dynamics.actions import directions
 from modeviz.dynamics.basis import EnrichedBasis
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.poles import poles_near, ritz_poles
@@ -150,7 +151,8 @@ def prepare_between(
     Args:
         known: the receptances.
         basis: holds the modes at their mount rates.
-        rows: of the outputs (n_outputs, n_dofs) and the inputs (n_inputs, n_dofs).
+        rows: of the outputs (n_outputs, n_dofs) and the inputs (n_inputs, n_dofs), or wider; a motion
+            that rigid joints are given is no direction to find poles in.
         along: their values at complex frequencies, see `poles_near`; directions are those of the
             mount springs, the outputs and the inputs.
     """
@@ -160,7 +162,9 @@ def prepare_between(
     is_free = np.abs(poles) < RESOLVED_HZ
     is_near = (np.abs(poles.imag) < reach) & (f[0] - reach < poles.real) & (poles.real < f[-1] + reach)
     wanted = is_near & ~is_free
-    motions = np.vstack([basis.system.mount_motions, *rows]) @ shapes[:, wanted]
+    system = basis.system
+    along_coordinates = directions(system, system.mount_motions, *rows)[:, : system.n_dofs]
+    motions = along_coordinates @ shapes[:, wanted]
     found = poles_near(poles[wanted], motions.T, along)
     return Between(known, np.concatenate([np.zeros(2 if is_free.any() else 0, complex), found]))
 

@@ -21,6 +21,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import System, mount_stiffness
 from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import drowned
@@ -253,13 +254,14 @@ def prepare_receptances(
         system: whose mounts will change.
         frequency_hz: (n_freqs,), rising, above zero.
         outputs: rows (n_outputs, n_dofs) that read the answer.
-        inputs: rows (n_inputs, n_dofs) along which forces act.
+        inputs: rows (n_inputs, n_dofs) along which forces act, or wider by motions given to rigid
+            joints.
         progress: told the fraction that is done.
 
     Raises:
         SolveError: a frequency that is zero, repeated or not finite, or one with an undamped pole.
     """
-    rows = np.vstack([system.mount_motions, outputs, inputs])
+    rows = directions(system, system.mount_motions, outputs, inputs)
     G = receptances(system, frequency_hz, rows, progress)
     n_springs = len(system.mount_motions)
     springs, others = slice(0, n_springs), slice(n_springs, n_springs + len(outputs))

@@ -11,7 +11,8 @@ coordinates e are eliminated; some, u, are kept with the forces:
 
 z = k (1 + jg) + jωc for a connection, -ω²m for an added mass, 1/z = 0 for a rigid joint (D. de Klerk,
 D. J. Rixen, S. N. Voormeeren, "General framework for dynamic substructuring", AIAA Journal 46(5),
-2008).
+2008). A motion given to a rigid joint adds itself to the right side of the joint's line; by reciprocity
+what a force there gives is the joint's own force.
 """
 
 import os
@@ -22,6 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import System, connection_coefficients, modal_coefficients
 from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
 from modeviz.errors import SolveError
@@ -50,13 +52,15 @@ def receptances(
 ) -> Complexes:
     """G (n_freqs, n_rows, n_rows): displacement along each of `rows` per unit force along each.
 
+    Of a row that is a motion given to rigid joints, the unit is that motion, and their force is read.
+
     Memory beside the result: for each thread a few complex matrices of the size of all joined
     directions, kept coordinates and rows together, whatever the number of modes and frequencies.
 
     Args:
         system: what vibrates.
         frequency_hz: (n_freqs,), rising, above zero.
-        rows: P, (n_rows, n_dofs).
+        rows: P, (n_rows, n_dofs), or wider by the motions that rigid joints are given.
         progress: told the fraction that is done, up to one.
 
     Raises:
@@ -126,6 +130,8 @@ class _Disassembled:
     """(n_dofs,) each."""
     motions: Floats
     """(n_directions, n_dofs)."""
+    given: Floats
+    """(n_rows, n_held): what motion each row gives to the rigid joints."""
     moved: tuple[tuple[slice, np.ndarray], ...]
     """The coordinates of each body, and which directions they move."""
 
@@ -163,6 +169,10 @@ class _Disassembled:
         matrix[n_kept:, :n_kept] = self.motions[:, kept]
         matrix[:n_kept, n_kept:] = self.motions[:, kept].T
         matrix[n_kept:, n_kept:] = -self._flexibility(per_force)
+        first_row = len(matrix) - len(self.given)
+        held = slice(first_row - self.given.shape[1], first_row)
+        matrix[first_row:, held] += self.given
+        matrix[held, first_row:] += self.given.T
         joints = np.arange(n_kept, n_kept + len(compliance))
         matrix[joints, joints] -= compliance
         own_parts = self.omega_n_squared + omega**2
@@ -194,14 +204,17 @@ class _Disassembled:
 
 def _disassemble(system: System, rows: Floats) -> _Disassembled:
     bodies = system.vehicle.bodies
-    directions, joints = _joints(system)
-    motions = np.vstack([directions, rows])
+    joined, joints = _joints(system)
+    rows, given = np.split(directions(system, rows), [system.n_dofs], axis=1)
+    motions = np.vstack([joined, rows])
+    if system.rigid_joints:
+        given = given @ system.rigid_joints.shares.T
     for body in bodies:
         own = system.dofs[body.name]
         motions[:, own] = motions[:, own] @ _normalising(body)
     damping, omega_n_squared, structural = np.hstack([_modal_coefficients(b) for b in bodies])
     moved = [(own, np.flatnonzero(motions[:, own].any(axis=1))) for own in system.dofs.values()]
-    return _Disassembled(joints, omega_n_squared, damping, structural, motions, tuple(moved))
+    return _Disassembled(joints, omega_n_squared, damping, structural, motions, given, tuple(moved))
 
 
 def _joints(system: System) -> tuple[Floats, _Joints]:

@@ -49,15 +49,19 @@ class Resonances:
 
         Args:
             outputs: rows (n_outputs, n_dofs).
-            inputs: rows (n_inputs, n_dofs).
+            inputs: rows (n_inputs, n_dofs), or wider by motions given to rigid joints: these are taken
+                to excite all modes alike.
         """
         if self.shapes is None:
             return self
-        received = ((inputs @ self.shapes) ** 2).sum(axis=0)
+        forces, given = np.split(inputs, [len(self.shapes)], axis=1)
+        received = [((forces @ self.shapes) ** 2).sum(axis=0)]
+        if given.any():
+            received.append(np.ones(len(self.frequency_hz)))
         sharpness = np.maximum(self.damping_ratio * self.frequency_hz, np.finfo(float).tiny)
-        power = (outputs @ self.shapes) ** 2 * received / sharpness
-        power[:, self.damping_ratio == 0] = 0
-        seen = (power > UNSEEN * power.sum(axis=1, keepdims=True)).any(axis=0)
+        power = (outputs @ self.shapes) ** 2 * np.array(received)[:, None] / sharpness
+        power[..., self.damping_ratio == 0] = 0
+        seen = (power > UNSEEN * power.sum(axis=-1, keepdims=True)).any(axis=(0, 1))
         return Resonances(self.frequency_hz[seen], self.damping_ratio[seen])
 
     def rounded(self) -> "Resonances":

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from modeviz.dynamics.actions import forces_on_rest, led
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.modes import Modes
 from modeviz.errors import SolveError
@@ -21,7 +22,8 @@ def direct_response(
     Args:
         system: what vibrates.
         frequency_hz: (n_freqs,), rising, above zero.
-        forces: F, (n_freqs, n_dofs, n_inputs), generalised forces per unit of input.
+        forces: F, (n_freqs, n_dofs, n_inputs), generalised forces per unit of input, or
+            wider by motions given to rigid joints, see `actions`.
         outputs: R, (n_outputs, n_dofs), rows that read the answer.
 
     Raises:
@@ -41,7 +43,7 @@ def direct_shape(system: System, frequency_hz: float, forces: Complexes, outputs
     Args:
         system: what vibrates.
         frequency_hz: above zero.
-        forces: (n_dofs, n_inputs), generalised forces per unit of input.
+        forces: (n_dofs, n_inputs), generalised forces per unit of input, or wider likewise.
         outputs: rows (n_outputs, n_dofs) along which, as along the forces, it must be accurate.
 
     Raises:
@@ -50,11 +52,12 @@ def direct_shape(system: System, frequency_hz: float, forces: Complexes, outputs
     omega = 2 * np.pi * frequency_hz
     K = system.stiffness + 1j * system.structural_damping
     Z = system.condensed(K - omega**2 * system.mass + 1j * omega * system.damping)
-    directions = system.condensed_rows(np.vstack([forces.T, outputs], dtype=complex)).T
+    on_rest = forces_on_rest(system, frequency_hz, forces)
+    directions = system.condensed_rows(np.vstack([on_rest.T, outputs], dtype=complex)).T
     x = _solve(Z, directions, frequency_hz)
     parts = np.abs(system.condensed(K)) + omega**2 * np.abs(system.condensed(system.mass))
     check_accuracy(parts, x, directions.T @ x, frequency_hz, DIRECT_ACCURACY)
-    return system.expanded(x[:, : forces.shape[1]])
+    return led(system, forces) + system.expanded(x[:, : forces.shape[1]])
 
 
 def check_frequencies(frequency_hz: Floats) -> None:
@@ -95,9 +98,9 @@ def modal_response(
         phi.T @ system.damping @ phi,
         phi.T @ system.structural_damping @ phi,
         frequency_hz,
-        phi.T @ forces,
+        phi.T @ forces_on_rest(system, frequency_hz, forces),
     )
-    return (outputs @ phi) @ q
+    return outputs @ led(system, forces) + (outputs @ phi) @ q
 
 
 def modal_coordinates(

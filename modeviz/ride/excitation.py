@@ -2,7 +2,8 @@
 
 A motion z of the ground under a connection of dynamic stiffness k (1 + jg) + jωc is the force of the
 connection stretched by it. Where that connection is a mount, the force changes with the mount's rates;
-its stretch does not contain the ground's motion, so what the mount feels is the stretch less z.
+its stretch does not contain the ground's motion, so what the mount feels is the stretch less z. Where
+the connection is rigid, what it holds moves by z.
 """
 
 from collections.abc import Sequence
@@ -10,7 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import System, connection_coefficients, mount_stiffness
+from modeviz.errors import VehicleError
 from modeviz.ride.roads import (
     held,
     interpolated_power,
@@ -20,11 +23,14 @@ from modeviz.ride.roads import (
 )
 from modeviz.ride.wheels import wheel_amplitudes, wheel_directions
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Connection
+from modeviz.vehicle.connections import MOTIONS, Connection
 from modeviz.vehicle.loads import BaseMotion, Force, HarmonicLoad, RandomLoad, Road, Spectrum, WheelLoad
 from modeviz.vehicle.vehicle import Vehicle
 
 Load = RandomLoad | HarmonicLoad
+
+FOLLOWS = 1e-3
+"""Of a unit motion of the ground: as far as the rigid modes of a body may be off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,21 +38,28 @@ class Excitation:
     """What inputs do to a vehicle, per unit of each."""
 
     forces: Complexes
-    """(n_freqs, n_directions, n_inputs), N along each of `input_directions`."""
+    """(n_freqs, n_directions, n_inputs), N along each of `input_directions`; m, where that is a motion
+    given to a rigid joint."""
     ground: Complexes
     """(n_freqs, n_springs, n_inputs), m: how far the ground end of each mount spring moves along it."""
 
 
 def input_directions(system: System) -> Floats:
-    """Rows (n_directions, n_dofs) along which loads act.
+    """Rows (n_directions, n_dofs + n_rigid) along which loads act.
 
     `tyre_directions` and `wheel_directions`, then one for each force, then the three local axes of each
-    connection whose ground end some base motion moves.
+    connection whose ground end some base motion moves; those in which it is rigid are motions given to
+    it.
+
+    Raises:
+        VehicleError: a base motion does not move all rigid connections that hold one motion.
     """
     vehicle = system.vehicle
-    forces = [f.direction @ system.motion(f.body, f.position)[:3] for f in vehicle.forces]
-    moved = [system.relative_motion(c)[:3] for c in _moved(vehicle)]
-    return np.vstack([tyre_directions(system), wheel_directions(system), *forces, *moved])
+    forces = [f.direction @ system.motion(f.body, f.position)[None, :3] for f in vehicle.forces]
+    moved = [_moved_directions(system, c) for c in _moved(vehicle)]
+    for motion in vehicle.base_motions:
+        _check_led(system, motion)
+    return directions(system, tyre_directions(system), wheel_directions(system), *forces, *moved)
 
 
 def excitation(
@@ -100,9 +113,9 @@ def together(excitations: Sequence[Excitation]) -> Excitation:
 
 
 def generalised_forces(system: System, load: Load, frequency_hz: Floats, speed: float) -> Complexes:
-    """Forces on a system's coordinates per unit of each input of a load, (n_freqs, n_dofs, n_inputs).
+    """What acts on a system per unit of each input of a load, (n_freqs, n_dofs + n_rigid, n_inputs).
 
-    Arguments as of `excitation`.
+    Forces on its coordinates, then motions given to its rigid joints. Arguments as of `excitation`.
     """
     stiffness = mount_stiffness(system.vehicle)
     inputs = excitation(system.vehicle, load, frequency_hz, speed, stiffness)
@@ -166,6 +179,35 @@ def _moved(vehicle: Vehicle) -> list[Connection]:
     return [c for c in vehicle.all_connections if c.name in names]
 
 
+def _moved_directions(system: System, connection: Connection) -> Floats:
+    """The local axes of a connection as directions, (3, n_dofs + n_rigid)."""
+    rows = directions(system, system.relative_motion(connection)[:3])
+    for row, motion in zip(rows, MOTIONS, strict=False):
+        if motion in connection.rigid:
+            row[:] = 0.0
+            row[system.n_dofs + system.rigid_motions.index((connection.name, motion))] = 1.0
+    return rows
+
+
+def _check_led(system: System, motion: BaseMotion) -> None:
+    """Raises VehicleError unless the rigid connections can all follow a base motion."""
+    wanted = {
+        (c.name, m): along
+        for c in system.vehicle.moved_connections(motion)
+        for m, along in zip(MOTIONS[:3], c.axes @ motion.direction, strict=True)
+    }
+    a = np.array([wanted.get(held, 0.0) for held in system.rigid_motions])
+    if not system.rigid_joints or not a.any():
+        return
+    error = np.abs(system.held_motions @ system.rigid_joints.led @ a - a)
+    if error.max() > FOLLOWS:
+        name, held = system.rigid_motions[int(error.argmax())]
+        raise VehicleError(
+            f"base motion {motion.name!r}: {name!r} holds what others move along or about its {held}; "
+            "expected all rigid connections to the ground that hold the same to be moved alike"
+        )
+
+
 def _springs(vehicle: Vehicle, connection: Connection) -> slice:
     """Which mount springs are along the axes of a connection, none if it is no mount."""
     names = [mount.name for mount in vehicle.mounts]
@@ -178,10 +220,14 @@ def _springs(vehicle: Vehicle, connection: Connection) -> slice:
 def _dynamic_stiffness(
     connection: Connection, frequency_hz: Floats, mount_stiffness: Complexes
 ) -> Complexes:
-    """Complex k (1 + jg) + jωc along the local axes, (n_freqs, 3), N/m; of a mount with rates given."""
+    """Complex k (1 + jg) + jωc along the local axes, (n_freqs, 3), N/m; of a mount with rates given.
+
+    One along an axis in which it is rigid, for there the motion itself is what it does.
+    """
     k, c, g = (part[:3] for part in connection_coefficients(connection))
     stiffness = mount_stiffness if len(mount_stiffness) else k * (1 + 1j * g)
-    return stiffness + 2j * np.pi * frequency_hz[:, None] * c
+    is_rigid = np.isin(MOTIONS[:3], connection.rigid)
+    return np.where(is_rigid, 1.0, stiffness + 2j * np.pi * frequency_hz[:, None] * c)
 
 
 def _peak(load: Force | BaseMotion) -> float:

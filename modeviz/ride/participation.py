@@ -55,6 +55,7 @@ def participation_above(
     n_single: int,
     output_shapes: Floats,
     modal_forces: Complexes,
+    given: Complexes,
     frequency_hz: Floats,
     input_psd: Complexes,
 ) -> Floats:
@@ -65,14 +66,15 @@ def participation_above(
         n_single: how many stand for themselves; the others count together.
         output_shapes: φ_o, (n_modes,).
         modal_forces: φᵀF, (n_freqs, n_modes, n_inputs).
+        given: what the output moves without any mode, (n_freqs, n_inputs): it is part of the rest.
         frequency_hz: (n_freqs,).
         input_psd: S_ff, (n_freqs, n_inputs, n_inputs).
     """
     omega, omega_n = 2 * np.pi * np.asarray(frequency_hz)[:, None], 2 * np.pi * modes.frequency_hz
     Z = omega_n**2 - omega**2 + 2j * modes.damping_ratio * omega_n * omega
     moved = output_shapes[:, None] * modal_forces / Z[:, :, None]
-    rest = moved[:, n_single:].sum(axis=1, keepdims=True)
-    parts = np.concatenate([moved[:, :n_single], rest], axis=1)
+    rest = moved[:, n_single:].sum(axis=1) + given
+    parts = np.concatenate([moved[:, :n_single], rest[:, None]], axis=1)
     return participation(np.ones(n_single + 1), parts, input_psd)
 
 

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import System, assemble, mount_stiffness, mounts_of_springs
 from modeviz.dynamics.basis import EnrichedBasis, prepare_basis
 from modeviz.dynamics.between import Between, modified_between, prepare_between
@@ -97,14 +98,9 @@ class Prepared(PreparedModes):
     is_graded: bool
     """Whether responses are also given between these lines, where modes are sharp."""
     input_directions: Floats
-    """(n_directions, n_dofs), see `ride.excitation`."""
+    """(n_directions, n_dofs + n_rigid), see `ride.excitation`."""
     outputs: Floats
     """Rows (3 n_points, n_dofs) that read x, y, z of every response point."""
-
-    @cached_property
-    def input_motions(self) -> Floats:
-        """How far each vector of the basis moves along these directions, (n_directions, n_vectors)."""
-        return self.input_directions @ self.basis.vectors
 
     @property
     def frequency_hz(self) -> Floats:
@@ -209,14 +205,15 @@ def prepare(
     modal = prepare_modes(vehicle, top_hz)
     softest = modal.system.with_rates(_soft({g.name: g.bounds[0] for g in vehicle.mount_groups}))
     inputs = input_directions(softest)
-    rows = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
-    outputs = np.vstack([np.zeros((0, softest.n_dofs)), *rows])
+    points = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
+    outputs = np.vstack([np.zeros((0, softest.n_dofs)), *points])
     is_graded = frequency_hz is None
     lines = vehicle.frequency_hz if frequency_hz is None else frequency_hz
     receptances = prepare_receptances(softest, lines, outputs, inputs, progress)
     between = Between(receptances, NO_POLES)
     if is_graded:
-        along = receptances_along(softest, np.vstack([softest.mount_motions, outputs, inputs]))
+        rows = directions(softest, softest.mount_motions, outputs, inputs)
+        along = receptances_along(softest, rows)
         between = prepare_between(receptances, modal.basis, (outputs, inputs), along)
     return Prepared(
         modal.system, modal.basis, modal.namer, receptances, between, is_graded, inputs, outputs

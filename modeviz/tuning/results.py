@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.actions import forces_on_rest, led
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.band import BandModes, Method, band_modes, modes_above
 from modeviz.dynamics.basis import REACH
@@ -227,17 +228,15 @@ class Results(ModalResults):
             input_psd: of its inputs, (n_freqs, n_inputs, n_inputs).
         """
         band, above, prepared = self.band, self.above, self.prepared
-        stiffness = prepared.mount_stiffness(self.rates)
-        inputs = excitation(prepared.vehicle, load, frequency_hz, self.conditions.speed, stiffness)
+        forces, moved = self._forces(load, frequency_hz)
         q = modal_coordinates(
             band.modes.omega_n_squared,
             band.damping,
             band.structural_damping,
             frequency_hz,
-            self._stretches.T @ inputs.forces,
+            self.modes.shapes.T @ forces,
         )
         row = prepared.outputs[output]
-        forces = (prepared.input_motions @ above.shapes).T @ inputs.forces
         return np.hstack(
             [
                 participation(row @ self.modes.shapes, q, input_psd),
@@ -245,12 +244,26 @@ class Results(ModalResults):
                     above,
                     self._n_above,
                     row @ prepared.basis.vectors @ above.shapes,
-                    forces,
+                    above.shapes.T @ (prepared.basis.vectors.T @ forces),
+                    row @ moved,
                     frequency_hz,
                     input_psd,
                 ),
             ]
         )
+
+    def _forces(self, load: Load, frequency_hz: Floats) -> tuple[Complexes, Complexes]:
+        """What a load does, as forces on what rigid joints leave, and the motion that these are given.
+
+        Per unit of each input, (n_freqs, n_dofs, n_inputs) both.
+        """
+        prepared, system = self.prepared, self.prepared.system
+        stiffness = prepared.mount_stiffness(self.rates)
+        inputs = excitation(prepared.vehicle, load, frequency_hz, self.conditions.speed, stiffness)
+        actions = prepared.input_directions.T @ inputs.forces
+        moved, change = led(system, actions), stiffness - prepared.basis.mount_stiffness
+        pull = system.mount_motions.T @ (change[:, None] * (system.mount_motions @ moved))
+        return forces_on_rest(system, frequency_hz, actions) - pull, moved
 
     def part_name(self, part: int) -> str:
         """What a contributor to a peak is called where it is spoken of."""
@@ -274,11 +287,6 @@ class Results(ModalResults):
     def _n_above(self) -> int:
         """How many of these are modes of the vehicle and not of the basis alone."""
         return int(np.searchsorted(self.above.frequency_hz, REACH * self.prepared.basis.top_hz))
-
-    @cached_property
-    def _stretches(self) -> Floats:
-        """How far each mode moves along the input directions, (n_directions, n_modes)."""
-        return self.prepared.input_directions @ self.modes.shapes
 
 
 def solve_modal(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> ModalResults:

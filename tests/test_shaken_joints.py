@@ -1,0 +1,283 @@
+"""Motions of the ground under connections that are rigid."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from oracles import Beam
+from test_excitation import (
+    FLAT,
+    MASS,
+    RATE,
+    UP,
+    F,
+    changed,
+    shaken_block,
+    shaken_cabin,
+    softer,
+    stiffness_of,
+    vertical_peaks,
+)
+
+import modeviz as mv
+from modeviz.dynamics.actions import directions
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.modes import solve_modes
+from modeviz.dynamics.receptance import receptances
+from modeviz.dynamics.response import direct_response, modal_response
+from modeviz.errors import VehicleError
+from modeviz.ride.excitation import excitation, generalised_forces, input_directions
+from modeviz.tuning.check import check_exactly
+from modeviz.tuning.goals import prepare_goal
+from modeviz.tuning.results import AXIS, Conditions, solve_wheels
+from modeviz.tuning.shown import road_shape, wheel_shape
+from modeviz.units import STANDARD_GRAVITY
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Rod, Spring
+from modeviz.vehicle.loads import BaseMotion, ResponsePoint
+from modeviz.vehicle.problem import DesignGroup, Performance, Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+Z = 1e-3
+SHAKER = BaseMotion("shaker", UP, "displacement", Z)
+
+
+def on_table(vehicle, *names):
+    """The vehicle with connections to the ground, all if none is named, on a table bolted to it."""
+    table = RigidBody("table", "linkage", "table", 200.0, np.array([0.0, 0.0, -0.5]), 9 * np.eye(3))
+    bolt = Bolt("bolt", "bolts", ("table", GROUND), np.zeros((2, 3)), rigid=MOTIONS)
+
+    def moved(connection):
+        if connection.bodies[1] != GROUND or (names and connection.name not in names):
+            return connection
+        return replace(connection, bodies=(connection.bodies[0], "table"))
+
+    return replace(
+        vehicle,
+        bodies=(*vehicle.bodies, table),
+        connections=(*map(moved, vehicle.connections), bolt),
+        mount_groups=tuple(
+            replace(g, mounts=tuple(map(moved, g.mounts))) for g in vehicle.mount_groups
+        ),
+        response_points=(
+            *vehicle.response_points,
+            ResponsePoint("on table", "table", np.array([0.3, 0.2, -0.1])),
+        ),
+    )
+
+
+def cabin_on_table():
+    """The cabin of which a mount stands on a table; its tyres stand on the ground."""
+    return on_table(shaken_cabin(), "grounded")
+
+
+@pytest.mark.parametrize("rate", [RATE, 4e4, 9e5])
+def test_what_is_bolted_to_a_shaken_ground_moves_as_it_does(rate):
+    found = solve_wheels(mv.prepare(on_table(shaken_block(SHAKER))), softer(rate))
+    omega = 2 * np.pi * found.frequency_hz
+    moved = found.acceleration_g[:, 0, 1] * STANDARD_GRAVITY
+    np.testing.assert_allclose(moved[:, AXIS["vertical"]], Z * omega**2, rtol=1e-9)
+    assert moved[:, : AXIS["vertical"]].max() < 1e-9 * moved.max()
+
+
+@pytest.mark.parametrize("rate", [RATE, 4e4, 9e5])
+def test_mounts_on_what_is_bolted_to_a_shaken_ground_transmit_as_the_textbook_says(rate):
+    found = vertical_peaks(on_table(shaken_block(SHAKER)), softer(rate))
+    omega, k = 2 * np.pi * F, stiffness_of(rate, F)
+    expected = np.abs(k / (k - MASS * omega**2)) * Z * omega**2
+    np.testing.assert_allclose(found[:, 0], expected, rtol=1e-9)
+
+
+def test_a_white_acceleration_of_the_ground_gives_a_light_oscillator_its_closed_form():
+    """(π/2) f_n W (1 + 4ζ²) / 2ζ, less W times what of (1 - (f/f_n)²)⁻² lies out of the band."""
+    natural_hz, zeta, level = 9.97, 0.001, 2e-3
+    rate = MASS * (2 * np.pi * natural_hz) ** 2
+    dashpot = np.full(3, 2 * zeta * np.sqrt(rate * MASS))
+    spring = Spring("spring", "springs", ("block", GROUND), np.zeros((2, 3)), np.full(3, rate),
+                    rotational_stiffness=np.full(3, 1e5), damping=dashpot)  # fmt: skip
+    shaken = shaken_block(BaseMotion("white", UP, "acceleration", FLAT))
+    vehicle = on_table(replace(shaken, connections=(spring,), mount_groups=()))
+    results = mv.solve(mv.prepare(vehicle), {}, Conditions("white", 20.0))
+    closed = np.pi / 2 * natural_hz * level * (1 + 4 * zeta**2) / (2 * zeta)
+    beyond = level * (0.1 + natural_hz**4 / (3 * 40.0**3))
+    found = (results.rms[0, AXIS["vertical"]] * STANDARD_GRAVITY) ** 2
+    assert found == pytest.approx(closed - beyond, rel=1e-3)
+
+
+def beam_on_posts(*loads, rate=None):
+    """A beam on two posts and a bushing; the posts are rigid joints, or springs of so high a rate."""
+    beam = Beam(8, 2.0).body("beam", damping_ratio=0.01)
+    held = {"rigid": ("x", "y", "z")} if rate is None else {"stiffness": np.full(3, rate)}
+    posts = (
+        Spring(f"post {x}", "posts", ("beam", GROUND), np.tile([x, 0.0, 0.0], (2, 1)), **held)
+        for x in (0.0, 1.5)
+    )
+    bushing = Spring("bushing", "bushings", ("beam", GROUND), np.tile([1.0, 0, 0], (2, 1)),
+                     np.full(3, 5e4), np.full(3, 2e3), np.full(3, 200.0), loss_factor=0.1)  # fmt: skip
+    return Vehicle(
+        "beam", (beam,), (*posts, bushing), base_motions=loads,
+        response_points=(ResponsePoint("tip", "beam", np.array([2.0, 0.0, 0.0])),),
+    )  # fmt: skip
+
+
+SLANTED = np.array([0.1, 0.5, 1.0])
+POSTS = BaseMotion("posts", SLANTED, "displacement", Z, ("post 0.0", "post 1.5"))
+LINES = np.array([0.7, 4.0, 11.0, 29.0])
+
+
+def moved_by(vehicle, load):
+    """The system, what acts on it and how far its tip moves, by the equations of motion."""
+    system = assemble(vehicle)
+    actions = generalised_forces(system, load, LINES, 20.0)
+    tip = system.motion("beam", np.array([2.0, 0.0, 0.0]))
+    return system, actions, direct_response(system, LINES, actions, tip)
+
+
+def test_a_shaken_rigid_joint_is_the_limit_of_stiff_springs():
+    rigid = moved_by(beam_on_posts(POSTS), POSTS)[2]
+
+    def distance(rate):
+        return np.abs(moved_by(beam_on_posts(POSTS, rate=rate), POSTS)[2] - rigid).max()
+
+    # To first order what yields is 1/k.
+    assert distance(1e9) == pytest.approx(distance(1e8) / 10, rel=0.1)
+    assert distance(1e9) < 1e-2 * np.abs(rigid).max()
+
+
+def test_shaking_all_of_the_ground_slowly_moves_all_of_a_body_alike():
+    everywhere = BaseMotion("everywhere", SLANTED, "displacement", Z)
+    vehicle = beam_on_posts(everywhere)
+    system = assemble(vehicle)
+    slow = np.array([1e-3])
+    tip = system.motion("beam", np.array([2.0, 0.0, 0.0]))
+    found = direct_response(system, slow, generalised_forces(system, everywhere, slow, 20.0), tip)
+    expected = np.r_[Z * SLANTED / np.linalg.norm(SLANTED), np.zeros(3)]
+    # The first mode is near 10 Hz: what it adds is (f/f_n)².
+    np.testing.assert_allclose(found[0, :, 0], expected, atol=1e-7 * Z)
+
+
+def test_modes_and_receptances_answer_a_shaken_joint_as_the_equations_of_motion_do():
+    system, actions, expected = moved_by(beam_on_posts(POSTS), POSTS)
+    tip = system.motion("beam", np.array([2.0, 0.0, 0.0]))
+    modal = modal_response(system, solve_modes(system), LINES, actions, tip)
+    assert np.abs(modal - expected).max() < 1e-8 * np.abs(expected).max()
+    rows = directions(system, tip, input_directions(system))
+    inputs = excitation(system.vehicle, POSTS, LINES, 20.0, np.zeros(0, complex)).forces
+    found = receptances(system, LINES, rows)[:, :6, 6:] @ inputs
+    assert np.abs(found - expected).max() < 1e-8 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("near", [False, True])
+def test_every_way_to_solve_agrees_where_the_ground_moves_joints_and_mounts(near):
+    vehicle = cabin_on_table()
+    rates = changed(vehicle)
+    prepared = mv.prepare(vehicle).near(rates) if near else mv.prepare(vehicle)
+    system = assemble(vehicle.with_rates(rates))
+    wheels = solve_wheels(prepared, rates)
+    found, f = wheels.acceleration_g, wheels.frequency_hz
+    for i, load in enumerate(vehicle.harmonic_loads):
+        actions = generalised_forces(system, load, f, vehicle.speed)
+        H = direct_response(system, f, actions, prepared.outputs)[:, :, 0]
+        expected = np.abs(H) * (2 * np.pi * f[:, None]) ** 2 / STANDARD_GRAVITY
+        assert np.abs(found[:, i].reshape(len(f), -1) - expected).max() < 1e-9 * expected.max()
+    *_, check = check_exactly(mv.solve(prepared, rates, Conditions("random floor", 20.0)))
+    assert check.error < 1e-8
+
+
+def test_what_is_shown_moving_is_what_the_response_is_of():
+    vehicle = cabin_on_table()
+    rates = changed(vehicle)
+    prepared = mv.prepare(vehicle, vehicle.frequency_hz)
+    results = mv.solve(prepared, rates, Conditions("random floor", 20.0))
+    omega, line = 2 * np.pi * 9.0, 89
+    shapes = road_shape(results, 9.0, 0, "vertical"), wheel_shape(results, "floor", 9.0)
+    at_random, harmonic = (np.abs(omega**2 * prepared.outputs @ x) / STANDARD_GRAVITY for x in shapes)
+    psd = results.response(0, "vertical")[line]
+    assert at_random[AXIS["vertical"]] ** 2 == pytest.approx(psd, rel=1e-8)
+    number = [load.name for load in vehicle.harmonic_loads].index("floor")
+    peaks = solve_wheels(prepared, rates).acceleration_g[line, number].ravel()
+    np.testing.assert_allclose(harmonic, peaks, rtol=1e-8, atol=1e-10 * peaks.max())
+
+
+def test_a_goal_under_shaken_joints_has_its_true_derivatives():
+    vehicle = cabin_on_table()
+    groups = tuple(DesignGroup(g.name) for g in vehicle.mount_groups)
+    performance = Performance(np.arange(2.0, 20.0), ("random floor",), ("floor", "fan"), ("seat",))
+    goal = prepare_goal(vehicle, Problem("p", groups, (performance,)), vehicle.rates, 20.0)
+    rates = changed(vehicle)
+    value, gradient = goal.value_and_gradient(rates)
+    assert goal.exact_value(rates) == pytest.approx(value, rel=1e-8)
+    group = vehicle.mount_groups[0].name
+    step = 1e-5 * rates[group].vertical
+    high, low = (
+        goal.value({**rates, group: replace(rates[group], vertical=rates[group].vertical + s)})
+        for s in (step, -step)
+    )
+    # Central differences lose half the digits of 1e-16/1e-5.
+    assert gradient[0] == pytest.approx((high - low) / (2 * step), rel=1e-6)
+
+
+def test_many_sets_of_rates_at_once_are_each_alone():
+    prepared = mv.prepare(cabin_on_table(), LINES)
+    driven = prepared.excited(prepared.vehicle.harmonic_loads, 20.0)
+    sets = np.outer([0.5, 1.0, 3.0], prepared.mount_stiffness({}))
+    for stiffness, H in zip(sets, driven.responses(sets), strict=True):
+        expected = driven.response(stiffness)
+        assert np.abs(H - expected).max() < 1e-9 * np.abs(expected).max()
+
+
+def shaken_table():
+    """A block on a mount and a dashpot on a shaken table, and the same at random."""
+    return on_table(shaken_block(SHAKER, BaseMotion("random", UP, "acceleration", FLAT)))
+
+
+def test_the_parts_of_a_peak_are_its_modes_and_what_is_led_without_any():
+    """The block moves in its one vertical mode, the table in none."""
+    results = mv.solve(mv.prepare(shaken_table()), softer(6e4), Conditions("random", 20.0))
+    f = np.array([4.0, 11.0])
+    one = np.ones((len(f), 1, 1), complex)
+    seat, on_table = (
+        results.participation(3 * point + AXIS["vertical"], SHAKER, f, one) for point in (0, 1)
+    )
+    k = stiffness_of(6e4, f)
+    bounce = np.abs(results.modes.frequency_hz - np.sqrt(6e4 / MASS) / (2 * np.pi)).argmin()
+    expected = Z * np.abs(k / (k - MASS * (2 * np.pi * f) ** 2))
+    np.testing.assert_allclose(seat[:, bounce], expected, rtol=1e-9)
+    np.testing.assert_allclose(on_table[:, -1], Z, rtol=1e-12)
+    assert np.delete(on_table, -1, axis=1).max() < 1e-9 * Z
+    assert np.delete(seat, bounce, axis=1).max() < 1e-9 * Z
+
+
+def test_a_rigid_rod_leads_along_its_line_alone():
+    rod = Rod.between("rod", "rods", ("block", GROUND), np.array([[0, 0, 0], [0, 1.0, 0]]), rigid=True)
+    feet = Spring("feet", "springs", ("block", GROUND), np.zeros((2, 3)), np.full(3, 1e5),
+                  np.full(3, 1e4), np.full(3, 50.0))  # fmt: skip
+    push = BaseMotion("push", np.array([0.0, 3.0, 4.0]), "displacement", Z, ("rod",))
+    vehicle = replace(shaken_block(), connections=(feet, rod), mount_groups=(), base_motions=(push,))
+    found = solve_wheels(mv.prepare(vehicle), {})
+    omega = 2 * np.pi * found.frequency_hz
+    g = found.acceleration_g[:, 0, 0] * STANDARD_GRAVITY
+    np.testing.assert_allclose(g[:, AXIS["lateral"]], 0.6 * Z * omega**2, rtol=1e-9)
+    assert np.delete(g, AXIS["lateral"], axis=1).max() < 1e-9 * g.max()
+
+
+def bolted_twice():
+    """The table with a second bolt, though one would do."""
+    vehicle = on_table(shaken_block(SHAKER))
+    again = replace(vehicle.connections[-1], name="again", points=np.full((2, 3), 0.2))
+    return replace(vehicle, connections=(*vehicle.connections, again))
+
+
+def test_joints_that_hold_the_same_lead_it_together():
+    found, expected = (
+        solve_wheels(mv.prepare(vehicle, F), {}).acceleration_g
+        for vehicle in (bolted_twice(), on_table(shaken_block(SHAKER)))
+    )
+    np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-10 * expected.max())
+
+
+def test_joints_that_would_have_to_part_are_refused_by_name():
+    only = replace(SHAKER, connections=("bolt",))
+    words = r"base motion 'shaker': '(bolt|again)' .*all rigid connections to the ground"
+    with pytest.raises(VehicleError, match=words):
+        mv.prepare(replace(bolted_twice(), base_motions=(only,)))
