@@ -83,6 +83,19 @@ def reason(error: BaseException) -> str:
 
 
 @contextmanager
+def of_file(path: str) -> Iterator[None]:
+    """Puts a file, if there is one, in front of what its content makes impossible inside the block.
+
+    Raises:
+        ModevizError: something inside raised one; it stays of its kind.
+    """
+    try:
+        yield
+    except ModevizError as error:
+        raise type(error)(f"{path}: {error}" if path else str(error)) from None
+
+
+@contextmanager
 def located(where: object) -> Iterator[None]:
     """Puts the place in front of whatever the user got wrong inside the block.
 

@@ -8,23 +8,29 @@ import numpy as np
 import pytest
 from folders import one_of_everything
 from mounted_cabin import mounted_cabin
+from test_assembly import block
+from test_shaken_joints import bolted_apart
 
 from modeviz.cli import main
 from modeviz.errors import (
     LONGEST,
     ModevizError,
+    SolveError,
     VehicleError,
     cut,
     listed,
     located,
+    of_file,
     quoted,
     reason,
     unknown,
 )
 from modeviz.units import parse
 from modeviz.vehicle.arrays import frozen
+from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Spring
 from modeviz.vehicle.files import write_vehicle
 from modeviz.vehicle.files.decoding import decode
+from modeviz.vehicle.vehicle import Vehicle
 
 MANY = [f"name {i}" for i in range(100_000)]
 LONG = "x" * 1_000_000
@@ -64,6 +70,45 @@ def test_no_message_is_longer_than_a_paragraph():
     assert len(text) == LONGEST
     assert text.startswith("xxx")
     assert text.endswith("expected a number")
+
+
+def held_altogether():
+    """A block bolted rigidly to the ground."""
+    bolt = Bolt("bolt", "bolts", ("a", GROUND), np.zeros((2, 3)), rigid=MOTIONS)
+    return Vehicle("held", (block("a"),), (bolt,))
+
+
+def held_like_rock():
+    """A block on a spring that drowns slow modes in rounding."""
+    spring = Spring("rock", "springs", ("a", GROUND), np.zeros((2, 3)), np.array([1e15, 0.0, 0.0]))
+    return Vehicle("rock", (block("a", 1.0),), (spring,))
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "command", "words"),
+    [
+        (held_altogether, "modes", "the rigid connections hold everything"),
+        (held_like_rock, "modes", "the slow modes drown in rounding: 'a x'"),
+        (bolted_apart, "wheels", "base motion 'shaker': '"),
+    ],
+)
+def test_what_a_folder_makes_impossible_is_said_with_its_file(
+    capsys, tmp_path, vehicle, command, words
+):
+    write_vehicle(vehicle(), tmp_path / "v")
+    assert main([command, str(tmp_path / "v")]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"modeviz: {tmp_path / 'v' / 'vehicle.toml'}: {words}")
+
+
+def test_an_error_keeps_its_kind_and_has_its_file_if_there_is_one():
+    with (
+        pytest.raises(SolveError, match=r"^truck/vehicle\.toml: no modes$"),
+        of_file("truck/vehicle.toml"),
+    ):
+        raise SolveError("no modes")
+    with pytest.raises(SolveError, match=r"^no modes$"), of_file(""):
+        raise SolveError("no modes")
 
 
 def test_an_error_comes_back_from_another_process():

@@ -81,7 +81,7 @@ def assert_same(found, expected) -> None:
 
 
 def test_vehicle_comes_back_to_the_last_bit(folder):
-    assert_same(read_vehicle(folder), one_of_everything())
+    assert_same(replace(read_vehicle(folder), file=""), one_of_everything())
 
 
 def test_display_mesh_keeps_names_order_and_materials(folder):
@@ -430,7 +430,7 @@ def resave(folder: Path, **arrays: np.ndarray | None) -> None:
 
 def test_modes_saved_by_numpy_are_read(folder):
     resave(folder)
-    assert_same(read_vehicle(folder), one_of_everything())
+    assert_same(replace(read_vehicle(folder), file=""), one_of_everything())
 
 
 SHAPES = flexible_body().shapes
@@ -533,7 +533,7 @@ def test_vehicle_is_replaced_as_a_whole(folder, tmp_path):
     vehicle = one_of_everything()
     smaller = replace(vehicle, bodies=(replace(flexible_body(), mesh=()), vehicle.bodies[1]))
     write_vehicle(smaller, folder)
-    assert_same(read_vehicle(folder), smaller)
+    assert_same(replace(read_vehicle(folder), file=""), smaller)
     assert "meshes/cab.glb" not in content(folder)
     assert [p.name for p in tmp_path.iterdir()] == ["truck"]
 

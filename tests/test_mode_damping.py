@@ -94,7 +94,9 @@ def test_damping_that_no_mode_can_have_is_refused(tmp_path, capsys, stated, word
     write_vehicle(damped(stated), tmp_path / "v")
     for command in ("modes", "psd"):
         assert main([command, str(tmp_path / "v")]) == 2
-        assert words in capsys.readouterr().err
+        said = capsys.readouterr().err
+        assert said.startswith(f"modeviz: {tmp_path / 'v' / 'vehicle.toml'}: mode damping")
+        assert words in said
 
 
 def test_a_mode_that_moves_freely_has_no_damping_to_state():

@@ -416,8 +416,9 @@ def test_limits_that_contradict_each_other_are_both_named(refused, tmp_path):
     )
     folder = written(tmp_path.parent / f"{tmp_path.name}-cabin", replace(PROBLEM, groups=(narrow,)))
     assert refused(folder) == (
-        "A: vertical is at least 1000 N/mm, but lateral is at most 200 N/mm and at least 0.5 of "
-        "vertical, which asks for vertical at most 400 N/mm; widen the bounds or the ratio limits"
+        f"problem {PROBLEM.name!r}: A: vertical is at least 1000 N/mm, but lateral is at most 200 N/mm "
+        "and at least 0.5 of vertical, which asks for vertical at most 400 N/mm; widen the bounds or "
+        "the ratio limits"
     )
 
 

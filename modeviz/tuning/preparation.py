@@ -18,6 +18,7 @@ from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
 from modeviz.dynamics.receptance import receptances_along
 from modeviz.dynamics.resonances import Resonances
 from modeviz.dynamics.spacing import placed_lines
+from modeviz.errors import of_file
 from modeviz.ride.excitation import Load, excitation, input_directions, together
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MountRates, Rates
@@ -170,12 +171,14 @@ def prepare_modes(vehicle: Vehicle, top_hz: float | None = None) -> PreparedMode
         top_hz: modes below this are wanted; None: as high as the vehicle's band.
 
     Raises:
-        VehicleError: damping is stated of a mode that has none such.
+        VehicleError: damping is stated of a mode that has none such, or rigid connections leave nothing
+            that moves.
         SolveError: the vehicle has no meaningful modes.
     """
     top_hz = vehicle.highest_frequency if top_hz is None else top_hz
-    system = with_mode_damping(assemble(vehicle), top_hz)
-    return PreparedModes(system, prepare_basis(system, top_hz), prepare_names(system))
+    with of_file(vehicle.file):
+        system = with_mode_damping(assemble(vehicle), top_hz)
+        return PreparedModes(system, prepare_basis(system, top_hz), prepare_names(system))
 
 
 def prepare(
@@ -199,10 +202,20 @@ def prepare(
         progress: told the fraction that is done.
 
     Raises:
+        VehicleError: as `prepare_modes` and `input_directions`.
         SolveError: a frequency that is zero, repeated or not finite, an undamped resonance on one, or
             no meaningful modes.
     """
     modal = prepare_modes(vehicle, top_hz)
+    with of_file(vehicle.file):
+        return _with_responses(modal, frequency_hz, progress)
+
+
+def _with_responses(
+    modal: PreparedModes, frequency_hz: Floats | None, progress: Callable[[float], None] | None
+) -> Prepared:
+    """What is ready for modes made ready for responses, too; arguments and errors as `prepare`."""
+    vehicle = modal.vehicle
     softest = modal.system.with_rates(_soft({g.name: g.bounds[0] for g in vehicle.mount_groups}))
     inputs = input_directions(softest)
     points = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]

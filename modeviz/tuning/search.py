@@ -115,7 +115,8 @@ def prepare_search(
         VehicleError: as `prepare_goal`, `design_space` and `prepare_windows`.
         SolveError: as `prepare_goal`.
     """
-    space = design_space(vehicle, problem.groups, rates, locked)
+    with located(f"problem {problem.name!r}"):
+        space = design_space(vehicle, problem.groups, rates, locked)
     goal = prepare_goal(vehicle, problem, rates, speed)
     with located(f"problem {problem.name!r}"):
         windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None

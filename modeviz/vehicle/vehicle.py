@@ -80,6 +80,8 @@ class Vehicle:
     """What reading it had to say: what was taken otherwise than it stands, or is likely wrong.
 
     A sentence each, which names what it is about."""
+    file: str = ""
+    """Where it was read from, to say so; empty for one that was made in Python."""
 
     def __post_init__(self) -> None:
         if not self.bodies:

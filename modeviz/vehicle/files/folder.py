@@ -117,7 +117,7 @@ def read_vehicle(folder: Path | str) -> Vehicle:
         axes = axes_of(record.axes)
         ours = turned(msgspec.to_builtins(record), VehicleRecord, axes)
         source = Source(folder, Conventions(record.units, axes))
-        return _build(msgspec.convert(ours, VehicleRecord), source)
+        return replace(_build(msgspec.convert(ours, VehicleRecord), source), file=str(path))
 
 
 def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
