@@ -8,6 +8,7 @@ from mounted_cabin import mounted_cabin
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.tuning.objective import LoadCase, Objective, prepare_objective
 from modeviz.tuning.parts import Parts, Tolerance, scattered_parts
+from modeviz.tuning.peak import Peak
 from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import Conditions, drive
 from modeviz.vehicle.arrays import Complexes, Floats
@@ -40,9 +41,9 @@ def cabin_parts() -> Parts:
     return scattered_parts(prepare(mounted_cabin(), np.array([1.0])), {}, Tolerance())
 
 
-def cabin_objective(kind: type[Objective] = Objective) -> Objective:
+def cabin_objective(prepare_kind=prepare_objective) -> Objective | Peak:
     """On a road at three frequencies and under a wheel load at another."""
     vehicle = mounted_cabin()
     (load,) = vehicle.wheel_loads
     cases = [LoadCase(FLAT, (6.0, 8.0, 12.0)), LoadCase(load, (11.0,), weight=1e-3)]
-    return prepare_objective(vehicle, cases, kind)
+    return prepare_kind(vehicle, cases)

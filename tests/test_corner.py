@@ -5,9 +5,9 @@ import pytest
 from scattered_cabin import cabin_objective, prepared_cabin
 
 from modeviz.tuning.corner import goals, worst_corner
-from modeviz.tuning.objective import Objective
+from modeviz.tuning.objective import prepare_objective
 from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.peak import Peak
+from modeviz.tuning.peak import prepare_peak
 
 
 @pytest.fixture(scope="module")
@@ -15,7 +15,7 @@ def prepared():
     return prepared_cabin()
 
 
-@pytest.fixture(scope="module", params=[Objective, Peak])
+@pytest.fixture(scope="module", params=[prepare_objective, prepare_peak])
 def objective(request):
     return cabin_objective(request.param)
 

@@ -59,6 +59,14 @@ def test_the_problem_is_said_at_a_glance(changes, said):
     assert said in summary(problem, cabin_search().space, is_robust=False)
 
 
+def test_a_peak_is_said_to_be_that_of_a_range():
+    wheels = replace(PROBLEM, goal="peak", performance=PROBLEM.performance[1:])
+    assert "at 9 to 13 Hz" in summary(wheels, cabin_search().space, is_robust=False)
+    single = replace(wheels.performance[0], frequency_hz=np.array([9.0]))
+    said = summary(replace(wheels, performance=(single,)), cabin_search().space, is_robust=False)
+    assert "at 9 Hz" in said
+
+
 def test_the_goal_is_shown_beside_the_original_and_the_reference():
     look = replace(LOOK, progress=Progress(1234, BETTER, 0.25, 3, 20))
     assert "start 3 of 20, 1\N{THIN SPACE}234 evaluations" in where(look)

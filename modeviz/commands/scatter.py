@@ -19,9 +19,7 @@ from modeviz.export.scatter import Scattered, scatter_record, scatter_table
 from modeviz.tuning.cluster import runner_at
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.corner import worst_corner
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.integral import Integral
-from modeviz.tuning.objective import Objective
+from modeviz.tuning.goals import ResponseGoal, prepare_goal
 from modeviz.tuning.parts import Tolerance, scattered_parts
 from modeviz.tuning.results import Conditions
 from modeviz.tuning.scatter import Scatter, scatter
@@ -65,7 +63,7 @@ def _scattered(
 ) -> Scattered:
     """What the vehicles do, or those driven until it is cancelled."""
     goal = prepare_goal(vehicle, problem, rates, chosen.speed)
-    if not isinstance(goal, (Objective, Integral)):
+    if not isinstance(goal, ResponseGoal):
         raise ModevizError(
             f"problem {problem.name!r}: its goal, {problem.goal}, does not scatter: only what is made "
             "of accelerations does; choose another problem with --problem"

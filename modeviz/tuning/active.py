@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import nnls
 
-from modeviz.tuning.peak import MinMax
+from modeviz.tuning.min_max import MinMax
 from modeviz.tuning.search import Search
 from modeviz.vehicle.arrays import Floats
 

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.tuning.integral import Integral
-from modeviz.tuning.objective import Objective
+from modeviz.tuning.goals import ResponseGoal
 from modeviz.tuning.parts import Parts
 from modeviz.vehicle.arrays import Floats
 
@@ -19,7 +18,7 @@ class Corner:
     goal: float
 
 
-def worst_corner(objective: Objective | Integral, parts: Parts, sampled: Floats) -> Corner:
+def worst_corner(objective: ResponseGoal, parts: Parts, sampled: Floats) -> Corner:
     """The corner where the goal is largest, of those that a local search comes to.
 
     From the corner that the goal's derivatives point to with parts as drawn, and from the one next to a
@@ -41,7 +40,7 @@ def worst_corner(objective: Objective | Integral, parts: Parts, sampled: Floats)
     return max(ends, key=lambda corner: corner.goal)
 
 
-def _climb(objective: Objective | Integral, parts: Parts, start: Floats) -> Corner:
+def _climb(objective: ResponseGoal, parts: Parts, start: Floats) -> Corner:
     """The corner that moving single parts leads to."""
     corner = Corner(start, float(goals(objective, parts, start[None])[0]))
     while True:
@@ -53,6 +52,6 @@ def _climb(objective: Objective | Integral, parts: Parts, start: Floats) -> Corn
         corner = Corner(neighbours[best], float(values[best]))
 
 
-def goals(objective: Objective | Integral, parts: Parts, deviations: Floats) -> Floats:
+def goals(objective: ResponseGoal, parts: Parts, deviations: Floats) -> Floats:
     """The goal of vehicles of some deviations, (n,), at all of its frequencies."""
     return objective.totals(parts.stiffness(deviations))

@@ -9,7 +9,7 @@ from scipy.optimize import OptimizeResult, minimize
 
 from modeviz.tuning.control import Control
 from modeviz.tuning.evaluator import Descent, Evaluator, Step
-from modeviz.tuning.peak import MinMax
+from modeviz.tuning.min_max import MinMax
 from modeviz.tuning.search import Search
 from modeviz.tuning.threads import one_thread
 from modeviz.vehicle.arrays import Floats
@@ -24,8 +24,9 @@ MOST_STEPS = 500
 RESTARTS = 2
 """How often a solver that got stuck begins anew where it was best, with nothing to mislead it."""
 
-MIN_MAX_TOLERANCE = 1e-10
-"""The same of a `MinMax`, which is found where limits and parts meet, and so at once or not better."""
+MIN_MAX_TOLERANCE = 1e-8
+"""The same of a `MinMax`: many parts meet where it is smallest, and rounding keeps SLSQP from ending
+with less."""
 
 
 @one_thread

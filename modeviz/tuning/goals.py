@@ -6,22 +6,26 @@ from typing import Protocol
 
 import numpy as np
 
+from modeviz.dynamics.assembly import mount_stiffness
 from modeviz.errors import VehicleError
 from modeviz.ride.psd import RIDE_BAND
 from modeviz.ride.rating import COMFORT_FACTORS
 from modeviz.tuning.integral import BandCase, Integral, prepare_integral
 from modeviz.tuning.objective import LoadCase, Objective, prepare_objective
-from modeviz.tuning.peak import Peak
+from modeviz.tuning.peak import Peak, prepare_peak
 from modeviz.tuning.results import AXIS, Conditions
 from modeviz.tuning.sensitivity import rate_variables
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import VARIABLES, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 DRIVER = 0
 """The response point that is rated."""
+
+ResponseGoal = Objective | Integral | Peak
+"""A goal that is made of responses, and so scatters with parts."""
 
 
 class Goal(Protocol):
@@ -92,14 +96,23 @@ def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) 
     return objective.scaled(weights)
 
 
+def exact_goal(goal: ResponseGoal, stiffness: Complexes) -> float:
+    """The goal of parts with these complex rates, (n_springs,), N/m, from the full model."""
+    system = goal.prepared.system
+    changed = system.with_springs(stiffness - mount_stiffness(system.vehicle))
+    return goal.exact_total(changed, stiffness)
+
+
 def _objective(
     vehicle: Vehicle, problem: Problem, cases: Sequence[LoadCase | BandCase]
-) -> Objective | Integral:
+) -> ResponseGoal:
     """What the problem's goal makes of load cases, all of which weigh one."""
     listed = [replace(case, weight=1.0) for case in cases if isinstance(case, LoadCase)]
     if not listed:
         return prepare_integral(vehicle, [case for case in cases if isinstance(case, BandCase)])
-    return prepare_objective(vehicle, listed, Peak if problem.goal == "peak" else Objective)
+    if problem.goal == "peak":
+        return prepare_peak(vehicle, listed)
+    return prepare_objective(vehicle, listed)
 
 
 def load_cases(

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from modeviz.dynamics.assembly import System, mount_stiffness
+from modeviz.dynamics.assembly import System
 from modeviz.dynamics.resonances import resonances_at
 from modeviz.ride.excitation import known_part
 from modeviz.ride.integration import integration_weights
@@ -137,10 +137,3 @@ def prepare_integral(vehicle: Vehicle, cases: Sequence[BandCase]) -> Integral:
         load = vehicle.random_load(case.load.road)
         known_part(load, vehicle.frequency_hz, case.load.speed)
     return Integral(prepare(vehicle), tuple(cases))
-
-
-def exact_objective(objective: Objective | Integral, stiffness: Complexes) -> float:
-    """F of parts with these complex rates, (n_springs,), N/m, from the full model."""
-    system = objective.prepared.system
-    changed = system.with_springs(stiffness - mount_stiffness(system.vehicle))
-    return objective.exact_total(changed, stiffness)

@@ -15,7 +15,7 @@ from modeviz.ride.excitation import Excitation, Load, excitation, input_spectrum
 from modeviz.ride.psd import acceleration_psd
 from modeviz.tuning.preparation import Prepared, prepare
 from modeviz.tuning.results import AXIS, Conditions
-from modeviz.tuning.sensitivity import psd_gradient, spring_shares
+from modeviz.tuning.sensitivity import psd_gradient, psd_sum_gradient, spring_shares
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.loads import HarmonicLoad, Road
@@ -25,6 +25,9 @@ DIRECTIONS = ("lateral", "vertical")
 
 SAME_HZ = 1e-9
 """Frequencies this close are the same."""
+
+Places = tuple[NDArray[np.intp], NDArray[np.intp]]
+"""Of a case: numbers of lines and outputs, (n,) each."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +47,7 @@ class LoadCase:
 
 
 @dataclass(frozen=True, eq=False)
-class _Term:
+class Term:
     """A case among the frequencies and inputs of all cases."""
 
     weights: Floats
@@ -57,7 +60,7 @@ class _Term:
 
     def own(self, of_all: Complexes) -> Complexes:
         """The case's part of an array whose last axes are frequency, another one and input."""
-        return of_all[..., self.lines, :, self.inputs]
+        return of_all[..., self.inputs].take(self.lines, axis=-3)
 
     def squares(self, power: Floats) -> Floats:
         """W (a - target)², from a², (..., n_lines, n_outputs) both."""
@@ -68,7 +71,7 @@ class _Term:
         return self.squares(power).sum(axis=(-2, -1))
 
     def slope(self, power: Floats) -> Floats:
-        """∂value/∂a², (n_lines, n_outputs); 0 where nothing moves, for there it has none."""
+        """∂value/∂a², as a² (n_lines, n_outputs); 0 where nothing moves, for there it has none."""
         if not self.target:
             return self.weights
         a = np.sqrt(power)
@@ -81,7 +84,7 @@ class Criterion:
 
     frequency_hz: Floats
     """(n_freqs,): of all cases together."""
-    terms: tuple[_Term, ...]
+    terms: tuple[Term, ...]
     """One for each case."""
 
     def values(self, response: Complexes) -> Floats:
@@ -100,7 +103,7 @@ class Criterion:
         """F, (...,); argument as of `values`."""
         return self.join(self.values(response))
 
-    def power(self, term: _Term, response: Complexes) -> Floats:
+    def power(self, term: Term, response: Complexes) -> Floats:
         """a² of a case, (..., n_lines, n_outputs), from the response of all outputs to all inputs."""
         return acceleration_psd(self.frequency_hz[term.lines], term.own(response), term.input_psd)
 
@@ -121,7 +124,7 @@ class Objective:
     """Those of the cases, and the speed, m/s."""
     outputs: NDArray[np.intp]
     """Which rows of `prepared.outputs` have a weight."""
-    terms: tuple[_Term, ...]
+    terms: tuple[Term, ...]
     """One for each case."""
 
     def value(self, rates: Rates) -> float:
@@ -190,33 +193,38 @@ class Objective:
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
         value, gradient = 0.0, np.zeros(shares.shape[1])
-        for term, power, change in self._powers(stiffness, shares):
+        for term, power, response in self._responses(stiffness):
             value += float(term.value(power))
-            gradient += np.tensordot(term.slope(power), change, 2)
+            gradient += psd_sum_gradient(*response, shares, term.slope(power))
         return value, gradient
 
-    def squares(self, stiffness: Complexes, shares: Complexes) -> tuple[Floats, Floats]:
-        """W (a - target)² of everything that has a weight, (n,), and derivatives, (n, n_variables).
+    def squares(
+        self, stiffness: Complexes, shares: Complexes, places: Sequence[Places]
+    ) -> tuple[Floats, Floats]:
+        """W (a - target)² at some places, (n_parts,), and derivatives, (n_parts, n_variables).
 
-        Arguments and errors as `of_springs`.
+        Args:
+            stiffness: as of `of_springs`, as is what it raises.
+            shares: likewise.
+            places: of each case.
         """
         squares, gradients = [], []
-        for term, power, change in self._powers(stiffness, shares):
-            counts = term.weights > 0
-            squares.append(term.squares(power)[counts])
-            slope = np.broadcast_to(term.slope(power), power.shape)
-            gradients.append(slope[counts, None] * change[counts])
+        cases = zip(self._responses(stiffness), places, strict=True)
+        for (term, power, response), at in cases:
+            change = psd_gradient(*response, shares)
+            squares.append(term.squares(power)[at])
+            gradients.append(term.slope(power)[at][:, None] * change[at])
         return np.concatenate(squares), np.concatenate(gradients)
 
-    def _powers(
-        self, stiffness: Complexes, shares: Complexes
-    ) -> Iterator[tuple[_Term, Floats, Floats]]:
-        """Each case, its a² and the derivatives of these; arguments and errors as `of_springs`."""
+    def _responses(
+        self, stiffness: Complexes
+    ) -> Iterator[tuple[Term, Floats, tuple[Floats, Complexes, Complexes, Complexes, Complexes]]]:
+        """Each case, its a², and the first five arguments of `psd_gradient`; raises as `of_springs`."""
         H, a, b = self.driven.response_gradient(stiffness)
         for term in self.terms:
-            f, power = self.driven.frequency_hz[term.lines], self.criterion.power(term, H)
-            change = psd_gradient(f, term.own(H), a[term.lines], term.own(b), term.input_psd, shares)
-            yield term, power, change
+            f, own = self.driven.frequency_hz[term.lines], term.own(H)
+            power = acceleration_psd(f, own, term.input_psd)
+            yield term, power, (f, own, a[term.lines], term.own(b), term.input_psd)
 
     @property
     def criterion(self) -> Criterion:
@@ -232,10 +240,8 @@ class Objective:
         return replace(self, terms=terms)
 
 
-def prepare_objective(
-    vehicle: Vehicle, cases: Sequence[LoadCase], kind: type[Objective] = Objective
-) -> Objective:
-    """The objective of some load cases, their sum or of another kind, such as `Peak`.
+def prepare_objective(vehicle: Vehicle, cases: Sequence[LoadCase]) -> Objective:
+    """The objective of some load cases.
 
     Raises:
         VehicleError: a road that the vehicle does not have.
@@ -245,8 +251,13 @@ def prepare_objective(
         raise SolveError("the objective has no load cases, expected one or more")
     for case in cases:
         check_frequencies(np.asarray(case.frequency_hz, float))
+    return objective_on(prepare(vehicle, lines_of(cases)), cases)
+
+
+def lines_of(cases: Sequence[LoadCase]) -> Floats:
+    """The frequencies of all cases, rising, each once."""
     every = np.sort(np.concatenate([np.asarray(c.frequency_hz, float) for c in cases]))
-    return objective_on(prepare(vehicle, every[np.diff(every, prepend=0.0) > SAME_HZ]), cases, kind)
+    return every[np.diff(every, prepend=0.0) > SAME_HZ]
 
 
 def objective_on(
@@ -254,7 +265,7 @@ def objective_on(
 ) -> Objective:
     """The same for a vehicle that is prepared for the frequencies of all cases."""
     vehicle = prepared.vehicle
-    loads = tuple(_load(vehicle, case.load) for case in cases)
+    loads = tuple(load_of(vehicle, case.load) for case in cases)
     widths = [2 if isinstance(load, Road) else 1 for load, _ in loads]
     ends = np.cumsum([0, *widths])
     weights = [_weights(vehicle, case) for case in cases]
@@ -269,26 +280,32 @@ def objective_on(
     return kind(prepared, driven, loads, outputs, terms)
 
 
+def pattern_of(vehicle: Vehicle, case: LoadCase) -> Floats:
+    """The pattern of a case, (n_freqs, n_points, 3)."""
+    shape = (len(case.frequency_hz), len(vehicle.response_points), 3)
+    if case.pattern is not None:
+        return np.broadcast_to(case.pattern, shape)
+    pattern = np.zeros(shape)
+    pattern[..., [AXIS[d] for d in DIRECTIONS]] = 1.0
+    return pattern
+
+
 def _weights(vehicle: Vehicle, case: LoadCase) -> Floats:
     """What each acceleration squared of a case counts, (n_freqs, 3 n_points)."""
-    shape = (len(case.frequency_hz), len(vehicle.response_points), 3)
-    pattern = case.pattern
-    if pattern is None:
-        pattern = np.zeros(shape)
-        pattern[..., [AXIS[d] for d in DIRECTIONS]] = 1.0
-    return case.weight * np.broadcast_to(pattern, shape).reshape(len(case.frequency_hz), -1)
+    n_outputs = 3 * len(vehicle.response_points)
+    return case.weight * pattern_of(vehicle, case).reshape(-1, n_outputs)
 
 
-def _term(prepared: Prepared, case: LoadCase, weights: Floats, inputs: slice) -> _Term:
+def _term(prepared: Prepared, case: LoadCase, weights: Floats, inputs: slice) -> Term:
     """A case among the frequencies of all cases, given which of all inputs it has."""
     lines = np.searchsorted(prepared.frequency_hz, np.subtract(case.frequency_hz, SAME_HZ))
     f = prepared.frequency_hz[lines]
-    load, speed = _load(prepared.vehicle, case.load)
+    load, speed = load_of(prepared.vehicle, case.load)
     spectrum = input_spectrum(load, f, speed)
-    return _Term(weights, case.target, lines, inputs, spectrum)
+    return Term(weights, case.target, lines, inputs, spectrum)
 
 
-def _load(vehicle: Vehicle, load: Conditions | HarmonicLoad) -> tuple[Load, float]:
+def load_of(vehicle: Vehicle, load: Conditions | HarmonicLoad) -> tuple[Load, float]:
     """The load of a case and its speed, m/s, which only a road minds."""
     if isinstance(load, Conditions):
         return vehicle.random_load(load.road), load.speed

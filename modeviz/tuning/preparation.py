@@ -187,6 +187,7 @@ def prepare(
     *,
     top_hz: float | None = None,
     progress: Callable[[float], None] | None = None,
+    is_graded: bool | None = None,
 ) -> Prepared:
     """A vehicle made ready for the modes and responses of any mount rates.
 
@@ -195,11 +196,12 @@ def prepare(
 
     Args:
         vehicle: with the rates that the basis and the classic method start from.
-        frequency_hz: (n_freqs,), rising, above zero: where responses are wanted, and nowhere else;
-            None: the lines of the vehicle's band, and between these where modes are sharp, so that
-            integrals hold.
+        frequency_hz: (n_freqs,), rising, above zero: where responses are wanted; None: the lines of
+            the vehicle's band.
         top_hz: modes below this are wanted; None: as high as the vehicle's band.
         progress: told the fraction that is done.
+        is_graded: whether responses are also wanted between these lines, which are then evenly spaced,
+            where modes are sharp, so that integrals hold; None: in the vehicle's band.
 
     Raises:
         VehicleError: as `prepare_modes` and `input_directions`.
@@ -208,11 +210,16 @@ def prepare(
     """
     modal = prepare_modes(vehicle, top_hz)
     with of_file(vehicle.file):
-        return _with_responses(modal, frequency_hz, progress)
+        is_graded = frequency_hz is None if is_graded is None else is_graded
+        lines = vehicle.frequency_hz if frequency_hz is None else frequency_hz
+        return _with_responses(modal, lines, is_graded, progress)
 
 
 def _with_responses(
-    modal: PreparedModes, frequency_hz: Floats | None, progress: Callable[[float], None] | None
+    modal: PreparedModes,
+    lines: Floats,
+    is_graded: bool,
+    progress: Callable[[float], None] | None,
 ) -> Prepared:
     """What is ready for modes made ready for responses, too; arguments and errors as `prepare`."""
     vehicle = modal.vehicle
@@ -220,8 +227,6 @@ def _with_responses(
     inputs = input_directions(softest)
     points = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
     outputs = np.vstack([np.zeros((0, softest.n_dofs)), *points])
-    is_graded = frequency_hz is None
-    lines = vehicle.frequency_hz if frequency_hz is None else frequency_hz
     receptances = prepare_receptances(softest, lines, outputs, inputs, progress)
     between = Between(receptances, NO_POLES)
     if is_graded:

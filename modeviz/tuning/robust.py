@@ -10,8 +10,7 @@ from modeviz.errors import SolveError
 from modeviz.tuning.control import Control
 from modeviz.tuning.corner import goals
 from modeviz.tuning.evaluator import CANCELLED, OUT_OF_BUDGET
-from modeviz.tuning.integral import Integral, exact_objective
-from modeviz.tuning.objective import Objective
+from modeviz.tuning.goals import ResponseGoal, exact_goal
 from modeviz.tuning.optimise import BUDGET, Optimum, Progress, optimise
 from modeviz.tuning.parts import Parts, Tolerance, scattered_parts
 from modeviz.tuning.search import Search
@@ -33,7 +32,7 @@ class Robust:
     with weights of a beta distribution: unlike one value of the sample it changes smoothly.
     """
 
-    objective: Objective | Integral
+    objective: ResponseGoal
     tolerance: Tolerance
     deviations: Floats
     """(n_samples, n_deviations), see `Parts`."""
@@ -81,11 +80,11 @@ class Robust:
 
     def _exact(self, stiffness: Complexes) -> float:
         """The objective of parts, from the full model."""
-        return exact_objective(self.objective, stiffness)
+        return exact_goal(self.objective, stiffness)
 
 
 def robust(
-    objective: Objective | Integral,
+    objective: ResponseGoal,
     tolerance: Tolerance,
     percent: float = 95.0,
     n_samples: int = 100,
@@ -120,7 +119,7 @@ def robust_search(search: Search, tolerance: Tolerance, percent: float = 95.0) -
     Raises:
         SolveError: the goal does not scatter, or as `robust`.
     """
-    if not isinstance(search.goal, (Objective, Integral)):
+    if not isinstance(search.goal, ResponseGoal):
         raise SolveError(
             "the goal does not scatter with parts: a robust search needs one that is made of "
             "accelerations, such as accelerations, peak or rating"

@@ -16,14 +16,15 @@ from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.driven import load_lines
+from modeviz.tuning.goals import ResponseGoal
 from modeviz.tuning.integral import Integral
 from modeviz.tuning.objective import Criterion, Objective
 from modeviz.tuning.parts import Parts
+from modeviz.tuning.peak import Peak
 from modeviz.tuning.preparation import Prepared
 from modeviz.tuning.results import AXIS, Conditions, drive
 from modeviz.tuning.runner import HERE, Runner
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.loads import RandomLoad
 
 CHUNK = 100
 """Vehicles that are solved at a time, wherever they are, so that numbers never depend on where."""
@@ -78,7 +79,7 @@ def scatter(
     prepared: Prepared,
     parts: Parts,
     conditions: Conditions,
-    objective: Objective | Integral,
+    objective: ResponseGoal,
     n_samples: int,
     seed: int = 0,
     points: Sequence[str] = (),
@@ -118,9 +119,13 @@ def scatter(
     loads = [(prepared.vehicle.random_load(conditions.road), conditions.speed)]
     if isinstance(objective, Integral):
         loads += objective.loads
-    prepared = _ready(prepared, parts, seed, loads)
+    if prepared.is_graded:
+        prepared = prepared.on(_lines(prepared, parts, seed, load_lines(prepared, loads)))
     if isinstance(objective, Integral):
         objective = objective.on(prepared.frequency_hz)
+    elif isinstance(objective, Peak):
+        own = objective.prepared
+        objective = objective.on(_lines(own, parts, seed, own.frequency_hz))
     given = prepared, conditions, objective, parts, numbers, control
     ((study, nominal, errors),) = HERE.map(_study, given, [seed], control)  # where it can be left
     chunks = [deviations[i : i + CHUNK] for i in range(0, n_samples, CHUNK)]
@@ -228,15 +233,11 @@ def _study(
     return study, exact.sample(drawn), errors
 
 
-def _ready(
-    prepared: Prepared, parts: Parts, seed: int, loads: Sequence[tuple[RandomLoad, float]]
-) -> Prepared:
-    """The vehicle at lines that hold the integrals of loads wherever scatter takes its modes."""
-    if not prepared.is_graded:
-        return prepared
+def _lines(prepared: Prepared, parts: Parts, seed: int, grid: Floats) -> Floats:
+    """A grid and other lines that hold integrals wherever scatter takes the modes of a vehicle."""
     deviations = np.vstack([np.zeros((1, parts.n_deviations)), _others(parts, seed)])
     every = [resonances_at(prepared.basis, each) for each in parts.stiffness(deviations)]
-    return prepared.on(prepared.lines(swept(every), load_lines(prepared, loads)))
+    return prepared.lines(swept(every), grid)
 
 
 def _others(parts: Parts, seed: int) -> Floats:

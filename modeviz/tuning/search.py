@@ -9,7 +9,7 @@ import numpy as np
 from modeviz.errors import SolveError, located
 from modeviz.tuning.design import DesignSpace, design_space
 from modeviz.tuning.goals import Goal, prepare_goal
-from modeviz.tuning.peak import MinMax
+from modeviz.tuning.min_max import MinMax
 from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.sensitivity import rate_variables
 from modeviz.tuning.threads import one_thread

@@ -104,11 +104,45 @@ def psd_gradient(
         input_psd: S_ff, (n_freqs, n_inputs, n_inputs).
         shares: (n_springs, n_variables), see `spring_shares`.
     """
-    driven = to_inputs @ input_psd @ response.conj().transpose(0, 2, 1)
-    by_spring = to_outputs * driven
-    change = -2 * (by_spring.transpose(0, 2, 1) @ shares).real
+    by_spring = _by_spring(frequency_hz, response, to_outputs, to_inputs, input_psd)
+    return (by_spring.transpose(0, 2, 1) @ shares).real
+
+
+def psd_sum_gradient(
+    frequency_hz: Floats,
+    response: Complexes,
+    to_outputs: Complexes,
+    to_inputs: Complexes,
+    input_psd: Complexes,
+    shares: Complexes,
+    weights: Floats,
+) -> Floats:
+    """The derivatives of a sum of PSDs, (n_variables,), sooner than of each.
+
+    Args:
+        frequency_hz: as of `psd_gradient`, as are all but the last.
+        response: likewise.
+        to_outputs: likewise.
+        to_inputs: likewise.
+        input_psd: likewise.
+        shares: likewise.
+        weights: of each in the sum, (n_freqs, n_outputs).
+    """
+    by_spring = _by_spring(frequency_hz, response, to_outputs, to_inputs, input_psd)
+    return (np.einsum("fso,fo->s", by_spring, weights) @ shares).real
+
+
+def _by_spring(
+    frequency_hz: Floats,
+    response: Complexes,
+    to_outputs: Complexes,
+    to_inputs: Complexes,
+    input_psd: Complexes,
+) -> Complexes:
+    """-2 ω⁴ a b S_ff hᴴ/g², (n_freqs, n_springs, n_outputs), arguments as of `psd_gradient`."""
     omega = 2 * np.pi * np.asarray(frequency_hz)[:, None, None]
-    return omega**4 * change / STANDARD_GRAVITY**2
+    driven = to_inputs @ (input_psd @ response.conj().transpose(0, 2, 1))
+    return to_outputs * driven * (-2 * omega**4 / STANDARD_GRAVITY**2)
 
 
 @dataclass(frozen=True, eq=False)

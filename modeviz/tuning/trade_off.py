@@ -7,7 +7,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError
 from modeviz.tuning.goals import Goal
-from modeviz.tuning.peak import MinMax
+from modeviz.tuning.min_max import MinMax
 from modeviz.tuning.search import Search, prepare_search
 from modeviz.tuning.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats

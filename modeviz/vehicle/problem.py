@@ -12,7 +12,8 @@ from modeviz.vehicle.connections import DIRECTIONS, MountRates, check_bounds
 Goal = Literal["accelerations", "peak", "rms", "rating", "iso 2631", "change"]
 """What is to become small.
 
-accelerations: the performance variables. peak: the largest of them. rms: the mean squares, on the
+accelerations: the performance variables. peak: the largest of them, and of all between the first and
+the last frequency of each. rms: the mean squares, on the
 road, at the points and along the directions of these. rating: the combined RMS that the mean personal
 rating falls with, at the driver's point. iso 2631: the vibration total value there. change: the mean
 square of ln(k/k₀) of the rates that may change.
@@ -67,7 +68,7 @@ class Performance:
     """
 
     frequency_hz: Floats
-    """(n_freqs,), rising, above zero."""
+    """(n_freqs,), rising, above zero; of a peak the ends of a range, unless it is a single one."""
     roads: tuple[str, ...] = ()
     """Names, at the speed of the search."""
     wheel_loads: tuple[str, ...] = ()

@@ -5,9 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from modeviz.tuning.control import Control
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.integral import Integral
-from modeviz.tuning.objective import Objective
+from modeviz.tuning.goals import ResponseGoal, prepare_goal
 from modeviz.tuning.parts import Tolerance, scattered_parts
 from modeviz.tuning.results import AXIS, Conditions
 from modeviz.tuning.scatter import Scatter, scatter
@@ -104,7 +102,7 @@ class Scatterer:
     def _scatter(self, build: Build, control: Control, tell: Tell[Scattered]) -> Scattered:
         vehicle, prepared = self._session.vehicle, self._session.prepared
         goal = prepare_goal(vehicle, build.problem, build.rates, build.conditions.speed)
-        assert isinstance(goal, (Objective, Integral))
+        assert isinstance(goal, ResponseGoal)
         control.check()
         found = scatter(
             prepared,

@@ -83,7 +83,8 @@ class AccelerationsEditor:
             "At, Hz",
             lambda _, plan: plan.load.frequencies,
             lambda text: self._put(frequencies=text),
-            "Frequencies: numbers and ranges, as in 11, 13.25 or 6 to 14 by 1/3",
+            "Frequencies: numbers and ranges, as in 11, 13.25 or 6 to 14 by 1/3; the highest peak is "
+            "that of all from the first to the last",
         )
         self._point_pills = self._pills("Points", self._points, "points")
         self._direction_pills = self._pills("Along", DIRECTIONS, "directions")

@@ -14,7 +14,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.problem import VARIABLES, FrequencyWindow, Performance, Problem
 
 FEW = 4
-"""So many frequencies are written out."""
+"""So many frequencies are written out, unless what counts is all between the first and the last."""
 
 
 def summary(problem: Problem, space: DesignSpace, is_robust: bool) -> str:
@@ -23,21 +23,23 @@ def summary(problem: Problem, space: DesignSpace, is_robust: bool) -> str:
     if is_robust:
         rows.append(("", f"95th percentile of parts, {tolerance_words(Tolerance())}"))
     if problem.goal in VARIABLES:
-        rows += [("On" if i == 0 else "", title(_loads(p))) for i, p in enumerate(problem.performance)]
+        loads = [_loads(p, most=1 if problem.goal == "peak" else FEW) for p in problem.performance]
+        rows += [("On" if i == 0 else "", title(text)) for i, text in enumerate(loads)]
     rows.append(("Free", _free(space)))
     rows += [("Held", _held(window)) for window in problem.windows]
     lines = "".join(f'<span class="dim">{key}</span><span>{text}</span>' for key, text in rows)
     return f'<div class="glance">{lines}</div>'
 
 
-def _loads(performance: Performance) -> str:
-    """As in "road 1 at 6 to 14 Hz: all points, lateral and vertical"."""
+def _loads(performance: Performance, most: int) -> str:
+    """As in "road 1 at 6 to 14 Hz: all points, lateral and vertical"; no more frequencies in a list."""
     loads = [*performance.roads, *_counted(performance.wheel_loads, "wheel loads")]
     points = _counted(performance.points, "points") or ["all points"]
     target = f", to {performance.target:g}" if performance.target else ""
     weight = f", weight {performance.weight:g}" if performance.weight != 1 else ""
+    frequencies = _frequencies(performance.frequency_hz, most)
     return (
-        f"{' and '.join(loads)} at {_frequencies(performance.frequency_hz)}: {', '.join(points)}, "
+        f"{' and '.join(loads)} at {frequencies}: {', '.join(points)}, "
         f"{' and '.join(performance.directions)}{target}{weight}"
     )
 
@@ -46,8 +48,8 @@ def _counted(names: Sequence[str], what: str) -> list[str]:
     return list(names) if len(names) < 2 else [f"{len(names)} {what}"]
 
 
-def _frequencies(frequency_hz: Floats) -> str:
-    if len(frequency_hz) <= FEW:
+def _frequencies(frequency_hz: Floats, most: int) -> str:
+    if len(frequency_hz) <= most:
         return f"{', '.join(f'{f:.4g}' for f in frequency_hz)} Hz"
     return f"{np.min(frequency_hz):g} to {np.max(frequency_hz):g} Hz"
 

@@ -1,0 +1,28 @@
+"""The largest of several things as what is to become small."""
+
+from abc import ABC, abstractmethod
+
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Rates
+
+
+class MinMax(ABC):
+    """A goal that is the largest of its parts: where that changes hands its derivatives jump."""
+
+    @abstractmethod
+    def value(self, rates: Rates) -> float:
+        """At rates of the groups that differ from the vehicle's own; raises as `solve`."""
+
+    @abstractmethod
+    def exact_value(self, rates: Rates) -> float:
+        """The same from the equations of motion; raises as `Objective.exact_response`."""
+
+    @abstractmethod
+    def parts_and_gradients(self, rates: Rates) -> tuple[Floats, Floats]:
+        """All of which it is the largest, (n_parts,), and derivatives to rates, (n_parts, n_rates)."""
+
+    def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
+        """That, and the derivatives of the largest, (n_rates,)."""
+        parts, gradients = self.parts_and_gradients(rates)
+        largest = parts.argmax()
+        return float(parts[largest]), gradients[largest]
