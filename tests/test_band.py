@@ -20,7 +20,7 @@ def test_a_vehicle_has_the_lines_and_modes_of_its_own_band():
     prepared = prepare(replace(mounted_cabin(), highest_frequency=50.0, frequency_step=0.25))
     assert prepared.frequency_hz[[0, -1]].tolist() == [0.25, 50.0]
     assert prepared.basis.top_hz == pytest.approx(50.0)
-    assert band_text(solve(prepared, {}, Conditions("flat", 20.0))) == "0 to 50 Hz"
+    assert band_text(solve(prepared, {}, Conditions("flat", 20.0))) == "0.25 to 50 Hz"
 
 
 def test_a_road_answers_for_the_part_that_its_table_holds_and_says_so():
@@ -30,7 +30,7 @@ def test_a_road_answers_for_the_part_that_its_table_holds_and_says_so():
     assert np.isfinite(results.rms).all()
     assert results.rms[0, 2] > 0
     assert "to 30 Hz at 36 km/h: the answer is for this part" in coverage_note(results)
-    assert "RMS 0 to 30 Hz" in psd_table(results)
+    assert "RMS 0.1 to 30 Hz" in psd_table(results)
     assert psd_record(results)["known_hz"] == [0.1, 30.0]
     assert not coverage_note(solve(whole, {}, Conditions("flat", 20.0)))
 
@@ -39,10 +39,10 @@ def test_a_rating_says_of_which_part_of_its_band_it_is():
     whole, short = mounted_cabin(), replace(mounted_cabin(), highest_frequency=30.0)
     on_road = solve(prepare(whole), {}, Conditions("flat", 10.0))
     for results in (on_road, solve(prepare(short), {}, Conditions("flat", 20.0))):
-        assert "of 0 to 30 Hz only" in results.rating.note
+        assert "of 0.1 to 30 Hz only" in results.rating.note
         assert f"({results.rating.note})" in psd_table(results)
         assert psd_record(results)["rating"]["note"] == results.rating.note
-    assert "of 0 to" not in solve(prepare(whole), {}, Conditions("flat", 20.0)).rating.note
+    assert "Hz only" not in solve(prepare(whole), {}, Conditions("flat", 20.0)).rating.note
 
 
 def test_a_force_is_known_in_a_part_at_any_speed():

@@ -8,7 +8,7 @@ from modeviz.vehicle.connections import Mount, MountGroup, MountRates
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.doors import open_server
-from modeviz.viewer.markers import Markers, MountMarker, card_text
+from modeviz.viewer.markers import CARD_LETTERS, Markers, MountMarker, card_text
 from modeviz.viewer.stage import LIGHT
 
 BOUNDS = (MountRates(1.0, 1.0, 1.0), MountRates(1e6, 1e6, 1e6))
@@ -18,6 +18,12 @@ RATES = MountRates(1.64e6, 1.21e6, 4.8e5)
 def group(*names):
     mounts = tuple(Mount(name, "", ("cab", "frame"), np.zeros((2, 3))) for name in names)
     return MountGroup("C1", "cab front", MountRates(1e5, 1e5, 1e5), 0.1, BOUNDS, mounts)
+
+
+def test_long_names_make_a_card_of_more_lines():
+    text = card_text(group("C1"), RATES, "N/mm", 0.1, f"yaw of the {'very ' * 12}long cab")
+    assert max(map(len, text.splitlines())) <= CARD_LETTERS
+    assert len(text.splitlines()) == 5
 
 
 def test_card_names_the_group_its_sides_its_rates_and_its_share():

@@ -58,7 +58,7 @@ def test_shapes_went_where_modeviz_modes_says(printed_json, document, folder):
 
 def test_its_levels_and_rating_are_those_of_modeviz_psd(printed_json, document, folder):
     record = printed_json("psd", folder, *CHANGED, *ROAD)
-    (row,) = document.tables["RMS acceleration, 0 to 40 Hz, g"][2:]
+    (row,) = document.tables["RMS acceleration, 0.1 to 40 Hz, g"][2:]
     rms = {r["direction"]: r["rms_g"] for r in record["responses"]}
     for column, direction in ((2, "lateral"), (5, "vertical"), (8, "fore-aft")):
         assert value(row[column]) == pytest.approx(rms[direction], abs=0.000051)

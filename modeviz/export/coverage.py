@@ -6,8 +6,9 @@ from modeviz.vehicle.loads import Road
 
 
 def band_text(results: Results) -> str:
-    """Over what RMS values are taken: "0 to 40 Hz"."""
-    return f"{results.drive.known_from_hz:g} to {results.drive.known[1]:g} Hz"
+    """Over what RMS values are taken, from the first line on: "0.1 to 40 Hz"."""
+    low, high = results.drive.known
+    return f"{low:g} to {high:g} Hz"
 
 
 def coverage_note(results: Results) -> str:

@@ -20,9 +20,10 @@ WHEEL_BAND = (11.0, 16.0)
 """Hz: over which the paper's Tables 5 and 6 take their means."""
 
 
-def wheel_band(highest_frequency: float) -> tuple[float, float]:
+def wheel_band(vehicle: Vehicle) -> tuple[float, float]:
     """That, or all of a vehicle's band that does not hold it."""
-    return WHEEL_BAND if highest_frequency >= WHEEL_BAND[1] else (0.0, highest_frequency)
+    low, high = vehicle.frequency_step, vehicle.highest_frequency
+    return WHEEL_BAND if high >= WHEEL_BAND[1] else (low, high)
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -113,7 +114,7 @@ def wheels_table(vehicle: Vehicle, results: WheelResults) -> str:
 
     In brackets the highest in that band, dB re 1 g.
     """
-    low, high = wheel_band(vehicle.highest_frequency)
+    low, high = wheel_band(vehicle)
     means = results.mean((low, high)) * 1000
     inside = (results.frequency_hz >= low) & (results.frequency_hz <= high)
     highest = amplitude_decibels(results.acceleration_g[inside].max(axis=0))

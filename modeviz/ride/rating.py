@@ -34,7 +34,7 @@ class Rating:
     """ISO 2631-1 vibration total value a_v = √Σ(k a_w)², m/s², comfort factors."""
 
 
-def rate(frequency_hz: Floats, acceleration_psd: Floats, known_from_hz: float = 0.0) -> Rating:
+def rate(frequency_hz: Floats, acceleration_psd: Floats, is_known_from_start: bool = True) -> Rating:
     """The rating of a ride from the accelerations at the seat.
 
     The weightings of ISO 2631-1 are meant for the seat's surface; at the seat track they rate a
@@ -43,7 +43,7 @@ def rate(frequency_hz: Floats, acceleration_psd: Floats, known_from_hz: float = 
     Args:
         frequency_hz: (n_freqs,).
         acceleration_psd: (n_freqs, 3) fore-aft, lateral, vertical, g²/Hz.
-        known_from_hz: below it nothing is known; up to the last frequency everything is.
+        is_known_from_start: whether there is nothing to be known below the first frequency.
     """
     _, lateral, vertical = rms(frequency_hz, acceleration_psd)
     combined = float(np.hypot(lateral, vertical))
@@ -54,7 +54,7 @@ def rate(frequency_hz: Floats, acceleration_psd: Floats, known_from_hz: float = 
         rms_vertical_g=float(vertical),
         combined_g=combined,
         mean_personal_rating=rating,
-        note=_note(combined, rating, (known_from_hz, float(frequency_hz[-1]))),
+        note=_note(combined, rating, frequency_hz, is_known_from_start),
         weighted_rms=weighted,
         weighted_total=float(np.linalg.norm(np.multiply(COMFORT_FACTORS, weighted))),
     )
@@ -69,19 +69,19 @@ def mean_personal_rating(combined_g: float) -> float:
     return 10.9 - 80.0 * combined_g
 
 
-def _note(combined_g: float, rating: float, known_hz: tuple[float, float]) -> str:
+def _note(combined_g: float, rating: float, frequency_hz: Floats, is_known_from_start: bool) -> str:
     if combined_g == 0:
         return "nothing that shakes the vehicle gets to this point"
-    notes = [_part(*known_hz)]
+    notes = [_part(float(frequency_hz[0]), float(frequency_hz[-1]), is_known_from_start)]
     if not 0 <= rating <= 10:
         notes.append("outside of the scale from 0 to 10: compare differences, not the value")
     return "; ".join(filter(None, notes))
 
 
-def _part(low_hz: float, high_hz: float) -> str:
+def _part(low_hz: float, high_hz: float, is_known_from_start: bool) -> str:
     """Of which part of its band a rating is, nothing if of all."""
     low, high = RIDE_BAND
-    if low_hz <= low and high_hz >= high * (1 - WHOLE):
+    if is_known_from_start and high_hz >= high * (1 - WHOLE):
         return ""
     return (
         f"of {low_hz:g} to {min(high_hz, high):g} Hz only, where the scale is of {low:g} to {high:g} Hz"

@@ -72,10 +72,9 @@ class Drive(Driven):
         return float(self.frequency_hz[0]), float(self.frequency_hz[-1])
 
     @property
-    def known_from_hz(self) -> float:
-        """Below it nothing is known: zero where the load is known from the band's first line."""
-        low = float(self.frequency_hz[0])
-        return low if low > self.prepared.frequency_hz[0] else 0.0
+    def is_known_from_start(self) -> bool:
+        """Whether the load is known from the band's first line on."""
+        return bool(self.frequency_hz[0] <= self.prepared.frequency_hz[0])
 
     @property
     def is_partial(self) -> bool:
@@ -189,7 +188,7 @@ class Results(ModalResults):
     @cached_property
     def rating(self) -> Rating:
         """Of the first response point, the driver's."""
-        return rate(self.frequency_hz, self.psd[:, 0], self.drive.known_from_hz)
+        return rate(self.frequency_hz, self.psd[:, 0], self.drive.is_known_from_start)
 
     def response(self, point: int, direction: str) -> Floats:
         """Acceleration PSD of a response point along one of `DIRECTIONS`, (n_freqs,), g²/Hz."""

@@ -38,6 +38,16 @@ def hinted(text: str, hint: str) -> str:
     return f'<span title="{hint}">{text}</span>'
 
 
+def named(name: str, about: str = "") -> str:
+    """A name on at most two lines, all of it where the pointer rests; it is page text already.
+
+    Args:
+        name: as it is shown.
+        about: shown there instead, escaped text without tags.
+    """
+    return f'<span class="name" title="{about or name}">{name}</span>'
+
+
 def table(header: Sequence[str], rows: Sequence[str], kind: str = "") -> str:
     """A table of finished rows, see `row`; `kind` is its class in the style sheet."""
     head = f"<tr>{''.join(f'<th>{cell}</th>' for cell in header)}</tr>" if header else ""

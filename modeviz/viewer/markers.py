@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Callable, Collection, Mapping
+from textwrap import fill
 
 import numpy as np
 import viser
 from viser.transforms import SO3
 
+from modeviz.errors import cut
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, Mount, MountGroup, MountRates
@@ -33,6 +35,9 @@ RING_RADIUS = 0.024
 
 POINT_RADIUS = 0.007
 """Of a response point, as a part of the vehicle's length."""
+
+LABEL_LETTERS, CARD_LETTERS = 24, 50
+"""In a label, and in a line of the card: with more they would find no place."""
 
 CARD = "/card"
 """Stands at the mount that the card hangs on."""
@@ -235,13 +240,14 @@ def card_text(group: MountGroup, rates: MountRates, unit: str, share: float, mod
     named = zip(DIRECTIONS, rates.as_tuple(), strict=True)
     per_unit = factor(unit, "stiffness")
     values = "  ".join(f"{direction} {rate / per_unit:.0f}" for direction, rate in named)
-    return f"{title}\n{values} {unit}\n{100 * share:.0f} % of strain energy in {mode}"
+    lines = (title, f"{values} {unit}", f"{100 * share:.0f} % of strain energy in {mode}")
+    return "\n".join(fill(line, CARD_LETTERS, replace_whitespace=False) for line in lines)
 
 
 def _short_name(mount: Mount, group: MountGroup) -> str:
     """The group's name and the initial of what tells its mounts apart: "C1 L"."""
     side = mount.name.removeprefix(group.name).strip()
-    return f"{group.name} {side[:1].upper()}".strip()
+    return f"{cut(group.name, LABEL_LETTERS)} {side[:1].upper()}".strip()
 
 
 def _nearest_to_us(group: MountGroup) -> int:
@@ -261,7 +267,7 @@ def _add_points(scene: viser.SceneApi, vehicle: Vehicle, length: float) -> Marks
         if point.position[1] <= 0:
             scene.add_label(
                 f"{path}/name",
-                point.name,
+                cut(point.name, LABEL_LETTERS),
                 anchor="center-center",
                 font_screen_scale=0.8,
             )

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from modeviz.errors import cut
 from modeviz.export.tables import wheel_band
 from modeviz.export.wording import sentence_case
 from modeviz.ride.participation import Peak
@@ -16,6 +17,9 @@ from modeviz.viewer.state import Curve
 
 NOW = ""
 """In place of a set's name: the present rates."""
+
+LONGEST_POINT = 26
+"""Letters of a point's name that leave its box room for the direction."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +72,7 @@ class Responses:
         at = curve.point, AXIS[curve.direction]
         if self._load is None:
             return float(self._results(name).rms[at])
-        band = wheel_band(self._solved.now.prepared.vehicle.highest_frequency)
+        band = wheel_band(self._solved.now.prepared.vehicle)
         return float(self._solved.wheels[name].mean(band)[self._load][at])
 
     def peak_lines(self, curve: Curve) -> list[int]:
@@ -98,5 +102,11 @@ def load_number(vehicle: Vehicle, name: str) -> int | None:
 
 
 def curve_label(vehicle: Vehicle, curve: Curve) -> str:
-    """A response as people call it: "Seat track left, lateral"."""
-    return f"{sentence_case(vehicle.response_points[curve.point].name)}, {curve.direction}"
+    """A response as people call it: "Seat track left, lateral".
+
+    Long names of points are cut in their midst, if they still differ.
+    """
+    names = [point.name for point in vehicle.response_points]
+    short = [cut(name, LONGEST_POINT) for name in names]
+    name = short[curve.point] if len(set(short)) == len(short) else names[curve.point]
+    return f"{sentence_case(name)}, {curve.direction}"

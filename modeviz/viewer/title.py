@@ -5,6 +5,11 @@ import json
 import viser
 from viser import _messages
 
+from modeviz.errors import cut
+
+PANEL_LETTERS = 22
+"""That a narrow column has room for."""
+
 
 class Title:
     """The title of every page.
@@ -25,7 +30,7 @@ class Title:
         if text == self._text:
             return
         self._text = text
-        self._server.gui.set_panel_label(text)
+        self._server.gui.set_panel_label(panel_label(vehicle, variant))
         for client in self._server.get_clients().values():
             self._name_tab(client)
 
@@ -34,3 +39,10 @@ class Title:
             name = json.dumps(f"{self._text} · modeviz".replace("  ", " "))
             script = _messages.RunJavascriptMessage(source=f"document.title = {name};")
             client.scene._websock_interface.queue_message(script)
+
+
+def panel_label(vehicle: str, variant: str) -> str:
+    """Both names in the column's width: each has half of it, or what the other leaves."""
+    half = PANEL_LETTERS // 2
+    variant = cut(variant, max(half, PANEL_LETTERS - len(vehicle)))
+    return f"{cut(vehicle, PANEL_LETTERS - len(variant))}  ·  {variant}"

@@ -68,6 +68,20 @@ def test_keys_do_nothing_behind_the_guide(app, page):
     assert app.session.wait(SOLVE_S)
 
 
+def test_escape_closes_the_guide(app, page):
+    for has_focus in (True, False):
+        page.keyboard.press("h")
+        wait_for(page, GUIDE)
+        if not has_focus:
+            page.locator(".mv .keys").click()
+        page.keyboard.press("Escape")
+        wait_for(page, f"!{GUIDE}")
+    page.keyboard.press("h")
+    wait_for(page, GUIDE)
+    page.get_by_role("button", name="Start").click()
+    wait_for(page, f"!{GUIDE}")
+
+
 def test_the_title_names_vehicle_and_variant(app, page):
     wait_for(page, "document.title === 'cabin · Original · modeviz'")
     app.session.load("Soft")

@@ -27,7 +27,7 @@ def wheels(comparison: Comparison) -> str:
     if comparison.wheels is None:
         return ""
     vehicle = comparison.vehicle
-    low, high = wheel_band(vehicle.highest_frequency)
+    low, high = wheel_band(vehicle)
     base, now = (1000 * w.mean((low, high)) for w in comparison.wheels)
     loads = [load.name for load in vehicle.harmonic_loads]
     tables = (

@@ -7,7 +7,7 @@ import viser
 
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import HiddenButtons, block, heading, legend, row, span, table, title
+from modeviz.viewer.html import HiddenButtons, block, heading, legend, named, row, span, table, title
 from modeviz.viewer.session import Session
 
 LEAST_SHOWN = 0.005
@@ -49,7 +49,9 @@ class EnergyPanel:
         names = sorted(_worth_listing(now, base), key=lambda name: -now[name])
         largest = _largest(now, base)
         return table(
-            (), [row(_cells(title(self._bodies[n]), n, now, base, largest)) for n in names], "energy"
+            (),
+            [row(_cells(named(title(self._bodies[n])), n, now, base, largest)) for n in names],
+            "energy",
         )
 
     def _strain(self, solved: Solved, base: Shares | None) -> str:
@@ -67,13 +69,13 @@ class EnergyPanel:
         return table((), rows, "energy") if largest > 0 else span(MOVES_FREELY, "dim")
 
     def _group(self, i: int, name: str) -> str:
-        label = f"{escape(name)} {span(escape(self._groups[name]), 'dim')}"
-        return self._buttons.label(i, label)
+        name, label = escape(name), escape(self._groups[name])
+        return self._buttons.label(i, named(f"{name} {span(label, 'dim')}", f"{name} {label}"))
 
     def _other(self, name: str) -> str:
         """What is strained but no mount group: a body that bends, or other connections."""
         bends = f"{title(self._bodies[name])} itself" if name in self._bodies else title(name)
-        return span(bends, "dim")
+        return span(named(bends), "dim")
 
 
 def _shares(energy: Mapping, mode: int | None) -> Shares | None:

@@ -13,7 +13,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, change, heading, row, span, table, title
+from modeviz.viewer.html import block, change, heading, named, row, span, table, title
 from modeviz.viewer.responses import NOW, PSD, Responses
 from modeviz.viewer.state import Curve
 
@@ -126,7 +126,7 @@ def _all_points(solved: Solved, responses: Responses) -> str:
         for direction in DIRECTIONS:
             curve = Curve(i, direction)
             old, value = (responses.figure(n, curve) for n in (solved.state.against, NOW))
-            name = title(point.name) if direction == DIRECTIONS[0] else ""
+            name = named(title(point.name)) if direction == DIRECTIONS[0] else ""
             cells = [
                 name,
                 direction,
@@ -172,7 +172,7 @@ def _point(results: Results) -> str:
 
 
 def _band_text(solved: Solved) -> str:
-    low, high = wheel_band(solved.now.prepared.vehicle.highest_frequency)
+    low, high = wheel_band(solved.now.prepared.vehicle)
     return f"{low:g} to {high:g} Hz"
 
 
@@ -183,7 +183,7 @@ def _band_rms(results: Results) -> float:
 
 def _highest(solved: Solved, f: Floats, levels: Floats) -> float:
     """Within the paper's band of wheel responses."""
-    low, high = wheel_band(solved.now.prepared.vehicle.highest_frequency)
+    low, high = wheel_band(solved.now.prepared.vehicle)
     return float(levels[(f >= low) & (f <= high)].max())
 
 

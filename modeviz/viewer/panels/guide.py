@@ -69,7 +69,9 @@ class Guide:
             self._open[client.client_id] = window = client.gui.add_modal("What you can do here")
         with window:
             client.gui.add_html(block(*_text(self._hotkeys.listed)))
-            close = client.gui.add_button("Start", hint="Closes the guide; H brings it back")
+            close = client.gui.add_button(
+                "Start", hint="Closes the guide, as Esc does; H brings it back"
+            )
         close.on_click(lambda _: self._close(client))
 
     def _close(self, client: viser.ClientHandle) -> None:

@@ -13,7 +13,18 @@ from modeviz.tuning.results import Results
 from modeviz.vehicle.connections import Rates
 from modeviz.viewer.answers import FREE_HZ, Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import HiddenButtons, block, heading, hinted, legend, row, span, table, title
+from modeviz.viewer.html import (
+    HiddenButtons,
+    block,
+    heading,
+    hinted,
+    legend,
+    named,
+    row,
+    span,
+    table,
+    title,
+)
 from modeviz.viewer.ladder import Rail, Scale, around, ladder
 from modeviz.viewer.session import Session
 
@@ -81,11 +92,11 @@ class ModesPanel:
         now = solved.now
         name, f = now.names[mode], float(now.modes.frequency_hz[mode])
         return [
-            self._buttons.label(i, hinted(title(name.spoken), title(name.spoken))),
+            self._buttons.label(i, named(title(name.spoken))),
             f"{f:.2f}",
             moved_by(solved, mode),
             f"{100 * now.modes.damping_ratio[mode]:.1f}",
-            span(moved, "dim"),
+            span(named(moved), "dim"),
         ]
 
 

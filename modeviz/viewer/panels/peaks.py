@@ -68,7 +68,7 @@ class PeaksPanel:
         self._contributors = contributors
         none = span("No peak between 5 and 25 Hz: look at another point or direction.", "dim")
         listing = "".join(rows) or none
-        assign(self._content, content=block(heading("Peaks and the modes in them", HINT), listing))
+        assign(self._content, content=block(heading("Peaks and their modes", HINT), listing))
         return lines
 
     def _row(self, label: str, peak: Peak, solved: Solved, contributors: list[_Contributor]) -> str:

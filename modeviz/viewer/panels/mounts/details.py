@@ -11,7 +11,7 @@ from modeviz.export.wording import signed
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, MountRates, Rates
 from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding
-from modeviz.viewer.html import HiddenButtons, block, row, span, table
+from modeviz.viewer.html import HiddenButtons, block, named, row, span, table
 from modeviz.viewer.panels.mounts.actions import damp, link
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
 from modeviz.viewer.panels.mounts.rows import row_label
@@ -111,7 +111,7 @@ class Details:
             reset = self._sign(RESET_GROUP, BACK, f"Group back to {state.against}")
         return (
             "+10 %",
-            f'<div class="mode" title="Frequency of {name}">{name}</div>',
+            named(name, f"Frequency of {name}"),
             '<div title="RMS acceleration of the first response point">lat. RMS</div>',
             '<div title="RMS acceleration of the first response point">vert. RMS</div>',
             "",
