@@ -15,3 +15,8 @@ def central_difference(function, at: float, step: float):
 def relative_to_largest(found: np.ndarray, expected: np.ndarray, over: int) -> np.ndarray:
     """Differences relative to the largest derivative along one axis: one near zero has no digits."""
     return np.abs(found - expected) / np.abs(expected).max(axis=over, keepdims=True)
+
+
+def row_error(G, expected):
+    """The largest difference relative to the largest of its row."""
+    return (np.abs(G - expected).max(axis=2) / np.abs(expected).max(axis=2)).max()

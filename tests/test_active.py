@@ -3,8 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cabin_problem import PROBLEM, cabin_search
-from test_search import CENTER, MINIMUM
-from toy_goals import logarithmic_search, paraboloid
+from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
 from modeviz.tuning.active import active_constraints
 from modeviz.tuning.descent import descend

@@ -3,37 +3,13 @@ import pytest
 import scipy.linalg
 from mounted_cabin import twisted_cabin
 from oracles import Beam, direct_system
+from small_systems import block, joined_beams
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import VehicleError
-from modeviz.vehicle.bodies import AddedMass, RigidBody
+from modeviz.vehicle.bodies import AddedMass
 from modeviz.vehicle.connections import Damper, Mount, MountGroup, MountRates, Spring, Tyre
 from modeviz.vehicle.vehicle import Vehicle
-
-
-def block(name, mass=10.0, at=(0.0, 0.0, 0.0)):
-    return RigidBody(name, "linkage", name, mass, np.array(at), np.diag([1.0, 2.0, 3.0]))
-
-
-def joined_beams(n_modes=None, loads=((), ())):
-    """Two beams end to end, joined by a spring in every direction and tied to the ground."""
-    beams = {"front": Beam(8, 2.0), "rear": Beam(6, 1.5, start=(2.0, 0, 0))}
-    bodies = tuple(
-        beam.body(name, n_modes=n_modes, loads=load)
-        for (name, beam), load in zip(beams.items(), loads, strict=True)
-    )
-    joint = Spring(
-        "joint", "joint", ("front", "rear"), np.array([[2.0, 0, 0], [2.0, 0, 0]]),
-        stiffness=np.array([3e6, 2e6, 1e6]), rotational_stiffness=np.array([4e3, 5e3, 6e3]),
-    )  # fmt: skip
-    feet = [
-        Spring(
-            f"foot {body}", "feet", (body, "ground"), np.array([[x, 0, 0], [x, 0, 0]]),
-            stiffness=np.array([2e4, 3e4, 4e4]), rotational_stiffness=np.full(3, 1e3),
-        )
-        for body, x in (("front", 0.5), ("rear", 3.25))
-    ]  # fmt: skip
-    return beams, Vehicle("two beams", bodies, (joint, *feet))
 
 
 def frequencies(mass, stiffness):

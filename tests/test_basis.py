@@ -6,7 +6,7 @@ import pytest
 import scipy.linalg
 from mounted_cabin import mounted_cabin
 from oracles import Beam
-from test_modes import mass_on_a_string
+from small_systems import mass_on_a_string
 
 from modeviz.dynamics.assembly import assemble, mount_stiffness
 from modeviz.dynamics.band import band_modes, natural_frequencies

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 from rounding import assert_near, of_powers
-from test_reanalysis import resonant_rate, two_masses
+from small_systems import resonant_rate, two_masses
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError, VehicleError

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from test_naming import rigid
+from cars import rigid
 
 from modeviz.dynamics.catalogue import Shares, named_motions
 from modeviz.dynamics.roles import Axle, Unit

@@ -8,7 +8,7 @@ import scipy.linalg
 from mounted_cabin import mounted_cabin
 from scipy.integrate import solve_ivp
 from scipy.optimize import linear_sum_assignment
-from test_modes import damper, mass_on_a_string, spring
+from small_systems import damper, mass_on_a_string, spring
 
 import modeviz as mv
 from modeviz.dynamics.modes import solve_complex_modes, solve_modes, vibrating_roots

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from mounted_cabin import SOFT, mounted_cabin, twisted_cabin
 from oracles import Beam
-from test_modes import mass_on_a_string, spring
+from small_systems import mass_on_a_string, spring
 
 from modeviz.dynamics.assembly import assemble, mount_stiffness
 from modeviz.dynamics.energy import kinetic_energy, strain_energy

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from folders import one_of_everything
 from mounted_cabin import mounted_cabin
-from test_assembly import block
-from test_shaken_joints import bolted_apart
+from shaken_blocks import bolted_apart
+from small_systems import block
 
 from modeviz.cli import main
 from modeviz.errors import (

@@ -2,7 +2,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mounted_cabin import mounted_cabin
+from shaken_blocks import (
+    DASHPOT,
+    FLAT,
+    MASS,
+    RATE,
+    UP,
+    F,
+    changed,
+    shaken_block,
+    shaken_cabin,
+    softer,
+    stiffness_of,
+    vertical_peaks,
+)
 from small_vehicles import tyre, wheel
 
 import modeviz as mv
@@ -16,50 +29,9 @@ from modeviz.tuning.results import AXIS, Conditions, solve_wheels
 from modeviz.tuning.shown import road_shape, wheel_shape
 from modeviz.tuning.wheel_peaks import wheel_peaks
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Damper, Mount, MountGroup, MountRates, Spring
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
-
-F = np.arange(1, 401) / 10
-UP = np.array([0.0, 0.0, 1.0])
-FLAT = Spectrum(np.array([0.01, 100.0]), np.array([2e-3, 2e-3]))
-MASS, RATE, LOSS, DASHPOT = 50.0, 2e5, 0.1, 300.0
-
-
-def shaken_block(*loads, rate=RATE):
-    """A block on one mount and a dashpot to the ground, its seat above them."""
-    block = RigidBody("block", "linkage", "block", MASS, np.zeros(3), np.eye(3))
-    bounds = MountRates(1e3, 1e3, 1e3), MountRates(1e6, 1e6, 1e6)
-    mount = Mount("mount", "M", ("block", GROUND), np.zeros((2, 3)))
-    group = MountGroup("M", "mount", MountRates(rate, 1e5, 1e5), LOSS, bounds, (mount,))
-    dashpot = Damper(
-        "dashpot", "dampers", ("block", GROUND), np.zeros((2, 3)), damping=np.full(3, DASHPOT)
-    )
-    turned = Spring(
-        "turns", "springs", ("block", GROUND), np.zeros((2, 3)), rotational_stiffness=np.full(3, 1e4)
-    )
-    return Vehicle(
-        "block", (block,), (dashpot, turned), (group,),
-        response_points=(ResponsePoint("seat", "block", np.zeros(3)),),
-        forces=tuple(load for load in loads if isinstance(load, Force)),
-        base_motions=tuple(load for load in loads if isinstance(load, BaseMotion)),
-    )  # fmt: skip
-
-
-def stiffness_of(rate, f):
-    return rate * (1 + 1j * LOSS) + 2j * np.pi * f * DASHPOT
-
-
-def vertical_peaks(vehicle, rates=None):
-    """Peak accelerations of the seat, m/s², (n_freqs, n_loads)."""
-    found = solve_wheels(mv.prepare(vehicle), rates or {})
-    return found.acceleration_g[:, :, 0, AXIS["vertical"]] * STANDARD_GRAVITY
-
-
-def softer(rate):
-    return {"M": MountRates(rate, 1e5, 1e5)}
 
 
 @pytest.mark.parametrize("rate", [RATE, 4e4, 9e5])
@@ -144,35 +116,6 @@ def test_shaking_all_tyres_is_driving_over_both_tracks_at_once():
     prepared = mv.prepare(vehicle)
     on_road, on_posts = (mv.solve(prepared, {}, Conditions(n, 1e9)).psd for n in ("even", "posts"))
     np.testing.assert_allclose(on_posts, on_road, rtol=1e-9, atol=1e-12 * on_road.max())
-
-
-def shaken_cabin():
-    """The cabin with mounts to the ground, too, which is shaken along a slanted axis."""
-    cabin = mounted_cabin()
-    group, *others = cabin.mount_groups
-    body = cabin.bodies[0]
-    place = body.center_of_gravity + np.array([0.2, -0.1, -0.3])
-    axes = np.array([[0.8, 0.6, 0.0], [-0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
-    grounded = Mount("grounded", group.name, (body.name, GROUND), np.tile(place, (2, 1)), axes=axes,
-                     damping=np.array([40.0, 50.0, 60.0]))  # fmt: skip
-    direction = np.array([0.3, -0.5, 0.8])
-    return replace(
-        cabin,
-        mount_groups=(replace(group, mounts=(*group.mounts, grounded)), *others),
-        base_motions=(
-            BaseMotion("random floor", direction, "acceleration", FLAT),
-            BaseMotion("floor", direction, "displacement", 1e-3),
-        ),
-        forces=(Force("fan", body.name, place, direction, 20.0),),
-    )
-
-
-def changed(vehicle):
-    factors = 0.4, 2.5
-    return {
-        g.name: MountRates(*(x * k for k in g.rates.as_tuple()))
-        for g, x in zip(vehicle.mount_groups, factors, strict=False)
-    }
 
 
 def test_every_way_to_solve_agrees_where_the_ground_moves_mounts():

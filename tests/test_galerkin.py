@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 from scattered_cabin import cabin_parts, cabin_receptances, drawn_and_sampled
-from test_reanalysis import resonant_rate, two_masses
+from small_systems import resonant_rate, two_masses
 
 from modeviz.dynamics.galerkin import reduced
 from modeviz.dynamics.reanalysis import prepare_receptances

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from rounding import CABIN, assert_near
 from scattered_cabin import cabin_parts, cabin_receptances, drawn_and_sampled
-from test_reanalysis import resonant_rate, two_masses
+from small_systems import resonant_rate, two_masses
 
 from modeviz.dynamics.lines import few_lines
 from modeviz.dynamics.reanalysis import prepare_receptances

@@ -1,38 +1,13 @@
 import numpy as np
 import pytest
 from oracles import Beam
+from small_systems import damper, mass_on_a_string, oscillator, spring
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import RESOLVED_HZ, solve_complex_modes, solve_modes
 from modeviz.errors import SolveError
-from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import Damper, Spring
+from modeviz.vehicle.connections import Spring
 from modeviz.vehicle.vehicle import Vehicle
-
-
-def mass_on_a_string(name, mass):
-    """A body that for these tests only moves along z; its other motions are free."""
-    return RigidBody(name, "linkage", name, mass, np.zeros(3), np.eye(3))
-
-
-def spring(bodies, k, loss_factor=0.0):
-    return Spring(
-        f"{bodies}", "springs", bodies, np.zeros((2, 3)), np.array([0, 0, k]), loss_factor=loss_factor
-    )
-
-
-def damper(bodies, c):
-    return Damper(f"damper {bodies}", "dampers", bodies, np.zeros((2, 3)), damping=np.array([0, 0, c]))
-
-
-def oscillator(mass=2.0, k=800.0, c=0.0, loss_factor=0.0):
-    return assemble(
-        Vehicle(
-            "oscillator",
-            (mass_on_a_string("m", mass),),
-            (spring(("m", "ground"), k, loss_factor), damper(("m", "ground"), c)),
-        )
-    )
 
 
 def test_two_free_masses_and_a_spring():

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from cars import car, rigid
 from oracles import Beam
-from test_naming import car, rigid
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.motions import (

@@ -9,9 +9,8 @@ from cabin_problem import cabin_search
 from limits_kept import excess
 from mounted_cabin import mounted_cabin
 from rounding import CABIN, EPSILON, SEARCHED
-from test_search import CENTER, MINIMUM
 from threadpoolctl import threadpool_limits
-from toy_goals import logarithmic_search, paraboloid
+from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
 import modeviz as mv
 from modeviz.errors import SolveError

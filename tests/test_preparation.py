@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 from rounding import EPSILON
-from test_assembly import block
+from small_systems import block
 
 from modeviz.dynamics.assembly import mount_stiffness
 from modeviz.errors import SolveError, VehicleError

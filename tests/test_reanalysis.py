@@ -3,13 +3,11 @@ import tracemalloc
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
-from test_modes import damper, mass_on_a_string, spring
+from small_systems import resonant_rate, two_masses
 
 from modeviz.dynamics.assembly import assemble, mount_stiffness
 from modeviz.dynamics.reanalysis import BLOCK, Receptances, prepare_receptances
 from modeviz.errors import SolveError
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates
-from modeviz.vehicle.vehicle import Vehicle
 
 F = np.array([0.3, 2.7, 8.0, 11.9, 40.0])
 OUTPUTS, INPUTS = np.eye(12)[:4], np.eye(12)[3:]
@@ -161,23 +159,6 @@ def test_a_response_takes_little_memory_beside_the_receptances():
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 4 * BLOCK < large.springs.nbytes
-
-
-def two_masses(rate, damping=0.0):
-    """One mass on a fixed spring and above it another on a mount, of which only z is read."""
-    mount = Mount("m", "m", ("low", "high"), np.zeros((2, 3)))
-    bounds = MountRates(1.0, 0.0, 0.0), MountRates(1e6, 1.0, 1.0)
-    group = MountGroup("m", "m", MountRates(rate, 0.0, 0.0), 0.0, bounds, (mount,))
-    bodies = mass_on_a_string("low", 2.0), mass_on_a_string("high", 3.0)
-    joints = spring(("low", GROUND), 800.0), damper(("low", GROUND), damping)
-    return assemble(Vehicle("two masses", bodies, joints, (group,)))
-
-
-def resonant_rate(frequency_hz):
-    """The mount's rate that puts a resonance there: low high + k (low + high) = 0."""
-    square = (2 * np.pi * frequency_hz) ** 2
-    low, high = 800.0 - 2.0 * square, -3.0 * square
-    return -low * high / (low + high)
 
 
 def two_mass_receptances(frequency_hz, damping=0.0):

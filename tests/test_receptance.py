@@ -3,11 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.linalg
+from differences import row_error
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 from rounding import CABIN, assert_near
-from test_assembly import block
-from test_modes import damper, mass_on_a_string, spring
+from small_systems import block, damper, mass_on_a_string, spring
 
 import modeviz as mv
 from modeviz.dynamics.assembly import assemble
@@ -24,11 +24,6 @@ def dense(system, frequency_hz, rows):
     omegas = 2 * np.pi * np.asarray(frequency_hz)
     Z = [K + 1j * w * system.damping - w**2 * system.mass for w in omegas]
     return np.array([rows @ np.linalg.solve(z, rows.T.astype(complex)) for z in Z])
-
-
-def row_error(G, expected):
-    """The largest difference relative to the largest of its row."""
-    return (np.abs(G - expected).max(axis=2) / np.abs(expected).max(axis=2)).max()
 
 
 def read_rows(system):

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 from oracles import Beam
-from test_modes import mass_on_a_string, oscillator, spring
+from small_systems import mass_on_a_string, oscillator, spring
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes

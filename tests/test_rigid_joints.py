@@ -2,10 +2,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from differences import row_error
 from mounted_cabin import mounted_cabin
 from oracles import Beam
-from test_assembly import block, joined_beams
-from test_receptance import row_error
+from small_systems import block, joined_beams
 
 import modeviz as mv
 from modeviz.dynamics.assembly import assemble, mount_stiffness

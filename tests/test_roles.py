@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
+from cars import car, rigid
 from small_vehicles import tyre, wheel
-from test_naming import car, rigid
 
 from modeviz.dynamics.roles import axles, unit_of_role, units
 from modeviz.vehicle.vehicle import Vehicle

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
-from test_light_damping import LEVEL, oscillator, transmitted
+from road_oscillator import LEVEL, oscillator, transmitted
 
 from modeviz.ride.resolution import resolving_lines
 from modeviz.ride.roads import road_spectrum

@@ -9,7 +9,7 @@ from mounted_cabin import mounted_cabin
 from rounding import CABIN
 from scipy.optimize import nnls
 from threadpoolctl import threadpool_limits
-from toy_goals import logarithmic_search, paraboloid
+from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
 import modeviz as mv
 from modeviz.errors import SolveError, VehicleError
@@ -18,15 +18,6 @@ from modeviz.tuning.descent import descend
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.tuning.search import prepare_search
 from modeviz.vehicle.problem import FrequencyWindow
-
-CENTER = np.array([2.0, -3.0, 0.1, 2.0, 2.0, 2.0])
-"""Of A vertical, lateral, fore-aft and B's rates, as ln(k/k₀)."""
-
-ROOT = -(1 + np.log(0.25 / 0.375)) / 2
-"""A vertical where lateral has to stay above 0.25 of it: what both want, halved between them."""
-
-MINIMUM = np.array([ROOT, ROOT + np.log(0.25 / 0.375), 0.1, np.log(2.5)])
-"""By hand: A lateral on its lower ratio limit, fore-aft free, B vertical on its upper bound."""
 
 
 def gradient_differences(function, x):

@@ -5,13 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracles import Beam
-from test_excitation import (
+from shaken_blocks import (
     FLAT,
     MASS,
     RATE,
+    SHAKER,
     UP,
     F,
+    Z,
+    bolted_apart,
+    bolted_twice,
     changed,
+    on_table,
     shaken_block,
     shaken_cabin,
     softer,
@@ -32,38 +37,10 @@ from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.results import AXIS, Conditions, solve_wheels
 from modeviz.tuning.shown import road_shape, wheel_shape
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Rod, Spring
+from modeviz.vehicle.connections import GROUND, Rod, Spring
 from modeviz.vehicle.loads import BaseMotion, ResponsePoint
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
-
-Z = 1e-3
-SHAKER = BaseMotion("shaker", UP, "displacement", Z)
-
-
-def on_table(vehicle, *names):
-    """The vehicle with connections to the ground, all if none is named, on a table bolted to it."""
-    table = RigidBody("table", "linkage", "table", 200.0, np.array([0.0, 0.0, -0.5]), 9 * np.eye(3))
-    bolt = Bolt("bolt", "bolts", ("table", GROUND), np.zeros((2, 3)), rigid=MOTIONS)
-
-    def moved(connection):
-        if connection.bodies[1] != GROUND or (names and connection.name not in names):
-            return connection
-        return replace(connection, bodies=(connection.bodies[0], "table"))
-
-    return replace(
-        vehicle,
-        bodies=(*vehicle.bodies, table),
-        connections=(*map(moved, vehicle.connections), bolt),
-        mount_groups=tuple(
-            replace(g, mounts=tuple(map(moved, g.mounts))) for g in vehicle.mount_groups
-        ),
-        response_points=(
-            *vehicle.response_points,
-            ResponsePoint("on table", "table", np.array([0.3, 0.2, -0.1])),
-        ),
-    )
 
 
 def cabin_on_table():
@@ -261,24 +238,12 @@ def test_a_rigid_rod_leads_along_its_line_alone():
     assert np.delete(g, AXIS["lateral"], axis=1).max() < 1e-9 * g.max()
 
 
-def bolted_twice():
-    """The table with a second bolt, though one would do."""
-    vehicle = on_table(shaken_block(SHAKER))
-    again = replace(vehicle.connections[-1], name="again", points=np.full((2, 3), 0.2))
-    return replace(vehicle, connections=(*vehicle.connections, again))
-
-
 def test_joints_that_hold_the_same_lead_it_together():
     found, expected = (
         solve_wheels(mv.prepare(vehicle, F), {}).acceleration_g
         for vehicle in (bolted_twice(), on_table(shaken_block(SHAKER)))
     )
     np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-10 * expected.max())
-
-
-def bolted_apart():
-    """The same, but only one of the bolts is moved."""
-    return replace(bolted_twice(), base_motions=(replace(SHAKER, connections=("bolt",)),))
 
 
 def test_joints_that_would_have_to_part_are_refused_by_name():

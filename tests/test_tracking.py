@@ -4,7 +4,7 @@ from itertools import permutations
 
 import numpy as np
 import pytest
-from test_modes import mass_on_a_string, spring
+from small_systems import mass_on_a_string, spring
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import Modes, solve_modes

@@ -47,3 +47,11 @@ def paraboloid(center, offset=1.0):
         return 0.5 * step @ step + offset, step
 
     return function
+
+
+CENTER = np.array([2.0, -3.0, 0.1, 2.0, 2.0, 2.0])
+"""Of A vertical, lateral, fore-aft and B's rates, as ln(k/k₀)."""
+ROOT = -(1 + np.log(0.25 / 0.375)) / 2
+"""A vertical where lateral has to stay above 0.25 of it: what both want, halved between them."""
+MINIMUM = np.array([ROOT, ROOT + np.log(0.25 / 0.375), 0.1, np.log(2.5)])
+"""By hand: A lateral on its lower ratio limit, fore-aft free, B vertical on its upper bound."""
