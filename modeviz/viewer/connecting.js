@@ -1,6 +1,7 @@
-// Says what is wrong while the page's websocket is not open, and keeps its address whole behind a proxy.
+// Says what is wrong while nothing comes through the page's websocket, and keeps its address whole behind a proxy.
 //
-// viser opens the websocket in a worker, which says "connected" and "closed". It leaves out the last slash of
+// viser opens the websocket in a worker, which says "connected" and "closed", and hands over what comes: all
+// there is, as soon as the page is connected. It leaves out the last slash of
 // the page's address, without which a proxy may not know the page's place, and writes the websocket's address
 // into the page's own, which the server then refuses. What is wrong is asked of the server, which sees what a
 // proxy has made of the request.
@@ -11,9 +12,13 @@
   const BLOCKED =
     "the page is served, but its live connection, a WebSocket, does not get through: a proxy or firewall in " +
     "between has to let it, and pass the headers Upgrade and Connection on";
+  const SILENT =
+    "the live connection, a WebSocket, is open, but nothing has come through it yet: a proxy in between holds it " +
+    "back, or the server is busy";
   const GONE = "the server does not answer: start modeviz again, and open the link it prints";
 
   let waiting = 0;
+  let isOpen = false;
   let notice = null;
 
   const address = () => location.href.split(/[?#]/)[0];
@@ -29,13 +34,14 @@
     document.body?.append(notice);
   }
 
-  function connected() {
+  function heard() {
     clearTimeout(waiting);
     waiting = 0;
     notice?.remove();
   }
 
   function closed() {
+    isOpen = false;
     if (!waiting) waiting = setTimeout(explain, PATIENCE);
   }
 
@@ -49,7 +55,7 @@
       text = (answer.headers.get("Content-Type") ?? "").startsWith("text/plain") ? await answer.text() : BLOCKED;
     } catch {}
     if (waiting !== asked) return; // it has been connected meanwhile
-    show(text || BLOCKED);
+    show(text || (isOpen ? SILENT : BLOCKED));
     waiting = setTimeout(explain, AGAIN);
   }
 
@@ -57,7 +63,8 @@
     constructor(...given) {
       super(...given);
       this.addEventListener("message", ({ data }) => {
-        if (data?.type === "connected") connected();
+        if (data?.type === "connected") isOpen = true;
+        if (data?.type === "message_batch" && waiting) heard();
         if (data?.type === "closed") closed();
       });
     }

@@ -79,6 +79,12 @@ def test_a_page_whose_socket_is_blocked_says_so(locked, show, change):
         assert "WebSocket, does not get through: a proxy or firewall" in said
 
 
+def test_a_page_whose_socket_opens_and_stays_silent_says_so(locked, show):
+    with proxy(locked.get_port(), lambda path, headers: (path, headers), is_mute=True) as port:
+        page = show(f"http://127.0.0.1:{port}/?token={TOKEN}")
+        assert "is open, but nothing has come through it yet" in wait_for(page, NOTICE)
+
+
 def test_a_page_whose_socket_is_refused_says_why(locked, show):
     with proxy(locked.get_port(), other_host(locked.get_port())) as port:
         page = show(f"http://127.0.0.1:{port}/?token={TOKEN}")
