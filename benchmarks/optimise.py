@@ -7,8 +7,9 @@ import numpy as np
 
 from benchmarks.report import OptimiseFigures
 from modeviz.tuning.descent import descend
-from modeviz.tuning.optimise import BUDGET, optimise, start_points
+from modeviz.tuning.optimise import BUDGET, optimise
 from modeviz.tuning.search import prepare_search
+from modeviz.tuning.starts import start_points
 from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 
 

@@ -44,7 +44,6 @@ from modeviz.tuning.objective import prepare_objective as prepare_objective
 from modeviz.tuning.optimise import Optimum as Optimum
 from modeviz.tuning.optimise import optimise as optimise
 from modeviz.tuning.optimise import search_globally as search_globally
-from modeviz.tuning.optimise import start_points as start_points
 from modeviz.tuning.pareto import Front as Front
 from modeviz.tuning.pareto import find_front as find_front
 from modeviz.tuning.parts import Tolerance as Tolerance
@@ -77,6 +76,7 @@ from modeviz.tuning.shown import complex_mode as complex_mode
 from modeviz.tuning.shown import road_shape as road_shape
 from modeviz.tuning.shown import wheel_shape as wheel_shape
 from modeviz.tuning.spread import spread as spread
+from modeviz.tuning.starts import start_points as start_points
 from modeviz.tuning.trade_off import Side as Side
 from modeviz.tuning.trade_off import TradeOff as TradeOff
 from modeviz.tuning.trade_off import prepare_trade_off as prepare_trade_off

@@ -15,9 +15,10 @@ from modeviz.tuning.batch import SENT, solve_many
 from modeviz.tuning.cluster import runner_at
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.optimise import optimise, start_points
+from modeviz.tuning.optimise import optimise
 from modeviz.tuning.parts import Tolerance, scattered_parts
 from modeviz.tuning.scatter import CHUNK, scatter
+from modeviz.tuning.starts import start_points
 from modeviz.vehicle.files import write_vehicle
 
 

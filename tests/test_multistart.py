@@ -5,8 +5,9 @@ from rounding import CABIN, SEARCHED, SEARCHED_X
 
 from modeviz.tuning.control import Control
 from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.optimise import optimise, start_points
+from modeviz.tuning.optimise import optimise
 from modeviz.tuning.runner import HERE
+from modeviz.tuning.starts import start_points
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +53,8 @@ def test_cancelled_before_anything_was_found_it_gives_the_better_of_the_first_st
     assert found.value < 0.99 * search.value(starts[0])
 
 
-def test_a_budget_is_shared_evenly(search, starts):
+def test_a_budget_is_shared_evenly(search):
+    starts = search.space.samples(4, seed=0)
     found = optimise_on(HERE, search, starts, budget=12)
     assert [d.evaluations for d in found.descents] == [3, 3, 3, 3]
     assert found.reason == "out of budget"

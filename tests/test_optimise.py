@@ -13,23 +13,17 @@ from threadpoolctl import threadpool_limits
 from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
 import modeviz as mv
+from modeviz.commands.optimise import N_STARTS
 from modeviz.errors import SolveError
 from modeviz.tuning.control import Control
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.tuning.evolution import evolve
 from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.optimise import (
-    LEFT,
-    SCREENED,
-    best_of,
-    optimise,
-    search_globally,
-    start_points,
-    why_ended,
-)
+from modeviz.tuning.optimise import LEFT, best_of, optimise, search_globally, why_ended
 from modeviz.tuning.preparation import prepare_modes
 from modeviz.tuning.runner import HERE
 from modeviz.tuning.search import prepare_search
+from modeviz.tuning.starts import SCREENED, start_points
 from modeviz.tuning.verification import verify
 from modeviz.tuning.windows import prepare_windows
 from modeviz.vehicle.problem import FrequencyWindow
@@ -76,8 +70,10 @@ def test_starts_are_the_given_rates_and_the_best_of_many_designs():
     rates = mounted_cabin().rate_sets["soft"]
     first, *others = start_points(search, rates, 4, seed=5)
     np.testing.assert_array_equal(first, search.space.to_x(rates))
-    values = [search.value(x) for x in search.space.samples(3 * SCREENED, seed=5)]
-    assert [search.value(x) for x in others] == pytest.approx(sorted(values)[:3], rel=CABIN)
+    values = sorted(search.value(x) for x in search.space.samples(3 * SCREENED, seed=5))
+    found = [search.value(x) for x in others]
+    np.testing.assert_allclose(found, sorted(found), rtol=CABIN)
+    assert found[-1] < values[0]  # after some steps, all
     again = start_points(search, rates, 4, seed=5)
     np.testing.assert_allclose(again, [first, *others], rtol=0, atol=8 * EPSILON)
     assert len(start_points(search, rates, 1)) == 1
@@ -87,6 +83,31 @@ def test_starts_are_chosen_from_what_there_is_when_it_is_cancelled():
     control = Control()
     control.cancel()
     assert len(start_points(cabin_search(), {}, 4, control=control)) == 1
+
+
+class Patience(Control):
+    """Is cancelled after so many designs."""
+
+    def __init__(self, n_designs):
+        super().__init__()
+        self.n_left = n_designs
+
+    def check(self):
+        if not self.n_left:
+            self.cancel()
+        self.n_left -= 1
+        super().check()
+
+
+@pytest.mark.parametrize("n_looked_at", [2, 3 * SCREENED - 1, 3 * SCREENED + 4, 3 * SCREENED + 40])
+def test_cancelled_on_the_way_the_best_so_far_are_the_starts(n_looked_at):
+    search = cabin_search()
+    starts = start_points(search, {}, 4, control=Patience(n_looked_at))
+    assert len(starts) == 1 + min(3, n_looked_at)
+    values = [search.value(x) for x in starts[1:]]
+    np.testing.assert_allclose(values, sorted(values), rtol=CABIN)
+    spread = [search.value(x) for x in search.space.samples(3 * SCREENED, 0)[:n_looked_at]]
+    assert values[0] <= min(spread) * (1 + CABIN)
 
 
 def test_the_global_search_finds_the_better_of_two_minima():
@@ -300,3 +321,12 @@ def test_on_the_truck_forty_starts_find_the_same_best_whatever_the_seed():
         assert optimum.value < paper < 1
         assert excess(search.space, optimum.x) < 1e-12
         assert optimum.verification.difference < 1e-9
+
+
+def test_on_the_pickup_the_usual_starts_find_one_design_whatever_the_seed():
+    """From the best spread designs as they are, seeds 0 and 1 lead to a design 11 % worse than 2."""
+    vehicle = mv.read_vehicle(mv.builtin_vehicle())
+    search = prepare_search(vehicle, vehicle.problem("paper"), vehicle.rates, vehicle.speed)
+    found = [optimise(search, start_points(search, vehicle.rates, N_STARTS, s)) for s in range(3)]
+    assert all(optimum.converged for optimum in found)
+    np.testing.assert_allclose([o.value for o in found], found[0].value, rtol=SEARCHED)

@@ -21,10 +21,11 @@ from modeviz.commands import optimise as command
 from modeviz.commands.interrupt import ENDINGS
 from modeviz.errors import VehicleError
 from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.optimise import optimise, search_globally, start_points
+from modeviz.tuning.optimise import optimise, search_globally
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rate_files import read_rates, write_rates
 from modeviz.tuning.robust import robust
+from modeviz.tuning.starts import start_points
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.files import write_vehicle
 from modeviz.vehicle.files.problem_file import problem_text

@@ -18,8 +18,9 @@ from rounding import CABIN, assert_near
 from scipy.optimize import brentq, minimize_scalar
 
 from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.optimise import optimise, start_points
+from modeviz.tuning.optimise import optimise
 from modeviz.tuning.search import prepare_search
+from modeviz.tuning.starts import start_points
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates
 from modeviz.vehicle.loads import BaseMotion, ResponsePoint, Spectrum

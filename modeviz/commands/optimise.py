@@ -23,19 +23,13 @@ from modeviz.export.wording import significant
 from modeviz.tuning.cluster import runner_at
 from modeviz.tuning.control import Control
 from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.optimise import (
-    MOST_STARTS,
-    Optimum,
-    Progress,
-    optimise,
-    search_globally,
-    start_points,
-)
+from modeviz.tuning.optimise import Optimum, Progress, optimise, search_globally
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.rate_files import rates_format, write_rates
 from modeviz.tuning.robust import optimise_robustly, robust_search
 from modeviz.tuning.runner import Runner
 from modeviz.tuning.search import Search, prepare_search
+from modeviz.tuning.starts import MOST_STARTS, start_points
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.files.disk import check_writable
 from modeviz.vehicle.problem import Problem

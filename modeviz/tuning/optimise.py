@@ -3,11 +3,9 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from modeviz.errors import SolveError
 from modeviz.tuning.active import ActiveConstraint, active_constraints
-from modeviz.tuning.control import CancelledError, Control
+from modeviz.tuning.control import Control
 from modeviz.tuning.descent import descend
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent, Step
 from modeviz.tuning.evolution import evolve
@@ -19,12 +17,6 @@ from modeviz.vehicle.connections import Rates
 
 BUDGET = 5_000
 """Evaluations that a search may take, all starts together, besides those that choose these."""
-
-MOST_STARTS = 1_000
-"""More take minutes to choose, and an hour to search from."""
-
-SCREENED = 20
-"""Designs of which the best is one to start from."""
 
 LEFT = "a mode leaves its window in the full model"
 """Why an optimum is none, whatever the search said."""
@@ -78,38 +70,6 @@ class Optimum:
         return self.reason == CONVERGED
 
 
-@one_thread
-def start_points(
-    search: Search, rates: Rates, n_starts: int, seed: int = 0, control: Control | None = None
-) -> list[Floats]:
-    """Where to search from: some rates, and the best of `SCREENED` times as many spread designs.
-
-    The paper's problem on the built-in truck has some 20 minima, from 0.265 to 0.45 of the original's
-    objective. 20 starts find the best one with two of the seeds 0 to 4 and the next, 0.295, with the
-    others; 40 starts find it with all five.
-
-    Args:
-        search: among whose designs.
-        rates: the first start.
-        n_starts: how many in all.
-        seed: of the others; the same gives the same.
-        control: lets somebody hold it, or end it with those that it has.
-
-    Raises:
-        SolveError: a design that cannot be solved, with its rates.
-    """
-    samples = search.space.samples(SCREENED * (n_starts - 1), seed)
-    values = []
-    try:
-        for x in samples:
-            (control or Control()).check()
-            values.append(search.value(x))
-    except CancelledError:
-        pass
-    best = np.argsort(values, kind="stable")[: n_starts - 1]
-    return [search.space.to_x(rates), *samples[best]]
-
-
 def optimise(
     search: Search,
     starts: Sequence[Floats],
@@ -133,7 +93,7 @@ def optimise(
     descents: list[Descent] = []
     for i, start in enumerate(starts, 1):
         used = sum(d.evaluations for d in descents)
-        is_cancelled = i > FIRST and descents[-1].reason == CANCELLED
+        is_cancelled = i > FIRST and CANCELLED in (d.reason for d in descents)
         if used >= budget or is_cancelled:
             break
         teller = _teller(search, descents, used, i, len(starts), tell)

@@ -8,13 +8,16 @@ import numpy as np
 from modeviz.tuning.control import CancelledError, Control
 from modeviz.tuning.descent import descend
 from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent
-from modeviz.tuning.optimise import BUDGET, SCREENED
+from modeviz.tuning.optimise import BUDGET
 from modeviz.tuning.runner import HERE
 from modeviz.tuning.search import Search
 from modeviz.tuning.threads import one_thread
 from modeviz.tuning.trade_off import Compromise, TradeOff
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
+
+SCREENED = 20
+"""Spread designs for each start."""
 
 WARM = 2
 """Of the designs found so far, how many the next is searched from."""

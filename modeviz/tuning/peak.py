@@ -40,7 +40,7 @@ BEYOND = 8
 CLOSE = 1e-6
 """Hz: lines this close to the end of a cell or to a bend are left out."""
 
-LEAST = 0.5
+LEAST = 0.8
 """Of a case's largest square: what is below is far from being the largest, and taken at its line."""
 
 NO_POWER = np.finfo(np.float64).tiny

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import scipy.linalg
 from numpy.typing import NDArray
 
 from modeviz.dynamics.actions import directions
@@ -76,6 +77,14 @@ class PreparedModes:
             g.loss_factor_with(every[g.name]) for g in self.vehicle.mount_groups for _ in g.mounts
         ]
         return 1 + 1j * np.array(factors)[self._mounts]
+
+    @cached_property
+    def has_rate(self) -> Floats:
+        """(n_springs, 3 n_groups): one where a spring has a rate of a group, else zero."""
+        of_mount = np.transpose([MountRates(*unit).local() for unit in np.eye(3)])
+        per_group = [np.tile(of_mount, (len(g.mounts), 1)) for g in self.vehicle.mount_groups]
+        along = np.asarray(scipy.linalg.block_diag(np.zeros((0, 0)), *per_group))
+        return np.pad(along, ((0, len(self._rotational)), (0, 0)))
 
     @cached_property
     def _mounts(self) -> NDArray[np.intp]:

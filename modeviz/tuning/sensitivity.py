@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.resonances import resonances_at
@@ -12,7 +11,7 @@ from modeviz.tuning.preparation import Prepared, PreparedModes
 from modeviz.tuning.results import Conditions, ModalResults, Results, drive
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.connections import RATE_FIELDS, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -35,12 +34,7 @@ def spring_shares(prepared: PreparedModes, rates: Rates) -> Complexes:
 
     Arguments and errors as `prepared.loss`.
     """
-    of_mount = np.transpose([MountRates(*unit).local() for unit in np.eye(3)])
-    per_group = [np.tile(of_mount, (len(g.mounts), 1)) for g in prepared.vehicle.mount_groups]
-    has_rate = np.asarray(scipy.linalg.block_diag(np.zeros((0, 0)), *per_group))
-    loss = prepared.loss(rates)
-    n_rotational = len(loss) - len(has_rate)  # which no variable changes
-    return loss[:, None] * np.pad(has_rate, ((0, n_rotational), (0, 0)))
+    return prepared.loss(rates)[:, None] * prepared.has_rate
 
 
 def frequency_sensitivity(results: ModalResults) -> Floats:

@@ -12,10 +12,11 @@ import numpy as np
 from modeviz.errors import ModevizError
 from modeviz.export.optimum import compared_outside
 from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.optimise import Optimum, Progress, optimise, start_points
+from modeviz.tuning.optimise import Optimum, Progress, optimise
 from modeviz.tuning.parts import Tolerance
 from modeviz.tuning.robust import optimise_robustly, robust_search
 from modeviz.tuning.search import Search, prepare_search
+from modeviz.tuning.starts import start_points
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.beside import OUR_MISTAKE, TELL_EVERY

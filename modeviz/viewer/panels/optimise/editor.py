@@ -10,8 +10,8 @@ from modeviz.errors import ModevizError
 from modeviz.export.wording import file_name, sentence_case
 from modeviz.tuning.default_problem import problem_called, problems
 from modeviz.tuning.design import design_space
-from modeviz.tuning.optimise import MOST_STARTS
 from modeviz.tuning.results import Results
+from modeviz.tuning.starts import MOST_STARTS
 from modeviz.vehicle.files.problem_file import problem_text
 from modeviz.vehicle.problem import Goal
 from modeviz.viewer.answers import Solved
