@@ -19,6 +19,10 @@ from scipy.optimize import brentq, minimize_scalar
 
 from modeviz.tuning.goals import prepare_goal
 from modeviz.tuning.optimise import optimise
+from modeviz.tuning.parts import Tolerance, scattered_parts
+from modeviz.tuning.preparation import prepare
+from modeviz.tuning.results import Conditions
+from modeviz.tuning.scatter import scatter
 from modeviz.tuning.search import prepare_search
 from modeviz.tuning.starts import start_points
 from modeviz.vehicle.bodies import RigidBody
@@ -241,3 +245,14 @@ def test_a_spectrum_has_its_peaks_at_its_own_lines():
 def test_what_falls_short_of_its_target_counts():
     _, goal = hung(10.0, [20.0, 30.0], target=5.0)
     assert goal.value({}) == pytest.approx((np.sqrt(square(30.0, 10.0)) - 5) ** 2, rel=1e-6)
+
+
+@pytest.mark.parametrize("damping_ratio", [1e-3, 1e-2, 5e-2])
+def test_scattered_peaks_are_those_of_each_vehicle_by_itself(damping_ratio):
+    """Squares to twice 0.1 %, wherever between shared lines each vehicle's peak is."""
+    vehicle, goal = hung(10.0, [6.0, 14.0], damping_ratio)
+    prepared = prepare(vehicle)
+    parts = scattered_parts(prepared, {}, Tolerance())
+    found = scatter(prepared, parts, Conditions("noise", 20.0), goal, 50, points=["mass"])
+    expected = goal.totals(parts.stiffness(found.deviations))
+    np.testing.assert_allclose(found.goal, expected, rtol=2e-3)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.resonances import resonances_at
 from modeviz.ride.excitation import table_hz
+from modeviz.tuning.heights import HighestBetween
 from modeviz.tuning.min_max import MinMax
 from modeviz.tuning.objective import (
     Criterion,
@@ -179,8 +180,9 @@ class Peak(MinMax):
         )
 
     def on(self, lines: Floats) -> Objective:
-        """The largest square at given lines within the ranges, their ends and bends of spectra."""
-        return self._at([self._lines(case, lines) for case in self.cases])
+        """The same for vehicles to which some lines belong, found between these and their midpoints."""
+        closer = np.union1d(lines, (lines[1:] + lines[:-1]) / 2)
+        return self._at([self._lines(case, closer) for case in self.cases], HighestBetween)
 
     def _values(self, stiffness: Complexes) -> Floats:
         objective, _ = self._found(stiffness)
@@ -251,10 +253,10 @@ class Peak(MinMax):
             )
         return found
 
-    def _at(self, lines: Sequence[Floats]) -> Objective:
-        """The largest square of each case at lines of its own."""
+    def _at(self, lines: Sequence[Floats], kind: type[Objective] = _AtLines) -> Objective:
+        """The largest square of each case at lines of its own, or of another kind."""
         cases = [case.on(own) for case, own in zip(self.cases, lines, strict=True)]
-        return objective_on(self.prepared.on(lines_of(cases)), cases, _AtLines)
+        return objective_on(self.prepared.on(lines_of(cases)), cases, kind)
 
     def _lines(self, case: PeakCase, placed: Floats) -> Floats:
         """The lines of a case among those placed, with the ends of its cells and bends of its load."""
