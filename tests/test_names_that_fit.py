@@ -1,10 +1,12 @@
 """What the page calls a vehicle and its responses, where there is little room."""
 
 from dataclasses import replace
+from html import escape
 
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.viewer.html import TWO_LINES, named
 from modeviz.viewer.responses import curve_label
 from modeviz.viewer.state import Curve
 from modeviz.viewer.title import PANEL_LETTERS, panel_label
@@ -46,3 +48,11 @@ def test_the_column_is_headed_by_vehicle_and_variant(vehicle, variant, label):
 def test_two_long_names_share_the_column():
     vehicle, variant = panel_label(LONG, LONG).split("  ·  ")
     assert len(vehicle) == len(variant) == PANEL_LETTERS // 2
+
+
+def test_a_long_name_in_a_table_keeps_its_end_and_is_there_as_a_whole_to_hover():
+    shown = named(f"{LONG} <left>")
+    assert "ide &lt;left&gt;</span>" in shown
+    assert f'title="{escape(LONG)} &lt;left&gt;"' in shown
+    assert named("C1 left") == '<span class="name" title="C1 left">C1 left</span>'
+    assert len(named("x" * 100, "y")) == len(named("x" * TWO_LINES, "y"))

@@ -1,13 +1,18 @@
 """Fragments of page text: tables, changes, and rows that can be clicked."""
 
 from collections.abc import Iterable, Sequence
+from html import escape
 from importlib.resources import files
 
 import viser
 
+from modeviz.errors import cut
 from modeviz.export.markup import change as change
 from modeviz.export.markup import span as span
 from modeviz.export.markup import title as title
+
+TWO_LINES = 32
+"""Letters on two lines of a narrow column."""
 
 
 def style_sheet() -> str:
@@ -39,13 +44,18 @@ def hinted(text: str, hint: str) -> str:
 
 
 def named(name: str, about: str = "") -> str:
-    """A name on at most two lines, all of it where the pointer rests; it is page text already.
+    """A name as page text, see `clamped`; of a long one beginning and end, which tell it from others.
 
     Args:
-        name: as it is shown.
-        about: shown there instead, escaped text without tags.
+        name: plain text.
+        about: likewise, to read where the pointer rests; else the name.
     """
-    return f'<span class="name" title="{about or name}">{name}</span>'
+    return clamped(escape(cut(name, TWO_LINES)), about or name)
+
+
+def clamped(content: str, about: str) -> str:
+    """Page text on at most two lines, with plain text to read where the pointer rests."""
+    return f'<span class="name" title="{escape(about)}">{content}</span>'
 
 
 def table(header: Sequence[str], rows: Sequence[str], kind: str = "") -> str:

@@ -5,9 +5,23 @@ from html import escape
 
 import viser
 
+from modeviz.errors import cut
+from modeviz.export.wording import sentence_case
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import HiddenButtons, block, heading, legend, named, row, span, table, title
+from modeviz.viewer.html import (
+    TWO_LINES,
+    HiddenButtons,
+    block,
+    clamped,
+    heading,
+    legend,
+    named,
+    row,
+    span,
+    table,
+    title,
+)
 from modeviz.viewer.session import Session
 
 LEAST_SHOWN = 0.005
@@ -50,7 +64,7 @@ class EnergyPanel:
         largest = _largest(now, base)
         return table(
             (),
-            [row(_cells(named(title(self._bodies[n])), n, now, base, largest)) for n in names],
+            [row(_cells(named(sentence_case(self._bodies[n])), n, now, base, largest)) for n in names],
             "energy",
         )
 
@@ -69,13 +83,14 @@ class EnergyPanel:
         return table((), rows, "energy") if largest > 0 else span(MOVES_FREELY, "dim")
 
     def _group(self, i: int, name: str) -> str:
-        name, label = escape(name), escape(self._groups[name])
-        return self._buttons.label(i, named(f"{name} {span(label, 'dim')}", f"{name} {label}"))
+        label = self._groups[name]
+        content = f"{escape(cut(name, TWO_LINES))} {span(escape(label), 'dim')}"
+        return self._buttons.label(i, clamped(content, f"{name} {label}"))
 
     def _other(self, name: str) -> str:
         """What is strained but no mount group: a body that bends, or other connections."""
-        bends = f"{title(self._bodies[name])} itself" if name in self._bodies else title(name)
-        return span(named(bends), "dim")
+        bends = f"{self._bodies[name]} itself" if name in self._bodies else name
+        return span(named(sentence_case(bends)), "dim")
 
 
 def _shares(energy: Mapping, mode: int | None) -> Shares | None:

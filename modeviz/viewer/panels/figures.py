@@ -13,7 +13,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, change, heading, named, row, span, table, title
+from modeviz.viewer.html import block, change, heading, named, row, span, table
 from modeviz.viewer.responses import NOW, PSD, Responses
 from modeviz.viewer.state import Curve
 
@@ -126,7 +126,7 @@ def _all_points(solved: Solved, responses: Responses) -> str:
         for direction in DIRECTIONS:
             curve = Curve(i, direction)
             old, value = (responses.figure(n, curve) for n in (solved.state.against, NOW))
-            name = named(title(point.name)) if direction == DIRECTIONS[0] else ""
+            name = named(sentence_case(point.name)) if direction == DIRECTIONS[0] else ""
             cells = [
                 name,
                 direction,

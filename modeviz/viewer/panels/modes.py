@@ -8,7 +8,7 @@ import viser
 
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import WEAK_MAC
-from modeviz.export.wording import signed
+from modeviz.export.wording import sentence_case, signed
 from modeviz.tuning.results import Results
 from modeviz.vehicle.connections import Rates
 from modeviz.viewer.answers import FREE_HZ, Solved
@@ -92,11 +92,11 @@ class ModesPanel:
         now = solved.now
         name, f = now.names[mode], float(now.modes.frequency_hz[mode])
         return [
-            self._buttons.label(i, named(title(name.spoken))),
+            self._buttons.label(i, named(sentence_case(name.spoken))),
             f"{f:.2f}",
             moved_by(solved, mode),
             f"{100 * now.modes.damping_ratio[mode]:.1f}",
-            span(named(moved), "dim"),
+            span(moved, "dim"),
         ]
 
 
@@ -203,8 +203,8 @@ def _old_shape(solved: Solved) -> str:
 
 def _moves_most(results: Results, labels: Mapping[str, str]) -> list[str]:
     """For every mode the body with the largest share of its kinetic energy, and that share."""
-    bodies = [escape(labels[name]) for name in results.kinetic_energy]
+    bodies = [labels[name] for name in results.kinetic_energy]
     shares = np.stack(list(results.kinetic_energy.values()))
     most = shares.argmax(axis=0).tolist()
     percent = (100 * shares.max(axis=0)).tolist()
-    return [f"{bodies[i]} {share:.0f} %" for i, share in zip(most, percent, strict=True)]
+    return [named(f"{bodies[i]} {share:.0f} %") for i, share in zip(most, percent, strict=True)]

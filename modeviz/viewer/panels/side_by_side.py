@@ -8,7 +8,7 @@ from modeviz.tuning.results import Results
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS
 from modeviz.viewer.answers import Solved
-from modeviz.viewer.html import change, heading, named, row, span, table, title
+from modeviz.viewer.html import change, heading, named, row, span, table
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.responses import NOW, Responses
@@ -41,11 +41,9 @@ def _rates(base: Results, now: Results, unit: str) -> list[str]:
             before, after = getattr(old, field) / per_unit, getattr(new, field) / per_unit
             if before != after:
                 delta = signed(100 * (after / before - 1), 0, " %") if before else "new"
-                rows.append(
-                    row([named(f"{escape(group)} {direction}"), _plain(before), _plain(after), delta])
-                )
+                rows.append(row([named(f"{group} {direction}"), _plain(before), _plain(after), delta]))
         if old.loss_factor != new.loss_factor:
-            rows.append(row([named(f"{escape(group)} loss factor"), *_losses(base, now, group)]))
+            rows.append(row([named(f"{group} loss factor"), *_losses(base, now, group)]))
     return rows
 
 
@@ -66,10 +64,14 @@ def _modes(solved: Solved) -> list[str]:
             continue
         texts = ["–" if math.isnan(f) else f"{f:.2f}" for f in (old, new)]
         if pair.after is not None:
-            cells = [named(title(now.names[pair.after].spoken)), *texts, moved_by(solved, pair.after)]
+            cells = [
+                named(sentence_case(now.names[pair.after].spoken)),
+                *texts,
+                moved_by(solved, pair.after),
+            ]
             rows.append((new, row(cells)))
         elif pair.before is not None:
-            rows.append((old, row([named(title(base.names[pair.before].spoken)), *texts, ""])))
+            rows.append((old, row([named(sentence_case(base.names[pair.before].spoken)), *texts, ""])))
     return [cells for _, cells in sorted(rows)]
 
 

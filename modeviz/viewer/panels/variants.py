@@ -4,13 +4,13 @@ from html import escape
 
 import viser
 
-from modeviz.export.wording import signed
+from modeviz.export.wording import sentence_case, signed
 from modeviz.tuning.pairing import same_mode
 from modeviz.tuning.results import AXIS, Results
 from modeviz.viewer.answers import Solved
 from modeviz.viewer.assign import assign
 from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.html import HiddenButtons, block, named, row, span, table, title
+from modeviz.viewer.html import HiddenButtons, block, named, row, span, table
 from modeviz.viewer.panels.exchange import ExchangePanel
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.side_by_side import side_by_side
@@ -97,7 +97,7 @@ class VariantsPanel:
 
     def _listing(self, solved: Solved) -> str:
         """A row for each set; the last for the present rates, if they have no name."""
-        name = named(title(solved.name.name))
+        name = named(sentence_case(solved.name.name))
         header = ("", "Set", "lat. g", "vert. g", f"{name} Hz", "rating", "")
         current = next((n for n, r in solved.named.items() if r.rates == solved.now.rates), None)
         colors = set_numbers(self._session.vehicle, solved.state)
@@ -113,7 +113,7 @@ class VariantsPanel:
     def _cells(self, i: int, name: str, color: int, solved: Solved) -> list[str]:
         """The cells of row `i`."""
         state, is_solved = solved.state, name in solved.named
-        load = named(escape(name), f"Load {escape(name)}")
+        load = named(name, f"Load {name}")
         forget = '<span title="Forget this set; undo brings it back">×</span>'
         return [
             self._button(i, OVERLAY, _mark(color, name, state)) if is_solved else "",

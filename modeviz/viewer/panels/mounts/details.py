@@ -105,13 +105,12 @@ class Details:
         assign(self._loss, label=row_label("loss factor", loss, its_base), _marks=marks)
 
     def _header(self, state: State, base: MountRates, mode: str) -> Sequence[str]:
-        name = escape(mode)
         reset = ""
         if state.rates[self._group.name] != base:
             reset = self._sign(RESET_GROUP, BACK, f"Group back to {state.against}")
         return (
             "+10 %",
-            named(name, f"Frequency of {name}"),
+            named(mode, f"Frequency of {mode}"),
             '<div title="RMS acceleration of the first response point">lat. RMS</div>',
             '<div title="RMS acceleration of the first response point">vert. RMS</div>',
             "",
