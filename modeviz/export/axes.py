@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from modeviz.export.wording import number, power_of_ten
-from modeviz.vehicle.arrays import Floats
 
 USUAL_HZ, USUAL_SHOWN_HZ = 40.0, (1.0, 25.0)
 """The usual band's end, and what of it is drawn."""
@@ -31,7 +31,7 @@ class Axis:
         assert self.low < self.high
         assert self.low > 0 or not self.is_logarithmic
 
-    def place(self, values: Floats | Sequence[float] | float) -> Floats:
+    def place(self, values: NDArray[np.float64] | Sequence[float] | float) -> NDArray[np.float64]:
         """Where values are between the ends, 0 to 1; what a logarithm has no place for is far below."""
         values, ends = np.asarray(values, float), np.array([self.low, self.high])
         if self.is_logarithmic:
@@ -68,7 +68,7 @@ def shown_hz(highest_frequency: float) -> tuple[float, float]:
     return min(USUAL_SHOWN_HZ[0], highest_frequency / USUAL_HZ), highest_frequency
 
 
-def decibel_axis(title: str, curves: Sequence[Floats]) -> Axis:
+def decibel_axis(title: str, curves: Sequence[NDArray[np.float64]]) -> Axis:
     """An axis of whole tens of dB that holds the curves, at most `DECIBELS` below their top."""
     top = 10 * math.ceil(max(c.max() for c in curves) / 10)
     bottom = 10 * math.floor(min(c.min() for c in curves) / 10)

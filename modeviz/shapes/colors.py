@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from modeviz.shapes.motion import mean_square, peak_displacement
 from modeviz.vehicle.arrays import Floats
 
+Color = tuple[int, int, int]
+"""sRGB, 0 to 255."""
+
 COLOR_STOPS = ("#3a5480", "#3e8aa0", "#96bea0", "#ecce78", "#e28446", "#b02c34")
 """sRGB from nothing to the most, equally spaced."""
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.shapes.colors import Color
 from modeviz.shapes.surface import Patch, Surface
 from modeviz.vehicle.bodies import Material
 from modeviz.vehicle.srgb import srgb_to_linear
@@ -14,7 +15,6 @@ from modeviz.vehicle.srgb import srgb_to_linear
 FLOAT, UNSIGNED_INT = 5126, 5125
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 LINES, TRIANGLES = 1, 4
-Color = tuple[int, int, int]
 
 
 def glb(surface: Surface, edge_color: Color | None = None) -> bytes:

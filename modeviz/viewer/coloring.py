@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from modeviz.dynamics.energy import kinetic_energy
 from modeviz.export.wording import sentence_case
 from modeviz.shapes.colors import (
+    Color,
     Shade,
     color_map,
     displacement_shade,
@@ -19,7 +20,6 @@ from modeviz.shapes.motion import DRAWN_FRACTION
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.answers import Solved
-from modeviz.viewer.stage import Color
 from modeviz.viewer.state import Coloring
 
 Shares = Mapping[str, float]

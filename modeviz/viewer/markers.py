@@ -9,6 +9,7 @@ import viser
 from viser.transforms import SO3
 
 from modeviz.errors import cut
+from modeviz.shapes.colors import Color
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, Mount, MountGroup, MountRates
@@ -16,7 +17,7 @@ from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.assign import assign
 from modeviz.viewer.labels import keep_apart
-from modeviz.viewer.stage import Color, Theme
+from modeviz.viewer.stage import Theme
 
 RUBBER, SELECTED, WASHER, BLUE = (236, 190, 96), (242, 140, 24), (60, 64, 70), (43, 124, 196)
 RADIUS, HEIGHT = 1 / 120, 1 / 63.5

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
+from modeviz.shapes.colors import Color
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
-
-Color = tuple[int, int, int]
 
 FIELD_OF_VIEW = 0.52
 """rad, vertical: that of a long lens, which keeps a vehicle's lines nearly parallel."""
