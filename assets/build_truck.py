@@ -12,7 +12,7 @@ from pickup.parameters import Parameters
 from pickup.stiffness import static_stiffness
 from pickup.vehicle import pickup
 
-from modeviz.vehicle.files import write_vehicle
+from modeviz.files import write_vehicle
 
 TRUCK = Path(__file__).parent / "truck"
 

@@ -31,7 +31,7 @@ from pickup.vehicle import pickup
 from scipy.optimize import least_squares
 
 from modeviz.fem.component import flexible_body
-from modeviz.tuning.goals import prepare_goal
+from modeviz.optimise.goals import prepare_goal
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 

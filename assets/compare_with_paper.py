@@ -12,12 +12,12 @@ from functools import cached_property
 
 import numpy as np
 
+from modeviz.analysis.preparation import Prepared, prepare
+from modeviz.analysis.results import AXIS, Conditions, Results, solve, solve_wheels
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import rms
-from modeviz.tuning.preparation import Prepared, prepare
-from modeviz.tuning.results import AXIS, Conditions, Results, solve, solve_wheels
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -6,8 +6,8 @@ from benchmarks import measure
 from benchmarks.peers import METHODS, Answer
 from benchmarks.report import MethodRow
 from benchmarks.work import Work, largest_difference
-from modeviz.tuning.preparation import FREQUENCY_HZ, prepare
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.analysis.preparation import FREQUENCY_HZ, prepare
+from modeviz.files import builtin_vehicle, read_vehicle
 
 OURS, REFERENCE, GEMM = "modeviz", "numpy direct", "gemm"
 RATES = "optimised"

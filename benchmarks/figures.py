@@ -13,12 +13,12 @@ from benchmarks.peers import solve_directly
 from benchmarks.report import SizeRow
 from benchmarks.scaled_vehicle import Size, scaled_vehicle
 from benchmarks.work import Work
+from modeviz.analysis.batch import solve_many
+from modeviz.analysis.preparation import FREQUENCY_HZ, Prepared, prepare
+from modeviz.analysis.results import Conditions, drive, solve_on
 from modeviz.dynamics.basis import TOP_HZ
-from modeviz.tuning.batch import solve_many
-from modeviz.tuning.preparation import FREQUENCY_HZ, Prepared, prepare
-from modeviz.tuning.results import Conditions, drive, solve_on
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.connections import Rates
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 N_SETS = 10

@@ -25,8 +25,8 @@ from websockets.exceptions import WebSocketException
 
 from benchmarks.attacks import ATTACKS, WITH_CHROMIUM, Attack
 from benchmarks.websocket import Page, free_port, open_page, say, wait_for_answer, widgets
-from modeviz.tuning.results import Conditions
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.analysis.results import Conditions
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.app import serve
 
 QUIET_S = 4.0

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from benchmarks.report import OptimiseFigures
-from modeviz.tuning.descent import descend
-from modeviz.tuning.optimise import BUDGET, optimise
-from modeviz.tuning.search import prepare_search
-from modeviz.tuning.starts import start_points
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.files import builtin_vehicle, read_vehicle
+from modeviz.optimise.descent import descend
+from modeviz.optimise.run import BUDGET, optimise
+from modeviz.optimise.search import prepare_search
+from modeviz.optimise.starts import start_points
 
 
 def optimise_figures(n_starts: int) -> OptimiseFigures:

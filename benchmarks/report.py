@@ -2,7 +2,7 @@
 
 from typing import Any, TypedDict
 
-from modeviz.export.tables import table
+from modeviz.report.tables import table
 
 
 class MethodRow(TypedDict):

@@ -4,13 +4,13 @@ import time
 
 from benchmarks.measure import peak_bytes
 from benchmarks.report import ScatterFigures
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.objective import Objective
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.preparation import FREQUENCY_HZ, prepare
-from modeviz.tuning.results import Conditions
-from modeviz.tuning.scatter import scatter
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.analysis.preparation import FREQUENCY_HZ, prepare
+from modeviz.analysis.results import Conditions
+from modeviz.files import builtin_vehicle, read_vehicle
+from modeviz.optimise.goals import prepare_goal
+from modeviz.optimise.objective import Objective
+from modeviz.scatter.monte_carlo import scatter
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
 
 
 def scatter_figures(n_samples: int, n_freqs: int) -> ScatterFigures:

@@ -20,20 +20,20 @@ from playwright.sync_api import ConsoleMessage, Page
 from threadpoolctl import threadpool_limits
 
 from benchmarks.monkey import Monkey
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, Results, solve
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.ride.psd import power_decibels
 from modeviz.shapes.motion import displacement, vertex_shapes
 from modeviz.shapes.surface import surface
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, Results, solve
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
-from modeviz.viewer.doors import Server, open_server
-from modeviz.viewer.headless import chromium
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import Curve
+from modeviz.viewer.page.access import Server, open_server
+from modeviz.viewer.pictures.headless import chromium
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import Curve
 
 WARM_UP = 200
 """The number of actions after which memory is first looked at: until then caches fill."""

@@ -21,8 +21,8 @@ from websockets.sync.client import connect
 from websockets.sync.connection import Connection as Page
 from websockets.typing import Origin, Subprotocol
 
-from modeviz.tuning.results import Conditions
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.analysis.results import Conditions
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.app import serve
 
 N_FIRST = 6

@@ -5,10 +5,10 @@ from functools import cached_property
 
 import numpy as np
 
+from modeviz.analysis.preparation import Prepared
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.ride.roads import track_amplitudes, tyre_directions
-from modeviz.tuning.preparation import Prepared
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.search import Search, prepare_search
+from modeviz.optimise.search import Search, prepare_search
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 

@@ -6,10 +6,10 @@ from contextlib import contextmanager
 
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.results import Conditions
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import first_state
+from modeviz.analysis.results import Conditions
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import first_state
 
 SOON = 120
 """s: on a slow machine with others at work."""

@@ -4,7 +4,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
-from modeviz.vehicle.files import write_vehicle
+from modeviz.files import write_vehicle
 
 
 @pytest.fixture(scope="session")

@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from modeviz.viewer import optimiser
+from modeviz.viewer.tasks import search_task as optimiser
 
 
 def hold_searches(monkeypatch: pytest.MonkeyPatch) -> threading.Event:

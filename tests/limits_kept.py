@@ -1,6 +1,6 @@
 """How far a design is within its limits."""
 
-from modeviz.tuning.design import DesignSpace
+from modeviz.optimise.design_space import DesignSpace
 from modeviz.vehicle.arrays import Floats
 
 

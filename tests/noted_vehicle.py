@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from folders import one_of_everything
 
-from modeviz.vehicle.files import write_vehicle
+from modeviz.files import write_vehicle
 
 RIGID_HZ = np.array([0.0, 1e-4, -2e-5, 3e-5, 1e-4, 5e-5])
 """Of the cab; the negative one stands for ω² below zero."""

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.preparation import Prepared, prepare
+from modeviz.analysis.results import Conditions, drive
 from modeviz.dynamics.reanalysis import Receptances
-from modeviz.tuning.objective import LoadCase, Objective, prepare_objective
-from modeviz.tuning.parts import Parts, Tolerance, scattered_parts
-from modeviz.tuning.peak import Peak
-from modeviz.tuning.preparation import Prepared, prepare
-from modeviz.tuning.results import Conditions, drive
+from modeviz.optimise.objective import LoadCase, Objective, prepare_objective
+from modeviz.optimise.peak import Peak
+from modeviz.scatter.tolerance import Parts, Tolerance, scattered_parts
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.loads import ResponsePoint
 

@@ -6,7 +6,7 @@ import numpy as np
 from mounted_cabin import mounted_cabin
 
 import modeviz as mv
-from modeviz.tuning.results import AXIS, solve_wheels
+from modeviz.analysis.results import AXIS, solve_wheels
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import (

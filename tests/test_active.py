@@ -5,8 +5,8 @@ import pytest
 from cabin_problem import PROBLEM, cabin_search
 from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
-from modeviz.tuning.active import active_constraints
-from modeviz.tuning.descent import descend
+from modeviz.optimise.active_limits import active_constraints
+from modeviz.optimise.descent import descend
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import FrequencyWindow
 

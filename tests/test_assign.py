@@ -1,7 +1,7 @@
 import pytest
 
-from modeviz.viewer.assign import assign, send
-from modeviz.viewer.doors import open_server
+from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.handles import assign, send
 
 
 @pytest.fixture(scope="module")

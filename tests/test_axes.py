@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from modeviz.export.axes import Axis, decibel_axis
+from modeviz.text.axes import Axis, decibel_axis
 
 
 @pytest.mark.parametrize(

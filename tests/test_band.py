@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
 from modeviz.dynamics.basis import REACH
 from modeviz.errors import VehicleError
-from modeviz.export.coverage import band_text, coverage_note
-from modeviz.export.records import psd_record
-from modeviz.export.tables import psd_table
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
+from modeviz.report.coverage import band_text, coverage_note
+from modeviz.report.records import psd_record
+from modeviz.report.tables import psd_table
 from modeviz.vehicle.loads import Force, Spectrum
 
 

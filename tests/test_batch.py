@@ -7,11 +7,11 @@ from mounted_cabin import mounted_cabin
 from rounding import assert_near, of_powers
 from small_systems import resonant_rate, two_masses
 
+from modeviz.analysis.batch import solve_many
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError, VehicleError
-from modeviz.tuning.batch import solve_many
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import Road
 

@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from modeviz.errors import ModevizError, SolveError
-from modeviz.viewer.beside import Beside
+from modeviz.viewer.tasks.background_task import Beside
 
 SOON = 20
 

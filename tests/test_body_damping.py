@@ -12,9 +12,9 @@ from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
+from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 from modeviz.vehicle.connections import GROUND, Spring
-from modeviz.vehicle.files import read_vehicle, write_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 BEAM = Beam(6).body("beam", n_modes=14)

@@ -20,11 +20,11 @@ from pickup.vehicle import components, pickup
 
 from modeviz.fem.free import center_of_gravity, free_modes
 from modeviz.fem.matrices import assemble
+from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files.meshes import read_mesh
+from modeviz.files.problems import ProblemRecord
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
-from modeviz.vehicle.files.meshes import read_mesh
-from modeviz.vehicle.files.problems import ProblemRecord
 
 COUNTS = {
     "front end": (869, 832, 154),

@@ -3,8 +3,8 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from modeviz.export.axes import Axis
-from modeviz.export.charts import BASE, NOW, Curve, line_chart
+from modeviz.report.charts import BASE, NOW, Curve, line_chart
+from modeviz.text.axes import Axis
 
 SVG = "{http://www.w3.org/2000/svg}"
 F = np.array([0.0, 10.0, 20.0, 30.0])

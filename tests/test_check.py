@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis import exact_check as checking
+from modeviz.analysis.exact_check import check_exactly, classic_error
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
 from modeviz.dynamics.modes import Modes
-from modeviz.tuning import check as checking
-from modeviz.tuning.check import check_exactly, classic_error
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
 from modeviz.vehicle.connections import MountRates
 
 FLAT = Conditions("flat", 20.0)

@@ -7,11 +7,11 @@ import pytest
 from mounted_cabin import mounted_cabin
 from threadpoolctl import threadpool_info, threadpool_limits
 
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
+from modeviz.files import write_vehicle
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files import write_vehicle
 
 
 def test_modes_prints_a_table(capsys, folder):
@@ -45,7 +45,7 @@ def test_commands_have_one_thread_for_linear_algebra(monkeypatch, folder):
     def note(_):
         found.extend(p["num_threads"] for p in threadpool_info() if p["user_api"] == "blas")
 
-    monkeypatch.setattr("modeviz.commands.tables.psd", note)
+    monkeypatch.setattr("modeviz.cli.tables.psd", note)
     with threadpool_limits(2, user_api="blas"):
         main(["psd", folder])
     assert set(found) == {1}
@@ -161,7 +161,7 @@ runpy.run_module("modeviz", run_name="__main__", alter_sys=True)
 """
 
 
-@pytest.mark.parametrize("module", ["modeviz.commands.parser", "numpy", "scipy.optimize", "viser"])
+@pytest.mark.parametrize("module", ["modeviz.cli.parser", "numpy", "scipy.optimize", "viser"])
 def test_an_interrupt_of_imports_ends_the_program_quietly(folder, module):
     command = [sys.executable, "-c", INTERRUPTED_IMPORT, module, "view", folder]
     run = subprocess.run(command, capture_output=True, text=True)

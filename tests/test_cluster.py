@@ -10,16 +10,16 @@ from distributed import LocalCluster
 from mounted_cabin import mounted_cabin
 from scattered_cabin import FLAT, cabin_objective, prepared_cabin
 
+from modeviz.analysis.batch import SENT, solve_many
+from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cluster import runner_at
 from modeviz.errors import ModevizError
-from modeviz.tuning.batch import SENT, solve_many
-from modeviz.tuning.cluster import runner_at
-from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.optimise import optimise
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.scatter import CHUNK, scatter
-from modeviz.tuning.starts import start_points
-from modeviz.vehicle.files import write_vehicle
+from modeviz.files import write_vehicle
+from modeviz.optimise.multistart import optimise_on
+from modeviz.optimise.run import optimise
+from modeviz.optimise.starts import start_points
+from modeviz.scatter.monte_carlo import CHUNK, scatter
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
 
 
 def cluster(n_workers):
@@ -140,7 +140,7 @@ def test_a_lost_scheduler_is_an_error():
 
 
 def test_a_scheduler_without_workers_is_an_error(monkeypatch):
-    monkeypatch.setattr("modeviz.tuning.cluster.TIMEOUT_S", 1.0)
+    monkeypatch.setattr("modeviz.compute.cluster.TIMEOUT_S", 1.0)
     answer = pytest.raises(ModevizError, match=r"it has no workers; start one with dask worker tcp://")
     with cluster(0) as own, answer, runner_at(own.scheduler_address):
         pass

@@ -11,20 +11,20 @@ from html_documents import Document
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.component_trust import component_trust
 from modeviz.dynamics.modes import solve_modes
-from modeviz.export.report import report
-from modeviz.tuning.comparison import RateSet, compare
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
+from modeviz.files import write_vehicle
+from modeviz.report.comparison import RateSet, compare
+from modeviz.report.html import report
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.connections import GROUND, MOTIONS, Spring
-from modeviz.vehicle.files import write_vehicle
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.answers import Rest
 from modeviz.viewer.panels.status import StatusPanel
+from modeviz.viewer.session.answers import Rest
 
 BEAM = Beam(10, mass_per_length=60.0)
 HELD = ((0, 2), (5, 1), (5, 2), (10, 2))

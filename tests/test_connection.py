@@ -10,9 +10,10 @@ import pytest
 from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin, update, visit, wait_until
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from modeviz.viewer import connection, doors, tokens
-from modeviz.viewer.connection import MOST_PAGES_OF_ONE, MOST_WRONG
-from modeviz.viewer.doors import open_server
+from modeviz.viewer.page import access as doors
+from modeviz.viewer.page import connection, tokens
+from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.connection import MOST_PAGES_OF_ONE, MOST_WRONG
 
 
 @contextmanager

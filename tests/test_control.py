@@ -2,7 +2,7 @@ import threading
 
 import pytest
 
-from modeviz.tuning.control import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, Control
 
 
 def test_it_lets_a_computation_run():

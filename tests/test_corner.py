@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scattered_cabin import cabin_objective, prepared_cabin
 
-from modeviz.tuning.corner import goals, worst_corner
-from modeviz.tuning.objective import prepare_objective
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.peak import prepare_peak
+from modeviz.optimise.objective import prepare_objective
+from modeviz.optimise.peak import prepare_peak
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
+from modeviz.scatter.worst_case import goals, worst_corner
 
 
 @pytest.fixture(scope="module")

@@ -11,11 +11,11 @@ from scipy.optimize import linear_sum_assignment
 from small_systems import damper, mass_on_a_string, spring
 
 import modeviz as mv
+from modeviz.analysis.deflection_shapes import complex_mode
+from modeviz.analysis.preparation import prepare_modes
+from modeviz.analysis.results import ModalResults, solve_modal
 from modeviz.dynamics.modes import solve_complex_modes, solve_modes, vibrating_roots
 from modeviz.errors import SolveError
-from modeviz.tuning.preparation import prepare_modes
-from modeviz.tuning.results import ModalResults, solve_modal
-from modeviz.tuning.shown import complex_mode
 from modeviz.vehicle.vehicle import Vehicle
 
 A, B = 2, 8

@@ -9,8 +9,8 @@ import pytest
 from viser import _messages
 from visitors import CAMERA, encoded
 
-from modeviz.viewer import decoding
-from modeviz.viewer.decoding import (
+from modeviz.viewer.page import decoding
+from modeviz.viewer.page.decoding import (
     LARGEST_WRONG,
     MOST_ITEMS,
     PART,

@@ -7,10 +7,10 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.errors import VehicleError
-from modeviz.tuning.default_problem import default_problem
-from modeviz.tuning.search import prepare_search
+from modeviz.files import builtin_vehicle, read_vehicle
+from modeviz.optimise.search import prepare_search
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.vehicle.default_problem import default_problem
 
 
 def test_it_has_every_rate_the_first_road_and_all_wheel_loads():

@@ -9,8 +9,8 @@ from limits_kept import excess
 from mounted_cabin import mounted_cabin
 
 import modeviz as mv
-from modeviz.tuning.optimise import optimise, search_globally
-from modeviz.tuning.starts import start_points
+from modeviz.optimise.run import optimise, search_globally
+from modeviz.optimise.starts import start_points
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import DesignGroup
 

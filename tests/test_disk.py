@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from modeviz.errors import VehicleError
-from modeviz.vehicle.files.disk import check_writable, write_bytes, write_text
+from modeviz.files.disk import check_writable, write_bytes, write_text
 
 
 def test_a_file_is_written_anew_and_nothing_stays_beside_it(tmp_path):

@@ -14,8 +14,8 @@ from visitors import CAMERA, TOKEN, decoded, encoded, get, knock, own_origin
 from websockets.exceptions import InvalidStatus
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.doors import open_server
-from modeviz.viewer.handshake import WHY
+from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.handshake import WHY
 
 
 @pytest.fixture(scope="module")

@@ -9,9 +9,9 @@ from oracles import Beam
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.errors import VehicleError
+from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 from modeviz.vehicle.doubts import doubts
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 BEAM = Beam(6).body("beam", n_modes=16)

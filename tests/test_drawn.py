@@ -3,15 +3,15 @@ from dataclasses import replace
 import numpy as np
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.preparation import prepare
+from modeviz.analysis.preparation import prepare
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.arrays import FARTHEST
 from modeviz.vehicle.bodies import FlexibleBody, Material, MeshPart
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.loads import ResponsePoint
-from modeviz.viewer.doors import open_server
-from modeviz.viewer.drawn import DrawnBody
-from modeviz.viewer.scene import Scene
-from modeviz.viewer.stage import LIGHT
+from modeviz.viewer.page.access import open_server
+from modeviz.viewer.scene.body_view import DrawnBody
+from modeviz.viewer.scene.scene import Scene
+from modeviz.viewer.scene.stage import LIGHT
 
 
 class Driver:

@@ -25,11 +25,11 @@ from modeviz.errors import (
     reason,
     unknown,
 )
+from modeviz.files import write_vehicle
+from modeviz.files.decoding import decode
 from modeviz.units import parse
 from modeviz.vehicle.arrays import frozen
 from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Spring
-from modeviz.vehicle.files import write_vehicle
-from modeviz.vehicle.files.decoding import decode
 from modeviz.vehicle.vehicle import Vehicle
 
 MANY = [f"name {i}" for i in range(100_000)]

@@ -2,7 +2,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.errors import VehicleError
-from modeviz.tuning.rate_files import rates_text
+from modeviz.files.rate_files import rates_text
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.panels.exchange import rates_in, set_name
 

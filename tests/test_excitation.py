@@ -19,15 +19,15 @@ from shaken_blocks import (
 from small_vehicles import tyre, wheel
 
 import modeviz as mv
+from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
+from modeviz.analysis.exact_check import check_exactly
+from modeviz.analysis.results import AXIS, Conditions, solve_wheels
+from modeviz.analysis.wheel_peaks import wheel_peaks
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
+from modeviz.optimise.goals import prepare_goal
 from modeviz.ride.excitation import generalised_forces
-from modeviz.tuning.check import check_exactly
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.results import AXIS, Conditions, solve_wheels
-from modeviz.tuning.shown import road_shape, wheel_shape
-from modeviz.tuning.wheel_peaks import wheel_peaks
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem

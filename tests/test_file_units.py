@@ -7,10 +7,10 @@ import pytest
 from folders import one_of_everything
 
 from modeviz.errors import VehicleError
+from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files.axes import axes_of
+from modeviz.files.conventions import Conventions
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.files import read_vehicle, write_vehicle
-from modeviz.vehicle.files.axes import axes_of
-from modeviz.vehicle.files.conventions import Conventions
 
 MASSES = {"kg": 1.0, "t": 1000.0, "lbf s²/in": 0.45359237 * 9.80665 / 0.0254}
 LENGTHS = {"m": 1.0, "mm": 1e-3, "in": 0.0254}

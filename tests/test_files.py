@@ -15,11 +15,11 @@ import trimesh
 from folders import flexible_body, one_of_everything, part
 
 from modeviz.errors import VehicleError
+from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files.meshes import read_mesh, write_mesh
+from modeviz.files.scaling import written
 from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
 from modeviz.vehicle.connections import MountRates, usual_bounds
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
-from modeviz.vehicle.files.meshes import read_mesh, write_mesh
-from modeviz.vehicle.files.scaling import written
 from modeviz.vehicle.vehicle import Vehicle
 
 RNG = np.random.default_rng(0)
@@ -580,7 +580,7 @@ def test_failed_writing_leaves_the_old_vehicle(folder, tmp_path, monkeypatch):
     def full(*_):
         raise OSError("no space left on device")
 
-    monkeypatch.setattr("modeviz.vehicle.files.folder.write_road", full)
+    monkeypatch.setattr("modeviz.files.folder.write_road", full)
     with pytest.raises(VehicleError, match=r"cannot be written.*no space left"):
         write_vehicle(one_of_everything(), folder)
     assert content(folder) == before

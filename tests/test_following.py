@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.following import follow, solve_followed
+from modeviz.analysis.preparation import prepare_modes
+from modeviz.analysis.results import solve_modal
 from modeviz.dynamics.tracking import EQUAL, MAJORITY
-from modeviz.tuning.following import follow, solve_followed
-from modeviz.tuning.preparation import prepare_modes
-from modeviz.tuning.results import solve_modal
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.connections import RATE_FIELDS
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 
 TRUCK = read_vehicle(builtin_vehicle())
 RATES = [(group.name, field) for group in TRUCK.mount_groups for field in RATE_FIELDS]

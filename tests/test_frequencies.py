@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from modeviz.errors import VehicleError
-from modeviz.viewer.planning.frequencies import parse_frequencies, spoken_frequencies
+from modeviz.viewer.session.planning.frequencies import parse_frequencies, spoken_frequencies
 
 PAPER = np.linspace(6, 14, 25)
 

@@ -14,10 +14,10 @@ from rounding import SEARCHED_X
 from usual_signals import usual_signals
 
 import modeviz as mv
+from modeviz.cli import front as command
 from modeviz.cli import main
-from modeviz.commands import front as command
-from modeviz.commands.interrupt import ENDINGS
-from modeviz.vehicle.files import write_vehicle
+from modeviz.cli.interrupt import ENDINGS
+from modeviz.files import write_vehicle
 
 OFFER = "lateral against vertical"
 KEYS = {

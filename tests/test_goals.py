@@ -7,9 +7,9 @@ from differences import central_difference, relative_to_largest
 from mounted_cabin import mounted_cabin
 
 import modeviz as mv
+from modeviz.analysis.results import Conditions, solve
 from modeviz.errors import VehicleError
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.results import Conditions, solve
+from modeviz.optimise.goals import prepare_goal
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import Performance

@@ -1,7 +1,7 @@
 import pytest
 
-from modeviz.viewer import history
-from modeviz.viewer.history import History
+from modeviz.viewer.session import history
+from modeviz.viewer.session.history import History
 
 
 @pytest.fixture

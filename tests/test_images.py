@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from modeviz.export import images
-from modeviz.export.images import SPREAD, gif_bytes, mp4_bytes, on_color, png_bytes
+from modeviz.report import images
+from modeviz.report.images import SPREAD, gif_bytes, mp4_bytes, on_color, png_bytes
 
 N, SECONDS = 12, 0.96
 

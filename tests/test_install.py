@@ -82,7 +82,7 @@ def test_wheel_out_of_the_sdist_is_the_same(sdist: Path, wheel: Path, tmp_path: 
 
 
 def test_installed_package_finds_the_truck_it_came_with(site: Path, tmp_path: Path):
-    program = "from modeviz.vehicle.files import builtin_vehicle; print(builtin_vehicle())"
+    program = "from modeviz.files import builtin_vehicle; print(builtin_vehicle())"
     found = run(sys.executable, "-c", program, folder=tmp_path, PYTHONPATH=str(site))
     assert Path(found.strip()).is_relative_to(site)
 

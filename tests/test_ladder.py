@@ -2,7 +2,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from modeviz.viewer.ladder import BOTTOM, TOP, Rail, around, ladder
+from modeviz.viewer.panels.ladder import BOTTOM, TOP, Rail, around, ladder
 
 RAILS = [
     Rail(11.57, 9.69, weak=False, strong=True),

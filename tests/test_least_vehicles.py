@@ -9,10 +9,10 @@ from oracles import Beam
 
 from modeviz.cli import main
 from modeviz.errors import VehicleError
-from modeviz.tuning.default_problem import default_problem
+from modeviz.files import write_vehicle
 from modeviz.vehicle.bodies import AddedMass, Material, MeshPart, RigidBody
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring
-from modeviz.vehicle.files import write_vehicle
+from modeviz.vehicle.default_problem import default_problem
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.problem import Performance
 from modeviz.vehicle.vehicle import Vehicle

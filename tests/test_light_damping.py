@@ -8,16 +8,16 @@ from differences import central_difference
 from mounted_cabin import mounted_cabin
 from road_oscillator import LEVEL, oscillator, transmitted
 
+from modeviz.analysis.batch import solve_many
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve, solve_wheels
+from modeviz.analysis.sensitivity import rate_variables, ride_sensitivity
+from modeviz.optimise.goals import prepare_goal
 from modeviz.ride.psd import rms
 from modeviz.ride.rating import squared_weights
-from modeviz.tuning.batch import solve_many
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve, solve_wheels
-from modeviz.tuning.robust import robust
-from modeviz.tuning.scatter import scatter
-from modeviz.tuning.sensitivity import rate_variables, ride_sensitivity
+from modeviz.scatter.monte_carlo import scatter
+from modeviz.scatter.robust import robust
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.problem import DesignGroup, Problem

@@ -10,20 +10,20 @@ from differences import central_difference, relative_to_largest
 from rounding import TRUCK, assert_near
 
 import modeviz as mv
+from modeviz.analysis.batch import solve_many
+from modeviz.analysis.exact_check import check_exactly, classic_error
+from modeviz.analysis.results import Conditions, solve, solve_modal
+from modeviz.analysis.sensitivity import frequency_sensitivity, rate_variables, ride_sensitivity
 from modeviz.dynamics import basis as enriched
 from modeviz.dynamics.assembly import mount_stiffness
 from modeviz.dynamics.band import band_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.dynamics.trust import count_below
+from modeviz.optimise.goals import load_cases
+from modeviz.optimise.objective import prepare_objective
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.ride.wheels import wheel_forces
-from modeviz.tuning.batch import solve_many
-from modeviz.tuning.check import check_exactly, classic_error
-from modeviz.tuning.goals import load_cases
-from modeviz.tuning.objective import prepare_objective
-from modeviz.tuning.results import Conditions, solve, solve_modal
-from modeviz.tuning.sensitivity import frequency_sensitivity, rate_variables, ride_sensitivity
 from modeviz.vehicle.connections import MountRates
 
 N_RANDOM = 50

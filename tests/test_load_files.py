@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from modeviz.errors import VehicleError
+from modeviz.files import read_vehicle
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.files import read_vehicle
 from modeviz.vehicle.loads import Spectrum
 
 VEHICLE = """

@@ -7,9 +7,9 @@ from small_vehicles import tyre, wheel
 from modeviz.vehicle.connections import Mount, MountGroup, MountRates
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.doors import open_server
-from modeviz.viewer.markers import CARD_LETTERS, Markers, MountMarker, card_text
-from modeviz.viewer.stage import LIGHT
+from modeviz.viewer.page.access import open_server
+from modeviz.viewer.scene.markers import CARD_LETTERS, Markers, MountMarker, card_text
+from modeviz.viewer.scene.stage import LIGHT
 
 BOUNDS = (MountRates(1.0, 1.0, 1.0), MountRates(1e6, 1e6, 1e6))
 RATES = MountRates(1.64e6, 1.21e6, 4.8e5)

@@ -1,6 +1,6 @@
 from html_documents import Document
 
-from modeviz.export.markup import change, section, table, title
+from modeviz.text.markup import change, section, table, title
 
 
 def test_less_is_better():

@@ -8,9 +8,9 @@ import pytest
 from folders import one_of_everything
 from small_vehicles import tyre, wheel
 
+from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.bodies import FlexibleBody, Material, MeshPart, RigidBody
 from modeviz.vehicle.connections import Spring
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.vehicle import Vehicle
 

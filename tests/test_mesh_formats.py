@@ -13,9 +13,9 @@ import trimesh
 from glb_files import SQUARE, TWO_FACES, GlbFile, container
 
 from modeviz.errors import VehicleError
+from modeviz.files.mesh_formats.limits import VARIABLE
+from modeviz.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.bodies import Material, MeshPart
-from modeviz.vehicle.files.mesh_formats.limits import VARIABLE
-from modeviz.vehicle.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.vehicle.srgb import linear_to_srgb
 
 RED = {"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}

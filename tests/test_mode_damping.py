@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.exact_check import check_exactly
+from modeviz.analysis.preparation import prepare, prepare_modes
+from modeviz.analysis.results import Conditions, solve, solve_modal
 from modeviz.cli import main
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.mode_damping import with_mode_damping
@@ -13,11 +16,8 @@ from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
-from modeviz.tuning.check import check_exactly
-from modeviz.tuning.preparation import prepare, prepare_modes
-from modeviz.tuning.results import Conditions, solve, solve_modal
+from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files import read_vehicle, write_vehicle
 from modeviz.vehicle.mode_damping import ModeDamping
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -9,16 +9,16 @@ import pytest
 import viser
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.results import Conditions
 from modeviz.dynamics.tracking import WEAK_MAC
-from modeviz.export.wording import sentence_case, signed
-from modeviz.tuning.results import Conditions
+from modeviz.text.wording import sentence_case, signed
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.ladder import MARGIN
 from modeviz.viewer.panels.energy import MOVES_FREELY, EnergyPanel
+from modeviz.viewer.panels.ladder import MARGIN
 from modeviz.viewer.panels.modes import NONE_LISTED, ModesPanel, scale
 from modeviz.viewer.panels.side_by_side import side_by_side
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import first_state
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import first_state
 
 SOFTER = {"A": MountRates(6e5, 2e5, 3e5)}
 

@@ -3,9 +3,9 @@ from dataclasses import replace
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
-from modeviz.tuning.sensitivity import sensitivity
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
+from modeviz.analysis.sensitivity import sensitivity
 from modeviz.viewer.panels.mounts.effects import Effect, effects, in_a_sentence
 
 FLAT = Conditions("flat", 20.0)

@@ -7,14 +7,14 @@ import pytest
 from mounted_cabin import mounted_cabin
 from rounding import CABIN, assert_near
 
+from modeviz.analysis.deflection_shapes import complex_mode, road_shape, wheel_shape
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve, solve_wheels
 from modeviz.dynamics.components import component_modes, component_shares
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve, solve_wheels
-from modeviz.tuning.shown import complex_mode, road_shape, wheel_shape
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.movement import ShownMode, movement
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import Curve, first_state
+from modeviz.viewer.session.movement import ShownMode, movement
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import Curve, first_state
 
 FLAT = Conditions("flat", 20.0)
 SOFT = {"A": MountRates(6e5, 2e5, 3e5)}

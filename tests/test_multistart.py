@@ -3,11 +3,11 @@ import pytest
 from cabin_problem import cabin_search
 from rounding import CABIN, SEARCHED, SEARCHED_X
 
-from modeviz.tuning.control import Control
-from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.optimise import optimise
-from modeviz.tuning.runner import HERE
-from modeviz.tuning.starts import start_points
+from modeviz.compute.cancel import Control
+from modeviz.compute.runner import HERE
+from modeviz.optimise.multistart import optimise_on
+from modeviz.optimise.run import optimise
+from modeviz.optimise.starts import start_points
 
 
 @pytest.fixture(scope="module")

@@ -6,10 +6,10 @@ from html import escape
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.viewer.html import TWO_LINES, named
-from modeviz.viewer.responses import curve_label
-from modeviz.viewer.state import Curve
-from modeviz.viewer.title import PANEL_LETTERS, panel_label
+from modeviz.viewer.page.html import TWO_LINES, named
+from modeviz.viewer.page.title import PANEL_LETTERS, panel_label
+from modeviz.viewer.session.responses import curve_label
+from modeviz.viewer.session.state import Curve
 
 LONG = "a name that somebody wrote out in full, on the driver's side"
 

@@ -11,8 +11,8 @@ from oracles import Beam
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.naming import ModeName, name_modes, prepare_names
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 

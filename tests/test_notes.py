@@ -10,12 +10,12 @@ from html_documents import Document
 from mounted_cabin import mounted_cabin
 from noted_vehicle import noted_vehicle
 
+from modeviz.analysis.preparation import prepare
 from modeviz.cli import main
-from modeviz.export.report import report
-from modeviz.tuning.comparison import RateSet, compare
-from modeviz.tuning.preparation import prepare
-from modeviz.vehicle.files import read_vehicle, write_vehicle
-from modeviz.vehicle.files.source import MOST_NOTES, Source
+from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files.source import MOST_NOTES, Source
+from modeviz.report.comparison import RateSet, compare
+from modeviz.report.html import report
 from modeviz.viewer.panels.status import StatusPanel
 
 NOTE = "body 'cab': omega_n_squared: 5 of the first 6 modes are near zero, up to 0.0001 Hz"

@@ -1,4 +1,4 @@
-from modeviz.viewer.notices import LONGEST, MOST_LINES, Notices
+from modeviz.viewer.page.notices import LONGEST, MOST_LINES, Notices
 
 
 def notices():

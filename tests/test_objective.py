@@ -6,10 +6,10 @@ from differences import central_difference, relative_to_largest
 from mounted_cabin import mounted_cabin
 from rounding import CABIN
 
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve, solve_wheels
 from modeviz.errors import SolveError, VehicleError
-from modeviz.tuning.objective import LoadCase, prepare_objective
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve, solve_wheels
+from modeviz.optimise.objective import LoadCase, prepare_objective
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
 
 FLAT, ROUGH = Conditions("flat", 20.0), Conditions("rough", 25.0)

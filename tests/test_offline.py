@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.results import Conditions, solve_wheels
+from modeviz.analysis.results import Conditions, solve_wheels
 from modeviz.viewer.app import App
-from modeviz.viewer.doors import open_server
+from modeviz.viewer.page.access import open_server
 
 WIDTH = 420 - 62 - 14
 """Of the frame of a chart, in its own units."""

@@ -13,19 +13,19 @@ from threadpoolctl import threadpool_limits
 from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
 import modeviz as mv
-from modeviz.commands.optimise import N_STARTS
+from modeviz.analysis.preparation import prepare_modes
+from modeviz.cli.optimise import N_STARTS
+from modeviz.compute.cancel import Control
+from modeviz.compute.runner import HERE
 from modeviz.errors import SolveError
-from modeviz.tuning.control import Control
-from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
-from modeviz.tuning.evolution import evolve
-from modeviz.tuning.multistart import optimise_on
-from modeviz.tuning.optimise import LEFT, best_of, optimise, search_globally, why_ended
-from modeviz.tuning.preparation import prepare_modes
-from modeviz.tuning.runner import HERE
-from modeviz.tuning.search import prepare_search
-from modeviz.tuning.starts import SCREENED, start_points
-from modeviz.tuning.verification import verify
-from modeviz.tuning.windows import prepare_windows
+from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
+from modeviz.optimise.evolution import evolve
+from modeviz.optimise.multistart import optimise_on
+from modeviz.optimise.run import LEFT, best_of, optimise, search_globally, why_ended
+from modeviz.optimise.search import prepare_search
+from modeviz.optimise.starts import SCREENED, start_points
+from modeviz.optimise.verification import verify
+from modeviz.optimise.windows import prepare_windows
 from modeviz.vehicle.problem import FrequencyWindow
 
 WELLS = np.array([-0.8, 0.5])
@@ -178,7 +178,7 @@ def test_it_is_told_before_the_full_model_is_solved(monkeypatch, find):
         at_check.append(told[-1])
         return verify(*arguments)
 
-    monkeypatch.setattr("modeviz.tuning.optimise.verify", noted)
+    monkeypatch.setattr("modeviz.optimise.run.verify", noted)
     what = {"seed": 1} if find is search_globally else {"starts": [along(0.6), along(-0.7)]}
     optimum = find(search, **what, tell=told.append)
     (last,) = at_check

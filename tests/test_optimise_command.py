@@ -15,22 +15,22 @@ from mounted_cabin import mounted_cabin
 from rounding import SEARCHED, SEARCHED_X
 from usual_signals import usual_signals
 
+from modeviz.cli import front as front_command
 from modeviz.cli import main
-from modeviz.commands import front as front_command
-from modeviz.commands import optimise as command
-from modeviz.commands.interrupt import ENDINGS
+from modeviz.cli import optimise as command
+from modeviz.cli.interrupt import ENDINGS
 from modeviz.errors import VehicleError
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.optimise import optimise, search_globally
-from modeviz.tuning.parts import Tolerance
-from modeviz.tuning.rate_files import read_rates, write_rates
-from modeviz.tuning.robust import robust
-from modeviz.tuning.starts import start_points
+from modeviz.files import write_vehicle
+from modeviz.files.problem_file import problem_text
+from modeviz.files.rate_files import read_rates, write_rates
+from modeviz.optimise.goals import prepare_goal
+from modeviz.optimise.run import optimise, search_globally
+from modeviz.optimise.starts import start_points
+from modeviz.scatter.robust import robust
+from modeviz.scatter.tolerance import Tolerance
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files import write_vehicle
-from modeviz.vehicle.files.problem_file import problem_text
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance
-from modeviz.viewer.planning.plan import first_plan, planned
+from modeviz.viewer.session.planning.plan import first_plan, planned
 
 KEYS = {
     "goal", "normalised", "percentile", "objective", "rates", "converged", "reason", "evaluations",
@@ -271,7 +271,7 @@ TELLING = """
 import sys
 from itertools import count
 from modeviz.cli import main
-from modeviz.commands import optimise
+from modeviz.cli import optimise
 
 n = count()
 optimise._tell = lambda *_: print("searching", file=sys.stderr) if next(n) == 3 else None

@@ -8,18 +8,18 @@ import viser
 from cabin_problem import PROBLEM, cabin_search
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.active import ActiveConstraint
-from modeviz.tuning.optimise import Optimum, Progress, optimise
-from modeviz.tuning.results import Conditions
-from modeviz.tuning.verification import Verification
+from modeviz.analysis.results import Conditions
+from modeviz.optimise.active_limits import ActiveConstraint
+from modeviz.optimise.run import Optimum, Progress, optimise
+from modeviz.optimise.verification import Verification
 from modeviz.vehicle.problem import FrequencyWindow
-from modeviz.viewer.optimiser import Look, Optimiser
 from modeviz.viewer.panels.optimise.fall import steps
 from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, where
 from modeviz.viewer.panels.optimise.panel import OptimisePanel, offered
 from modeviz.viewer.panels.optimise.summary import summary
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import first_state
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import first_state
+from modeviz.viewer.tasks.search_task import Look, Optimiser
 
 RATES = mounted_cabin().rates
 BETTER = mounted_cabin().all_rates(mounted_cabin().rate_sets["soft"])

@@ -10,16 +10,16 @@ from cabin_session import SOON, Watcher, open_session
 from held_search import hold_searches
 
 from modeviz.errors import ModevizError, SolveError
-from modeviz.tuning.corner import goals
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.optimise import Progress
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.verification import verify
+from modeviz.optimise.goals import prepare_goal
+from modeviz.optimise.run import Progress
+from modeviz.optimise.verification import verify
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
+from modeviz.scatter.worst_case import goals
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer import optimiser as module
-from modeviz.viewer.notices import Notices
-from modeviz.viewer.optimiser import Optimiser
-from modeviz.viewer.planning.plan import planned
+from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.session.planning.plan import planned
+from modeviz.viewer.tasks import search_task as module
+from modeviz.viewer.tasks.search_task import Optimiser
 
 ANSWERS_WITHIN = 0.5
 """s, of the issue."""
@@ -184,7 +184,7 @@ def full_model(monkeypatch):
         may_solve.wait(SOON)
         return verify(*arguments)
 
-    monkeypatch.setattr("modeviz.tuning.optimise.verify", held)
+    monkeypatch.setattr("modeviz.optimise.run.verify", held)
     monkeypatch.setattr(module, "TELL_EVERY", np.inf)  # the session follows no better design before
     yield may_solve
     may_solve.set()

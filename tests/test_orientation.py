@@ -7,7 +7,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 from turned_vehicles import text, turned, turned_folder
 
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.orientation import orientation_doubts
 from modeviz.vehicle.vehicle import Vehicle
 

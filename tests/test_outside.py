@@ -6,9 +6,9 @@ import pytest
 from cabin_problem import PROBLEM, cabin_search
 from mounted_cabin import mounted_cabin
 
-from modeviz.export.space import outside_words, ratio_words, space_lines
-from modeviz.tuning.design import design_space
-from modeviz.tuning.outside import kept_ratios, outside_search, outside_space
+from modeviz.optimise.design_space import design_space
+from modeviz.optimise.outside import kept_ratios, outside_search, outside_space
+from modeviz.report.space import outside_words, ratio_words, space_lines
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import FrequencyWindow
 

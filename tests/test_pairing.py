@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import modeviz as mv
+from modeviz.analysis.following import follow
+from modeviz.analysis.pairing import Pair, pair_modes, same_mode
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import EQUAL, WEAK_MAC, Track
-from modeviz.tuning.following import follow
-from modeviz.tuning.pairing import Pair, pair_modes, same_mode
 
 
 def called(*names):

@@ -7,11 +7,11 @@ from limits_kept import excess
 from mounted_cabin import mounted_cabin
 from toy_goals import logarithmic_search, paraboloid
 
-from modeviz.tuning.control import Control
-from modeviz.tuning.descent import descend
-from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
-from modeviz.tuning.pareto import find_front
-from modeviz.tuning.trade_off import TradeOff, prepare_trade_off, sides
+from modeviz.compute.cancel import Control
+from modeviz.optimise.descent import descend
+from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
+from modeviz.optimise.pareto import find_front
+from modeviz.optimise.trade_off import TradeOff, prepare_trade_off, sides
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow
 
 GROUPS = (DesignGroup("A"), DesignGroup("B"))
@@ -190,7 +190,7 @@ def test_a_budget_that_ends_with_a_search_ends_the_front(monkeypatch, cabin):
         used.append(descent.evaluations)
         return descent
 
-    monkeypatch.setattr("modeviz.tuning.pareto.descend", counted)
+    monkeypatch.setattr("modeviz.optimise.pareto.descend", counted)
     find_front(cabin[0], [{}], n_designs=2, n_starts=1)
     front = find_front(cabin[0], [{}], n_designs=2, n_starts=1, budget=used[0])
     assert front.evaluations == used[0]

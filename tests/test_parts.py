@@ -3,9 +3,9 @@ import pytest
 from mounted_cabin import mounted_cabin, twisted_cabin
 from rounding import EPSILON
 
+from modeviz.analysis.preparation import prepare_modes
 from modeviz.errors import VehicleError
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.preparation import prepare_modes
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.vehicle.connections import MountRates
 
 RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4)}

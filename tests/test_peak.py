@@ -17,14 +17,14 @@ from limits_kept import excess
 from rounding import CABIN, assert_near
 from scipy.optimize import brentq, minimize_scalar
 
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.optimise import optimise
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions
-from modeviz.tuning.scatter import scatter
-from modeviz.tuning.search import prepare_search
-from modeviz.tuning.starts import start_points
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions
+from modeviz.optimise.goals import prepare_goal
+from modeviz.optimise.run import optimise
+from modeviz.optimise.search import prepare_search
+from modeviz.optimise.starts import start_points
+from modeviz.scatter.monte_carlo import scatter
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates
 from modeviz.vehicle.loads import BaseMotion, ResponsePoint, Spectrum

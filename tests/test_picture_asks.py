@@ -12,13 +12,13 @@ import pytest
 from visitors import CAMERA, decoded, encoded, update, visit, wait_until
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.doors import open_server
-from modeviz.viewer.headless import MOST_PIXELS, _bounded, _launched
-from modeviz.viewer.jobs import CancelledError, run, turn
+from modeviz.viewer.page.access import open_server
 from modeviz.viewer.panels import pictures as panel
 from modeviz.viewer.panels.pictures import PicturePanel
-from modeviz.viewer.pictures import Pose, Shot, picture
-from modeviz.viewer.stage import LIGHT
+from modeviz.viewer.pictures.headless import MOST_PIXELS, _bounded, _launched
+from modeviz.viewer.pictures.pictures import Pose, Shot, picture
+from modeviz.viewer.scene.stage import LIGHT
+from modeviz.viewer.tasks.page_jobs import CancelledError, run, turn
 
 POSE = Pose(np.array([1.0, 0, 0, 0]), np.zeros(3))
 

@@ -9,7 +9,7 @@ from mounted_cabin import SOFT, STIFF, mounted_cabin
 from modeviz.errors import VehicleError
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import UNLIMITED, DesignGroup, FrequencyWindow, Performance, Problem
-from modeviz.viewer.planning.plan import first_plan, plan_of, planned
+from modeviz.viewer.session.planning.plan import first_plan, plan_of, planned
 
 FIXED = DesignGroup("A", fixed_ratios=True)
 YAW = FrequencyWindow("cab yaw", 3.0, 9.0)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from modeviz.viewer.plots import level_range
+from modeviz.viewer.panels.plots import level_range
 
 
 @pytest.mark.parametrize(

@@ -6,10 +6,10 @@ from mounted_cabin import mounted_cabin
 from rounding import EPSILON
 from small_systems import block
 
+from modeviz.analysis.preparation import FREQUENCY_HZ, prepare, prepare_modes
+from modeviz.analysis.results import Conditions, solve, solve_modal, solve_wheels
 from modeviz.dynamics.assembly import mount_stiffness
 from modeviz.errors import SolveError, VehicleError
-from modeviz.tuning.preparation import FREQUENCY_HZ, prepare, prepare_modes
-from modeviz.tuning.results import Conditions, solve, solve_modal, solve_wheels
 from modeviz.vehicle.connections import GROUND, MountRates, Spring
 from modeviz.vehicle.vehicle import Vehicle
 

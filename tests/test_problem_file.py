@@ -8,9 +8,9 @@ import pytest
 from mounted_cabin import SOFT, mounted_cabin
 
 from modeviz.errors import VehicleError
+from modeviz.files.problem_file import problem_text, read_problem
+from modeviz.files.problems import ProblemRecord
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files.problem_file import problem_text, read_problem
-from modeviz.vehicle.files.problems import ProblemRecord
 from modeviz.vehicle.problem import UNLIMITED, DesignGroup, Performance, Problem
 
 STIFF = MountRates(1e6, 2e6, 1e6 / 3)

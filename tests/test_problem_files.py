@@ -9,8 +9,8 @@ import pytest
 from mounted_cabin import SOFT, mounted_cabin
 
 import modeviz as mv
+from modeviz.files.problems import MOST_FREQUENCIES, ProblemRecord, SpacedRecord
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files.problems import MOST_FREQUENCIES, ProblemRecord, SpacedRecord
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance, Problem
 
 THIRDS = np.linspace(6.0, 14.0, 25)

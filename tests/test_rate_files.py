@@ -7,7 +7,7 @@ import pytest
 from folders import one_of_everything
 
 from modeviz.errors import VehicleError
-from modeviz.tuning.rate_files import parse_rates, rates_text, read_rates, write_rates
+from modeviz.files.rate_files import parse_rates, rates_text, read_rates, write_rates
 from modeviz.vehicle.connections import MountRates
 
 VEHICLE = one_of_everything()

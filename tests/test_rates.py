@@ -6,8 +6,8 @@ import pytest
 from folders import one_of_everything
 
 from modeviz.errors import VehicleError
-from modeviz.tuning.rate_files import write_rates
-from modeviz.tuning.rates import parse_setting, resolve_rates
+from modeviz.files.rate_files import write_rates
+from modeviz.files.rate_settings import parse_setting, resolve_rates
 from modeviz.vehicle.connections import MountRates
 
 VEHICLE = one_of_everything()

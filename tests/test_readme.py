@@ -9,7 +9,7 @@ from typing import get_args
 import pytest
 
 from modeviz.cli import main
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
 from modeviz.vehicle.problem import DesignGroup, Goal, Performance, Problem
 
 CHECKOUT = Path(__file__).parents[1]

@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.export.records import wheels_record
-from modeviz.export.tables import wheels_table
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import solve_wheels
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import solve_wheels
+from modeviz.report.records import wheels_record
+from modeviz.report.tables import wheels_table
 
 FREQUENCY_HZ = np.array([11.0, 13.0, 16.0])
 

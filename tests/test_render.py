@@ -9,19 +9,19 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.results import Conditions, solve_on
 from modeviz.cli import main
 from modeviz.errors import ModevizError, SolveError
+from modeviz.files import write_vehicle
+from modeviz.report.comparison import RateSet
 from modeviz.shapes.colors import stop_colors
-from modeviz.tuning.comparison import RateSet
-from modeviz.tuning.results import Conditions, solve_on
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
-from modeviz.vehicle.files import write_vehicle
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.coloring import ColorScale
-from modeviz.viewer.pictures import Pose, Shot, picture
+from modeviz.viewer.pictures.pictures import Pose, Shot, picture
 from modeviz.viewer.rendering import Wish, photographs
-from modeviz.viewer.stage import FIELD_OF_VIEW, LIGHT
+from modeviz.viewer.scene.stage import FIELD_OF_VIEW, LIGHT
+from modeviz.viewer.session.coloring import ColorScale
 
 
 @pytest.mark.parametrize(
@@ -60,14 +60,14 @@ def test_a_folder_in_the_way_is_refused(capsys, folder, tmp_path):
 def test_missing_chromium_or_playwright_is_told_with_what_to_install(
     capsys, folder, tmp_path, monkeypatch, ending
 ):
-    monkeypatch.setattr("modeviz.viewer.headless.find_spec", lambda name: None)
+    monkeypatch.setattr("modeviz.viewer.pictures.headless.find_spec", lambda name: None)
     assert main(["render", folder, "--output", str(tmp_path / f"yaw{ending}")]) == 2
     assert 'pip install "modeviz[pictures]"' in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 
 def test_missing_pyav_is_told_before_anything_is_solved(capsys, folder, tmp_path, monkeypatch):
-    monkeypatch.setattr("modeviz.export.images.find_spec", lambda name: None)
+    monkeypatch.setattr("modeviz.report.images.find_spec", lambda name: None)
     monkeypatch.setattr("modeviz.viewer.rendering.App", None)
     assert main(["render", folder, "--output", str(tmp_path / "yaw.mp4")]) == 2
     assert "MP4 needs PyAV" in capsys.readouterr().err
@@ -105,7 +105,7 @@ def resonant(monkeypatch):
             raise SolveError("an undamped resonance lies on 10 Hz")
         return solve_on(drive, asked)
 
-    monkeypatch.setattr("modeviz.viewer.answers.solve_on", solve)
+    monkeypatch.setattr("modeviz.viewer.session.answers.solve_on", solve)
     return rates
 
 
@@ -148,7 +148,7 @@ POSE = Pose(np.array([1.0, 0, 0, 0]), np.zeros(3))
 
 
 def test_an_empty_picture_is_reported_and_not_given(monkeypatch):
-    monkeypatch.setattr("modeviz.viewer.pictures.asked", lambda *_: nullcontext())
+    monkeypatch.setattr("modeviz.viewer.pictures.pictures.asked", lambda *_: nullcontext())
     shot = Shot(64, 48, "scene", LIGHT, FIELD_OF_VIEW)
     with pytest.raises(ModevizError, match="the picture is empty: the camera looks past the vehicle"):
         picture(Page((9, 9, 9, 0)), shot, POSE)
@@ -156,7 +156,7 @@ def test_an_empty_picture_is_reported_and_not_given(monkeypatch):
 
 
 def test_a_picture_says_what_its_colours_mean(monkeypatch):
-    monkeypatch.setattr("modeviz.viewer.pictures.asked", lambda *_: nullcontext())
+    monkeypatch.setattr("modeviz.viewer.pictures.pictures.asked", lambda *_: nullcontext())
     plain = Shot(640, 360, "scene", LIGHT, FIELD_OF_VIEW)
     scaled = replace(plain, scale=ColorScale("Displacement", "100 %", ""))
     for shot, colors in ((plain, False), (scaled, True), (scaled.moving("gif"), True)):

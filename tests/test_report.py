@@ -9,18 +9,18 @@ from cabin_problem import PROBLEM
 from html_documents import Document, value
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.exact_check import Check
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions
+from modeviz.analysis.wheel_peaks import wheel_peak_lines
 from modeviz.dynamics.tracking import Track
-from modeviz.export.axes import decibel_axis
-from modeviz.export.charts import BOTTOM, LEFT, RIGHT, TOP
-from modeviz.export.report import Picture, report
-from modeviz.export.report.sides import SHOWN_HZ
+from modeviz.optimise.goals import prepare_goal
+from modeviz.report.charts import BOTTOM, LEFT, RIGHT, TOP
+from modeviz.report.comparison import RateSet, compare
+from modeviz.report.html import Picture, report
+from modeviz.report.html.sides import SHOWN_HZ
 from modeviz.ride.psd import power_decibels
-from modeviz.tuning.check import Check
-from modeviz.tuning.comparison import RateSet, compare
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions
-from modeviz.tuning.wheel_peaks import wheel_peak_lines
+from modeviz.text.axes import decibel_axis
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import WheelLoad
 from modeviz.vehicle.problem import DesignGroup, Problem

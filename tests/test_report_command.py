@@ -6,9 +6,8 @@ import pytest
 from html_documents import Document, value
 from mounted_cabin import mounted_cabin
 
-from modeviz.cli import main
-from modeviz.commands import options
-from modeviz.vehicle.files import write_vehicle
+from modeviz.cli import main, options
+from modeviz.files import write_vehicle
 
 CHANGED = ["--rates", "soft", "--set", "B.lateral=131 N/mm"]
 ROAD = ["--road", "rough", "--speed", "90 km/h"]

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin, twisted_cabin
 
+from modeviz.analysis.preparation import FREQUENCY_HZ, prepare, prepare_modes
+from modeviz.analysis.results import Conditions, drive, solve, solve_modal, solve_wheels
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response
@@ -11,8 +13,6 @@ from modeviz.errors import VehicleError
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.ride.wheels import wheel_forces
-from modeviz.tuning.preparation import FREQUENCY_HZ, prepare, prepare_modes
-from modeviz.tuning.results import Conditions, drive, solve, solve_modal, solve_wheels
 from modeviz.vehicle.connections import MountRates
 
 FLAT = Conditions("flat", 20.0)
@@ -130,7 +130,7 @@ def test_more_springs_than_coordinates_are_solved_directly_and_alike(monkeypatch
         asked.append(arguments)
         return direct_response(*arguments)
 
-    monkeypatch.setattr("modeviz.tuning.driven.direct_response", watched)
+    monkeypatch.setattr("modeviz.analysis.driven.direct_response", watched)
     psd = solve(prepared, SOFT, FLAT).psd
     assert len(asked) == 1
     H = drive(prepared, FLAT).receptances.response(prepared.mount_stiffness(SOFT))

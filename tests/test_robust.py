@@ -7,12 +7,12 @@ from rounding import CABIN
 from scipy.stats import mstats
 
 from modeviz.errors import SolveError
-from modeviz.tuning.corner import goals
-from modeviz.tuning.descent import descend
-from modeviz.tuning.optimise import optimise
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.robust import optimise_robustly, percentile_weights, robust, robust_search
-from modeviz.tuning.search import Search
+from modeviz.optimise.descent import descend
+from modeviz.optimise.run import optimise
+from modeviz.optimise.search import Search
+from modeviz.scatter.robust import optimise_robustly, percentile_weights, robust, robust_search
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
+from modeviz.scatter.worst_case import goals
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance
 

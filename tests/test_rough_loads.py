@@ -7,14 +7,14 @@ import pytest
 from mounted_cabin import mounted_cabin
 from road_oscillator import LEVEL, oscillator, transmitted
 
+from modeviz.analysis.batch import solve_many
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, Results, drive, solve
+from modeviz.optimise.goals import prepare_goal
 from modeviz.ride.resolution import resolving_lines
 from modeviz.ride.roads import road_spectrum
-from modeviz.tuning.batch import solve_many
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, Results, drive, solve
-from modeviz.tuning.scatter import scatter
+from modeviz.scatter.monte_carlo import scatter
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.loads import Force, ResponsePoint, Road, Spectrum
 from modeviz.vehicle.problem import DesignGroup, Problem

@@ -6,7 +6,7 @@ from mounted_cabin import mounted_cabin
 from rounding import CABIN, TRUCK, of_powers
 
 from modeviz.dynamics.assembly import assemble
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
+from modeviz.files import builtin_vehicle, read_vehicle
 
 BAND_HZ = np.linspace(0.5, 40, 80)
 

@@ -2,8 +2,8 @@ import threading
 
 import pytest
 
-from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.runner import HERE, N_THREADS
+from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.runner import HERE, N_THREADS
 
 SOON = 20
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from modeviz.export.scale_bar import ScaleBar, with_scale
+from modeviz.report.scale_bar import ScaleBar, with_scale
 from modeviz.shapes.colors import stop_colors
 
 BAR = ScaleBar("Displacement", "100 %", stop_colors(), (16, 20, 26), (255, 255, 255))

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scattered_cabin import FLAT, cabin_objective, prepared_cabin
 
+from modeviz.analysis.batch import solve_many
+from modeviz.analysis.results import solve
+from modeviz.compute.cancel import CancelledError, Control
 from modeviz.errors import SolveError, VehicleError
-from modeviz.tuning.batch import solve_many
-from modeviz.tuning.control import CancelledError, Control
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.peak import prepare_peak
-from modeviz.tuning.results import solve
-from modeviz.tuning.scatter import CHUNK, scatter
+from modeviz.optimise.peak import prepare_peak
+from modeviz.scatter.monte_carlo import CHUNK, scatter
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
 
 N_SAMPLES = 2 * CHUNK + 50
 
@@ -129,7 +129,7 @@ def test_it_ends_also_before_it_has_a_sample(monkeypatch, prepared, parts, objec
         may_end.wait(20)
         ended.append(True)
 
-    monkeypatch.setattr("modeviz.tuning.scatter.few_lines", held)
+    monkeypatch.setattr("modeviz.scatter.monte_carlo.few_lines", held)
     with pytest.raises(CancelledError):
         scatter(prepared, parts, FLAT, objective, 250, control=control)
     assert not ended

@@ -12,16 +12,16 @@ from mounted_cabin import mounted_cabin
 from rounding import CABIN
 from usual_signals import usual_signals
 
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
-from modeviz.commands import scatter as command
-from modeviz.commands.interrupt import ENDINGS
-from modeviz.tuning.corner import goals
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.parts import Tolerance, scattered_parts
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
-from modeviz.tuning.scatter import CHUNK, scatter
-from modeviz.vehicle.files import read_vehicle, write_vehicle
+from modeviz.cli import scatter as command
+from modeviz.cli.interrupt import ENDINGS
+from modeviz.files import read_vehicle, write_vehicle
+from modeviz.optimise.goals import prepare_goal
+from modeviz.scatter.monte_carlo import CHUNK, scatter
+from modeviz.scatter.tolerance import Tolerance, scattered_parts
+from modeviz.scatter.worst_case import goals
 
 TOLERANCE = Tolerance(0.1, 0.4)
 GIVEN = ["--samples", "120", "--seed", "5", "--tolerance", "0.1", "--loss-tolerance", "0.4"]

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from cabin_session import SOON, Watcher, open_session
 
+from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError, SolveError
-from modeviz.tuning.results import Conditions
-from modeviz.viewer import scatterer as module
-from modeviz.viewer.scatterer import Scatterer
-from modeviz.viewer.state import Curve
+from modeviz.viewer.session.state import Curve
+from modeviz.viewer.tasks import scatter_task as module
+from modeviz.viewer.tasks.scatter_task import Scatterer
 
 CURVE = Curve(0, "lateral")
 

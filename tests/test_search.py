@@ -12,11 +12,11 @@ from threadpoolctl import threadpool_limits
 from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
 import modeviz as mv
+from modeviz.compute.cancel import Control
 from modeviz.errors import SolveError, VehicleError
-from modeviz.tuning.control import Control
-from modeviz.tuning.descent import descend
-from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
-from modeviz.tuning.search import prepare_search
+from modeviz.optimise.descent import descend
+from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
+from modeviz.optimise.search import prepare_search
 from modeviz.vehicle.problem import FrequencyWindow
 
 

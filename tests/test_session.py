@@ -6,13 +6,13 @@ import pytest
 from mounted_cabin import mounted_cabin
 from rounding import CABIN, assert_near
 
+from modeviz.analysis.following import follow, solve_followed
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve, solve_wheels
 from modeviz.errors import SolveError
-from modeviz.tuning.following import follow, solve_followed
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve, solve_wheels
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import first_state
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import first_state
 
 FLAT = Conditions("flat", 20.0)
 
@@ -407,7 +407,7 @@ def test_what_cannot_be_found_out_is_tried_once(session, monkeypatch):
         asked.append(1)
         raise SolveError("too stiff")
 
-    monkeypatch.setattr("modeviz.viewer.session.sensitivity", failing)
+    monkeypatch.setattr("modeviz.viewer.session.session.sensitivity", failing)
     session.start()
     assert session.wait_checked(60)
     for coloring in ("displacement", "bodies"):

@@ -3,8 +3,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from modeviz.viewer import settle
-from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.page import write_back as settle
+from modeviz.viewer.page.write_back import WriteBack
 
 
 class Page:

@@ -25,17 +25,17 @@ from shaken_blocks import (
 )
 
 import modeviz as mv
+from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
+from modeviz.analysis.exact_check import check_exactly
+from modeviz.analysis.results import AXIS, Conditions, solve_wheels
 from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import direct_response, modal_response
 from modeviz.errors import VehicleError
+from modeviz.optimise.goals import prepare_goal
 from modeviz.ride.excitation import excitation, generalised_forces, input_directions
-from modeviz.tuning.check import check_exactly
-from modeviz.tuning.goals import prepare_goal
-from modeviz.tuning.results import AXIS, Conditions, solve_wheels
-from modeviz.tuning.shown import road_shape, wheel_shape
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.connections import GROUND, Rod, Spring
 from modeviz.vehicle.loads import BaseMotion, ResponsePoint

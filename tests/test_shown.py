@@ -7,13 +7,13 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 import modeviz as mv
+from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import AXIS, Conditions, Results, solve, solve_wheels
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError, VehicleError
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.ride.wheels import wheel_forces
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import AXIS, Conditions, Results, solve, solve_wheels
-from modeviz.tuning.shown import road_shape, wheel_shape
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.loads import ResponsePoint, Road
 

@@ -5,10 +5,10 @@ import threading
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.results import Conditions
+from modeviz.analysis.results import Conditions
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.app import App
-from modeviz.viewer.doors import open_server
+from modeviz.viewer.page.access import open_server
 from modeviz.viewer.panels.mounts.actions import damp, link, reset_rate, toggle_lock
 
 PATIENCE_S = 60

@@ -3,7 +3,7 @@ import pytest
 from scipy.stats import qmc
 
 from modeviz.errors import SolveError
-from modeviz.tuning.spread import spread
+from modeviz.scatter.sobol import spread
 
 DEVIATIONS = 2 * qmc.LatinHypercube(3, rng=0).random(4000) - 1
 X, Y, Z = DEVIATIONS.T

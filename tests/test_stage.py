@@ -4,9 +4,9 @@ from small_vehicles import tyre, wheel
 
 from modeviz.vehicle.bodies import Material, MeshPart, RigidBody
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.cameras import Cameras
-from modeviz.viewer.doors import open_server
-from modeviz.viewer.stage import (
+from modeviz.viewer.page.access import open_server
+from modeviz.viewer.scene.cameras import Cameras
+from modeviz.viewer.scene.stage import (
     CARD_FRACTION,
     CARD_HEIGHT,
     FIELD_OF_VIEW,

@@ -3,9 +3,9 @@ from dataclasses import replace
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.results import Conditions
+from modeviz.analysis.results import Conditions
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.state import (
+from modeviz.viewer.session.state import (
     Variant,
     first_state,
     known_sets,

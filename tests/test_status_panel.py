@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.check import Check, ClassicError
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
-from modeviz.viewer.answers import Rest
+from modeviz.analysis.exact_check import Check, ClassicError
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
 from modeviz.viewer.panels.status import StatusPanel, _rounded
+from modeviz.viewer.session.answers import Rest
 
 
 class Page:

@@ -15,9 +15,9 @@ from folders import one_of_everything
 
 from modeviz.cli import main
 from modeviz.errors import VehicleError
-from modeviz.vehicle.files import read_vehicle, write_vehicle
-from modeviz.vehicle.files.limits import check_size
-from modeviz.vehicle.files.modal import KINDS
+from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files.limits import check_size
+from modeviz.files.modal import KINDS
 
 FILES = ["vehicle.toml", "roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"]
 
@@ -166,7 +166,7 @@ def test_an_array_that_claims_more_than_is_there_is_refused(complaint, folder):
 def test_bodies_that_name_the_same_modes_count_each(folder, monkeypatch):
     with zipfile.ZipFile(folder / "bodies/cab.npz") as archive:
         size = sum(member.file_size for member in archive.infolist())
-    monkeypatch.setattr("modeviz.vehicle.files.source.LARGEST_ARRAYS", size + size // 2)
+    monkeypatch.setattr("modeviz.files.source.LARGEST_ARRAYS", size + size // 2)
     text = (folder / "vehicle.toml").read_text("utf-8")
     body = text[text.index("[[flexible_body]]") : text.index("[[rigid_body]]")]
     read_vehicle(folder)

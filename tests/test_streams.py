@@ -11,11 +11,11 @@ from cabin_problem import PROBLEM
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
-from modeviz.commands.streams import CONTROL, Printed, plain, printable
-from modeviz.commands.terminal import remark
-from modeviz.export.tables import table
-from modeviz.tuning.rate_files import read_rates
-from modeviz.vehicle.files import write_vehicle
+from modeviz.cli.streams import CONTROL, Printed, plain, printable
+from modeviz.cli.terminal import remark
+from modeviz.files import write_vehicle
+from modeviz.files.rate_files import read_rates
+from modeviz.report.tables import table
 
 HOSTILE = "\x1b]0;taken\x07 \x9b31m\u202e"
 """Renames the window, then colours what follows and has it read from the right."""

@@ -8,12 +8,12 @@ from folders import one_of_everything
 
 from modeviz.cli import main
 from modeviz.errors import VehicleError
-from modeviz.tuning.rate_files import parse_rates, read_rates
+from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files.conventions import Conventions
+from modeviz.files.rate_files import parse_rates, read_rates
+from modeviz.files.roads import read_road
+from modeviz.files.tables import read_table
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files import read_vehicle, write_vehicle
-from modeviz.vehicle.files.conventions import Conventions
-from modeviz.vehicle.files.roads import read_road
-from modeviz.vehicle.files.tables import read_table
 from modeviz.vehicle.loads import Road
 
 HEADER = "frequency_hz,left,right,cross_real,cross_imag\n"

@@ -14,10 +14,10 @@ from scipy import signal, stats
 from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.response import modal_response
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.ride.psd import response_psd
 from modeviz.ride.roads import lag, road_spectrum, track_forces, track_shares, two_track_profile
 from modeviz.vehicle.connections import Connection, Tyre
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 pytestmark = pytest.mark.slow

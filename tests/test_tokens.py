@@ -1,7 +1,7 @@
 import pytest
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.tokens import (
+from modeviz.viewer.page.tokens import (
     DELAY,
     FREE_GUESSES,
     LOCKED_S,

@@ -7,7 +7,7 @@ from mounted_cabin import mounted_cabin
 from rounding import CABIN
 
 from modeviz.errors import VehicleError
-from modeviz.tuning.trade_off import Side, prepare_trade_off, sides
+from modeviz.optimise.trade_off import Side, prepare_trade_off, sides
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.problem import Performance
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from modeviz.tuning.trade_off import Compromise
-from modeviz.tuning.verification import Verification
-from modeviz.viewer.beside import Job
+from modeviz.optimise.trade_off import Compromise
+from modeviz.optimise.verification import Verification
 from modeviz.viewer.panels.trade_off import where
+from modeviz.viewer.tasks.background_task import Job
 
 
 def design(difference=None, impossible=""):

@@ -9,8 +9,8 @@ import pytest
 from cabin_session import SOON, Watcher, open_session
 
 from modeviz.errors import ModevizError, VehicleError
-from modeviz.viewer import trader as module
-from modeviz.viewer.trader import Trader
+from modeviz.viewer.tasks import front_task as module
+from modeviz.viewer.tasks.front_task import Trader
 
 OFFER = "lateral against vertical"
 

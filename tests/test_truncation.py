@@ -13,8 +13,8 @@ from pickup.parameters import Parameters
 from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.truncation import modes_only
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 
 BAND_HZ = 20.0
 N_MODES = 30

@@ -4,8 +4,8 @@ import pytest
 import viser
 from viser import _messages
 
-from modeviz.viewer.decoding import PART
-from modeviz.viewer.uploads import LARGEST_FILE, MOST_AT_ONCE, is_upload_allowed
+from modeviz.viewer.page.decoding import PART
+from modeviz.viewer.page.uploads import LARGEST_FILE, MOST_AT_ONCE, is_upload_allowed
 
 
 def on_the_way(client_id=1, total=100):

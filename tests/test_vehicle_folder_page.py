@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from modeviz.cli import main
+from modeviz.files.hints import annotation, fields_of
+from modeviz.files.modal import KINDS
+from modeviz.files.quantities import Quantity
+from modeviz.files.records import VehicleRecord
+from modeviz.files.roads import COLUMNS
+from modeviz.files.scaling import WRITTEN_UNITS
 from modeviz.units import UNITS
-from modeviz.vehicle.files.hints import annotation, fields_of
-from modeviz.vehicle.files.modal import KINDS
-from modeviz.vehicle.files.quantities import Quantity
-from modeviz.vehicle.files.records import VehicleRecord
-from modeviz.vehicle.files.roads import COLUMNS
-from modeviz.vehicle.files.scaling import WRITTEN_UNITS
 
 PAGE = Path(__file__).parents[1].joinpath("docs/vehicle-folder.md").read_text("utf-8")
 ROW = re.compile(r"\| `(\w+)` \| (.+?) \| (.*?) ?\| (.+?) \|$")

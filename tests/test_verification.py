@@ -6,8 +6,8 @@ from cabin_problem import cabin_search
 from mounted_cabin import SOFT, mounted_cabin
 
 import modeviz as mv
-from modeviz.tuning.search import prepare_search
-from modeviz.tuning.verification import verify
+from modeviz.optimise.search import prepare_search
+from modeviz.optimise.verification import verify
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Problem
 

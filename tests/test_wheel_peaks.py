@@ -3,14 +3,14 @@ import pytest
 from mounted_cabin import mounted_cabin
 from scipy.signal import find_peaks
 
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import AXIS, Conditions, solve, solve_wheels
+from modeviz.analysis.wheel_peaks import wheel_peak_lines, wheel_peaks
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.ride.psd import amplitude_decibels, harmonic_acceleration
 from modeviz.ride.wheels import wheel_forces
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import AXIS, Conditions, solve, solve_wheels
-from modeviz.tuning.wheel_peaks import wheel_peak_lines, wheel_peaks
 from modeviz.vehicle.connections import MountRates
 
 RATES = {"A": MountRates(6e5, 2e5, 5e5)}

@@ -3,12 +3,12 @@ import pytest
 from differences import central_difference
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.preparation import prepare_modes
+from modeviz.analysis.results import solve_modal
+from modeviz.analysis.sensitivity import frequency_sensitivity
 from modeviz.dynamics.naming import ModeName
 from modeviz.errors import VehicleError
-from modeviz.tuning.preparation import prepare_modes
-from modeviz.tuning.results import solve_modal
-from modeviz.tuning.sensitivity import frequency_sensitivity
-from modeviz.tuning.windows import MARGIN, prepare_windows
+from modeviz.optimise.windows import MARGIN, prepare_windows
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import FrequencyWindow
 
@@ -108,7 +108,7 @@ def test_of_modes_with_one_motion_those_with_most_of_it_are_held(
         return results
 
     windows = windows_of(prepared, (9.0, 12.0))
-    monkeypatch.setattr("modeviz.tuning.windows.solve_modal", renamed)
+    monkeypatch.setattr("modeviz.optimise.windows.solve_modal", renamed)
     assert windows.exact_frequencies({}) == pytest.approx(YAW_HZ, abs=1e-3)
     (low, high), gradients = windows.margins({})
     lower = own.modes.frequency_hz[yaw - 1 if is_as_good else yaw]
@@ -133,7 +133,7 @@ def test_a_namesake_is_held_by_its_shape_and_not_by_its_number(prepared, monkeyp
             vars(results)["names"] = tuple(names)
             return results
 
-        monkeypatch.setattr("modeviz.tuning.windows.solve_modal", renamed)
+        monkeypatch.setattr("modeviz.optimise.windows.solve_modal", renamed)
 
     called("cab sway", "cab sway 2")
     held = [FrequencyWindow(name, 1.0, 30.0) for name in ("cab sway", "cab sway 2")]

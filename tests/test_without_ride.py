@@ -8,10 +8,10 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
-from modeviz.commands.options import shown
-from modeviz.vehicle.files import write_vehicle
+from modeviz.cli.options import shown
+from modeviz.files import write_vehicle
 from modeviz.viewer.app import App
-from modeviz.viewer.doors import open_server
+from modeviz.viewer.page.access import open_server
 
 LACKING = {
     "road": {"roads": ()},

@@ -2,7 +2,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from modeviz.export.wording import (
+from modeviz.text.wording import (
     file_name,
     number,
     percent_change,

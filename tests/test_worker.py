@@ -1,6 +1,6 @@
 import threading
 
-from modeviz.viewer.worker import Worker
+from modeviz.viewer.session.worker import Worker
 
 
 def test_a_burst_ends_with_its_last_job_and_skips_what_was_overtaken():

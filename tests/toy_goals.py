@@ -6,9 +6,9 @@ import numpy as np
 from cabin_problem import PROBLEM
 from mounted_cabin import mounted_cabin
 
-from modeviz.tuning.design import design_space
-from modeviz.tuning.search import Search
-from modeviz.tuning.sensitivity import rate_variables
+from modeviz.analysis.sensitivity import rate_variables
+from modeviz.optimise.design_space import design_space
+from modeviz.optimise.search import Search
 
 
 @dataclass(frozen=True)

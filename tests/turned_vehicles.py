@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
+from modeviz.files import write_vehicle
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.connections import MOTIONS, Connection, Rod, Tyre
-from modeviz.vehicle.files import write_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 OPPOSITE = [("rearward", "forward"), ("right", "left"), ("up", "down")]

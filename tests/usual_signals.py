@@ -4,7 +4,7 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from modeviz.commands.interrupt import ENDINGS
+from modeviz.cli.interrupt import ENDINGS
 
 
 @contextmanager

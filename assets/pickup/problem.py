@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from modeviz.tuning.default_problem import ROAD_HZ, WHEEL_HZ
+from modeviz.vehicle.default_problem import ROAD_HZ, WHEEL_HZ
 from modeviz.vehicle.loads import Road, WheelLoad
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 

@@ -7,22 +7,20 @@ from datetime import date
 import viser
 from threadpoolctl import threadpool_limits
 
+from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError
-from modeviz.export.report import Picture, report
-from modeviz.tuning.comparison import RateSet, compare
-from modeviz.tuning.results import Conditions
+from modeviz.report.comparison import RateSet, compare
+from modeviz.report.html import Picture, report
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer import scripts
-from modeviz.viewer.answers import Solved, asks_for_the_same
-from modeviz.viewer.coloring import ColorScale, color_scale
-from modeviz.viewer.doors import Server, open_server
-from modeviz.viewer.hotkeys import Hotkeys
-from modeviz.viewer.html import style_sheet
-from modeviz.viewer.layout import NARROW, WIDE, Layout
 from modeviz.viewer.offline import offline_page
-from modeviz.viewer.optimiser import Optimiser
+from modeviz.viewer.page import scripts
+from modeviz.viewer.page.access import Server, open_server
+from modeviz.viewer.page.hotkeys import Hotkeys
+from modeviz.viewer.page.html import style_sheet
+from modeviz.viewer.page.layout import NARROW, WIDE, Layout
+from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.excitation import ExcitationPanel
@@ -41,13 +39,15 @@ from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.trade_off import TradeOffPanel
 from modeviz.viewer.panels.variants import VariantsPanel
 from modeviz.viewer.panels.view import ViewPanel
-from modeviz.viewer.scatterer import Scatterer
-from modeviz.viewer.scene import Scene
-from modeviz.viewer.session import Session
-from modeviz.viewer.stage import DARK, LIGHT
-from modeviz.viewer.state import State, first_state, variant_name
-from modeviz.viewer.title import Title
-from modeviz.viewer.trader import Trader
+from modeviz.viewer.scene.scene import Scene
+from modeviz.viewer.scene.stage import DARK, LIGHT
+from modeviz.viewer.session.answers import Solved, asks_for_the_same
+from modeviz.viewer.session.coloring import ColorScale, color_scale
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State, first_state, variant_name
+from modeviz.viewer.tasks.front_task import Trader
+from modeviz.viewer.tasks.scatter_task import Scatterer
+from modeviz.viewer.tasks.search_task import Optimiser
 
 LEFT = {WIDE: 376, NARROW: 300}
 RIGHT = {WIDE: 484, NARROW: 380}
@@ -89,10 +89,10 @@ class App:
         self.optimiser = Optimiser(self.session, lambda: self._optimise.follow(), mistake)
         self.trader = Trader(self.session, lambda: self._trade_off.follow(), mistake)
         self.scatterer = Scatterer(self.session, lambda: self._scatter.follow(), mistake)
-        scripts.run(self._gui, "style.js", style_sheet())
-        scripts.run(self._gui, "delivery.js")
-        scripts.run(self._gui, "numbers.js")
-        scripts.run(self._gui, "zoom.js")
+        scripts.run(self._gui, "page/style.js", style_sheet())
+        scripts.run(self._gui, "page/delivery.js")
+        scripts.run(self._gui, "page/numbers.js")
+        scripts.run(self._gui, "page/zoom.js")
         self._gui.configure_theme(
             dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
         )

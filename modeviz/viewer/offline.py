@@ -10,24 +10,24 @@ import numpy as np
 import viser
 from viser import _messages
 
-from modeviz.export.axes import Axis, shown_hz
-from modeviz.export.charts import BASE, Curve, line_chart
-from modeviz.export.charts import NOW as NOW_COLOR
-from modeviz.export.wording import signed
+from modeviz.report.charts import BASE, Curve, line_chart
+from modeviz.report.charts import NOW as NOW_COLOR
+from modeviz.text.axes import Axis, shown_hz
+from modeviz.text.wording import signed
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.driver import DRIVER
-from modeviz.viewer.handshake import named_page
-from modeviz.viewer.html import block, row, span, style_sheet, table, title
+from modeviz.viewer.page.handshake import named_page
+from modeviz.viewer.page.html import block, row, span, style_sheet, table, title
 from modeviz.viewer.panels.charts import chart_lines, legend
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.panels.peaks import strongest
-from modeviz.viewer.plots import Line, Scale, level_axis, level_range
-from modeviz.viewer.responses import NOW, Responses, curve_label
-from modeviz.viewer.state import Curve as ResponseCurve
+from modeviz.viewer.panels.plots import Line, Scale, level_axis, level_range
+from modeviz.viewer.scene.driver import DRIVER
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.responses import NOW, Responses, curve_label
+from modeviz.viewer.session.state import Curve as ResponseCurve
 
 
 def offline_page(

@@ -10,21 +10,21 @@ from typing import Literal, get_args
 from PIL import Image
 from threadpoolctl import threadpool_limits
 
+from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError, located, quoted
-from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
-from modeviz.export.report import Picture
-from modeviz.tuning.comparison import RateSet
-from modeviz.tuning.results import Conditions
+from modeviz.report.comparison import RateSet
+from modeviz.report.html import Picture
+from modeviz.report.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.answers import Solved
 from modeviz.viewer.app import App
-from modeviz.viewer.doors import open_server
-from modeviz.viewer.headless import Studio
+from modeviz.viewer.page.access import open_server
 from modeviz.viewer.panels.modes import listed
-from modeviz.viewer.pictures import CYCLE_S, N_CYCLES, Shot, cycle, picture
-from modeviz.viewer.stage import box, camera
-from modeviz.viewer.state import Coloring
+from modeviz.viewer.pictures.headless import Studio
+from modeviz.viewer.pictures.pictures import CYCLE_S, N_CYCLES, Shot, cycle, picture
+from modeviz.viewer.scene.stage import box, camera
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.state import Coloring
 
 Kind = Literal["png", "gif", "mp4", "html"]
 KINDS: Mapping[str, Kind] = {f".{kind}": kind for kind in get_args(Kind)}

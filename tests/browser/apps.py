@@ -7,10 +7,10 @@ from mounted_cabin import mounted_cabin
 from websockets.sync.connection import Connection
 
 from benchmarks.websocket import open_websocket
-from modeviz.tuning.results import Conditions
+from modeviz.analysis.results import Conditions
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
-from modeviz.viewer.doors import Server
+from modeviz.viewer.page.access import Server
 
 SOLVE_S = 60
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from modeviz.viewer.plots import SHOWN_HZ
+from modeviz.viewer.panels.plots import SHOWN_HZ
 
 SINGLE_HZ = 1e-5
 """How far a line of the band is rounded in single precision."""

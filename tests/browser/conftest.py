@@ -4,8 +4,8 @@ import pytest
 from pages import wait_for
 from playwright.sync_api import Browser, Page
 
-from modeviz.viewer.doors import open_server
-from modeviz.viewer.headless import chromium
+from modeviz.viewer.page.access import open_server
+from modeviz.viewer.pictures.headless import chromium
 
 TIMEOUT_MS = 60_000
 

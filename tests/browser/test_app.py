@@ -10,11 +10,11 @@ from charts import at_lines, has_lines
 from mount_controls import box, drag, open_folder, position, thumb, type_rate
 from pages import CLOSE_NOTICES, send, wait_for, wait_until
 
-from modeviz.export.wording import sentence_case
-from modeviz.tuning.preparation import prepare_modes
-from modeviz.tuning.results import Conditions, solve_modal
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
-from modeviz.viewer import stage
+from modeviz.analysis.preparation import prepare_modes
+from modeviz.analysis.results import Conditions, solve_modal
+from modeviz.files import builtin_vehicle, read_vehicle
+from modeviz.text.wording import sentence_case
+from modeviz.viewer.scene import stage
 
 GROUPS = ("F", "C1", "C2", "E", "T")
 CAB = "/vehicle/cab"

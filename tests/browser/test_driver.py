@@ -10,9 +10,9 @@ from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import animated
 from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart
-from modeviz.viewer.driver import ShapeDriver
-from modeviz.viewer.pictures import Pose, Shot, picture
-from modeviz.viewer.stage import LIGHT
+from modeviz.viewer.pictures.pictures import Pose, Shot, picture
+from modeviz.viewer.scene.driver import ShapeDriver
+from modeviz.viewer.scene.stage import LIGHT
 
 NAME = "/vehicle/cab"
 HALF = 2.0**-11  # relative rounding of half precision

@@ -5,7 +5,7 @@ from apps import open_app
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
-from modeviz.tuning.results import Conditions
+from modeviz.analysis.results import Conditions
 
 SOLVE_S = 60
 CAMERA = "__viserMutable.camera.matrixWorld.elements"

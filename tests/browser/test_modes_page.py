@@ -9,9 +9,9 @@ from apps import listening, n_bytes, open_app
 from mounted_cabin import mounted_cabin
 from pages import send, wait_for, wait_until
 
-from modeviz.tuning.results import Conditions
+from modeviz.analysis.results import Conditions
 from modeviz.vehicle.bodies import Material, MeshPart
-from modeviz.viewer.state import first_state
+from modeviz.viewer.session.state import first_state
 
 SOLVE_S = 60
 HALF = 2.0**-11  # relative rounding of half precision

@@ -6,7 +6,7 @@ from mount_controls import DIRECTIONS, IS_OPEN, box, drag, open_folder, position
 from mounted_cabin import mounted_cabin
 from pages import CLOSE_NOTICES, wait_for, wait_until
 
-from modeviz.tuning.results import Conditions
+from modeviz.analysis.results import Conditions
 from modeviz.vehicle.connections import RATE_FIELDS
 
 SOLVE_S = 60

@@ -10,13 +10,13 @@ from held_search import hold_searches
 from mounted_cabin import mounted_cabin
 from pages import CLOSE_NOTICES, wait_for, wait_until
 
-from modeviz.export.wording import significant
-from modeviz.tuning.default_problem import problems
+from modeviz.files.problem_file import problem_text, read_problem
+from modeviz.text.wording import significant
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files.problem_file import problem_text, read_problem
+from modeviz.vehicle.default_problem import problems
 from modeviz.vehicle.problem import Problem
-from modeviz.viewer import trader
-from modeviz.viewer.planning.plan import first_plan, planned
+from modeviz.viewer.session.planning.plan import first_plan, planned
+from modeviz.viewer.tasks import front_task as trader
 
 TEXT = "document.body.textContent"
 BEST = "document.querySelector('.mv .goals b')?.textContent"

@@ -15,18 +15,18 @@ import pytest
 from pages import CLOSE_NOTICES, wait_for, wait_until
 from PIL import Image
 
+from modeviz.analysis.preparation import prepare_modes
+from modeviz.analysis.results import Conditions, solve_modal
+from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.surface import surface
-from modeviz.tuning.preparation import prepare_modes
-from modeviz.tuning.results import Conditions, solve_modal
 from modeviz.vehicle.bodies import Material, MeshPart
-from modeviz.vehicle.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.app import App
-from modeviz.viewer.doors import open_server
-from modeviz.viewer.driver import ShapeDriver, held
-from modeviz.viewer.headless import Studio
-from modeviz.viewer.pictures import N_CYCLES, Pose, Shot, cycle, picture
-from modeviz.viewer.stage import LIGHT, box, camera
+from modeviz.viewer.page.access import open_server
+from modeviz.viewer.pictures.headless import Studio
+from modeviz.viewer.pictures.pictures import N_CYCLES, Pose, Shot, cycle, picture
+from modeviz.viewer.scene.driver import ShapeDriver, held
+from modeviz.viewer.scene.stage import LIGHT, box, camera
 
 PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
 FACES = np.array([[0, 1, 2], [0, 2, 3]])

@@ -5,10 +5,10 @@ from mounted_cabin import mounted_cabin
 from PIL import Image
 from playwright.sync_api import Page
 
-from modeviz.export.report import Picture, report
-from modeviz.tuning.comparison import RateSet, compare
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions
+from modeviz.report.comparison import RateSet, compare
+from modeviz.report.html import Picture, report
 
 WIDTHS = (1280, 800)
 A4 = 680

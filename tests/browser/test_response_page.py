@@ -9,13 +9,13 @@ from charts import at_lines, has_lines
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
-from modeviz.tuning.preparation import prepare
-from modeviz.tuning.results import Conditions, solve
+from modeviz.files import write_vehicle
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.files import write_vehicle
-from modeviz.viewer.plots import SHOWN_HZ
-from modeviz.viewer.state import Curve
+from modeviz.viewer.panels.plots import SHOWN_HZ
+from modeviz.viewer.session.state import Curve
 
 SOLVE_S = 60
 SINGLE = 2.0**-23  # relative, between neighbours in single precision

@@ -5,22 +5,22 @@ import numpy as np
 import pytest
 from pages import wait_for, wait_until
 
+from modeviz.analysis.preparation import prepare_modes
+from modeviz.analysis.results import Conditions, solve_modal
 from modeviz.shapes.motion import default_amplitude
 from modeviz.shapes.surface import surface, vertex_areas
-from modeviz.tuning.preparation import prepare_modes
-from modeviz.tuning.results import Conditions, solve_modal
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Material, MeshPart, RigidBody
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer import stage
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.coloring import energy_shares, largest_share
-from modeviz.viewer.markers import PATCH_Z
-from modeviz.viewer.movement import Movement
-from modeviz.viewer.scene import Scene
-from modeviz.viewer.stage import VIEWS
-from modeviz.viewer.state import State
+from modeviz.viewer.scene import stage
+from modeviz.viewer.scene.markers import PATCH_Z
+from modeviz.viewer.scene.scene import Scene
+from modeviz.viewer.scene.stage import VIEWS
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.coloring import energy_shares, largest_share
+from modeviz.viewer.session.movement import Movement
+from modeviz.viewer.session.state import State
 
 HALF = 2.0**-11  # relative rounding of half precision
 QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])

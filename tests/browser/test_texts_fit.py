@@ -7,7 +7,7 @@ from apps import open_solved_cabin
 from mounted_cabin import mounted_cabin
 from pages import CLOSE_NOTICES, wait_for
 
-from modeviz.viewer.doors import open_server
+from modeviz.viewer.page.access import open_server
 
 LONG = "Donaudampfschifffahrtsgesellschaftskapitän with a second, third and fourth name"
 TABS = ("Variants", "Optimise", "View", "Pictures", "Mounts", "Energy", "Modes", "Figures", "Road",

@@ -5,9 +5,9 @@ from apps import SOLVE_S, open_solved_cabin
 from mounted_cabin import mounted_cabin
 from pages import wait_for, wait_until
 
-from modeviz.tuning.rate_files import parse_rates, rates_text
+from modeviz.files.rate_files import parse_rates, rates_text
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.uploads import LARGEST_FILE
+from modeviz.viewer.page.uploads import LARGEST_FILE
 
 TRIED = {"A": MountRates(4e5, 131.4e3, 4e5), "B": MountRates(8e5, 3e5, 4e5)}
 ROWS = "Array.from(document.querySelectorAll('.mv .sets tr'), r => r.textContent)"

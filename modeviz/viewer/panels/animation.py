@@ -6,14 +6,14 @@ from html import escape
 import numpy as np
 import viser
 
-from modeviz.export.wording import sentence_case
-from modeviz.viewer import scripts
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.driver import ShapeDriver
-from modeviz.viewer.html import block, heading, title
+from modeviz.text.wording import sentence_case
+from modeviz.viewer.page import scripts
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, heading, title
+from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
-from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.scene.driver import ShapeDriver
+from modeviz.viewer.session.answers import Solved
 
 START_SPEED_HZ = 0.5
 START_PHASE = 90.0
@@ -82,7 +82,7 @@ class AnimationCard:
         """Stops the motion for all pages where it is in one of them, or lets it go on."""
         self._run(not self._is_running)
         if client is not None and not self._is_running:
-            scripts.run(client.gui, "tell_phase.js", self._stands._impl.uuid)
+            scripts.run(client.gui, "page/tell_phase.js", self._stands._impl.uuid)
 
     def _say_phase(self) -> None:
         """Takes over the phase at which a page stands, unless the motion has gone on meanwhile."""

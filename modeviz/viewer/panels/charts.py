@@ -6,20 +6,20 @@ from html import escape
 import numpy as np
 import viser
 
-from modeviz.export.axes import shown_hz
 from modeviz.ride.psd import FLOOR
+from modeviz.text.axes import shown_hz
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.html import block, heading, title
-from modeviz.viewer.plots import Line, ResponsePlot, Scale, set_line
-from modeviz.viewer.responses import NOW, Responses, curve_label
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import Curve, State, set_numbers
+from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, heading, title
+from modeviz.viewer.panels.plots import Line, ResponsePlot, Scale, set_line
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.responses import NOW, Responses, curve_label
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import Curve, State, set_numbers
 
 
 class ChartsPanel:

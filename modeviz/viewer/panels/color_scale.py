@@ -1,8 +1,8 @@
 """What the colours of bodies mean, as page text."""
 
 from modeviz.shapes.colors import COLOR_STOPS
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.coloring import color_scale
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.coloring import color_scale
 
 
 def color_scale_text(solved: Solved) -> str:

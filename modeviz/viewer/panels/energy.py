@@ -6,10 +6,9 @@ from html import escape
 import viser
 
 from modeviz.errors import cut
-from modeviz.export.wording import sentence_case
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.html import (
+from modeviz.text.wording import sentence_case
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import (
     TWO_LINES,
     HiddenButtons,
     block,
@@ -22,7 +21,8 @@ from modeviz.viewer.html import (
     table,
     title,
 )
-from modeviz.viewer.session import Session
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.session import Session
 
 LEAST_SHOWN = 0.005
 """Shares below are not listed, but those of the mount groups are."""

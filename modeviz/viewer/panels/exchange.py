@@ -6,12 +6,12 @@ from typing import cast, get_args
 import viser
 
 from modeviz.errors import ModevizError, VehicleError
-from modeviz.export.wording import file_name
-from modeviz.tuning.rate_files import RatesFormat, parse_rates, rates_text
+from modeviz.files.rate_files import RatesFormat, parse_rates, rates_text
+from modeviz.text.wording import file_name
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import variant_name
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import variant_name
 
 FORMATS = {file_format.upper(): file_format for file_format in get_args(RatesFormat)}
 LONGEST_NAME = 40

@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 import viser
 
-from modeviz.export.wording import sentence_case, told_apart
+from modeviz.text.wording import sentence_case, told_apart
 from modeviz.units import factor
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.html import block, span
-from modeviz.viewer.session import Session
-from modeviz.viewer.settle import WriteBack
-from modeviz.viewer.state import State
+from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, span
+from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
 
 SPEEDS = (5, 200)
 """km/h: what is of interest."""

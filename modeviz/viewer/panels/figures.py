@@ -4,18 +4,18 @@ from html import escape
 
 import viser
 
-from modeviz.export.coverage import band_text, coverage_note
-from modeviz.export.tables import wheel_band
-from modeviz.export.wording import number, sentence_case, signed
+from modeviz.analysis.results import Results
+from modeviz.report.coverage import band_text, coverage_note
+from modeviz.report.tables import wheel_band
 from modeviz.ride.psd import rms
-from modeviz.tuning.results import Results
+from modeviz.text.wording import number, sentence_case, signed
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, change, heading, named, row, span, table
-from modeviz.viewer.responses import NOW, PSD, Responses
-from modeviz.viewer.state import Curve
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, change, heading, named, row, span, table
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.responses import NOW, PSD, Responses
+from modeviz.viewer.session.state import Curve
 
 DRIVER = 0
 """The response point that is rated: the vehicle's first."""

@@ -7,8 +7,8 @@ from html import escape
 import viser
 from viser._gui_handles import GuiModalHandle
 
-from modeviz.viewer.hotkeys import Hotkey, Hotkeys
-from modeviz.viewer.html import block
+from modeviz.viewer.page.hotkeys import Hotkey, Hotkeys
+from modeviz.viewer.page.html import block
 
 TOPICS = (
     (

@@ -6,14 +6,13 @@ from html import escape
 import numpy as np
 import viser
 
+from modeviz.analysis.results import Results
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import WEAK_MAC
-from modeviz.export.wording import sentence_case, signed
-from modeviz.tuning.results import Results
+from modeviz.text.wording import sentence_case, signed
 from modeviz.vehicle.connections import Rates
-from modeviz.viewer.answers import FREE_HZ, Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.html import (
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import (
     HiddenButtons,
     block,
     heading,
@@ -25,8 +24,9 @@ from modeviz.viewer.html import (
     table,
     title,
 )
-from modeviz.viewer.ladder import Rail, Scale, around, ladder
-from modeviz.viewer.session import Session
+from modeviz.viewer.panels.ladder import Rail, Scale, around, ladder
+from modeviz.viewer.session.answers import FREE_HZ, Solved
+from modeviz.viewer.session.session import Session
 
 LISTED_HZ = (FREE_HZ, 21.0)
 """Above, the ride ends."""

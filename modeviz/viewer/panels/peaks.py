@@ -5,15 +5,15 @@ from html import escape
 
 import viser
 
-from modeviz.export.wording import sentence_case
+from modeviz.analysis.results import Results
 from modeviz.ride.participation import Peak
-from modeviz.tuning.results import Results
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.html import HiddenButtons, block, heading, span
-from modeviz.viewer.responses import Responses
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import Curve
+from modeviz.text.wording import sentence_case
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import HiddenButtons, block, heading, span
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.responses import Responses
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import Curve
 
 PEAK_BAND = (5.0, 25.0)
 """Hz: below it mounts do nothing (Duncan, "The requirement")."""

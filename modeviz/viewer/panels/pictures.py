@@ -8,17 +8,14 @@ from itertools import count
 import viser
 from PIL import Image
 
-from modeviz.export.images import check_films, gif_bytes, mp4_bytes, png_bytes
-from modeviz.export.wording import file_name
+from modeviz.report.images import check_films, gif_bytes, mp4_bytes, png_bytes
+from modeviz.text.wording import file_name
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.coloring import ColorScale
-from modeviz.viewer.connection import MOST_PAGES
-from modeviz.viewer.doors import Server
-from modeviz.viewer.driver import held
-from modeviz.viewer.headless import Studio
-from modeviz.viewer.jobs import Tell, run, turn
-from modeviz.viewer.limits import Places
-from modeviz.viewer.pictures import (
+from modeviz.viewer.page.access import Server
+from modeviz.viewer.page.connection import MOST_PAGES
+from modeviz.viewer.page.limits import Places
+from modeviz.viewer.pictures.headless import Studio
+from modeviz.viewer.pictures.pictures import (
     CYCLE_S,
     N_CYCLES,
     N_FRAMES,
@@ -30,7 +27,10 @@ from modeviz.viewer.pictures import (
     picture,
     same_field_of_view,
 )
-from modeviz.viewer.stage import Theme
+from modeviz.viewer.scene.driver import held
+from modeviz.viewer.scene.stage import Theme
+from modeviz.viewer.session.coloring import ColorScale
+from modeviz.viewer.tasks.page_jobs import Tell, run, turn
 
 PRESETS = {
     "1920 × 1080": (1920, 1080),

@@ -4,13 +4,13 @@ from functools import partial
 
 import viser
 
-from modeviz.viewer.answers import Solved
 from modeviz.viewer.panels.charts import ChartsPanel
 from modeviz.viewer.panels.figures import FiguresPanel
 from modeviz.viewer.panels.peaks import PeaksPanel
-from modeviz.viewer.responses import Responses
-from modeviz.viewer.scatterer import Scatterer
-from modeviz.viewer.session import Session
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.responses import Responses
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.tasks.scatter_task import Scatterer
 
 
 class ResponsePanel:

@@ -6,19 +6,19 @@ from html import escape
 import numpy as np
 import viser
 
+from modeviz.analysis.results import AXIS
 from modeviz.errors import ModevizError
-from modeviz.export.optimum import objective_words
-from modeviz.export.wording import number, significant
-from modeviz.tuning.results import AXIS
-from modeviz.tuning.scatter import Scatter, rating_of
-from modeviz.tuning.spread import spread
+from modeviz.report.optimum import objective_words
+from modeviz.scatter.monte_carlo import Scatter, rating_of
+from modeviz.scatter.sobol import spread
+from modeviz.text.wording import number, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.problem import Problem
-from modeviz.viewer.assign import assign
-from modeviz.viewer.beside import Job
-from modeviz.viewer.html import block, heading, hinted, row, span, table, title
-from modeviz.viewer.scatterer import PERCENT, Build, Scattered, Scatterer
-from modeviz.viewer.session import Session
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, heading, hinted, row, span, table, title
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.tasks.background_task import Job
+from modeviz.viewer.tasks.scatter_task import PERCENT, Build, Scattered, Scatterer
 
 SCATTER, CANCEL = "Scatter", "Cancel"
 N_VEHICLES = 1000

@@ -5,22 +5,22 @@ from html import escape
 import numpy as np
 import viser
 
+from modeviz.analysis.results import AXIS
 from modeviz.dynamics.components import ComponentModes, ComponentShare
-from modeviz.export.axes import shown_hz
-from modeviz.export.wording import told_apart
 from modeviz.ride.participation import peak_lines
-from modeviz.tuning.results import AXIS
+from modeviz.text.axes import shown_hz
+from modeviz.text.wording import told_apart
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.html import HiddenButtons, block, heading, hinted, row, span, table, title
+from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import HiddenButtons, block, heading, hinted, row, span, table, title
+from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
-from modeviz.viewer.session import Session
-from modeviz.viewer.settle import WriteBack
-from modeviz.viewer.state import Motion, State
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import Motion, State
 
 MOTIONS: dict[str, Motion] = {
     "Mode": "mode",

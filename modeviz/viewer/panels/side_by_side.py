@@ -3,16 +3,16 @@
 import math
 from html import escape
 
-from modeviz.export.wording import number, sentence_case, signed
-from modeviz.tuning.results import Results
+from modeviz.analysis.results import Results
+from modeviz.text.wording import number, sentence_case, signed
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.html import change, heading, named, row, span, table
+from modeviz.viewer.page.html import change, heading, named, row, span, table
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.modes import listed, moved_by
-from modeviz.viewer.responses import NOW, Responses
-from modeviz.viewer.state import Curve, variant_name
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.responses import NOW, Responses
+from modeviz.viewer.session.state import Curve, variant_name
 
 LEAST_HZ = 0.005
 """Smaller changes of a frequency are not listed."""

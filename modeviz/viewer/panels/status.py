@@ -5,12 +5,12 @@ from html import escape
 
 import viser
 
+from modeviz.analysis.results import Results
 from modeviz.dynamics.modes import RESOLVED_HZ
-from modeviz.export.components import believed, change_words, is_doubtful
-from modeviz.tuning.results import Results
-from modeviz.viewer.answers import Rest, Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, heading, hinted, span, title
+from modeviz.report.components import believed, change_words, is_doubtful
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, heading, hinted, span, title
+from modeviz.viewer.session.answers import Rest, Solved
 
 LEAST_SHOWN = 1e-3
 """Hz and percent: smaller errors are shown as this."""

@@ -7,15 +7,15 @@ from html import escape
 import viser
 
 from modeviz.errors import ModevizError
-from modeviz.export.axes import Axis
-from modeviz.export.wording import sentence_case, significant
-from modeviz.tuning.pareto import largest_difference
-from modeviz.viewer.assign import assign
-from modeviz.viewer.beside import Job
-from modeviz.viewer.html import HiddenButtons, block, heading, span
+from modeviz.optimise.pareto import largest_difference
+from modeviz.text.axes import Axis
+from modeviz.text.wording import sentence_case, significant
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import HiddenButtons, block, heading, span
 from modeviz.viewer.panels.status import ALARMING, percent
-from modeviz.viewer.session import Session
-from modeviz.viewer.trader import Designs, Trade, Trader
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.tasks.background_task import Job
+from modeviz.viewer.tasks.front_task import Designs, Trade, Trader
 
 FIND, CANCEL = "Find front", "Cancel"
 NOTHING = "Nothing"

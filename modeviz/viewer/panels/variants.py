@@ -4,19 +4,19 @@ from html import escape
 
 import viser
 
-from modeviz.export.wording import sentence_case, signed
-from modeviz.tuning.pairing import same_mode
-from modeviz.tuning.results import AXIS, Results
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.html import HiddenButtons, block, named, row, span, table
+from modeviz.analysis.pairing import same_mode
+from modeviz.analysis.results import AXIS, Results
+from modeviz.text.wording import sentence_case, signed
+from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
 from modeviz.viewer.panels.exchange import ExchangePanel
 from modeviz.viewer.panels.figures import DRIVER
+from modeviz.viewer.panels.plots import set_line
 from modeviz.viewer.panels.side_by_side import side_by_side
-from modeviz.viewer.plots import set_line
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import State, known_sets, next_name, rate_sets, set_numbers
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State, known_sets, next_name, rate_sets, set_numbers
 
 N_ROWS = 24
 """So many sets can be clicked; more are listed only."""

@@ -5,11 +5,11 @@ from typing import Any, get_args
 
 import viser
 
-from modeviz.export.wording import sentence_case
+from modeviz.text.wording import sentence_case
 from modeviz.vehicle.bodies import Body
-from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import Coloring
+from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import Coloring
 
 VIEWS = ("Iso", "Side", "Front", "Top", "Under")
 COLORINGS = {sentence_case(name): name for name in get_args(Coloring)}

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import State, compared_rates
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State, compared_rates
 
 
 def reset(session: Session, *groups: str) -> None:

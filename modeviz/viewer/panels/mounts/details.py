@@ -7,17 +7,17 @@ from html import escape
 import viser
 from viser import _messages
 
-from modeviz.export.wording import signed
+from modeviz.text.wording import signed
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, MountRates, Rates
-from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import Binding
-from modeviz.viewer.html import HiddenButtons, block, named, row, span, table
+from modeviz.viewer.page.binding import Binding
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
+from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.actions import damp, link
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
 from modeviz.viewer.panels.mounts.rows import row_label
-from modeviz.viewer.session import Session
-from modeviz.viewer.settle import WriteBack
-from modeviz.viewer.state import State
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
 
 LOSS_STEP, LOSS_DECIMALS = 0.005, 3
 LARGEST_LOSS = 0.5

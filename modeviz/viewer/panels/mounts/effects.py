@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from modeviz.export.wording import signed
-from modeviz.tuning.results import AXIS
-from modeviz.tuning.sensitivity import Sensitivity, rate_variables
+from modeviz.analysis.results import AXIS
+from modeviz.analysis.sensitivity import Sensitivity, rate_variables
+from modeviz.text.wording import signed
 from modeviz.vehicle.vehicle import Vehicle
 
 TENTH = 0.1

@@ -5,15 +5,15 @@ from html import escape
 import viser
 
 from modeviz.vehicle.connections import RATE_FIELDS, MountGroup, Rates
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import show_all
-from modeviz.viewer.html import HiddenButtons
+from modeviz.viewer.page.binding import show_all
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import HiddenButtons
+from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.details import Details
 from modeviz.viewer.panels.mounts.effects import Effects, in_a_sentence
 from modeviz.viewer.panels.mounts.rows import RateRow
-from modeviz.viewer.session import Session
-from modeviz.viewer.settle import WriteBack
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.session import Session
 
 
 class GroupFolder:

@@ -4,11 +4,11 @@ from collections.abc import Callable
 
 import viser
 
-from modeviz.viewer.assign import assign
-from modeviz.viewer.hotkeys import Hotkeys
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.panels.mounts.actions import reset
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import State, compared_rates
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State, compared_rates
 
 UNDO, REDO, RESET_GROUP, RESET_ALL = "Undo", "Redo", "Reset group", "Reset all"
 

@@ -9,8 +9,8 @@ from html import escape
 
 import viser
 
-from modeviz.viewer import scripts
-from modeviz.viewer.assign import assign
+from modeviz.viewer.page import scripts
+from modeviz.viewer.page.handles import assign
 
 
 class FolderOpener:

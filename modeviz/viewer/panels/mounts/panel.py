@@ -3,15 +3,15 @@
 import viser
 
 from modeviz.vehicle.connections import RATE_FIELDS
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.binding import Binding
-from modeviz.viewer.html import HiddenButtons
+from modeviz.viewer.page.binding import Binding
+from modeviz.viewer.page.html import HiddenButtons
 from modeviz.viewer.panels.mounts.actions import reset, reset_rate, toggle_lock
 from modeviz.viewer.panels.mounts.details import LOCK, N_BUTTONS, RESET
 from modeviz.viewer.panels.mounts.effects import Effects, effects
 from modeviz.viewer.panels.mounts.folder import GroupFolder
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import compared_rates
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import compared_rates
 
 UNITS = ("N/mm", "N/cm")
 

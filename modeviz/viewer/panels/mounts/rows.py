@@ -6,16 +6,16 @@ import viser
 from viser import _messages
 
 from modeviz.errors import ModevizError
-from modeviz.export.wording import MINUS, sentence_case, signed
+from modeviz.files.scaling import written
+from modeviz.text.wording import MINUS, sentence_case, signed
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, Rates
-from modeviz.vehicle.files.scaling import written
-from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import Binding
+from modeviz.viewer.page.binding import Binding
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.travel import Travel, travel
-from modeviz.viewer.session import Session
-from modeviz.viewer.settle import WriteBack
-from modeviz.viewer.state import State, compared_rates, known_sets
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State, compared_rates, known_sets
 
 STIFFEST = 1e9
 """N/m: what is stiffer is rigid, or a slip of the finger."""

@@ -7,14 +7,14 @@ from typing import Any
 
 import viser
 
-from modeviz.export.wording import sentence_case
+from modeviz.text.wording import sentence_case
 from modeviz.vehicle.connections import DIRECTIONS
-from modeviz.viewer.assign import assign
+from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint
-from modeviz.viewer.planning.load_plan import LoadPlan
-from modeviz.viewer.planning.plan import Plan
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import State
+from modeviz.viewer.session.planning.load_plan import LoadPlan
+from modeviz.viewer.session.planning.plan import Plan
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
 
 ADD, REMOVE = "Add", "Remove"
 NONE = "None"

@@ -6,16 +6,16 @@ from typing import Any
 
 import viser
 
-from modeviz.export.wording import sentence_case
+from modeviz.files.scaling import written
+from modeviz.text.wording import sentence_case
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS
-from modeviz.vehicle.files.scaling import written
-from modeviz.viewer.assign import assign
+from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint, may_change_hint
-from modeviz.viewer.planning.group_plan import Ratios
-from modeviz.viewer.planning.plan import Plan
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import State
+from modeviz.viewer.session.planning.group_plan import Ratios
+from modeviz.viewer.session.planning.plan import Plan
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
 
 RATIOS: dict[str, Ratios] = {"Within limits": "limited", "Kept": "fixed", "Free": "free"}
 

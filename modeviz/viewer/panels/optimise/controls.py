@@ -8,14 +8,14 @@ from typing import Any, TypeVar
 import viser
 
 from modeviz.errors import VehicleError
-from modeviz.viewer.assign import assign
-from modeviz.viewer.binding import Binding, show_all
-from modeviz.viewer.html import HiddenButtons, block, span
+from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import HiddenButtons, block, span
+from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.rows import DECIMALS
-from modeviz.viewer.planning.plan import Plan
-from modeviz.viewer.session import Session
-from modeviz.viewer.settle import WriteBack
-from modeviz.viewer.state import State
+from modeviz.viewer.session.planning.plan import Plan
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
 
 Handle = TypeVar("Handle", bound=viser.GuiInputHandle)
 Read = Callable[[State, Plan], Any]

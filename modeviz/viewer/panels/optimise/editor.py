@@ -6,25 +6,25 @@ from typing import get_args
 
 import viser
 
+from modeviz.analysis.results import Results
 from modeviz.errors import ModevizError
-from modeviz.export.wording import file_name, sentence_case
-from modeviz.tuning.default_problem import problem_called, problems
-from modeviz.tuning.design import design_space
-from modeviz.tuning.results import Results
-from modeviz.tuning.starts import MOST_STARTS
-from modeviz.vehicle.files.problem_file import problem_text
+from modeviz.files.problem_file import problem_text
+from modeviz.optimise.design_space import design_space
+from modeviz.optimise.starts import MOST_STARTS
+from modeviz.text.wording import file_name, sentence_case
+from modeviz.vehicle.default_problem import problem_called, problems
 from modeviz.vehicle.problem import Goal
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, span
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, span
 from modeviz.viewer.panels.modes import listed
 from modeviz.viewer.panels.optimise.accelerations import AccelerationsEditor
 from modeviz.viewer.panels.optimise.bounds import BoundsEditor
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, may_change_hint
 from modeviz.viewer.panels.optimise.summary import summary
-from modeviz.viewer.planning.plan import Plan, plan_of, planned
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import ORIGINAL, State
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.planning.plan import Plan, plan_of, planned
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import ORIGINAL, State
 
 WORDS: dict[Goal, str] = {
     "peak": "Highest peak",

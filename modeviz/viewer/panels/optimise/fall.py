@@ -5,11 +5,11 @@ import math
 import numpy as np
 import viser
 
-from modeviz.export.axes import Axis
+from modeviz.text.axes import Axis
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.assign import send_together
-from modeviz.viewer.optimiser import Look
-from modeviz.viewer.plots import FONT, GRID, NO_TICKS, SET_COLORS
+from modeviz.viewer.page.handles import send_together
+from modeviz.viewer.panels.plots import FONT, GRID, NO_TICKS, SET_COLORS
+from modeviz.viewer.tasks.search_task import Look
 
 HEIGHT = 120
 FIRST = 100

@@ -4,14 +4,14 @@ from html import escape
 
 import numpy as np
 
-from modeviz.export.space import outside_words
-from modeviz.export.wording import sentence_case, signed, significant
-from modeviz.tuning.active import ActiveConstraint
-from modeviz.tuning.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
-from modeviz.tuning.optimise import Optimum
-from modeviz.viewer.html import change, heading, row, span, table
-from modeviz.viewer.optimiser import Look
+from modeviz.optimise.active_limits import ActiveConstraint
+from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
+from modeviz.optimise.run import Optimum
+from modeviz.report.space import outside_words
+from modeviz.text.wording import sentence_case, signed, significant
+from modeviz.viewer.page.html import change, heading, row, span, table
 from modeviz.viewer.panels.status import ALARMING, percent
+from modeviz.viewer.tasks.search_task import Look
 
 LEAST_GAIN = 5e-4
 """Of the goal: what gains less is not worth a word."""

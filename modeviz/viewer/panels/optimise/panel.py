@@ -7,16 +7,16 @@ from html import escape
 import viser
 
 from modeviz.errors import ModevizError, VehicleError
-from modeviz.tuning.default_problem import problems
-from modeviz.viewer.answers import Solved
-from modeviz.viewer.assign import assign
-from modeviz.viewer.html import block, span
-from modeviz.viewer.optimiser import Look, Optimiser
+from modeviz.vehicle.default_problem import problems
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, span
 from modeviz.viewer.panels.optimise.editor import ProblemEditor
 from modeviz.viewer.panels.optimise.fall import FallChart
 from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, where
-from modeviz.viewer.session import Session
-from modeviz.viewer.state import State
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
+from modeviz.viewer.tasks.search_task import Look, Optimiser
 
 START, PAUSE, RESUME, CANCEL = "Start", "Pause", "Resume", "Cancel"
 ACCEPT, GO_BACK = "Accept", "Go back"

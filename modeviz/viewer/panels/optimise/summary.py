@@ -5,11 +5,11 @@ from html import escape
 
 import numpy as np
 
-from modeviz.export.markup import title
-from modeviz.export.optimum import objective_words, tolerance_words
-from modeviz.export.space import ratio_words
-from modeviz.tuning.design import DesignSpace
-from modeviz.tuning.parts import Tolerance
+from modeviz.optimise.design_space import DesignSpace
+from modeviz.report.optimum import objective_words, tolerance_words
+from modeviz.report.space import ratio_words
+from modeviz.scatter.tolerance import Tolerance
+from modeviz.text.markup import title
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.problem import VARIABLES, FrequencyWindow, Performance, Problem
 

@@ -1,0 +1,1 @@
+"""A vehicle made ready once, and its modes, ride and wheel loads at any mount rates."""

@@ -1,0 +1,74 @@
+"""Where many tasks of the same kind are computed: here, or on other machines (`tuning.cluster`)."""
+
+import os
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from typing import Protocol, TypeVar
+
+from threadpoolctl import threadpool_limits
+
+from modeviz.compute.cancel import Control
+
+N_THREADS = min(4, os.cpu_count() or 1)
+"""Tasks side by side: linear algebra does not hold the interpreter's lock."""
+
+POLL_S = 0.05
+"""Between looks at whether somebody ends it."""
+
+S = TypeVar("S")
+A = TypeVar("A")
+T = TypeVar("T")
+
+
+class Runner(Protocol):
+    """Something that computes tasks."""
+
+    def map(
+        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: Control
+    ) -> Iterator[T]:
+        """What a function of a module or class gives for each item, in their order.
+
+        Args:
+            function: of what is shared and an item; the same numbers whoever calls it.
+            shared: sent once.
+            items: small.
+            control: lets somebody hold or end it.
+
+        Raises:
+            CancelledError: it was told to end.
+        """
+        ...
+
+
+class Here:
+    """Computes in threads of this process, a few tasks ahead of who takes the results."""
+
+    def map(
+        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: Control
+    ) -> Iterator[T]:
+        pool, waiting = ThreadPoolExecutor(N_THREADS), deque()
+        with threadpool_limits(1, user_api="blas"):
+            try:
+                for item in items:
+                    control.check()
+                    waiting.append(pool.submit(function, shared, item))
+                    if len(waiting) > N_THREADS:
+                        yield _result(waiting.popleft(), control)
+                while waiting:
+                    yield _result(waiting.popleft(), control)
+            finally:
+                # Tasks in hand are left to themselves: who ends it does not wait for them.
+                pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _result(future: Future[T], control: Control) -> T:
+    """Waits for a task as long as it may."""
+    control.check()
+    while not future.done():
+        wait([future], POLL_S)
+        control.check()
+    return future.result()
+
+
+HERE = Here()

@@ -1,0 +1,283 @@
+"""The vehicle folder: `vehicle.toml`, and beside it the bodies' modes and meshes and the roads.
+
+FOLDER/vehicle.toml says everything but arrays, in the units that its `units` table declares; the keys
+are the fields of the records in `records`. FOLDER/bodies/NAME.npz has the modes of a
+flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a road's spectra,
+FOLDER/spectra/NAME.csv that of a force or a motion of the ground; all in SI.
+"""
+
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path
+
+import msgspec
+
+from modeviz.errors import VehicleError, located
+from modeviz.files.axes import axes_of
+from modeviz.files.conventions import Conventions
+from modeviz.files.disk import file_stems, replace_folder, write_text
+from modeviz.files.limits import check_size
+from modeviz.files.load_records import (
+    BaseMotionRecord,
+    ForceRecord,
+    RoadRecord,
+    WheelLoadRecord,
+)
+from modeviz.files.meshes import write_mesh
+from modeviz.files.modal import write_flexible_body
+from modeviz.files.problems import ProblemRecord
+from modeviz.files.quantities import turned
+from modeviz.files.record import built
+from modeviz.files.records import (
+    AddedMassRecord,
+    ConnectionRecord,
+    FlexibleBodyRecord,
+    JointRecord,
+    ModeDampingRecord,
+    MountGroupRecord,
+    RateSetRecord,
+    ResponsePointRecord,
+    RigidBodyRecord,
+    RodRecord,
+    TyreRecord,
+    VehicleRecord,
+)
+from modeviz.files.roads import write_road
+from modeviz.files.scaling import WRITTEN_UNITS, from_si
+from modeviz.files.source import Source
+from modeviz.files.spectra import write_spectrum
+from modeviz.files.toml import to_toml
+from modeviz.files.toml_file import read_toml
+from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
+from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring, Tyre
+from modeviz.vehicle.doubts import doubts
+from modeviz.vehicle.loads import Road, Spectrum
+from modeviz.vehicle.mesh_doubts import mesh_doubts
+from modeviz.vehicle.orientation import orientation_doubts
+from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle
+
+VEHICLE_FILE = "vehicle.toml"
+CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra"}
+"""What a vehicle folder holds."""
+
+MOST_TABLES = 2_000
+"""Of a kind."""
+
+COORDINATES, MOST_COORDINATES = "coordinates (6 of a rigid body, the modes of a flexible one)", 2_000
+"""Five times the truck's; their time rises with the cube, their memory with the square."""
+
+MOST_BODIES = 200
+"""All that move freely have modes in the band, each of which takes time and is named."""
+
+MOST_RECEPTANCES = 100_000_000
+"""Complex numbers, 1.6 GB: between mount springs, points and loads at the lines of the band."""
+
+CONNECTION_KINDS: dict[str, type[Connection]] = {
+    "spring": Spring,
+    "rod": Rod,
+    "bolt": Bolt,
+    "damper": Damper,
+    "tyre": Tyre,
+}
+"""The kind of connection in each of the file's tables."""
+
+
+def builtin_vehicle() -> Path:
+    """The folder of the truck that comes with modeviz, installed or in a checkout.
+
+    Raises:
+        VehicleError: it is in neither place.
+    """
+    package = Path(__file__).parents[2]
+    for home in (package, package.parent):
+        if (home / "assets" / "truck" / VEHICLE_FILE).is_file():
+            return home / "assets" / "truck"
+    raise VehicleError(
+        f"the built-in truck is not at {package}/assets/truck: install modeviz again, or run "
+        "assets/build_truck.py in a checkout"
+    )
+
+
+def read_vehicle(folder: Path | str) -> Vehicle:
+    """The vehicle in a folder: flexible bodies first, connections as in `CONNECTION_KINDS`.
+
+    Raises:
+        VehicleError: something is missing, damaged or wrong; the text names file, key, what was found
+            and what would be right.
+    """
+    folder = Path(folder)
+    path = folder / VEHICLE_FILE
+    if not path.is_file():
+        raise VehicleError(
+            f"{folder}: found no {VEHICLE_FILE}; a vehicle is a folder with a {VEHICLE_FILE}, and the "
+            "modes, meshes and roads that it names"
+        )
+    record = read_toml(path, VehicleRecord)
+    with located(path):
+        axes = axes_of(record.axes)
+        ours = turned(msgspec.to_builtins(record), VehicleRecord, axes)
+        source = Source(folder, Conventions(record.units, axes))
+        return replace(_build(msgspec.convert(ours, VehicleRecord), source), file=str(path))
+
+
+def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
+    """Writes the vehicle as a folder, in place of a vehicle that is there.
+
+    The same numbers give the same bytes on any machine.
+
+    Raises:
+        VehicleError: the folder holds something else, or cannot be written.
+    """
+    if folder.exists() and not _replaceable(folder):
+        raise VehicleError(
+            f"{folder}: is not a vehicle folder and nothing else, so it is not overwritten; "
+            "give a new or empty folder"
+        )
+    replace_folder(folder, lambda new: _write_content(vehicle, new))
+
+
+def _replaceable(folder: Path) -> bool:
+    if not folder.is_dir():
+        return False
+    names = {path.name for path in folder.iterdir()}
+    return not names or ((folder / VEHICLE_FILE).is_file() and names <= CONTENT)
+
+
+def _check_counts(record: VehicleRecord) -> None:
+    """Raises VehicleError for more than can be computed, before it is built."""
+    for key in record.__struct_fields__:
+        tables = getattr(record, key)
+        if isinstance(tables, list):
+            check_size(f"tables [[{key}]]", len(tables), MOST_TABLES)
+    check_size("bodies", len(record.rigid_body) + len(record.flexible_body), MOST_BODIES)
+    check_size("mounts", sum(len(group.mount) for group in record.mount_group), MOST_TABLES)
+    check_size(COORDINATES, 6 * len(record.rigid_body), MOST_COORDINATES)
+
+
+def _build(record: VehicleRecord, source: Source) -> Vehicle:
+    _check_counts(record)
+    flexible = built(record.flexible_body, "flexible_body", lambda r: r.build(source))
+    rigid = built(record.rigid_body, "rigid_body", lambda r: r.build(source))
+    n_coordinates = sum(body.n_modes for body in flexible) + 6 * len(rigid)
+    check_size(COORDINATES, n_coordinates, MOST_COORDINATES)
+    connections = [
+        built(getattr(record, key), key, lambda r, kind=kind: r.build(kind))
+        for key, kind in CONNECTION_KINDS.items()
+    ]
+    vehicle = Vehicle(
+        name=record.name,
+        bodies=(*flexible, *rigid),
+        connections=tuple(chain(*connections)),
+        mount_groups=built(record.mount_group, "mount_group", MountGroupRecord.build),
+        added_masses=built(record.added_mass, "added_mass", AddedMassRecord.build),
+        response_points=built(record.response_point, "response_point", ResponsePointRecord.build),
+        roads=built(record.road, "road", lambda r: r.build(source)),
+        wheel_loads=built(record.wheel_load, "wheel_load", WheelLoadRecord.build),
+        forces=built(record.force, "force", lambda r: r.build(source)),
+        base_motions=built(record.base_motion, "base_motion", lambda r: r.build(source)),
+        rate_sets={
+            name: {group: rates.build() for group, rates in groups.items()}
+            for name, groups in record.rates.items()
+        },
+        problems=built(record.problem, "problem", ProblemRecord.build),
+        speed=record.speed or USUAL_SPEED,
+        highest_frequency=record.highest_frequency,
+        frequency_step=record.frequency_step,
+        mode_damping=built(record.mode_damping, "mode_damping", ModeDampingRecord.build),
+    )
+    _check_receptances(vehicle)
+    axes = source.conventions.axes
+    for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
+        source.note(doubt)
+    return replace(vehicle, notes=source.notes)
+
+
+def _check_receptances(vehicle: Vehicle) -> None:
+    """Raises VehicleError for more than fits into memory."""
+    n = 3 * (len(vehicle.mounts) + len(vehicle.response_points)) + 6 * len(vehicle.tyres)
+    n_lines = len(vehicle.frequency_hz)
+    check_size(
+        f"responses between {n:,} directions of mounts, points and tyres at {n_lines:,} frequencies",
+        n**2 * n_lines,
+        MOST_RECEPTANCES,
+    )
+
+
+def _write_content(vehicle: Vehicle, folder: Path) -> None:
+    for name in ("bodies", "meshes", "roads"):
+        (folder / name).mkdir()
+    content = msgspec.to_builtins(_record(vehicle, folder))
+    write_text(folder / VEHICLE_FILE, to_toml(from_si(content, VehicleRecord)))
+
+
+def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
+    """The content of the vehicle's file, with the files it names written."""
+    stems = file_stems(body.name for body in vehicle.bodies)
+    spectra = _spectrum_files(vehicle, folder)
+    flexible = [b for b in vehicle.bodies if isinstance(b, FlexibleBody)]
+    rigid = [b for b in vehicle.bodies if isinstance(b, RigidBody)]
+    return VehicleRecord(
+        units=WRITTEN_UNITS,
+        name=vehicle.name,
+        speed=vehicle.speed,
+        highest_frequency=vehicle.highest_frequency,
+        frequency_step=vehicle.frequency_step,
+        flexible_body=[_record_of_flexible(b, stems[b.name], folder) for b in flexible],
+        rigid_body=[RigidBodyRecord.of(b, _mesh_file(b, stems[b.name], folder)) for b in rigid],
+        added_mass=[AddedMassRecord.of(m) for m in vehicle.added_masses],
+        mount_group=[MountGroupRecord.of(g) for g in vehicle.mount_groups],
+        spring=[JointRecord.of(c) for c in vehicle.connections if type(c) is Spring],
+        rod=[RodRecord.of(c) for c in vehicle.connections if isinstance(c, Rod)],
+        bolt=[JointRecord.of(c) for c in vehicle.connections if type(c) is Bolt],
+        damper=[ConnectionRecord.of(c) for c in vehicle.connections if type(c) is Damper],
+        tyre=[TyreRecord.of(c) for c in vehicle.tyres],
+        response_point=[ResponsePointRecord.of(p) for p in vehicle.response_points],
+        road=_road_records(vehicle.roads, folder),
+        wheel_load=[WheelLoadRecord.of(load) for load in vehicle.wheel_loads],
+        force=[ForceRecord.of(f, spectra.get(f.name, "")) for f in vehicle.forces],
+        base_motion=[BaseMotionRecord.of(m, spectra.get(m.name, "")) for m in vehicle.base_motions],
+        rates={
+            name: {group: RateSetRecord.of(r) for group, r in rates.items()}
+            for name, rates in vehicle.rate_sets.items()
+        },
+        mode_damping=[ModeDampingRecord.of(damping) for damping in vehicle.mode_damping],
+        problem=[ProblemRecord.of(problem) for problem in vehicle.problems],
+    )
+
+
+def _record_of_flexible(body: FlexibleBody, stem: str, folder: Path) -> FlexibleBodyRecord:
+    modes = f"bodies/{stem}.npz"
+    write_flexible_body(folder / modes, body)
+    return FlexibleBodyRecord.of(body, modes, _mesh_file(body, stem, folder))
+
+
+def _mesh_file(body: Body, stem: str, folder: Path) -> str | None:
+    """Where the body's mesh is, now that it is written."""
+    if not body.mesh:
+        return None
+    name = f"meshes/{stem}.glb"
+    write_mesh(folder / name, body.mesh)
+    return name
+
+
+def _road_records(roads: tuple[Road, ...], folder: Path) -> list[RoadRecord]:
+    stems = file_stems(road.name for road in roads)
+    records = [RoadRecord.of(road, f"roads/{stems[road.name]}.csv") for road in roads]
+    for road, record in zip(roads, records, strict=True):
+        write_road(folder / record.file, road)
+    return records
+
+
+def _spectrum_files(vehicle: Vehicle, folder: Path) -> dict[str, str]:
+    """Where the spectrum of each random load is, by its name, now that it is written."""
+    random = [
+        (load.name, load.amplitude)
+        for load in (*vehicle.forces, *vehicle.base_motions)
+        if isinstance(load.amplitude, Spectrum)
+    ]
+    if random:
+        (folder / "spectra").mkdir()
+    files = {name: f"spectra/{stem}.csv" for name, stem in file_stems(n for n, _ in random).items()}
+    for name, spectrum in random:
+        write_spectrum(folder / files[name], spectrum)
+    return files

@@ -1,0 +1,162 @@
+"""The tables of `vehicle.toml` that say what shakes the vehicle, in SI."""
+
+from typing import Self
+
+import numpy as np
+
+from modeviz.errors import VehicleError, located
+from modeviz.files.quantities import (
+    Acceleration,
+    Amplitude,
+    Direction,
+    Displacement,
+    ForceAmplitude,
+    Position,
+    Speed,
+    Vector,
+)
+from modeviz.files.record import Name, Record
+from modeviz.files.roads import read_road
+from modeviz.files.source import Source
+from modeviz.files.spectra import read_spectrum
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.loads import BaseMotion, Force, Road, Spectrum, WheelLoad, WheelLoadKind
+
+
+class RoadRecord(Record, kw_only=True):
+    """[[road]]."""
+
+    name: Name
+    label: str = ""
+    """The name, if not given."""
+    file: str
+    """A file of the folder, .csv."""
+    speed: Speed
+
+    @classmethod
+    def of(cls, road: Road, file: str) -> Self:
+        return cls(name=road.name, label=road.label, file=file, speed=road.speed)
+
+    def build(self, source: Source) -> Road:
+        with located("file"):
+            path = source.path(self.file)
+        label = self.label or self.name
+        return read_road(path, self.name, label, self.speed, source.conventions, source.note)
+
+
+class WheelLoadRecord(Record, kw_only=True):
+    """[[wheel_load]]."""
+
+    name: Name
+    kind: WheelLoadKind
+    tyre: str
+    amplitude: Amplitude
+
+    @classmethod
+    def of(cls, load: WheelLoad) -> Self:
+        return cls(name=load.name, kind=load.kind, tyre=load.tyre, amplitude=load.amplitude)
+
+    def build(self) -> WheelLoad:
+        return WheelLoad(self.name, self.kind, self.tyre, self.amplitude)
+
+
+class ForceRecord(Record, kw_only=True):
+    """[[force]]: with an amplitude it is harmonic, with a PSD random."""
+
+    name: Name
+    body: str
+    at: Position
+    direction: Direction
+    amplitude: ForceAmplitude | None = None
+    psd: str | None = None
+    """A file of the folder, .csv."""
+
+    @classmethod
+    def of(cls, force: Force, file: str) -> Self:
+        peak = None if isinstance(force.amplitude, Spectrum) else force.amplitude
+        return cls(
+            name=force.name,
+            body=force.body,
+            at=_vector(force.position),
+            direction=_vector(force.direction),
+            amplitude=peak,
+            psd=file if peak is None else None,
+        )
+
+    def build(self, source: Source) -> Force:
+        key = _the_one({"amplitude": self.amplitude, "psd": self.psd})
+        amplitude = _amplitude(source, key, getattr(self, key), "force")
+        position, direction = np.array(self.at), _unit_vector(self.direction)
+        return Force(self.name, self.body, position, direction, amplitude)
+
+
+class BaseMotionRecord(Record, kw_only=True):
+    """[[base_motion]]: with an amplitude it is harmonic, with a PSD random."""
+
+    name: Name
+    connections: tuple[str, ...] = ()
+    """Whose ground ends move, all alike; none: every connection to the ground."""
+    direction: Direction
+    displacement: Displacement | None = None
+    acceleration: Acceleration | None = None
+    displacement_psd: str | None = None
+    acceleration_psd: str | None = None
+    """Files of the folder, .csv."""
+
+    @classmethod
+    def of(cls, motion: BaseMotion, file: str) -> Self:
+        peak = None if isinstance(motion.amplitude, Spectrum) else motion.amplitude
+        moves = motion.quantity == "displacement"
+        return cls(
+            name=motion.name,
+            connections=motion.connections,
+            direction=_vector(motion.direction),
+            displacement=peak if moves else None,
+            acceleration=None if moves else peak,
+            displacement_psd=file if moves and peak is None else None,
+            acceleration_psd=file if not moves and peak is None else None,
+        )
+
+    def build(self, source: Source) -> BaseMotion:
+        keys = ("displacement", "acceleration", "displacement_psd", "acceleration_psd")
+        key = _the_one({key: getattr(self, key) for key in keys})
+        quantity = "displacement" if key.startswith("displacement") else "acceleration"
+        unit = "length" if quantity == "displacement" else "acceleration"
+        amplitude = _amplitude(source, key, getattr(self, key), unit)
+        direction = _unit_vector(self.direction)
+        return BaseMotion(self.name, direction, quantity, amplitude, self.connections)
+
+
+def _the_one(amplitudes: dict[str, float | str | None]) -> str:
+    """The key of the one amplitude that is given.
+
+    Raises:
+        VehicleError: there is none, or more than one.
+    """
+    given = [key for key, value in amplitudes.items() if value is not None]
+    if len(given) != 1:
+        found = " and ".join(given) or "none"
+        raise VehicleError(f"found {found}, expected one of {', '.join(amplitudes)}")
+    return given[0]
+
+
+def _amplitude(source: Source, key: str, given: float | str, quantity: str) -> float | Spectrum:
+    """A peak as it is, the spectrum in a file that is named."""
+    if not isinstance(given, str):
+        return given
+    with located(key):
+        path = source.path(given)
+    return read_spectrum(path, quantity, source.conventions, source.note)
+
+
+def _unit_vector(direction: str | Vector) -> Floats:
+    """A direction, of any length, in our axes."""
+    if isinstance(direction, str):
+        return np.eye(3)[2 - DIRECTIONS.index(direction)]
+    return np.array(direction)
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

@@ -1,0 +1,87 @@
+"""Display meshes as files, in metres and vehicle coordinates."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import trimesh
+from trimesh.exchange.gltf import export_glb
+
+from modeviz.errors import VehicleError, located
+from modeviz.files.disk import read_bytes
+from modeviz.files.mesh_formats.glb import read_glb
+from modeviz.files.mesh_formats.limits import LARGEST_FILE
+from modeviz.files.mesh_formats.obj import read_obj
+from modeviz.files.mesh_formats.parts import RawPart, mesh
+from modeviz.files.mesh_formats.ply import read_ply
+from modeviz.files.mesh_formats.stl import read_stl
+from modeviz.vehicle.bodies import Material, Mesh, MeshPart
+from modeviz.vehicle.srgb import srgb_to_linear
+
+READERS: Mapping[str, Callable[[bytes, Material], list[RawPart]]] = {
+    ".glb": read_glb,
+    ".stl": read_stl,
+    ".obj": read_obj,
+    ".ply": read_ply,
+}
+"""By the ending of a file."""
+
+Color = tuple[int, int, int]
+
+DEFAULT_COLOR: Color = (150, 156, 164)
+"""sRGB, of what comes without a material."""
+
+
+def read_mesh(path: Path, color: Color = DEFAULT_COLOR) -> Mesh:
+    """The parts of a mesh file, without the vertices that no face names, the others in their order.
+
+    Args:
+        path: binary glTF with its materials, STL, OBJ or PLY.
+        color: of the parts without a material.
+
+    Raises:
+        VehicleError: not such a file, not there, damaged, empty or too large.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in READERS:
+        raise VehicleError(f"{path}: found {suffix!r}, expected one of {', '.join(READERS)}")
+    content = read_bytes(path, LARGEST_FILE)
+    with located(path):
+        parts = READERS[suffix](content, Material(color))
+        if not parts:
+            raise VehicleError("found no triangles")
+        return mesh(parts)
+
+
+def write_mesh(path: Path, mesh: Mesh) -> None:
+    """Writes the parts as binary glTF, in single precision, each a node with its material."""
+    scene = trimesh.Scene()
+    for part in mesh:
+        surface = trimesh.Trimesh(part.vertices, part.faces, process=False)
+        scene.add_geometry(surface, node_name=part.name, geom_name=part.name)
+
+    def set_materials(tree: dict[str, Any]) -> None:
+        # here and not as trimesh's materials, because those have 8-bit linear colours
+        tree["materials"] = [_gltf_material(part) for part in mesh]
+        for index, surface in enumerate(tree["meshes"]):
+            surface["primitives"][0]["material"] = index
+
+    path.write_bytes(export_glb(scene, tree_postprocessor=set_materials))
+
+
+def _gltf_material(part: MeshPart) -> dict[str, Any]:
+    material = part.material
+    return {
+        "name": part.name,
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [
+                *srgb_to_linear(np.array(material.color) / 255).tolist(),
+                material.opacity,
+            ],
+            "roughnessFactor": material.roughness,
+            "metallicFactor": material.metallic,
+        },
+        "alphaMode": "BLEND" if material.opacity < 1 else "OPAQUE",
+        "doubleSided": True,
+    }

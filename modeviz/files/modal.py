@@ -1,0 +1,196 @@
+"""The arrays of a flexible body as a file: what NumPy calls .npz, the same bytes every time."""
+
+import zipfile
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from modeviz.errors import VehicleError, listed, located, reason
+from modeviz.files.conventions import Conventions
+from modeviz.files.disk import opened
+from modeviz.files.source import LARGEST_ARRAYS, Source
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import Attachment, FlexibleBody
+
+KINDS = {
+    "omega_n_squared": ("f", 1),
+    "n_residuals": ("i", 0),
+    "attachment_names": ("U", 1),
+    "attachment_positions": ("f", 2),
+    "attachment_shapes": ("f", 3),
+    "nodes": ("f", 2),
+    "shapes": ("f", 3),
+}
+"""The arrays of a body: what is in each, as `dtype.kind` has it, and how many dimensions it has."""
+
+PLACES, SHAPES = ("attachment_positions", "nodes"), ("attachment_shapes", "shapes")
+"""What of the arrays depends on units and axes."""
+
+NEAR_ZERO_HZ, NEAR_ZERO = 0.05, 0.01
+"""Of a free body's first modes, what is below this, or this part of the first elastic one, is rigid."""
+
+KIND_NAMES = {"f": "real numbers", "i": "whole numbers", "U": "text"}
+
+
+def read_flexible_body(
+    path: Path,
+    name: str,
+    properties: Mapping[str, Any],
+    source: Source,
+) -> FlexibleBody:
+    """The body whose arrays are in the file.
+
+    Frequencies near zero, as solvers give them, are zero. Rotations that are left out, as by solid
+    elements and tests in three directions, are those of the rigid modes, and none of the others.
+
+    Args:
+        path: of the file.
+        name: of the body.
+        properties: what else it takes to make a `FlexibleBody`.
+        source: the folder it is in, with the units and the axes of its arrays.
+
+    Raises:
+        VehicleError: no such file, a damaged one, or arrays that are missing, pickled or not a body's.
+    """
+    arrays = _converted(_read_arrays(path, source), source.conventions)
+    names, positions, shapes = (
+        arrays[f"attachment_{what}"] for what in ("names", "positions", "shapes")
+    )
+    if not len(names) == len(positions) == len(shapes):
+        raise VehicleError(
+            f"{path}: attachment_names, attachment_positions and attachment_shapes: found shapes "
+            f"{names.shape}, {positions.shape} and {shapes.shape}, expected one row for each attachment"
+        )
+    with located(path):
+        body = FlexibleBody(
+            name=name,
+            omega_n_squared=_with_zeros(arrays["omega_n_squared"], f"body {name!r}", source.note),
+            n_residuals=int(arrays["n_residuals"]),
+            attachments=tuple(map(Attachment, names.tolist(), positions, _with_six_rows(shapes))),
+            nodes=arrays["nodes"],
+            shapes=_with_six_rows(arrays["shapes"]),
+            **properties,
+        )
+    return _turned(body, source.note)
+
+
+def write_flexible_body(path: Path, body: FlexibleBody) -> None:
+    """Writes the arrays of the body; the file depends on them alone, not on the day."""
+    attachments = body.attachments
+    _write_arrays(
+        path,
+        {
+            "omega_n_squared": body.omega_n_squared,
+            "n_residuals": np.array(body.n_residuals),
+            "attachment_names": np.array([a.name for a in attachments], np.str_),
+            "attachment_positions": np.array([a.position for a in attachments]).reshape(-1, 3),
+            "attachment_shapes": np.array([a.shapes for a in attachments]).reshape(-1, 6, body.n_modes),
+            "nodes": body.nodes,
+            "shapes": body.shapes,
+        },
+    )
+
+
+def _converted(arrays: dict[str, np.ndarray], conventions: Conventions) -> dict[str, np.ndarray]:
+    """The arrays in SI and our axes; those of a wrong shape as they are, since no body has them."""
+    places = {name: arrays[name] for name in PLACES if arrays[name].shape[-1] == 3}
+    shapes = {name: arrays[name] for name in SHAPES if arrays[name].shape[-2] in (3, 6)}
+    return (
+        arrays
+        | {name: conventions.positions(array) for name, array in places.items()}
+        | {name: conventions.shapes(array) for name, array in shapes.items()}
+    )
+
+
+def _with_zeros(omega_n_squared: Floats, where: str, note: Callable[[str], None]) -> Floats:
+    """ω² with zeros for the rigid modes, to which solvers give 1e-4 Hz, or ω² a little below zero."""
+    frequency_hz = np.sqrt(np.abs(omega_n_squared)) / (2 * np.pi)
+    lowest_elastic = frequency_hz[FlexibleBody.N_RIGID : FlexibleBody.N_RIGID + 1]
+    limit = max(NEAR_ZERO_HZ, NEAR_ZERO * float(lowest_elastic.max(initial=0.0)))
+    rigid = frequency_hz[: FlexibleBody.N_RIGID]
+    near = np.flatnonzero((rigid > 0) & (rigid < limit))
+    if not near.size:
+        return omega_n_squared
+    note(
+        f"{where}: omega_n_squared: {len(near)} of the first {len(rigid)} modes are near zero, up to "
+        f"{rigid[near].max():.1g} Hz; taken for zero, as rigid modes"
+    )
+    result = omega_n_squared.copy()
+    result[near] = 0
+    return result
+
+
+def _with_six_rows(shapes: np.ndarray) -> np.ndarray:
+    """Motions of places, (n_places, 6, n_modes), with no rotations where the file has none."""
+    if shapes.shape[1] != 3:
+        return shapes
+    return np.concatenate([shapes, np.zeros_like(shapes)], axis=1)
+
+
+def _turned(body: FlexibleBody, note: Callable[[str], None]) -> FlexibleBody:
+    """The body with rotations in its rigid modes where it has none in any mode."""
+    turn = np.zeros((6, body.n_modes))
+    turn[3:, : body.n_rigid] = body.rigid_fit.motions[3:]
+    if body.attachments and not any(a.shapes[3:].any() for a in body.attachments):
+        note(
+            f"body {body.name!r}: its attachments have no rotations: taken to turn as the body does in "
+            "its rigid modes, and not as it deforms"
+        )
+        attachments = tuple(replace(a, shapes=a.shapes + turn) for a in body.attachments)
+        body = replace(body, attachments=attachments)
+    if body.shapes[:, 3:].any():
+        return body
+    return replace(body, shapes=body.shapes + turn)
+
+
+def _read_arrays(path: Path, source: Source) -> dict[str, np.ndarray]:
+    with opened(path, LARGEST_ARRAYS) as file:
+        try:
+            with zipfile.ZipFile(file) as archive:
+                members = [_member(archive, name) for name in KINDS]
+                source.reserve(sum(member.file_size for member in members))
+                arrays = {name: _read_array(archive, name) for name in KINDS}
+        except VehicleError as error:
+            raise VehicleError(f"{path}: {error}") from None
+        except Exception as error:  # damaged archives make zipfile and NumPy raise almost anything
+            raise VehicleError(f"{path}: not a whole .npz file ({reason(error)})") from None
+    return arrays
+
+
+def _member(archive: zipfile.ZipFile, name: str) -> zipfile.ZipInfo:
+    """An array's place in the archive."""
+    try:
+        member = archive.getinfo(f"{name}.npy")
+    except KeyError:
+        names = [found.removesuffix(".npy") for found in archive.namelist()]
+        raise VehicleError(f"{name}: missing; there are {listed(names)}") from None
+    if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise VehicleError(f"{name}: compressed otherwise than numpy.savez_compressed does")
+    return member
+
+
+def _read_array(archive: zipfile.ZipFile, name: str) -> np.ndarray:
+    try:
+        with archive.open(f"{name}.npy") as file:
+            array = np.lib.format.read_array(file, allow_pickle=False)
+    except ValueError as error:
+        raise VehicleError(f"{name}: {error}") from None
+    if (array.dtype.kind, array.ndim) != KINDS[name]:
+        kind, n_dimensions = KINDS[name]
+        raise VehicleError(
+            f"{name}: found {array.dtype} in {array.ndim} dimensions, expected {KIND_NAMES[kind]} in "
+            f"{n_dimensions}"
+        )
+    return array
+
+
+def _write_arrays(path: Path, arrays: dict[str, np.ndarray]) -> None:
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, array in arrays.items():
+            content = BytesIO()
+            np.lib.format.write_array(content, np.array(array, order="C"), allow_pickle=False)
+            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), content.getvalue())

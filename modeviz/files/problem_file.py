@@ -1,0 +1,45 @@
+"""A problem in a file of its own: the [[problem]] of a vehicle.toml, with the unit of its bounds."""
+
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+from msgspec import Meta
+
+from modeviz.errors import located
+from modeviz.files.problems import ProblemRecord
+from modeviz.files.record import FileRecord
+from modeviz.files.scaling import WRITTEN_UNITS, from_si
+from modeviz.files.toml import to_toml
+from modeviz.files.toml_file import read_toml
+from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+ENDING = ".toml"
+
+UNITS = {"stiffness": WRITTEN_UNITS["stiffness"]}
+
+
+class ProblemFileRecord(FileRecord, kw_only=True):
+    """The whole file."""
+
+    problem: Annotated[list[ProblemRecord], Meta(min_length=1, max_length=1)]
+
+
+def problem_text(problem: Problem) -> str:
+    """The file of a problem; all but its first table can be put into a vehicle.toml in N/mm."""
+    record = ProblemFileRecord(units=UNITS, problem=[ProblemRecord.of(problem)])
+    return to_toml(from_si(msgspec.to_builtins(record), ProblemFileRecord))
+
+
+def read_problem(path: Path, vehicle: Vehicle) -> Problem:
+    """The problem in a file, for a vehicle.
+
+    Raises:
+        VehicleError: the file is missing, damaged or wrong, or names what the vehicle does not have.
+    """
+    record = read_toml(path, ProblemFileRecord)
+    with located(path):
+        problem = record.problem[0].build()
+        vehicle.check_problem(problem)
+    return problem

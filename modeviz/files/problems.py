@@ -1,0 +1,170 @@
+"""The [[problem]] tables of `vehicle.toml`: mount optimisations."""
+
+import math
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from msgspec import Meta, field
+
+from modeviz.errors import VehicleError
+from modeviz.files.record import Name, NonNegative, Positive, RatesRecord, Record, built
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.problem import (
+    UNLIMITED,
+    DesignGroup,
+    FrequencyWindow,
+    Goal,
+    Performance,
+    Problem,
+)
+
+NO_LIMITS = "none"
+"""Ratio limits that hold nothing, in a file, where no number is infinite."""
+
+
+class DesignGroupRecord(Record, kw_only=True):
+    """[[problem.group]]; bounds and limits that are not given are the mount group's."""
+
+    group: Name
+    directions: tuple[str, ...] = DIRECTIONS
+    softest: RatesRecord | None = None
+    stiffest: RatesRecord | None = None
+    ratio_limits: tuple[float, float] | Literal["none"] | None = None
+    fixed_ratios: bool = False
+
+    @classmethod
+    def of(cls, group: DesignGroup) -> Self:
+        softest, stiffest = map(RatesRecord.of, group.bounds) if group.bounds else (None, None)
+        return cls(
+            group=group.group,
+            directions=group.directions,
+            softest=softest,
+            stiffest=stiffest,
+            ratio_limits=NO_LIMITS if group.ratio_limits == UNLIMITED else group.ratio_limits,
+            fixed_ratios=group.fixed_ratios,
+        )
+
+    def build(self) -> DesignGroup:
+        bounds = None
+        if self.softest and self.stiffest:
+            bounds = self.softest.build(), self.stiffest.build()
+        elif self.softest or self.stiffest:
+            raise VehicleError("softest and stiffest: found one of them, expected both or neither")
+        limits = UNLIMITED if self.ratio_limits == NO_LIMITS else self.ratio_limits
+        return DesignGroup(self.group, self.directions, bounds, limits, self.fixed_ratios)
+
+
+MOST_FREQUENCIES = 10_000
+"""Of those that a few bytes of a file can ask for."""
+
+
+class SpacedRecord(Record, kw_only=True):
+    """Evenly spaced frequencies, both ends included."""
+
+    first: Positive
+    last: Positive
+    count: Annotated[int, Meta(ge=2, le=MOST_FREQUENCIES)]
+
+    @classmethod
+    def of(cls, frequency_hz: Floats) -> Self | None:
+        """None if these are not evenly spaced, bit by bit."""
+        if not 3 <= len(frequency_hz) <= MOST_FREQUENCIES:
+            return None
+        record = cls(
+            first=float(frequency_hz[0]), last=float(frequency_hz[-1]), count=len(frequency_hz)
+        )
+        return record if np.array_equal(record.build(), frequency_hz) else None
+
+    def build(self) -> Floats:
+        return np.linspace(self.first, self.last, self.count)
+
+
+class PerformanceRecord(Record, kw_only=True):
+    """[[problem.performance]]."""
+
+    roads: tuple[str, ...] = ()
+    wheel_loads: tuple[str, ...] = ()
+    frequency_hz: SpacedRecord | tuple[float, ...]
+    points: tuple[str, ...] = ()
+    directions: tuple[str, ...] = ("lateral", "vertical")
+    target: NonNegative = 0.0
+    weight: NonNegative = 1.0
+
+    @classmethod
+    def of(cls, performance: Performance) -> Self:
+        f = performance.frequency_hz
+        return cls(
+            roads=performance.roads,
+            wheel_loads=performance.wheel_loads,
+            frequency_hz=SpacedRecord.of(f) or tuple(f.tolist()),
+            points=performance.points,
+            directions=performance.directions,
+            target=performance.target,
+            weight=performance.weight,
+        )
+
+    def build(self) -> Performance:
+        f = self.frequency_hz
+        return Performance(
+            f.build() if isinstance(f, SpacedRecord) else np.array(f),
+            self.roads,
+            self.wheel_loads,
+            self.points,
+            self.directions,
+            self.target,
+            self.weight,
+        )
+
+
+class WindowRecord(Record, kw_only=True):
+    """[[problem.window]]."""
+
+    mode: Name
+    low_hz: NonNegative = 0.0
+    high_hz: Positive | None = None
+    inside: bool = True
+
+    @classmethod
+    def of(cls, window: FrequencyWindow) -> Self:
+        high = None if math.isinf(window.high_hz) else window.high_hz
+        return cls(mode=window.mode, low_hz=window.low_hz, high_hz=high, inside=window.is_inside)
+
+    def build(self) -> FrequencyWindow:
+        high = math.inf if self.high_hz is None else self.high_hz
+        return FrequencyWindow(self.mode, self.low_hz, high, self.inside)
+
+
+class ProblemRecord(Record, kw_only=True):
+    """[[problem]]."""
+
+    name: Name
+    goal: Goal = "accelerations"
+    normalised: bool = True
+    reference: str = ""
+    group: list[DesignGroupRecord]
+    performance: list[PerformanceRecord] = field(default_factory=list)
+    window: list[WindowRecord] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, problem: Problem) -> Self:
+        return cls(
+            name=problem.name,
+            goal=problem.goal,
+            normalised=problem.is_normalised,
+            reference=problem.reference,
+            group=[DesignGroupRecord.of(group) for group in problem.groups],
+            performance=[PerformanceRecord.of(p) for p in problem.performance],
+            window=[WindowRecord.of(window) for window in problem.windows],
+        )
+
+    def build(self) -> Problem:
+        return Problem(
+            self.name,
+            built(self.group, "group", DesignGroupRecord.build),
+            built(self.performance, "performance", PerformanceRecord.build),
+            self.goal,
+            self.normalised,
+            built(self.window, "window", WindowRecord.build),
+            self.reference,
+        )

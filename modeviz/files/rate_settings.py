@@ -1,0 +1,75 @@
+"""Mount rates as people name them: "C2.lateral=131 N/mm", a set's name, or a file."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from modeviz.errors import VehicleError, located, quoted, unknown
+from modeviz.files.rate_files import read_rates
+from modeviz.units import parse, parse_number
+from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, Rates
+from modeviz.vehicle.vehicle import Vehicle
+
+ORIGINAL = "original"
+"""The choice of the rates that the vehicle has."""
+
+
+def parse_setting(text: str, rates: Rates) -> Rates:
+    """The rates of the group that a setting such as "C2.lateral=131 N/mm" changes.
+
+    Args:
+        text: that, or "C2.loss_factor=0.2".
+        rates: of every group, before the change.
+
+    Raises:
+        VehicleError: not of that form, or a group, direction or unit that does not exist.
+    """
+    name, _, value = text.partition("=")
+    group, _, key = name.strip().rpartition(".")
+    with located(f"setting {quoted(text)}"):
+        if not group or not value:
+            raise VehicleError(
+                "expected GROUP.DIRECTION=RATE UNIT, as in C2.lateral=131 N/mm, or "
+                "GROUP.loss_factor=NUMBER"
+            )
+        if group not in rates:
+            raise VehicleError(unknown("mount group", group, rates))
+        return {group: replace(rates[group], **_parse_change(key, value))}
+
+
+def resolve_rates(vehicle: Vehicle, choice: str, settings: Iterable[str] = ()) -> Rates:
+    """The rates of every group of a vehicle: those chosen, changed by one setting after the other.
+
+    Args:
+        vehicle: whose groups and named sets there are to choose from.
+        choice: "original", the name of one of the vehicle's sets, or a file's.
+        settings: as for `parse_setting`.
+
+    Raises:
+        VehicleError: no such choice, or a setting or file that is wrong.
+    """
+    rates = {**vehicle.rates, **_chosen(vehicle, choice)}
+    for setting in settings:
+        rates |= parse_setting(setting, rates)
+    return vehicle.all_rates(rates)
+
+
+def _parse_change(key: str, value: str) -> dict[str, float]:
+    """The field of `MountRates` that a setting changes, and to what."""
+    if key == "loss_factor":
+        return {key: parse_number(value)}
+    spoken = key.replace("_", "-")
+    if spoken not in DIRECTIONS:
+        raise VehicleError(unknown("direction", key, (*DIRECTIONS, "loss_factor")))
+    return {RATE_FIELDS[DIRECTIONS.index(spoken)]: parse(value, "stiffness")}
+
+
+def _chosen(vehicle: Vehicle, choice: str) -> Rates:
+    if choice == ORIGINAL:
+        return vehicle.rates
+    if choice in vehicle.rate_sets:
+        return vehicle.rate_sets[choice]
+    if Path(choice).suffix:
+        return read_rates(Path(choice), vehicle)
+    known = unknown("rates", choice, dict.fromkeys((ORIGINAL, *vehicle.rate_sets)))
+    raise VehicleError(f"{known}, or give a .json or .csv file")

@@ -1,0 +1,81 @@
+"""What all records of `vehicle.toml` are made of."""
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Annotated, Self, TypeVar
+
+import msgspec
+from msgspec import Meta
+
+from modeviz.errors import ModevizError, VehicleError
+from modeviz.files.quantities import Rate
+from modeviz.vehicle.connections import MountRates
+
+Name = Annotated[str, Meta(min_length=1)]
+Positive = Annotated[float, Meta(gt=0)]
+NonNegative = Annotated[float, Meta(ge=0)]
+
+R = TypeVar("R")
+P = TypeVar("P")
+
+
+MOST_ERRORS = 5
+"""Of what is wrong in one place with many records, so much is said at once."""
+
+
+class Record(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
+    """A table of the file."""
+
+
+class FileRecord(Record, kw_only=True):
+    """A whole file."""
+
+    units: dict[str, str] = msgspec.field(default_factory=dict)
+    """Of its numbers, quantity to unit."""
+
+
+class RatesRecord(Record, kw_only=True):
+    """The rates of a mount."""
+
+    vertical: Rate
+    lateral: Rate
+    fore_aft: Rate
+
+    @classmethod
+    def of(cls, rates: MountRates) -> Self:
+        return cls(vertical=rates.vertical, lateral=rates.lateral, fore_aft=rates.fore_aft)
+
+    def build(self) -> MountRates:
+        return MountRates(self.vertical, self.lateral, self.fore_aft)
+
+
+class RecordError(VehicleError):
+    """A record that cannot be built, with its key path: "problem[0].group[1]"."""
+
+    def __init__(self, path: str, words: str) -> None:
+        super().__init__(f"{path}: {words}")
+        self.path, self.words = path, words
+
+
+def built(records: Iterable[R], key: str, build: Callable[[R], P]) -> tuple[P, ...]:
+    """What each record builds; an error names every record that builds nothing, and what it is in."""
+    parts: list[P] = []
+    errors: list[RecordError] = []
+    for index, record in enumerate(records):
+        path = f"{key}[{index}]"
+        try:
+            parts.append(build(record))
+        except RecordError as error:
+            errors.append(RecordError(f"{path}.{error.path}", error.words))
+        except ModevizError as error:
+            errors.append(RecordError(path, str(error)))
+    if errors:
+        raise _together(errors) from None
+    return tuple(parts)
+
+
+def _together(errors: Sequence[RecordError]) -> RecordError:
+    """One error that says what several say, the first `MOST_ERRORS` of very many."""
+    first, *others = errors
+    said = [first.words, *map(str, others[: MOST_ERRORS - 1])]
+    n_more = len(errors) - len(said)
+    return RecordError(first.path, "; ".join([*said, *([f"{n_more} more"] if n_more else [])]))

@@ -1,0 +1,111 @@
+"""The units that a vehicle file declares: its numbers into SI and back."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from modeviz.errors import VehicleError, located, unknown
+from modeviz.files.quantities import Quantity, each_quantity
+from modeviz.units import UNITS, factor
+
+WRITTEN_UNITS = {
+    "length": "m",
+    "mass": "kg",
+    "inertia": "kg m²",
+    "stiffness": "N/mm",
+    "rotational_stiffness": "N m/rad",
+    "damping": "N s/m",
+    "rotational_damping": "N m s/rad",
+    "force": "N",
+    "acceleration": "m/s²",
+    "unbalance": "g m",
+    "speed": "km/h",
+}
+"""The units of the files we write."""
+
+BEYOND_ANY_VEHICLE = 1e15
+"""In SI: of any quantity."""
+
+_BOUNDS = {
+    "length": (0.0, 1e6),
+    "mass": (1e-9, 1e9),
+    "inertia": (1e-15, BEYOND_ANY_VEHICLE),
+    "speed": (1e-6, 1e6),
+}
+"""The least that is not zero and the most of a quantity, in SI: beyond it nothing can be computed."""
+
+
+def to_si(data: Any, kind: type, units: Mapping[str, str]) -> Any:
+    """The content of a file with every number in SI.
+
+    Args:
+        data: what the file says.
+        kind: the record that it is.
+        units: its `units` table, quantity to unit.
+
+    Raises:
+        VehicleError: no such quantity or unit, a quantity without a unit, or a number that no vehicle
+            has.
+    """
+    factors = {quantity: _factor(quantity, unit) for quantity, unit in units.items()}
+
+    def convert(value: float, quantity: str, where: str) -> float:
+        unit = factors.get(quantity) or unit_in_si(quantity, units)
+        least, most = _BOUNDS.get(quantity, (0.0, BEYOND_ANY_VEHICLE))
+        if value and not least <= abs(value) * unit <= most:
+            words = f"{least / unit:.3g} to {most / unit:.3g}" if least else f"up to {most / unit:.3g}"
+            raise VehicleError(f"{where}: found {value:g} {units[quantity]}, expected {words}")
+        return value * unit
+
+    return _converted(data, kind, convert)
+
+
+def unit_in_si(quantity: str, units: Mapping[str, str]) -> float:
+    """What one unit of a quantity is in SI.
+
+    Args:
+        quantity: a key of `units` tables.
+        units: such a table, quantity to unit.
+
+    Raises:
+        VehicleError: no such unit, or none for that quantity.
+    """
+    if quantity not in units:
+        known = ", ".join(UNITS[_spoken(quantity)])
+        raise VehicleError(f"units.{quantity}: missing, expected one of {known}")
+    return _factor(quantity, units[quantity])
+
+
+def from_si(data: Any, kind: type) -> Any:
+    """The content of a file of that kind, given in SI, in `WRITTEN_UNITS`."""
+    return _converted(data, kind, lambda value, quantity, _: written(value, _factor(quantity)))
+
+
+def _factor(quantity: str, unit: str | None = None) -> float:
+    """What one unit is in SI; the unit we write, if none is given."""
+    if quantity not in WRITTEN_UNITS:
+        raise VehicleError("units: " + unknown("quantity", quantity, WRITTEN_UNITS))
+    with located(f"units.{quantity}"):
+        return factor(unit or WRITTEN_UNITS[quantity], _spoken(quantity))
+
+
+def _spoken(quantity: str) -> str:
+    return quantity.replace("_", " ")
+
+
+def written(value: float, unit: float) -> float:
+    """The shortest number of units that reads back to the SI `value`, or else the nearest."""
+    number = value / unit
+    short = float(f"{number:.15g}")
+    return short if short * unit == value else number
+
+
+def _converted(data: Any, kind: type, convert: Callable[[float, str, str], float]) -> Any:
+    """The data with `convert(value, quantity, where)` in place of each number that has a unit."""
+
+    def change(value: Any, quantity: Quantity, table: Mapping[str, Any], where: str) -> Any:
+        if isinstance(value, list | tuple):
+            return [change(inner, quantity, table, where) for inner in value]
+        name = quantity.named(table)
+        return convert(value, name, where) if name and value is not None else value
+
+    return each_quantity(data, kind, change)

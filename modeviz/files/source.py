@@ -1,0 +1,55 @@
+"""The folder that a vehicle is read from, and what there is to say about it."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from modeviz.files.conventions import Conventions
+from modeviz.files.disk import inside
+from modeviz.files.limits import check_size
+
+LARGEST_ARRAYS = 256_000_000
+"""Bytes of the modes of all bodies, which take some times as much while they are read."""
+
+MOST_NOTES = 20
+"""Nobody reads more."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A vehicle folder that is being read."""
+
+    folder: Path
+    conventions: Conventions = field(default_factory=Conventions)
+    """Of the files in it."""
+    _reserved: list[int] = field(default_factory=list)
+    """Bytes of each file of modes."""
+    _notes: list[str] = field(default_factory=list)
+    """Grows while the folder is read."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What there is to say, see `Vehicle.notes`; of very much the first `MOST_NOTES`."""
+        more = len(self._notes) - MOST_NOTES
+        rest = (f"{more} more notes of this kind",) if more > 0 else ()
+        return (*self._notes[:MOST_NOTES], *rest)
+
+    def path(self, name: str) -> Path:
+        """The path of a file of the folder.
+
+        Raises:
+            VehicleError: the name leads out of the folder.
+        """
+        return inside(self.folder, name)
+
+    def reserve(self, n_bytes: int) -> None:
+        """Counts the bytes of an array file before it is unpacked.
+
+        Raises:
+            VehicleError: with those before it they are too many.
+        """
+        self._reserved.append(n_bytes)
+        check_size("bytes of modes", sum(self._reserved), LARGEST_ARRAYS)
+
+    def note(self, sentence: str) -> None:
+        """Notes what was taken otherwise than it stands, or is likely wrong, with what it is about."""
+        self._notes.append(sentence)

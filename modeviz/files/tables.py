@@ -1,0 +1,158 @@
+"""Tables as editors and spreadsheets leave them: text with commas, semicolons or tabs between cells.
+
+A byte order mark, any line ends, decimal commas beside semicolons or tabs, spaces, quotes, empty lines
+and empty columns at the end are all read; columns are found by their names, in any order, with their
+unit in brackets if they have one: "left (mm²/Hz)".
+"""
+
+import csv
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from modeviz.errors import VehicleError, located, unknown
+from modeviz.files.decoding import LARGEST
+from modeviz.files.limits import check_size
+
+MOST_LINES = 100_000
+"""A spectrum every 0.001 Hz up to 100 Hz."""
+
+_NAME_AND_UNIT = re.compile(r"(.*?)\s*[\[(](.*)[\])]")
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of a table."""
+
+    line: int
+    cells: dict[str, str]
+    """By column, without spaces around them."""
+    decimal_comma: bool
+
+    def where(self, column: str) -> str:
+        """The place of a cell, for errors."""
+        return f"line {self.line}, column {column}"
+
+    def number(self, column: str, at_least: float = -math.inf) -> float:
+        """The number in a cell.
+
+        Raises:
+            VehicleError: it is none, not finite or too small; the text names line and column.
+        """
+        cell = self.cells[column]
+        text = cell.replace(",", ".") if self.decimal_comma else cell
+        try:
+            value = float(text)
+        except ValueError:
+            raise VehicleError(f"{self.where(column)}: found {cell!r}, expected a number") from None
+        if not abs(value) < LARGEST:
+            raise VehicleError(f"{self.where(column)}: found {cell!r}, expected a finite number")
+        if value < at_least:
+            least = "zero or more" if at_least == 0 else f"at least {at_least:g}"
+            raise VehicleError(f"{self.where(column)}: found {cell}, expected {least}")
+        return value
+
+
+@dataclass(frozen=True)
+class Table:
+    """The lines of a table that are not empty."""
+
+    units: dict[str, str]
+    """By column; empty where its header has none."""
+    rows: tuple[Row, ...]
+
+
+def read_table(text: str, columns: Sequence[str], optional: Sequence[str] = ()) -> Table:
+    """The table in a text.
+
+    Args:
+        text: header and lines.
+        columns: those that must be there.
+        optional: those that may be.
+
+    Raises:
+        VehicleError: not such a table; the text names line and column.
+    """
+    check_size("lines", text.count("\n"), MOST_LINES)
+    lines = text.removeprefix("\ufeff").splitlines()
+    first = next((i for i, line in enumerate(lines) if line.strip(" ,;\t")), 0)
+    declared = re.fullmatch(r'"?sep=(.)"?', lines[first].strip(" ")) if lines else None
+    if declared:  # as Excel writes it
+        first += 1
+    separator = declared[1] if declared else _separator(lines[first] if lines else "")
+    found = _cells(lines, first, separator)
+    header_line, header = next(found, (1, []))
+    units = _header(header_line, header, columns, optional)
+    rows = tuple(
+        Row(line, _by_column(line, cells, list(units)), separator != ",") for line, cells in found
+    )
+    return Table(units, rows)
+
+
+def _separator(header: str) -> str:
+    """What separates the cells of a header: names have neither semicolons nor tabs."""
+    return next((mark for mark in ";\t" if mark in header), ",")
+
+
+def _cells(lines: list[str], first: int, separator: str):
+    """The lines that are not empty, from the first on, with their numbers and cells."""
+    after_quotes = re.compile(f'" +(?={re.escape(separator)}|$)')
+    tight = [after_quotes.sub('"', line) for line in lines[first:]]
+    reader = csv.reader(tight, delimiter=separator, strict=True, skipinitialspace=True)
+    while True:
+        line = first + reader.line_num + 1
+        try:
+            cells = [cell.strip() for cell in next(reader)]
+        except StopIteration:
+            return
+        except csv.Error as error:
+            raise VehicleError(f"line {line}: not CSV: {error}") from None
+        if any(cells):
+            yield line, cells
+
+
+def _header(
+    line: int, cells: list[str], columns: Sequence[str], optional: Sequence[str]
+) -> dict[str, str]:
+    """The unit of every column that has a name, in the table's order."""
+    while cells and not cells[-1]:
+        cells = cells[:-1]
+    known = (*columns, *optional)
+    units: dict[str, str] = {}
+    with located(f"line {line}"):
+        for cell in cells:
+            name, unit = _name_and_unit(cell, known)
+            if name in units:
+                raise VehicleError(f"column {name} is there twice")
+            units[name] = unit
+        missing = [name for name in columns if name not in units]
+        if missing:
+            more = f" and, if wanted, {', '.join(optional)}" if optional else ""
+            raise VehicleError(
+                f"found {','.join(cells)!r}, without {', '.join(missing)}; expected the columns "
+                f"{', '.join(columns)}{more}"
+            )
+    return units
+
+
+def _name_and_unit(cell: str, known: Sequence[str]) -> tuple[str, str]:
+    """Which of the known columns a header means, and its unit: "Frequency (Hz)" is frequency_hz."""
+    match = _NAME_AND_UNIT.fullmatch(cell)
+    name, unit = match.groups() if match else (cell, "")
+    name, unit = re.sub(r"[\s-]+", "_", name.strip().lower()), unit.strip()
+    with_unit = f"{name}_{unit.lower()}"
+    if with_unit in known:
+        return with_unit, ""
+    if name not in known:
+        raise VehicleError(unknown("column", cell, known))
+    return name, unit
+
+
+def _by_column(line: int, cells: list[str], names: list[str]) -> dict[str, str]:
+    """The cells of a line by column; empty ones beyond the last column do not count."""
+    while len(cells) > len(names) and not cells[-1]:
+        cells = cells[:-1]
+    if len(cells) != len(names):
+        raise VehicleError(f"line {line}: found {len(cells)} cells, expected {len(names)}")
+    return dict(zip(names, cells, strict=True))

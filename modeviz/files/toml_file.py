@@ -1,0 +1,52 @@
+"""TOML files in declared units as records in SI."""
+
+import re
+import tomllib
+from pathlib import Path
+from typing import TypeVar
+
+import msgspec
+
+from modeviz.errors import VehicleError, located
+from modeviz.files.decoding import decode
+from modeviz.files.disk import read_text
+from modeviz.files.record import FileRecord
+from modeviz.files.scaling import to_si
+
+R = TypeVar("R", bound=FileRecord)
+
+MOST_PARTS = 32
+"""Of a dotted key; to read one takes time that rises with their square."""
+
+_DOTTED = re.compile(
+    r"""(?:^[ \t]*\[{{0,2}}|[{{,])[ \t]*{part}(?:[ \t]*\.[ \t]*{part}){{{most}}}""".format(
+        part=r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')""", most=MOST_PARTS
+    ),
+    re.MULTILINE,
+)
+
+
+def read_toml(path: Path, kind: type[R]) -> R:
+    """A file's content, in SI.
+
+    Raises:
+        VehicleError: the file is missing, not TOML, or not of that kind; the text names it and the key.
+    """
+    text = read_text(path)
+    with located(path):
+        _check_depth(text)
+    try:
+        data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise VehicleError(f"{path}: not TOML: {error}") from None
+    with located(path):
+        record = decode(data, kind)  # before scaling, so that errors show the file's own numbers
+        return msgspec.convert(to_si(data, kind, record.units), kind)
+
+
+def _check_depth(text: str) -> None:
+    """Raises VehicleError for a key of very many parts."""
+    found = _DOTTED.search(text)
+    if found:
+        line = text.count("\n", 0, found.start()) + 1
+        raise VehicleError(f"line {line}: found a key of more than {MOST_PARTS} parts, expected a few")

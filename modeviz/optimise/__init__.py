@@ -1,0 +1,1 @@
+"""Mount rates searched for: designs, goals, limits, and the ways to the best."""

@@ -1,0 +1,164 @@
+"""The rates that a search may choose, as x = ln(k/k₀): so bounds and ratio limits are linear.
+
+Every design that leaves here meets its constraints: they are met group by group, the vertical rate
+first and the others within what it leaves them.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from modeviz.analysis.sensitivity import RateVariable, rate_variables
+from modeviz.errors import VehicleError
+from modeviz.optimise.limits import DesignVariable, Limit, group_limits, group_variables, reach
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.problem import DesignGroup
+from modeviz.vehicle.vehicle import Vehicle
+
+
+@dataclass(frozen=True, eq=False)
+class DesignSpace:
+    """Bounded logarithms of rates, with limits to their ratios."""
+
+    vehicle: Vehicle
+    base: Rates
+    """Of every group: where x is zero."""
+    variables: tuple[DesignVariable, ...]
+    limits: tuple[Limit, ...]
+    members: Floats
+    """(n_rates, n_variables): ∂ ln k/∂x, 0 or 1, for each of `rate_variables`."""
+    lower: Floats
+    """(n_variables,): the least x with which all limits can be met."""
+    upper: Floats
+
+    @property
+    def n_variables(self) -> int:
+        return len(self.variables)
+
+    def rates(self, x: Floats) -> dict[str, MountRates]:
+        """The rates of every group of a design."""
+        factors = np.exp(self.members @ x).reshape(-1, len(RATE_FIELDS))
+        return {
+            name: MountRates(*np.multiply(r.as_tuple(), f).tolist(), loss_factor=r.loss_factor)
+            for (name, r), f in zip(self.base.items(), factors, strict=True)
+        }
+
+    def to_x(self, rates: Rates) -> Floats:
+        """The design nearest to some rates, group by group: what is outside of a limit is put on it."""
+        every = self.vehicle.all_rates(rates)
+        found = np.zeros(self.n_variables)
+        for i, v in enumerate(self.variables):
+            found[i] = np.mean([_log_ratio(every, self.base, v.group, field) for field in v.fields])
+        return self.admitted(found)
+
+    def admitted(self, x: Floats) -> Floats:
+        """The design with every number put within what the ones before it leave."""
+        x = np.clip(x, self.lower, self.upper)
+        for i, (low, high) in self._ranges(x).items():
+            x[i] = np.clip(x[i], low, high)
+        return x
+
+    def sampled(self, fractions: Floats) -> Floats:
+        """The design at a fraction, 0 to 1, of what is left for each number; (n_variables,)."""
+        x = self.lower + fractions * (self.upper - self.lower)
+        for i, (low, high) in self._ranges(x).items():
+            x[i] = low + fractions[i] * (high - low)
+        return x
+
+    def samples(self, count: int, seed: int) -> Floats:
+        """Designs spread evenly, (count, n_variables): a Latin hypercube of fractions."""
+        fractions = qmc.LatinHypercube(self.n_variables, rng=seed).random(count)
+        return np.array([self.sampled(row) for row in fractions]).reshape(count, self.n_variables)
+
+    @property
+    def rows(self) -> Floats:
+        """(n_limits, n_variables): `rows` @ x <= `values`."""
+        rows = np.zeros((len(self.limits), self.n_variables))
+        for row, limit in zip(rows, self.limits, strict=True):
+            for number, sign in limit.terms:
+                row[number] = sign
+        return rows
+
+    @property
+    def values(self) -> Floats:
+        """(n_limits,)."""
+        return np.array([limit.value for limit in self.limits])
+
+    @property
+    def ratios(self) -> NDArray[np.bool_]:
+        """(n_limits,): which of them are between two numbers; the others bound one."""
+        return np.array([len(limit.terms) == 2 for limit in self.limits], bool)
+
+    def spoken(self, x: Floats) -> str:
+        """The rates of a design in a sentence: "C2 fore-aft 141 N/mm, E rates × 1.2"."""
+        rates = self.rates(x)
+        texts = [
+            f"{v.spoken} × {np.exp(step):.3g}"
+            if len(v.fields) > 1
+            else f"{v.spoken} {_rate(rates, v.group, v.lead) / 1e3:.4g} N/mm"
+            for v, step in zip(self.variables, x, strict=True)
+        ]
+        return ", ".join(texts)
+
+    def _ranges(self, x: Floats) -> Mapping[int, tuple[float, float]]:
+        """What a vertical rate leaves for the numbers whose ratio to it is limited."""
+        found: dict[int, tuple[float, float]] = {}
+        for limit in self.limits:
+            if limit.rate is None or limit.of is None:
+                continue
+            low, high = found.get(limit.rate, (self.lower[limit.rate], self.upper[limit.rate]))
+            end = x[limit.of] + limit.sign * limit.value
+            found[limit.rate] = (low, min(high, end)) if limit.sign > 0 else (max(low, end), high)
+        return found
+
+
+def design_space(
+    vehicle: Vehicle,
+    groups: Sequence[DesignGroup],
+    base: Rates | None = None,
+    locked: frozenset[tuple[str, str]] = frozenset(),
+) -> DesignSpace:
+    """The space of the designs that a problem allows.
+
+    Args:
+        vehicle: whose rates they are.
+        groups: of mounts whose rates may change.
+        base: the rates that others keep and that fixed ratios are of; None: the vehicle's own.
+        locked: rates, (group, field of `MountRates`), that may not change.
+
+    Raises:
+        VehicleError: an unknown group, nothing that may change, a rate of zero among what may, or
+            limits that contradict each other; the text names the rate.
+    """
+    every = vehicle.all_rates(base or {})
+    variables: list[DesignVariable] = []
+    limits: list[Limit] = []
+    for group in groups:
+        mounts, own = vehicle.mount_group(group.group), group_variables(group, locked)
+        limits += group_limits(group, mounts, every[group.group], own, len(variables))
+        variables += own
+    if not variables:
+        raise VehicleError("nothing may change: every rate of the problem is locked; unlock one")
+    lower, upper = reach(variables, limits)
+    return DesignSpace(
+        vehicle, every, tuple(variables), tuple(limits), _members(vehicle, variables), lower, upper
+    )
+
+
+def _members(vehicle: Vehicle, variables: Sequence[DesignVariable]) -> Floats:
+    own = [{RateVariable(v.group, field) for field in v.fields} for v in variables]
+    return np.array([[rate in its for its in own] for rate in rate_variables(vehicle)], float)
+
+
+def _log_ratio(rates: Rates, base: Rates, group: str, field: str) -> float:
+    """ln(k/k₀) of a rate; of one that is zero a number below any limit."""
+    k = max(_rate(rates, group, field), np.finfo(np.float64).tiny)
+    return float(np.log(k / _rate(base, group, field)))
+
+
+def _rate(rates: Rates, group: str, field: str) -> float:
+    return getattr(rates[group], field)

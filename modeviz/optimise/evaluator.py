@@ -1,0 +1,133 @@
+"""What every search does with a design: evaluate it, count, remember the best, tell."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import OptimizeResult
+
+from modeviz.compute.cancel import CancelledError, Control
+from modeviz.optimise.search import Search
+from modeviz.optimise.windows import SLACK
+from modeviz.vehicle.arrays import Floats
+
+FORBIDDEN = 1e12
+"""Stands for the goal of a design that leaves a window, where there must be a number."""
+
+CONVERGED, CANCELLED, OUT_OF_BUDGET = "converged", "cancelled", "out of budget"
+"""Why a search ends; else it is the solver's own word."""
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """An evaluation of a search."""
+
+    evaluations: int
+    """So many by now."""
+    x: Floats | None
+    """The best design so far; None while none is within the windows."""
+    value: float
+    """Of that; infinite while there is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Descent:
+    """The end of the search from one start."""
+
+    x: Floats | None
+    """The best feasible design it met; None if it met none."""
+    value: float
+    """Its goal; infinite if there is none."""
+    reason: str
+    """`CONVERGED`, `CANCELLED`, `OUT_OF_BUDGET`, or why the solver stopped."""
+    evaluations: int
+
+    @property
+    def converged(self) -> bool:
+        return self.reason == CONVERGED
+
+
+class OutOfBudgetError(Exception):
+    """A search has evaluated as much as it may."""
+
+
+class Evaluator:
+    """Evaluates designs for a solver, counts, and remembers the best feasible one."""
+
+    def __init__(
+        self, search: Search, budget: int, control: Control, tell: Callable[[Step], None]
+    ) -> None:
+        self._search, self._budget, self._control, self._tell = search, budget, control, tell
+        self._n_evaluations = 0
+        self.x: Floats | None = None
+        self._value = np.inf
+        self._unit = 0.0
+        self._parts: tuple[Floats, tuple[Floats, Floats]] | None = None
+
+    def value_and_gradient(self, x: Floats) -> tuple[float, Floats]:
+        """The goal of the design nearest to one, and its derivatives, relative to the first one's goal.
+
+        Raises:
+            CancelledError: it is to end.
+            OutOfBudgetError: it has evaluated as much as it may.
+            SolveError: as `Search.evaluate`.
+        """
+        self._count()
+        x = self._search.space.admitted(x)
+        value, gradient = self._search.evaluate(x)
+        unit = self._found(x, value)
+        return value / unit, gradient / unit
+
+    def parts(self, x: Floats) -> tuple[Floats, Floats]:
+        """All of which a `MinMax` is the largest, likewise; asked twice it solves once."""
+        if self._parts is None or not np.array_equal(self._parts[0], x):
+            self._count()
+            admitted = self._search.space.admitted(x)
+            parts, gradients = self._search.parts(admitted)
+            unit = self._found(admitted, float(parts.max()))
+            self._parts = x.copy(), (parts / unit, gradients / unit)
+        return self._parts[1]
+
+    def value(self, x: Floats) -> float:
+        """The goal of a design; of one that leaves a window `FORBIDDEN` and more, the farther it is.
+
+        Any that keeps to the windows is then better than any that does not (K. Deb, "An efficient
+        constraint handling method for genetic algorithms", Comput. Methods Appl. Mech. Engrg. 186,
+        2000). Raises as `value_and_gradient`.
+        """
+        self._count()
+        margins, _ = self._search.margins(x)
+        is_allowed = bool((margins >= -SLACK).all())
+        value = self._search.value(x) if is_allowed else FORBIDDEN * (1 - margins.clip(max=0).sum())
+        self._remember(x, value, is_allowed and value < self._value)
+        return value
+
+    def run(self, solve: Callable[[], OptimizeResult]) -> Descent:
+        """What a solver that asks it found, and why that ended."""
+        try:
+            result = solve()
+            reason = CONVERGED if result.success else str(result.message).lower()
+        except CancelledError:
+            reason = CANCELLED
+        except OutOfBudgetError:
+            reason = OUT_OF_BUDGET
+        return Descent(self.x, self._value, reason, self._n_evaluations)
+
+    def _count(self) -> None:
+        # The first design is always evaluated, so that whoever ends a search has one to keep.
+        if self._n_evaluations:
+            self._control.check()
+        if self._n_evaluations >= self._budget:
+            raise OutOfBudgetError
+        self._n_evaluations += 1
+
+    def _found(self, x: Floats, value: float) -> float:
+        """Remembers a design whose windows are not known yet; returns the first one's goal."""
+        self._remember(x, value, value < self._value and self._search.allows(x))
+        self._unit = self._unit or abs(value) or 1.0
+        return self._unit
+
+    def _remember(self, x: Floats, value: float, is_best: bool) -> None:
+        if is_best:
+            self.x, self._value = x, value
+        self._tell(Step(self._n_evaluations, self.x, self._value))

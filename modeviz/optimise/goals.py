@@ -1,0 +1,184 @@
+"""What a problem wants small, as one number of the rates, with its derivatives."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from modeviz.analysis.results import AXIS, Conditions
+from modeviz.analysis.sensitivity import rate_variables
+from modeviz.dynamics.assembly import mount_stiffness
+from modeviz.errors import VehicleError
+from modeviz.optimise.integral import BandCase, Integral, prepare_integral
+from modeviz.optimise.objective import LoadCase, Objective, prepare_objective
+from modeviz.optimise.peak import Peak, prepare_peak
+from modeviz.ride.psd import RIDE_BAND
+from modeviz.ride.rating import COMFORT_FACTORS
+from modeviz.units import STANDARD_GRAVITY
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import VARIABLES, Performance, Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+DRIVER = 0
+"""The response point that is rated."""
+
+ResponseGoal = Objective | Integral | Peak
+"""A goal that is made of responses, and so scatters with parts."""
+
+
+class Goal(Protocol):
+    """One number that is to become small."""
+
+    def value(self, rates: Rates) -> float:
+        """At rates of the groups that differ from the vehicle's own; raises as `solve`."""
+        ...
+
+    def exact_value(self, rates: Rates) -> float:
+        """The same, from the equations of motion of the full model."""
+        ...
+
+    def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
+        """That, and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class LeastChange:
+    """The mean of ln(k/k₀)² over the rates that differ from zero."""
+
+    vehicle: Vehicle
+    base: Rates
+    """k₀, of every group."""
+
+    def value(self, rates: Rates) -> float:
+        return self.value_and_gradient(rates)[0]
+
+    def exact_value(self, rates: Rates) -> float:
+        return self.value(rates)
+
+    def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
+        variables = rate_variables(self.vehicle)
+        k, k0 = (
+            np.array([getattr(every[v.group], v.direction) for v in variables])
+            for every in (self.vehicle.all_rates(rates), self.base)
+        )
+        factor = np.divide(k, k0, out=np.ones_like(k), where=(k > 0) & (k0 > 0))
+        log = np.log(factor)
+        slope = np.divide(2 * log, k, out=np.zeros_like(k), where=k > 0)
+        return float(np.mean(log**2)), slope / len(k)
+
+
+def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) -> Goal:
+    """The goal of a problem; normalised, it is 1 with the vehicle's own rates.
+
+    Args:
+        vehicle: with the rates that it is normalised with.
+        problem: whose goal.
+        base: rates of every group, from which a change is measured.
+        speed: on the roads, m/s.
+
+    Raises:
+        VehicleError: a name that the vehicle does not have, or no road for a goal that needs one.
+        SolveError: frequencies on which an undamped resonance lies.
+    """
+    vehicle.check_problem(problem)
+    if problem.goal == "change":
+        return LeastChange(vehicle, base)
+    cases = load_cases(vehicle, problem, speed)
+    objective = _objective(vehicle, problem, cases)
+    weights = np.array([case.weight for case in cases])
+    if problem.is_normalised:
+        own = objective.values({})
+        weights = weights / (objective.join(weights) or 1.0)
+        weights = np.divide(weights, own, out=weights.copy(), where=own > 0)
+    return objective.scaled(weights)
+
+
+def exact_goal(goal: ResponseGoal, stiffness: Complexes) -> float:
+    """The goal of parts with these complex rates, (n_springs,), N/m, from the full model."""
+    system = goal.prepared.system
+    changed = system.with_springs(stiffness - mount_stiffness(system.vehicle))
+    return goal.exact_total(changed, stiffness)
+
+
+def _objective(
+    vehicle: Vehicle, problem: Problem, cases: Sequence[LoadCase | BandCase]
+) -> ResponseGoal:
+    """What the problem's goal makes of load cases, all of which weigh one."""
+    listed = [replace(case, weight=1.0) for case in cases if isinstance(case, LoadCase)]
+    if not listed:
+        return prepare_integral(vehicle, [case for case in cases if isinstance(case, BandCase)])
+    if problem.goal == "peak":
+        return prepare_peak(vehicle, listed)
+    return prepare_objective(vehicle, listed)
+
+
+def load_cases(
+    vehicle: Vehicle, problem: Problem, speed: float
+) -> Sequence[LoadCase] | Sequence[BandCase]:
+    """The load cases of a goal that is made of accelerations; raises as `prepare_goal`."""
+    if problem.goal in VARIABLES:
+        return [case for p in problem.performance for case in _cases(vehicle, p, speed)]
+    return [
+        BandCase(
+            Conditions(road, speed),
+            _selected_squares(vehicle, problem, road),
+            is_weighted=problem.goal == "iso 2631",
+            highest_hz=RIDE_BAND[1] if problem.goal == "rating" else np.inf,
+        )
+        for road in _roads(vehicle, problem)
+    ]
+
+
+def _selected_squares(vehicle: Vehicle, problem: Problem, road: str) -> Floats:
+    """What a goal over the whole band takes of mean squares on a road, (n_points, 3)."""
+    selected = np.zeros((len(vehicle.response_points), 3))
+    match problem.goal:
+        case "rms":
+            named = [p for p in problem.performance if road in p.roads]
+            every = [_selected(vehicle, p.points, p.directions) for p in named]
+            selected = np.max(every or [_selected(vehicle)], axis=0)
+        case "rating":
+            selected[DRIVER, [AXIS["lateral"], AXIS["vertical"]]] = 1.0
+        case "iso 2631":
+            selected[DRIVER] = np.square(COMFORT_FACTORS) * STANDARD_GRAVITY**2
+    return selected
+
+
+def _cases(vehicle: Vehicle, performance: Performance, speed: float) -> list[LoadCase]:
+    """One for each of its loads."""
+    roads = [Conditions(road, speed) for road in performance.roads]
+    wheels = [vehicle.harmonic_load(load) for load in performance.wheel_loads]
+    f = tuple(performance.frequency_hz.tolist())
+    pattern = np.broadcast_to(
+        _selected(vehicle, performance.points, performance.directions),
+        (len(f), len(vehicle.response_points), 3),
+    )
+    return [
+        LoadCase(load, f, performance.weight, pattern, performance.target) for load in [*roads, *wheels]
+    ]
+
+
+def _selected(
+    vehicle: Vehicle,
+    points: Sequence[str] = (),
+    directions: Sequence[str] = ("lateral", "vertical"),
+) -> Floats:
+    """(n_points, 3): one for the points, none is all, and directions of performance variables."""
+    names = [point.name for point in vehicle.response_points]
+    numbers = [names.index(name) for name in points or names]
+    selected = np.zeros((len(names), 3))
+    selected[np.ix_(numbers, [AXIS[d] for d in directions])] = 1.0
+    return selected
+
+
+def _roads(vehicle: Vehicle, problem: Problem) -> list[str]:
+    """The roads that the problem names, each once, else the vehicle's first."""
+    named = list(dict.fromkeys(road for p in problem.performance for road in p.roads))
+    if not named and not vehicle.random_loads:
+        raise VehicleError(
+            f"problem {problem.name!r}: goal {problem.goal!r} needs a [[road]] or another random load"
+        )
+    return named or [vehicle.random_loads[0].name]

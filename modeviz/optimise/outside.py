@@ -1,0 +1,111 @@
+"""What a search keeps, and why rates that it is compared with lie outside of what it can find."""
+
+import numpy as np
+
+from modeviz.optimise.design_space import DesignSpace
+from modeviz.optimise.limits import SHEAR
+from modeviz.optimise.search import Search
+from modeviz.units import factor
+from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountRates, Rates
+
+SAME = 1e-6
+"""Relative: rates are read and written in other units, and are not more alike than that."""
+
+FAR = np.log(1e6)
+
+SPOKEN: dict[str, str] = dict(zip(RATE_FIELDS, DIRECTIONS, strict=True))
+
+
+def kept_ratios(space: DesignSpace) -> dict[str, dict[str, float]]:
+    """Of each group that a search changes as a whole, what its rates are of the vertical one.
+
+    They are those of the rates that the search starts from: `{"E": {"lateral": 0.3, "fore_aft": 0.2}}`.
+    """
+    groups = [v.group for v in space.variables if len(v.fields) > 1]
+    return {group: _ratios(space.base[group]) for group in groups}
+
+
+def outside_space(space: DesignSpace, rates: Rates) -> tuple[str, ...]:
+    """Why no design of a space has some rates, "E lateral is 0.294 of vertical, kept at 0.314".
+
+    Args:
+        space: of designs.
+        rates: of groups; others as in the vehicle's file.
+
+    Returns:
+        A text for each rate, ratio or limit; none if the rates lie within.
+    """
+    every = space.vehicle.all_rates(rates)
+    return (*_moved(space, every), *_past(space, every))
+
+
+def outside_search(search: Search, rates: Rates) -> tuple[str, ...]:
+    """As `outside_space`, and which mode is where its window does not let it be."""
+    found = outside_space(search.space, rates)
+    if search.windows is None:
+        return found
+    at = zip(search.windows.windows, search.windows.exact_frequencies(rates).tolist(), strict=True)
+    return (
+        *found,
+        *(f"{w.mode} is at {f:.2f} Hz, where it may not be" for w, f in at if not w.allows(f)),
+    )
+
+
+def _moved(space: DesignSpace, every: Rates) -> list[str]:
+    """What differs of what a search keeps: ratios, rates and loss factors."""
+    fixed = kept_ratios(space)
+    free = {(v.group, field) for v in space.variables for field in v.fields}
+    per_mm = factor("N/mm", "stiffness")
+    found = []
+    for group, base in space.base.items():
+        now, kept = every[group], fixed.get(group, {})
+        ratios = _ratios(now)
+        found += [
+            f"{group} {SPOKEN[field]} is {ratios[field]:.4g} of vertical, kept at {ratio:.4g}"
+            for field, ratio in kept.items()
+            if _differ(ratios[field], ratio)
+        ]
+        found += [
+            f"{group} {SPOKEN[field]} is {a / per_mm:.4g} N/mm, kept at {b / per_mm:.4g}"
+            for field in RATE_FIELDS
+            if (group, field) not in free
+            and _differ(a := getattr(now, field), b := getattr(base, field))
+        ]
+        loss = [_loss(space, group, r) for r in (now, base)]
+        if _differ(*loss):
+            found.append(f"{group} loss factor is {loss[0]:.4g}, kept at {loss[1]:.4g}")
+    return found
+
+
+def _past(space: DesignSpace, every: Rates) -> list[str]:
+    """The limits that rates do not keep."""
+    x = np.array([_log(space, every, v.group, v.lead) for v in space.variables])
+    excess = space.rows @ x - space.values
+    each = zip(space.limits, excess.tolist(), strict=True)
+    return [f"past {limit.spoken}{_amount(by)}" for limit, by in each if by > SAME]
+
+
+def _amount(by: float) -> str:
+    """How far a rate or ratio is past its limit; nothing of one that is zero."""
+    return f" by {100 * np.expm1(by):.3g} %" if by < FAR else ""
+
+
+def _log(space: DesignSpace, every: Rates, group: str, field: str) -> float:
+    """ln(k/k₀) of a rate; of one that is zero a number below any limit."""
+    k = max(getattr(every[group], field), np.finfo(np.float64).tiny)
+    return float(np.log(k / getattr(space.base[group], field)))
+
+
+def _ratios(rates: MountRates) -> dict[str, float]:
+    """What the other rates are of the vertical one."""
+    vertical = rates.vertical or np.finfo(np.float64).tiny
+    return {field: getattr(rates, field) / vertical for field in SHEAR}
+
+
+def _loss(space: DesignSpace, group: str, rates: MountRates) -> float:
+    own = space.vehicle.mount_group(group).loss_factor
+    return own if rates.loss_factor is None else rates.loss_factor
+
+
+def _differ(one: float, other: float) -> bool:
+    return abs(one - other) > SAME * max(abs(one), abs(other))

@@ -1,0 +1,52 @@
+"""The found design held against the full model before it is called a result."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeviz.errors import SolveError
+from modeviz.optimise.search import Search
+from modeviz.vehicle.arrays import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Verification:
+    """What the full model says of a design."""
+
+    value: float
+    """The goal from its equations of motion; NaN if they cannot be solved exactly enough."""
+    difference: float
+    """Of the goal that the search found, relative to that."""
+    frequency_hz: Floats
+    """(n_windows,): where its eigenproblem has the mode of each window."""
+    are_kept: bool
+    """Whether all of these are where the windows want them."""
+    impossible: str = ""
+    """Why its equations cannot be solved exactly enough, if they cannot."""
+
+
+def verify(search: Search, x: Floats, value: float) -> Verification:
+    """What the full model says of a design: no receptances, no reduced basis.
+
+    Args:
+        search: what was sought.
+        x: (n_variables,), the design.
+        value: its goal, as the search found it.
+    """
+    rates = search.space.rates(x)
+    frequency_hz, are_kept = np.zeros(0), True
+    if search.windows is not None:
+        frequency_hz = search.windows.exact_frequencies(rates)
+        pairs = zip(search.windows.windows, frequency_hz.tolist(), strict=True)
+        are_kept = all(window.allows(f) for window, f in pairs)
+    try:
+        exact = search.goal.exact_value(rates)
+    except SolveError as error:
+        return Verification(np.nan, np.nan, frequency_hz, are_kept, str(error))
+    return Verification(exact, _relative(value, exact), frequency_hz, are_kept)
+
+
+def _relative(found: float, exact: float) -> float:
+    if found == exact:
+        return 0.0
+    return abs(found - exact) / abs(exact) if exact else np.inf

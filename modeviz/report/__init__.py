@@ -1,0 +1,1 @@
+"""What is found, as records, tables, charts, images and a page to print."""

@@ -1,0 +1,123 @@
+"""Two sets of rates of one vehicle, solved side by side."""
+
+from dataclasses import dataclass
+
+from modeviz.analysis.following import follow
+from modeviz.analysis.preparation import Prepared
+from modeviz.analysis.results import (
+    Conditions,
+    ModalResults,
+    Results,
+    WheelResults,
+    drive,
+    solve_modal,
+    solve_on,
+    solve_wheels,
+)
+from modeviz.dynamics.tracking import Track
+from modeviz.errors import VehicleError
+from modeviz.optimise.design_space import DesignSpace, design_space
+from modeviz.optimise.goals import prepare_goal
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+
+@dataclass(frozen=True)
+class RateSet:
+    """Rates with a name."""
+
+    name: str
+    rates: Rates
+    """Of the groups that differ from the vehicle's own."""
+
+
+@dataclass(frozen=True)
+class Worth:
+    """What the goal of a problem is."""
+
+    problem: Problem
+    original: float
+    """With the vehicle's own rates."""
+    base: float
+    now: float
+    """With the sets that are compared."""
+    reference: float | None
+    """With the problem's set to compare with, if it has one."""
+    space: DesignSpace | None
+    """Of the designs that a search from the vehicle's own rates could find; None if there are none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """What two sets of rates make of a vehicle."""
+
+    names: tuple[str, str]
+    """Of the set that is compared with, and of the other."""
+    base: ModalResults
+    """`Results` if the vehicle has a road and someone to feel it."""
+    now: ModalResults
+    track: Track
+    """Where the modes of `base` went."""
+    wheels: tuple[WheelResults, WheelResults] | None
+    """The response to harmonic loads, if there are any."""
+    worth: Worth | None
+    """By the vehicle's usual problem, its first; None if it has none."""
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """With the rates it has in its file."""
+        return self.base.prepared.vehicle
+
+    @property
+    def rides(self) -> tuple[Results, Results] | None:
+        """Both on the road, if there is one."""
+        if isinstance(self.base, Results) and isinstance(self.now, Results):
+            return self.base, self.now
+        return None
+
+
+def compare(
+    prepared: Prepared, base: RateSet, now: RateSet, conditions: Conditions | None
+) -> Comparison:
+    """Solves a vehicle with two sets of rates, all that it has loads for.
+
+    Args:
+        prepared: see `prepare`.
+        base: what is compared with.
+        now: the other.
+        conditions: road and speed; None for a vehicle that has no roads or no response points.
+
+    Raises:
+        VehicleError: a group or a road that the vehicle does not have.
+        SolveError: with these rates an undamped resonance lies on a frequency.
+    """
+    if conditions is None:
+        first, second = (solve_modal(prepared, s.rates) for s in (base, now))
+    else:
+        road = drive(prepared, conditions)
+        first, second = (solve_on(road, s.rates) for s in (base, now))
+    vehicle = prepared.vehicle
+    wheels = None
+    if vehicle.harmonic_loads and vehicle.response_points:
+        wheels = solve_wheels(prepared, base.rates), solve_wheels(prepared, now.rates)
+    track = follow(first, second)
+    worth = _worth(vehicle, base.rates, now.rates, conditions.speed if conditions else vehicle.speed)
+    return Comparison((base.name, now.name), first, second, track, wheels, worth)
+
+
+def _worth(vehicle: Vehicle, base: Rates, now: Rates, speed: float) -> Worth | None:
+    if not vehicle.problems:
+        return None
+    problem = vehicle.problems[0]
+    goal = prepare_goal(vehicle, problem, vehicle.rates, speed)
+    reference = goal.value(vehicle.rate_sets[problem.reference]) if problem.reference else None
+    values = goal.value({}), goal.value(base), goal.value(now)
+    return Worth(problem, *values, reference, _space(vehicle, problem))
+
+
+def _space(vehicle: Vehicle, problem: Problem) -> DesignSpace | None:
+    try:
+        return design_space(vehicle, problem.groups)
+    except VehicleError:
+        return None

@@ -1,0 +1,119 @@
+"""The front of a trade-off, as plain values for JSON, as a text table and as CSV."""
+
+import csv
+import math
+from io import StringIO
+
+from modeviz.optimise.outside import kept_ratios, outside_search
+from modeviz.optimise.pareto import Front
+from modeviz.optimise.trade_off import TradeOff
+from modeviz.report.optimum import objective_words
+from modeviz.report.records import Record, rates_record
+from modeviz.report.space import space_lines
+from modeviz.report.tables import table
+from modeviz.text.wording import percent_change, scientific, significant
+from modeviz.units import factor
+from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.problem import Problem
+
+
+def front_record(problem: Problem, trade_off: TradeOff, front: Front) -> Record:
+    """Designs between two goals.
+
+    `{"goal", "normalised", "between": [name, name], "original": [value, value], "designs": [{"values",
+    "rates": see rates_record}], "fixed_ratios": {group: {"lateral", "fore_aft"}} to the vertical rate,
+    "outside": {"original": why it could not be found, [] if it could}, "converged", "reason",
+    "evaluations", "exact_difference": or null where the full model cannot be solved exactly enough}`.
+    """
+    search = trade_off.searches[0]
+    vehicle = search.space.vehicle
+    return {
+        "goal": problem.goal,
+        "normalised": problem.is_normalised,
+        "between": list(front.names),
+        "original": _original(trade_off),
+        "designs": [
+            {"values": list(d.values), "rates": rates_record(vehicle.with_rates(d.rates))}
+            for d in front.designs
+        ],
+        "fixed_ratios": kept_ratios(search.space),
+        "outside": {"original": list(outside_search(search, {}))},
+        "converged": front.converged,
+        "reason": front.reason,
+        "evaluations": front.evaluations,
+        "exact_difference": front.difference if math.isfinite(front.difference) else None,
+    }
+
+
+def front_table(problem: Problem, trade_off: TradeOff, front: Front) -> str:
+    """Both goals of each design and what they are of the original's; the rates; why it ended."""
+    original = _original(trade_off)
+    goals = [
+        ["original", *(text for value in original for text in (significant(value), ""))],
+        *(
+            [
+                f"design {number}",
+                *(
+                    text
+                    for value, base in zip(design.values, original, strict=True)
+                    for text in (significant(value), percent_change(value, base))
+                ),
+            ]
+            for number, design in enumerate(front.designs, 1)
+        ),
+    ]
+    header = ["", *(text for name in front.names for text in (name, ""))]
+    return "\n\n".join(
+        [table(header, goals), _rates_table(problem, front), _ending(problem, trade_off, front)]
+    )
+
+
+def front_csv(problem: Problem, front: Front) -> str:
+    """A row for each design: both goals, and the rates that may change, N/mm."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names, columns = _rates(problem, front)
+    writer.writerow(["design", *front.names, *(f"{name}, N/mm" for name in names)])
+    for number, (design, rates) in enumerate(zip(front.designs, columns, strict=True), 1):
+        writer.writerow([number, *design.values, *rates])
+    return text.getvalue()
+
+
+def _original(trade_off: TradeOff) -> list[float]:
+    """Both goals with the vehicle's own rates."""
+    return [search.goal.value({}) for search in trade_off.searches]
+
+
+def _rates(problem: Problem, front: Front) -> tuple[list[str], list[list[float]]]:
+    """Names of the rates of the problem's groups, and these of each design, N/mm."""
+    per_mm = factor("N/mm", "stiffness")
+    groups = [group.group for group in problem.groups]
+    names = [f"{group} {direction}" for group in groups for direction in DIRECTIONS]
+    columns = [
+        [rate / per_mm for group in groups for rate in design.rates[group].as_tuple()]
+        for design in front.designs
+    ]
+    return names, columns
+
+
+def _rates_table(problem: Problem, front: Front) -> str:
+    names, columns = _rates(problem, front)
+    rows = [[name, *map(significant, rates)] for name, *rates in zip(names, *columns, strict=True)]
+    return table(["rates, N/mm", *(str(i + 1) for i in range(len(columns)))], rows)
+
+
+def _ending(problem: Problem, trade_off: TradeOff, front: Front) -> str:
+    search = trade_off.searches[0]
+    impossible = [d.verification.impossible for d in front.designs if d.verification]
+    why = next(filter(None, impossible), "")
+    exactness = (
+        f"the full model cannot confirm all: {why}"
+        if why
+        else f"the full model's goals differ by a part of {scientific(front.difference)} at most"
+    )
+    lines = [
+        f"goals: {objective_words(problem)}",
+        *space_lines(search.space, {"original": outside_search(search, {})}),
+        f"{front.reason} after {front.evaluations} evaluations\n\n{exactness}",
+    ]
+    return "\n".join(lines)

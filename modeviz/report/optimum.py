@@ -1,0 +1,173 @@
+"""What an optimisation found, as plain values for JSON and as a text table."""
+
+import math
+
+from modeviz.optimise.active_limits import RELAXED
+from modeviz.optimise.goals import Goal
+from modeviz.optimise.outside import kept_ratios, outside_search
+from modeviz.optimise.run import Optimum
+from modeviz.optimise.search import Search
+from modeviz.report.records import Record, rates_record
+from modeviz.report.space import space_lines
+from modeviz.report.tables import table
+from modeviz.scatter.robust import Robust
+from modeviz.scatter.tolerance import Tolerance
+from modeviz.text.wording import percent_change, scientific, significant
+from modeviz.units import factor
+from modeviz.vehicle.connections import DIRECTIONS, Rates
+from modeviz.vehicle.problem import Goal as GoalName
+from modeviz.vehicle.problem import Problem
+
+SMALL: dict[GoalName, str] = {
+    "accelerations": "squared accelerations",
+    "peak": "largest squared acceleration",
+    "rms": "mean squares on the road",
+    "rating": "combined mean square at the driver's point",
+    "iso 2631": "square of the ISO 2631-1 total at the driver's point",
+    "change": "mean square of ln(k/k₀)",
+}
+"""What becomes small, in people's words."""
+
+
+def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record:
+    """What an optimisation found.
+
+    `{"goal", "normalised", "percentile": of the objective over parts that scatter or null, "objective":
+    {"original", "found", "paper": of the problem's reference or null}, "rates": see rates_record,
+    "fixed_ratios": {group: {"lateral", "fore_aft"}} to the vertical rate, "outside": {"original",
+    "paper"}: why these could not be found, [] if they could, "converged", "reason", "evaluations",
+    "active_constraints": [{"name", "multiplier", "gain"}], "exact_difference": or null where the full
+    model cannot be solved exactly enough}`; a gain is a part of what was found, from relaxing the limit
+    by 10 %.
+    """
+    vehicle = search.space.vehicle
+    difference = optimum.verification.difference
+    original, *paper = compared_outside(problem, search).values()
+    return {
+        "goal": problem.goal,
+        "normalised": problem.is_normalised,
+        "percentile": search.goal.percent if isinstance(search.goal, Robust) else None,
+        "objective": _objective(problem, search, optimum),
+        "rates": rates_record(vehicle.with_rates(optimum.rates)),
+        "fixed_ratios": kept_ratios(search.space),
+        "outside": {"original": list(original), "paper": [text for why in paper for text in why]},
+        "converged": optimum.converged,
+        "reason": optimum.reason,
+        "evaluations": optimum.evaluations,
+        "active_constraints": [
+            {"name": c.name, "multiplier": c.multiplier, "gain": c.gain} for c in optimum.active
+        ],
+        "exact_difference": difference if math.isfinite(difference) else None,
+    }
+
+
+def optimum_table(problem: Problem, search: Search, optimum: Optimum) -> str:
+    """Rates and objective, original, found and of the reference; why it ended; limits it sits on."""
+    parts = [
+        _rates_table(problem, search, optimum),
+        _ending(problem, search, optimum),
+        _exactness(search, optimum),
+        _limits(optimum),
+    ]
+    return "\n\n".join(part for part in parts if part)
+
+
+def objective_words(problem: Problem) -> str:
+    """What becomes small and how it is added up: nobody has to guess which sum a number is."""
+    what = SMALL[problem.goal]
+    if problem.goal == "change":
+        return what
+    how = "each load case relative to the original" if problem.is_normalised else "plain sum"
+    return f"{what}, {how}"
+
+
+def tolerance_words(tolerance: Tolerance) -> str:
+    """Within what parts scatter."""
+    rates, loss = 100 * tolerance.rates, 100 * tolerance.loss_factor
+    return f"rates within ±{rates:.3g} %, loss factors within ±{loss:.3g} %"
+
+
+def _objective(problem: Problem, search: Search, optimum: Optimum) -> dict[str, float | None]:
+    goal, sets = search.goal, search.space.vehicle.rate_sets
+    reference = goal.value(sets[problem.reference]) if problem.reference else None
+    return {"original": goal.value({}), "found": optimum.value, "paper": reference}
+
+
+def _rates_table(problem: Problem, search: Search, optimum: Optimum) -> str:
+    """A row for each rate of the problem's groups, and one for the objective."""
+    vehicle = search.space.vehicle
+    own = vehicle.rates
+    others: dict[str, Rates] = {"found": optimum.rates}
+    if problem.reference:
+        others[problem.reference] = vehicle.all_rates(vehicle.rate_sets[problem.reference])
+    per_mm = factor("N/mm", "stiffness")
+    rows = []
+    for group in problem.groups:
+        columns = [rates[group.group].as_tuple() for rates in (own, *others.values())]
+        for direction, (original, *changed) in zip(DIRECTIONS, zip(*columns, strict=True), strict=True):
+            values = [original / per_mm, *(rate / per_mm for rate in changed)]
+            rows.append([f"{group.group} {direction}", *_row(values)])
+    values = [v for v in _objective(problem, search, optimum).values() if v is not None]
+    rows.append(["objective", *_row(values)])
+    return table(["rates, N/mm", "original", *(c for name in others for c in (name, ""))], rows)
+
+
+def _row(values: list[float]) -> list[str]:
+    """The first value, and each other with how much more or less it is."""
+    first, *others = values
+    return [
+        significant(first),
+        *(text for v in others for text in (significant(v), percent_change(v, first))),
+    ]
+
+
+def _ending(problem: Problem, search: Search, optimum: Optimum) -> str:
+    n = len(optimum.descents)
+    noun = "evaluation" if optimum.evaluations == 1 else "evaluations"
+    starts = "1 search" if n == 1 else f"{n} searches"
+    lines = [
+        f"objective: {objective_words(problem)}{_scattered(search.goal)}",
+        *space_lines(search.space, compared_outside(problem, search)),
+        f"{optimum.reason} after {optimum.evaluations} {noun} in {starts}",
+    ]
+    return "\n".join(lines)
+
+
+def compared_outside(problem: Problem, search: Search) -> dict[str, tuple[str, ...]]:
+    """Why the rates that a search is compared with could not be found, by their name."""
+    sets: dict[str, Rates] = {"original": {}}
+    if problem.reference:
+        sets[problem.reference] = search.space.vehicle.rate_sets[problem.reference]
+    return {name: outside_search(search, rates) for name, rates in sets.items()}
+
+
+def _scattered(goal: Goal) -> str:
+    """Over which parts a goal is a percentile, if it is one."""
+    if not isinstance(goal, Robust):
+        return ""
+    return f",\n{goal.percent:g}th percentile with {tolerance_words(goal.tolerance)}"
+
+
+def _exactness(search: Search, optimum: Optimum) -> str:
+    """The found design in the full model."""
+    check = optimum.verification
+    if check.impossible:
+        lines = [f"the full model cannot confirm it: {check.impossible}"]
+    else:
+        lines = [f"the full model's objective differs by a part of {scientific(check.difference)}"]
+    if search.windows is not None:
+        pairs = zip(search.windows.windows, check.frequency_hz.tolist(), strict=True)
+        lines += [
+            f"{window.mode} at {f:.3f} Hz in the full model"
+            + ("" if window.allows(f) else ", where it may not be")
+            for window, f in pairs
+        ]
+    return "\n".join(lines)
+
+
+def _limits(optimum: Optimum) -> str:
+    if not optimum.active:
+        return ""
+    header = ["limits it sits on", f"{100 * RELAXED:.0f} % wider would gain about", "multiplier"]
+    rows = [[c.name, f"{100 * c.gain:.1f} %", f"{c.multiplier:.3g}"] for c in optimum.active]
+    return table(header, rows)

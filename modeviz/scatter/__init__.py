@@ -1,0 +1,1 @@
+"""Vehicles whose parts scatter: tolerances, samples, the worst case, robust goals."""

@@ -1,0 +1,1 @@
+"""How numbers, names and axes are written, wherever they are shown."""

@@ -1,1 +1,0 @@
-"""Changing mount rates and looking for better ones."""

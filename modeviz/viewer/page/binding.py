@@ -1,0 +1,93 @@
+"""A widget and the part of the state that it shows, and how each brings the other after it.
+
+Whatever changes the state (another page, undo, a loaded set), `show` brings the widget after it. A
+value that the page itself sent is not sent back while it moves.
+"""
+
+import threading
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+import viser
+
+from modeviz.errors import ModevizError
+from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
+
+Read = Callable[[State], Any]
+Write = Callable[[Any], None]
+
+READ_WITHIN = 8.0
+"""s: how long the word on a refused value stays."""
+
+
+class Binding:
+    """One widget bound to one value of a session's state."""
+
+    def __init__(
+        self,
+        widget: viser.GuiInputHandle,
+        session: Session,
+        read: Read,
+        write: Write,
+        write_back: WriteBack | None = None,
+        typed: bool = False,
+    ) -> None:
+        """Binds a widget that has been built with the present value.
+
+        Args:
+            widget: a slider, number, checkbox, dropdown or text.
+            session: whose state it shows.
+            read: the widget's value of a state; the same value again for what the widget wrote.
+            write: changes the state as a value of the widget asks; raises ModevizError to refuse one,
+                which is told to the page that sent it.
+            write_back: of a slider, whose last value a page may lose.
+            typed: whether values are typed, so that only the last of them is meant; with `write_back`.
+        """
+        self._widget, self._session, self._read, self._write = widget, session, read, write
+        self._known = widget.value
+        self._write_back, self._typed = write_back, typed
+        self._lock = threading.Lock()
+        widget.on_update(self._changed)
+
+    def _changed(self, event: viser.GuiEvent) -> None:
+        if event.client is None:  # set from here
+            return
+        if self._write_back and self._typed:
+            self._write_back.touch(event.target, partial(self._take, event.client))
+            return
+        self._take(event.client)
+        if self._write_back:
+            self._write_back.touch(event.target)
+
+    def _take(self, client: viser.ClientHandle) -> None:
+        """Changes the state as the widget asks, and gives it the value that came of it."""
+        with self._lock:
+            asked = self._widget.value
+            try:
+                self._write(asked)
+            except ModevizError as refusal:
+                client.add_notification(
+                    "Not possible", str(refusal), color="red", auto_close_seconds=READ_WITHIN
+                )
+            self._known = self._read(self._session.state)
+            if self._known != asked:  # else a newer value that is on its way here would be lost
+                self._widget.value = self._known
+
+    def show(self) -> None:
+        """Puts the newest state's value on the page, if the widget has another."""
+        with self._lock:
+            value = self._read(self._session.state)
+            # of a dropdown whose options change viser itself chooses another
+            is_dropdown = isinstance(self._widget, viser.GuiDropdownHandle)
+            if value != (self._widget.value if is_dropdown else self._known):
+                self._known = value
+                self._widget.value = value
+
+
+def show_all(bindings: Sequence[Binding]) -> None:
+    """Brings widgets after the newest state."""
+    for binding in bindings:
+        binding.show()

@@ -1,0 +1,210 @@
+"""One connection of a client: counted from its first byte, read no faster than it may speak."""
+
+import asyncio
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, NoReturn
+
+import viser
+from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import ConnectionClosed
+from websockets.frames import CloseCode
+
+from modeviz.viewer.page.decoding import LARGEST_MESSAGE, MessageError, TooMuchError, checked
+from modeviz.viewer.page.limits import Allowance, Places, client_of, most_connections
+from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.turns import MOST_WAITING, Turns, page_heard
+
+MOST_OF_ONE = 200
+"""Connections of one client: a browser opens six for a page, and colleagues may share a proxy."""
+
+MOST_PAGES, MOST_PAGES_OF_ONE = 100, 60
+
+OPENINGS_PER_S, MOST_OPENINGS = 5.0, 20.0
+"""Pages that are sent the whole scene."""
+
+LONGEST_WAIT = 8.0
+"""s for a place among them, before a client would give up."""
+
+MESSAGES_PER_S, MOST_MESSAGES = 100.0, 300.0
+"""A page sends at most 20 a second for a widget and 50 for its camera."""
+
+BYTES_PER_S, MOST_BYTES = 1e6, 8e6
+
+LONGEST_HURRY = 20.0
+"""s that a page may say more than it is heard."""
+
+MOST_WRONG = 100
+"""Messages that no page sends, after which one is closed."""
+
+CLOSING_S = 2.0
+"""s: how long a client may take to close."""
+
+SILENT = 30.0
+"""s: a page tells of its camera as soon as it is connected."""
+
+SOON = 0.02
+"""s between two looks whether a page has less to do."""
+
+
+@dataclass
+class House:
+    """What the connections of a server share."""
+
+    notices: Notices
+    turns: Turns
+    connections: Places = field(default_factory=lambda: Places(most_connections(), MOST_OF_ONE))
+    pages: Places = field(default_factory=lambda: Places(MOST_PAGES, MOST_PAGES_OF_ONE))
+    openings: Allowance = field(default_factory=lambda: Allowance(OPENINGS_PER_S, MOST_OPENINGS))
+
+
+class PageConnection(ServerConnection):
+    """A connection to viser's server: of few from one client, its messages whole and in fair number."""
+
+    def __init__(self, *arguments: Any, house: House, **options: Any) -> None:
+        """As websockets does, in a house that has places for it or none."""
+        super().__init__(*arguments, **options)
+        self._house = house
+        self.client = "a client"
+        """Who it is, see `client_of`."""
+        self._places: list[Places] = []
+        self._messages = Allowance(MESSAGES_PER_S, MOST_MESSAGES)
+        self._bytes = Allowance(BYTES_PER_S, MOST_BYTES)
+        self._hurried_since: float | None = None
+        self._n_wrong = 0
+        self._is_heard = self._is_ending = False
+        self._is_asked = False
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Begins a connection, or ends it where there is no place for it."""
+        peer = transport.get_extra_info("peername")
+        self.client = client_of(peer[0]) if peer else "a client"
+        if self._take(self._house.connections):
+            super().connection_made(transport)
+        else:
+            self._note("opened more connections than it may: the last are refused")
+            assert isinstance(transport, asyncio.Transport)
+            transport.abort()
+
+    def data_received(self, data: bytes) -> None:
+        """Reads what came; a client that is told to close has little time to do so."""
+        super().data_received(data)
+        if self.protocol.close_expected() and not self._is_ending:
+            self._is_ending = True
+            self.loop.call_later(CLOSING_S, self.transport.abort)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Gives its places back."""
+        if self._places:
+            super().connection_lost(exc)
+        for places in self._places:
+            places.leave(self.client)
+        self._places.clear()
+
+    def take_page(self) -> bool:
+        """Takes a place for a page; whether there is one."""
+        taken = self._take(self._house.pages)
+        if not taken:
+            self._note("opened more pages than it may: the last are refused")
+        return taken
+
+    def has_page_place(self) -> bool:
+        """Whether a page would get one."""
+        return self._house.pages.is_free(self.client)
+
+    def ask(self, n_bytes: int | None) -> None:
+        """Lets the page send messages that are as large as what it is asked for, or no longer."""
+        self._is_asked = n_bytes is not None
+        self.protocol.max_message_size = max(n_bytes or 0, LARGEST_MESSAGE)
+
+    async def wait_to_open(self) -> bool:
+        """Waits until another page may be sent all there is; whether that is soon enough."""
+        wait = self._house.openings.take()
+        if wait > LONGEST_WAIT:
+            self._house.openings.take(-1.0)
+            return False
+        await asyncio.sleep(wait)
+        return True
+
+    async def recv(self, decode: bool | None = None) -> Any:
+        """The next message that viser may read, when it is this page's turn.
+
+        Raises:
+            ConnectionClosed: the page has left, or was closed because it went too far.
+        """
+        page_heard.set(self)
+        while True:
+            raw = await self._next()
+            try:
+                await self._turn(len(raw))
+                message = checked(raw)
+            except TooMuchError:
+                await self._end("sent a message that is too large or too deep")
+            except MessageError:
+                self._n_wrong += 1
+                self._note("sent messages that no page sends: they are left out")
+                if self._n_wrong > MOST_WRONG:
+                    await self._end(f"sent {MOST_WRONG} messages that no page sends")
+            else:
+                return message
+
+    async def _next(self) -> bytes | str:
+        """What comes next; the first must not take long."""
+        try:
+            async with asyncio.timeout(None if self._is_heard else SILENT):
+                raw = await super().recv()
+        except TimeoutError:
+            await self._end(f"said nothing for {SILENT:.0f} s")
+        except ConnectionClosed as closed:
+            if closed.sent and closed.sent.code == CloseCode.MESSAGE_TOO_BIG:
+                self._note("sent a message that is too large: its page is closed")
+            raise
+        self._is_heard = True
+        return raw
+
+    async def _turn(self, n_bytes: int) -> None:
+        """Waits until this page may be heard, as it has said so much."""
+        if not self._is_asked and self._bytes.take(n_bytes):
+            await self._end(f"sent more than {MOST_BYTES / 1e6:.0f} MB at once")
+        wait = self._messages.take()
+        if self._messages.is_plenty:
+            self._hurried_since = None
+        elif self._hurried_since is None:
+            self._hurried_since = time.monotonic()
+        elif wait and time.monotonic() - self._hurried_since > LONGEST_HURRY:
+            await self._end(f"sent more than {MESSAGES_PER_S:.0f} messages a second")
+        await asyncio.sleep(wait)
+        while self._house.turns.n_waiting(self) > MOST_WAITING:
+            await asyncio.sleep(SOON)
+
+    async def _end(self, why: str) -> NoReturn:
+        """Closes the connection, says why, and raises as a closed one does."""
+        self._note(f"{why}: its page is closed")
+        await self.close(CloseCode.POLICY_VIOLATION, f"This page {why}.")
+        raise self.protocol.close_exc
+
+    def _note(self, what: str) -> None:
+        self._house.notices.note(self.client, what)
+
+    def _take(self, places: Places) -> bool:
+        if not places.take(self.client):
+            return False
+        self._places.append(places)
+        return True
+
+
+@contextmanager
+def asked(client: viser.ClientHandle, n_bytes: int) -> Iterator[None]:
+    """While this lasts, a page may send as much at once as what it is asked for."""
+    connections = client._viser_server._websock_server._live_connections
+    connection = connections.get(client.client_id)
+    if not isinstance(connection, PageConnection):
+        yield
+        return
+    connection.ask(n_bytes)
+    try:
+        yield
+    finally:
+        connection.ask(None)

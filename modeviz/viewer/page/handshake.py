@@ -1,0 +1,294 @@
+"""The handshake: what every request must pass before viser sees it, and the page it gets.
+
+viser 1.1.1 answers everybody, accepts any Origin and obeys links that load other people's scenes.
+"""
+
+import asyncio
+import gzip
+import http
+import ipaddress
+import json
+import re
+import secrets
+import socket
+from base64 import b64encode
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field
+from html import escape
+from importlib.resources import files
+from urllib.parse import parse_qsl, quote, urlencode, urlsplit
+
+import viser
+from websockets import Headers
+from websockets.asyncio.server import ServerConnection
+from websockets.http11 import Request, Response
+
+from modeviz.viewer.page.connection import PageConnection
+from modeviz.viewer.page.tokens import Guesses, is_equal
+
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+REFUSED_PARAMETERS = ("websocket", "playbackPath")
+"""In a link they make the page load a scene, with its scripts, from somewhere else."""
+
+NO_TOKEN = "open the whole link that modeviz printed, with its token"
+OTHER_VERSION = "this page is of another version of modeviz: load it again"
+BUSY = "many pages are being opened: this one is tried again"
+TOO_MANY = "there are as many pages open as this server takes: close some"
+
+HOST = re.compile(r"(?:\[([0-9a-f:.]+)\]|([\w.-]+))(?::\d+)?", re.ASCII | re.IGNORECASE)
+"""A Host header: an IPv6 address in brackets or a name, and a port."""
+
+ICON = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32">
+<path d="M2 16c5-17 9-17 14 0s9 17 14 0" fill="none" stroke="#2b7cc4" stroke-width="4"/></svg>"""
+
+SUBPROTOCOL = f"viser-v{viser.__version__}"
+"""What a websocket of our page says it speaks."""
+
+WHY = "why-no-socket"
+"""What a page asks for that cannot open its websocket."""
+
+ProcessRequest = Callable[[ServerConnection, Request], Response | None]
+Guarded = Callable[[ServerConnection, Request], Awaitable[Response | None]]
+
+
+@dataclass
+class Door:
+    """What every request must pass before viser sees it."""
+
+    host: str
+    """The address the server is bound to."""
+    token: str | None
+    title: str
+    public_names: tuple[str, ...] = ()
+    """Names of this server besides its own, lower case."""
+    is_hung: bool = False
+    """Whether a server asks it."""
+    is_open: bool = False
+    """Nobody enters until messages are gated too."""
+    guesses: Guesses = field(default_factory=Guesses)
+    entered: str = field(default_factory=secrets.token_urlsafe)
+    """What the cookie of who has brought the token holds; no part of the token, so that a cookie tells
+    nothing of how near a guess was."""
+    pages: dict[bool, bytes] = field(default_factory=dict)
+    """The first page with our title, plain and gzipped."""
+
+    def guard(self, inner: ProcessRequest) -> Guarded:
+        """The handshake of a server, with this door before it."""
+        self.is_hung = True
+
+        async def process_request(connection: ServerConnection, request: Request) -> Response | None:
+            assert isinstance(connection, PageConnection)
+            if not self.is_open:
+                return _answer(503, "starting", Refresh="1")
+            try:
+                return await self._answer(inner, connection, request)
+            except ValueError:  # of an address or a header that is none
+                return _answer(400, "this request cannot be read")
+
+        return process_request
+
+    async def _answer(
+        self, inner: ProcessRequest, connection: PageConnection, request: Request
+    ) -> Response | None:
+        """What a request gets; None to a websocket that may open."""
+        if urlsplit(request.path).path.endswith(f"/{WHY}"):
+            return self.refusal(request) or self._why(connection, request)
+        if refusal := self.refusal(request) or await self._token_answer(connection, request):
+            return refusal
+        if _is_websocket(request):
+            return await self._place(connection, request) or inner(connection, request)
+        return self._page(inner, connection, request)
+
+    def refusal(self, request: Request) -> Response | None:
+        """The answer to a request from another site or for another site's scene, None to a good one."""
+        hosts, origins = request.headers.get_all("Host"), request.headers.get_all("Origin")
+        if len(hosts) != 1 or not self._is_known(hosts[0]):
+            name = ", ".join(hosts)
+            return _answer(
+                403,
+                f"{name} is not a name of this server: if it should be, start it with --public-name",
+            )
+        if (origins or _is_websocket(request)) and not self._is_same_site(origins, hosts[0]):
+            return _answer(
+                403,
+                "a page of another site may not use this server: this one is at "
+                f"{', '.join(origins) or 'no address'}, and the server is asked as {hosts[0]}; "
+                "a proxy between them has to pass the header Host on",
+            )
+        for name, _ in parse_qsl(urlsplit(request.path).query, keep_blank_values=True):
+            if name in REFUSED_PARAMETERS:
+                return _answer(403, f"the parameter {name!r} is refused")
+        return None
+
+    async def _token_answer(self, connection: PageConnection, request: Request) -> Response | None:
+        """The answer to who has no token, or brings it in the link and gets a cookie for it.
+
+        Who guesses waits longer and longer; who has entered is not asked again.
+        """
+        if self.token is None:
+            return None
+        client, has_entered = connection.client, self._has_entered(connection, request)
+        given = _query(request).get("token")
+        if not given or _is_websocket(request):
+            return None if has_entered else _answer(403, NO_TOKEN)
+        if not has_entered and (left := self.guesses.locked(client)):
+            return _answer(
+                429, "too many wrong tokens from your address", **{"Retry-After": f"{left:.0f}"}
+            )
+        if not is_equal(given, self.token):
+            delay = self.guesses.delay(client)
+            self.guesses.note(client)
+            await asyncio.sleep(delay)
+            return _answer(403, NO_TOKEN)
+        self.guesses.forget(client)
+        return _answer(
+            303,
+            Location=_without_token(request.path),
+            **{"Set-Cookie": f"{_cookie_name(connection)}={self.entered}; HttpOnly; SameSite=Strict"},
+        )
+
+    def _has_entered(self, connection: PageConnection, request: Request) -> bool:
+        """Whether a request has the cookie of who has brought the token."""
+        return is_equal(_cookies(request).get(_cookie_name(connection), ""), self.entered)
+
+    async def _place(self, connection: PageConnection, request: Request) -> Response | None:
+        """The answer to a websocket of something else than our page, or of one too many."""
+        if SUBPROTOCOL not in request.headers.get("Sec-WebSocket-Protocol", ""):
+            return _answer(400, OTHER_VERSION)
+        if not connection.take_page():
+            return _answer(503, TOO_MANY)
+        return None if await connection.wait_to_open() else _answer(503, BUSY)
+
+    def _why(self, connection: PageConnection, request: Request) -> Response:
+        """Why the websocket of a page is refused, which says where it is and what it speaks, or ""."""
+        query = _query(request)
+        asked = Request(request.path, Headers(request.headers))
+        _set(asked.headers, "Origin", query.get("origin", ""))
+        _set(asked.headers, "Upgrade", "websocket")
+        if refusal := self.refusal(asked):
+            return _answer(200, refusal.body.decode())
+        if self.token and not self._has_entered(connection, request):
+            return _answer(200, NO_TOKEN)
+        if query.get("subprotocol") != SUBPROTOCOL:
+            return _answer(200, OTHER_VERSION)
+        return _answer(200, "" if connection.has_page_place() else TOO_MANY)
+
+    def _is_known(self, host: str) -> bool:
+        """Whether a Host header names this server, so that no foreign name was pointed at it.
+
+        An address cannot be pointed anywhere else, so any will do on a server that is open to others.
+        """
+        match = HOST.fullmatch(host)
+        if match is None:
+            return False
+        name = (match[1] or match[2]).lower()
+        if name in self.public_names:
+            return True
+        if name in LOOPBACK or self.host in LOOPBACK:
+            return name in LOOPBACK
+        return name in (self.host, socket.gethostname().lower()) or _is_address(name)
+
+    def _is_same_site(self, origins: list[str], host: str) -> bool:
+        """Whether a request is of a page of the host that it asks, or of a public name of it."""
+        if len(origins) != 1:
+            return False
+        scheme, _, site = origins[0].lower().partition("://")
+        if scheme not in ("http", "https"):
+            return False
+        match = HOST.fullmatch(site)
+        is_public = match is not None and (match[1] or match[2]) in self.public_names
+        return site == host.lower() or is_public
+
+    def _page(
+        self, inner: ProcessRequest, connection: ServerConnection, request: Request
+    ) -> Response | None:
+        """What viser answers; the first page with our title and icon, all with our headers."""
+        is_first_page = urlsplit(request.path).path in ("/", "/index.html")
+        zipped = "gzip" in request.headers.get("Accept-Encoding", "")
+        if is_first_page:
+            _set(request.headers, "Accept-Encoding", "identity")
+        response = inner(connection, request)
+        if response is None or response.status_code != 200:
+            return response
+        if is_first_page:
+            if not self.pages:
+                page = _explained(named_page(response.body, self.title))
+                self.pages = {False: page, True: gzip.compress(page, 6)}
+            response.body = self.pages[zipped]
+            _set(response.headers, "Content-Length", str(len(response.body)))
+            _set(response.headers, "Content-Encoding", "gzip" if zipped else "identity")
+        hosts = [request.headers["Host"], *(f"{name}:*" for name in self.public_names)]
+        sockets = " ".join(f"ws://{host} wss://{host}" for host in hosts)
+        response.headers["Content-Security-Policy"] = (
+            f"frame-ancestors 'none'; connect-src 'self' {sockets} data: blob:; "
+            "object-src 'none'; base-uri 'none'"
+        )
+        return response
+
+
+def named_page(page: bytes | bytearray, title: str) -> bytes:
+    """Viser's page with another title and our icon."""
+    icon = "data:image/svg+xml;base64," + b64encode(ICON.encode()).decode()
+    html = page.decode().replace("<title>Viser</title>", f"<title>{escape(title)}</title>", 1)
+    return re.sub(r'(<link\s+rel="icon"\s+href=)"[^"]*"', rf'\1"{icon}"', html, count=1).encode()
+
+
+def _explained(page: bytes) -> bytes:
+    """A page that says what is wrong while its websocket is not open."""
+    function = files("modeviz.viewer.page").joinpath("connecting.js").read_text("utf-8").rstrip()
+    script = f"<script>({function})({json.dumps(WHY)}, {json.dumps(SUBPROTOCOL)});</script>"
+    before, head, after = page.partition(b"<head>")
+    return before + head + script.encode() + after
+
+
+def _answer(status: int, text: str = "", **headers: str) -> Response:
+    body = text.encode()
+    common = {
+        "Content-Type": "text/plain; charset=utf-8",
+        "Content-Length": str(len(body)),
+        "Connection": "close",
+        "Referrer-Policy": "no-referrer",
+    }
+    return Response(status, http.HTTPStatus(status).phrase, Headers({**common, **headers}), body)
+
+
+def _is_websocket(request: Request) -> bool:
+    return request.headers.get("Upgrade", "").lower() == "websocket"
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
+def _cookies(request: Request) -> dict[str, str]:
+    pairs = (pair for line in request.headers.get_all("Cookie") for pair in line.split(";"))
+    return {name: value for name, _, value in (pair.strip().partition("=") for pair in pairs)}
+
+
+def _cookie_name(connection: PageConnection) -> str:
+    """Cookies are shared by all ports of a host."""
+    return f"modeviz{connection.local_address[1]}"
+
+
+def _query(request: Request) -> dict[str, str]:
+    return dict(parse_qsl(urlsplit(request.path).query, keep_blank_values=True))
+
+
+def _without_token(path: str) -> str:
+    """The same page without the token, from where the browser is: a proxy may have a longer path."""
+    url = urlsplit(path)
+    pairs = parse_qsl(url.query, keep_blank_values=True)
+    rest = urlencode([pair for pair in pairs if pair[0] != "token"])
+    name = quote(re.split(r"[/\\]", url.path)[-1], safe="%")
+    return f"./{name}" + (f"?{rest}" if rest else "")
+
+
+def _set(headers: Headers, name: str, value: str) -> None:
+    """Replaces a header, where assignment would add a second one."""
+    if name in headers:
+        del headers[name]
+    headers[name] = value

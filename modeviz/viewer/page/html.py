@@ -1,0 +1,94 @@
+"""Fragments of page text: tables, changes, and rows that can be clicked."""
+
+from collections.abc import Iterable, Sequence
+from html import escape
+from importlib.resources import files
+
+import viser
+
+from modeviz.errors import cut
+from modeviz.text.markup import change as change
+from modeviz.text.markup import span as span
+from modeviz.text.markup import title as title
+
+TWO_LINES = 32
+"""Letters on two lines of a narrow column."""
+
+
+def style_sheet() -> str:
+    """The rules of the page's one style sheet."""
+    return files("modeviz.viewer.page").joinpath("style.css").read_text("utf-8")
+
+
+def block(*content: str) -> str:
+    """A piece of the page in our style."""
+    return f'<div class="mv">{"".join(content)}</div>'
+
+
+def heading(left: str, right: str = "") -> str:
+    """A line with a bold start and a quiet end."""
+    quiet = f'<span class="dim">{right}</span>' if right else ""
+    return f'<div class="heading"><span>{left}</span>{quiet}</div>'
+
+
+def legend(entries: Iterable[tuple[str, str]]) -> str:
+    """What colours mean: variables of the style sheet and finished text."""
+    return " &nbsp; ".join(
+        f'<i class="swatch" style="background:var({color})"></i>{text}' for color, text in entries
+    )
+
+
+def hinted(text: str, hint: str) -> str:
+    """Text with something to read where the pointer rests; both are page text already."""
+    return f'<span title="{hint}">{text}</span>'
+
+
+def named(name: str, about: str = "") -> str:
+    """A name as page text, see `clamped`; of a long one beginning and end, which tell it from others.
+
+    Args:
+        name: plain text.
+        about: likewise, to read where the pointer rests; else the name.
+    """
+    return clamped(escape(cut(name, TWO_LINES)), about or name)
+
+
+def clamped(content: str, about: str) -> str:
+    """Page text on at most two lines, with plain text to read where the pointer rests."""
+    return f'<span class="name" title="{escape(about)}">{content}</span>'
+
+
+def table(header: Sequence[str], rows: Sequence[str], kind: str = "") -> str:
+    """A table of finished rows, see `row`; `kind` is its class in the style sheet."""
+    head = f"<tr>{''.join(f'<th>{cell}</th>' for cell in header)}</tr>" if header else ""
+    return f'<table class="{kind}">{head}{"".join(rows)}</table>'
+
+
+def row(cells: Sequence[str], chosen: bool = False) -> str:
+    """A table row; the cells are page text already."""
+    state = ' class="on"' if chosen else ""
+    return f"<tr{state}>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
+
+
+class HiddenButtons:
+    """Buttons without a face, pressed by clicking other page text.
+
+    A `<label>` around that text names the button's element; viser gives it the widget's private id.
+    """
+
+    def __init__(self, gui: viser.GuiApi, count: int, press) -> None:
+        """Makes the buttons; `press` gets the number of the one pressed."""
+        self._ids = []
+        for i in range(count):
+            button = gui.add_button(f"hidden {i}")
+            button.on_click(lambda _, i=i: press(i))
+            self._ids.append(button._impl.uuid)
+        hidden = ",".join(f'div:has(>[id="{name}"])' for name in self._ids)
+        gui.add_html(f"<style>{hidden}{{display:none!important}}</style>")
+
+    def __len__(self) -> int:
+        return len(self._ids)
+
+    def label(self, i: int, text: str) -> str:
+        """Text that presses button `i`."""
+        return f'<label for="{self._ids[i]}">{text}</label>'

@@ -1,0 +1,127 @@
+"""What a page may say: every message from a browser is checked before viser acts on it.
+
+Values from a page are anybody's: viser stores 1e9 and NaN, and lets a page set any attribute of a
+widget. `decoding` lets only kinds through that we use; here a value must be one that its widget can
+produce.
+"""
+
+import asyncio
+import math
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import viser
+from viser import _messages
+from viser.infra import ClientId, WebsockClientConnection
+
+from modeviz.viewer.page.decoding import LONGEST_TEXT
+from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.uploads import UPLOADS, is_upload_allowed, refuse_upload
+from modeviz.viewer.page.write_back import DELAY
+
+if TYPE_CHECKING:
+    from viser._gui_handles import _GuiInputHandle
+
+
+def gate_messages(server: viser.ViserServer, notices: Notices) -> None:
+    """Puts the checks before a server's and all its clients' handling of messages."""
+    websock = server._websock_server
+    _gate(server, notices, websock, None)
+    websock.on_client_connect(lambda connection: _gate(server, notices, connection, connection))
+
+
+def _gate(
+    server: viser.ViserServer,
+    notices: Notices,
+    handler: Any,
+    connection: WebsockClientConnection | None,
+) -> None:
+    """Puts the checks before one handler of messages; a client's own also corrects its screen."""
+    handle = handler._handle_incoming_message
+
+    async def reported(client_id: ClientId, message: _messages.Message) -> None:
+        try:
+            await checked(client_id, message)
+        except Exception as error:
+            notices.mistake(error)
+
+    async def checked(client_id: ClientId, message: _messages.Message) -> None:
+        if isinstance(message, UPLOADS):
+            if connection is None:  # only shared widgets take files
+                if is_upload_allowed(server, client_id, message):
+                    await handle(client_id, message)
+                else:
+                    refuse_upload(server, client_id, message)
+            return
+        if not isinstance(message, _messages.GuiUpdateMessage):
+            await handle(client_id, message)
+            return
+        widget = _widget(server, client_id, message.uuid)
+        if widget is None:
+            return
+        if set(message.updates) == {"value"} and is_possible(widget, message.updates["value"]):
+            await handle(client_id, message)
+        elif connection is not None and not isinstance(widget, viser.GuiUploadButtonHandle):
+            _correct(connection, widget)
+            # The correction can cross a possible value that the page says next.
+            again = partial(_correct_if_there, server, client_id, connection, widget)
+            asyncio.get_running_loop().call_later(DELAY, again)
+
+    handler._handle_incoming_message = reported
+
+
+def _correct(connection: WebsockClientConnection, widget: "_GuiInputHandle") -> None:
+    """Sends a page the value that a widget has."""
+    true_value = {"value": widget._impl.value}
+    connection.queue_message(_messages.GuiUpdateMessage(widget._impl.uuid, true_value))
+
+
+def _correct_if_there(
+    server: viser.ViserServer,
+    client_id: ClientId,
+    connection: WebsockClientConnection,
+    widget: "_GuiInputHandle",
+) -> None:
+    """The same, unless the page has been closed meanwhile."""
+    if client_id in server._websock_server._live_connections:
+        _correct(connection, widget)
+
+
+def _widget(server: viser.ViserServer, client_id: ClientId, uuid: str) -> "_GuiInputHandle | None":
+    """The widget of that id among the shared ones and the client's own."""
+    client = server.get_clients().get(client_id)
+    for gui in (server.gui, client.gui if client else None):
+        if gui is not None and uuid in gui._gui_input_handle_from_uuid:
+            return gui._gui_input_handle_from_uuid[uuid]
+    return None
+
+
+def is_possible(widget: "_GuiInputHandle", value: Any) -> bool:
+    """Whether a value is one that the widget can produce: of its type, in its range, of its choices."""
+    props, current = widget._impl.props, widget._impl.value
+    options = getattr(props, "options", None)
+    if options is not None:
+        return value in options
+    low, high = getattr(props, "min", None), getattr(props, "max", None)
+    if isinstance(current, tuple):
+        return (
+            isinstance(value, (tuple, list))
+            and len(value) == len(current)
+            and all(_is_number(v, _at(low, i), _at(high, i)) for i, v in enumerate(value))
+        )
+    if isinstance(current, bool):
+        return isinstance(value, bool)
+    if isinstance(current, (int, float)):
+        return _is_number(value, low, high)
+    return isinstance(current, str) and isinstance(value, str) and len(value) <= LONGEST_TEXT
+
+
+def _at(bound: Any, index: int) -> float | None:
+    """A bound of one component, from a bound for each or for all."""
+    return bound[index] if isinstance(bound, (tuple, list)) else bound
+
+
+def _is_number(value: Any, low: float | None, high: float | None) -> bool:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        return False
+    return (low is None or value >= low) and (high is None or value <= high)

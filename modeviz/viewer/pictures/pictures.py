@@ -1,0 +1,178 @@
+"""Pictures of the 3-D view, drawn by a page: one, or a cycle of the shown motion."""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Literal, Self
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+from PIL import Image
+
+from modeviz.errors import ModevizError
+from modeviz.report.images import on_color
+from modeviz.report.scale_bar import ScaleBar, with_scale
+from modeviz.shapes.colors import stop_colors
+from modeviz.viewer.page.connection import asked
+from modeviz.viewer.page.decoding import LARGEST_PICTURE
+from modeviz.viewer.scene.stage import Theme
+from modeviz.viewer.session.coloring import ColorScale
+
+Backdrop = Literal["scene", "white", "transparent"]
+
+SIZES = (16, LARGEST_PICTURE)
+"""Least and most pixels of a side."""
+
+TIMEOUT = 60.0
+"""s: a picture takes long where a page renders in software."""
+
+MOST_BYTES_PER_PIXEL = 5
+"""Of a PNG file that is not compressed at all."""
+
+N_FRAMES = 36
+"""Of a cycle: 18 a second at the default speed."""
+
+CYCLE_S = 2.0
+"""s: of a cycle in a moving picture, as at the default speed on the page."""
+
+N_CYCLES = 4
+"""Of a film, which not every player repeats."""
+
+LONGEST_SIDE = {"gif": 1280, "mp4": 1920}
+"""Of a moving picture, pixels: more is megabytes that nobody sees."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """How a picture is taken."""
+
+    width: int
+    """Pixels."""
+    height: int
+    """Pixels."""
+    backdrop: Backdrop
+    theme: Theme
+    """Of the scene; its colours are the backdrop "scene"."""
+    field_of_view: float
+    """From the top to the bottom of the picture, rad."""
+    scale: ColorScale | None = None
+    """What the colours of bodies mean, which the picture says if it is given."""
+
+    def __post_init__(self) -> None:
+        for name, side in (("width", self.width), ("height", self.height)):
+            if not SIZES[0] <= side <= SIZES[1]:
+                raise ModevizError(f"{name}: found {side}, expected {SIZES[0]} to {SIZES[1]} pixels")
+
+    def moving(self, ending: Literal["gif", "mp4"]) -> "Shot":
+        """The same for a moving picture: opaque, no larger than wise, of even width and height."""
+        scale = min(1.0, LONGEST_SIDE[ending] / max(self.width, self.height))
+        width, height = (max(2 * round(scale * s / 2), SIZES[0]) for s in (self.width, self.height))
+        backdrop = "white" if self.backdrop == "transparent" else self.backdrop
+        return replace(self, width=width, height=height, backdrop=backdrop)
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Where a camera stands and looks, whatever its page says of it later."""
+
+    wxyz: NDArray[np.float64]
+    """(4,), its orientation."""
+    position: NDArray[np.float64]
+    """(3,), m."""
+
+    @classmethod
+    def of(cls, camera: viser.CameraHandle) -> Self:
+        """That of a page's camera now."""
+        return cls(camera.wxyz, camera.position)
+
+
+def picture(
+    client: viser.ClientHandle, shot: Shot, pose: Pose, timeout: float = TIMEOUT
+) -> Image.Image:
+    """The 3-D view of a page as it is, RGBA if the backdrop is transparent, else RGB.
+
+    Args:
+        client: the page.
+        shot: how it is taken.
+        pose: from where.
+        timeout: how long the page may take, s.
+
+    Raises:
+        ModevizError: the page did not draw it, or not in time, or there is nothing to be seen.
+    """
+    try:
+        with asked(client, MOST_BYTES_PER_PIXEL * shot.width * shot.height):
+            drawn = client.get_render(
+                shot.height,
+                shot.width,
+                wxyz=pose.wxyz,
+                position=pose.position,
+                fov=shot.field_of_view,
+                transport_format="png",
+                timeout=timeout,
+            )
+    except TimeoutError:
+        raise ModevizError(
+            f"the page did not draw it within {timeout:.0f} s: keep the page in front, "
+            "or choose a smaller size"
+        ) from None
+    except RuntimeError as error:
+        raise ModevizError(f"the page did not draw it: choose a smaller size ({error})") from None
+    if drawn.shape != (shot.height, shot.width, 4) or drawn.dtype != np.uint8:
+        raise ModevizError("the page drew it otherwise than asked: choose a smaller size")
+    if not drawn[..., 3].any():
+        raise ModevizError(
+            "the picture is empty: the camera looks past the vehicle; choose another view"
+        )
+    return _explained(_on_backdrop(Image.fromarray(drawn), shot), shot)
+
+
+def _on_backdrop(image: Image.Image, shot: Shot) -> Image.Image:
+    if shot.backdrop == "transparent":
+        return image
+    if shot.backdrop == "white":
+        return on_color(image, (255, 255, 255))
+    return on_color(image, shot.theme.top, shot.theme.bottom)
+
+
+def _explained(image: Image.Image, shot: Shot) -> Image.Image:
+    """The picture with the scale of its colours, if they mean something."""
+    if shot.scale is None:
+        return image
+    bar = ScaleBar(
+        shot.scale.quantity, shot.scale.last, stop_colors(), shot.theme.ink, shot.theme.paper
+    )
+    return with_scale(image, bar)
+
+
+def cycle(
+    client: viser.ClientHandle,
+    hold: Callable[[float], None],
+    shot: Shot,
+    pose: Pose,
+    n_frames: int,
+    timeout: float = TIMEOUT,
+) -> Iterator[Image.Image]:
+    """Pictures of one cycle of the shown motion, at phases 2πk/n.
+
+    Args:
+        client: the page.
+        hold: lets it stand at a phase, from `driver.held`.
+        shot: how they are taken.
+        pose: from where.
+        n_frames: n.
+        timeout: how long the page may take for each, s.
+
+    Raises:
+        ModevizError: as `picture` does.
+    """
+    for k in range(n_frames):
+        hold(2 * math.pi * k / n_frames)
+        yield picture(client, shot, pose, timeout)
+
+
+def same_field_of_view(camera: viser.CameraHandle, width: int, height: int) -> float:
+    """The one with which the square in the middle of a page's view is that of a picture's, rad."""
+    zoom = min(1.0, camera.aspect) / min(1.0, width / height)
+    return 2 * math.atan(zoom * math.tan(camera.fov / 2))

@@ -1,0 +1,68 @@
+"""A body as it is drawn: its surface, and the outlines that are its ghost unless it is rigid."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modeviz.shapes.gltf import glb
+from modeviz.shapes.motion import displacement, vertex_shapes
+from modeviz.shapes.surface import outlines, surface, vertex_areas
+from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
+from modeviz.viewer.scene.driver import AT_REST, ShapeDriver
+from modeviz.viewer.scene.stage import Theme
+
+SHEET_ROLES = ("cabin", "bed")
+"""Bodies that hide others: they are seen through, and their edges are drawn."""
+
+SEE_THROUGH = 0.5
+
+
+class DrawnBody:
+    """A body's meshes in the page, and what moves them."""
+
+    def __init__(self, driver: ShapeDriver, body: Body, theme: Theme) -> None:
+        """Draws a body at rest."""
+        self.name = body.name
+        part = body.name.replace("/", "-")
+        self.path, self._ghost_path = f"/vehicle/{part}", f"/ghost/{part}"
+        self._driver = driver
+        self._is_rigid = isinstance(body, RigidBody)
+        self._is_sheet = body.role in SHEET_ROLES
+        # Those of axles, wheels and engine would be many lines that tell little.
+        self._has_ghost = self._is_sheet or isinstance(body, FlexibleBody)
+        drawn = surface(body.mesh)
+        self._shapes = vertex_shapes(body, drawn.vertices)
+        self.areas = vertex_areas(drawn)
+        edge_color = theme.edges if self._is_sheet else None
+        driver.add(self.path, glb(drawn, edge_color), len(drawn.vertices), cast_shadow=True)
+        if self._has_ghost:
+            ghost, kept = outlines(drawn)
+            self._ghost_shapes = self._shapes[:, kept]
+            driver.add(self._ghost_path, glb(ghost, theme.ghost), len(ghost.vertices))
+
+    def displacement(self, coordinates: NDArray) -> NDArray:
+        """Of every vertex, (n_vertices, 3), real or complex as the body's coordinates are."""
+        return displacement(self._shapes, coordinates)
+
+    def points(self, shape: NDArray, motion: NDArray, other: NDArray | None) -> Mapping[str, NDArray]:
+        """What the driver is to show of the body; a rigid one travels as its motion.
+
+        Args:
+            shape: the displacement of its vertices, (n_vertices, 3).
+            motion: the coordinates it comes from, (n_coordinates,).
+            other: those that its outlines show; without them they rest.
+        """
+        points = {self.path: np.stack([shape[0], motion[3:]]) if self._is_rigid else shape}
+        if self._has_ghost:
+            ghost = AT_REST if other is None else displacement(self._ghost_shapes, other)
+            points[self._ghost_path] = ghost
+        return points
+
+    def show(self, visible: bool, see_through: bool, ghost: bool) -> None:
+        """Draws the body or leaves it out, and its outlines."""
+        self._driver.set_visible(self.path, visible)
+        if self._is_sheet:
+            self._driver.set_opacity(self.path, SEE_THROUGH if see_through else 1.0)
+        if self._has_ghost:
+            self._driver.set_visible(self._ghost_path, visible and ghost)

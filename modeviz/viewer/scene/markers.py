@@ -1,0 +1,303 @@
+"""Marks on the vehicle: its mounts, the selected group's card, response points and tyre patches."""
+
+import math
+from collections.abc import Callable, Collection, Mapping
+from textwrap import fill
+
+import numpy as np
+import viser
+from viser.transforms import SO3
+
+from modeviz.errors import cut
+from modeviz.shapes.colors import Color
+from modeviz.units import factor
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS, Mount, MountGroup, MountRates
+from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.scene.labels import keep_apart
+from modeviz.viewer.scene.stage import Theme
+
+RUBBER, SELECTED, WASHER, BLUE = (236, 190, 96), (242, 140, 24), (60, 64, 70), (43, 124, 196)
+RADIUS, HEIGHT = 1 / 120, 1 / 63.5
+"""Of the rubber of the largest marker but for half, as parts of the vehicle's length.
+
+On a pickup that is 45 mm."""
+
+WASHER_Z = 0.53 * HEIGHT
+"""Above the middle of the rubber, as a part of the vehicle's length."""
+
+SIZE_STEP = 0.05
+"""Of a marker's size, 2 mm on a pickup: no eye sees it, and a drag changes few markers at a time."""
+
+RING_RADIUS = 0.024
+"""Of the ring around a mount, as a part of the vehicle's length."""
+
+POINT_RADIUS = 0.007
+"""Of a response point, as a part of the vehicle's length."""
+
+LABEL_LETTERS, CARD_LETTERS = 24, 50
+"""In a label, and in a line of the card: with more they would find no place."""
+
+CARD = "/card"
+"""Stands at the mount that the card hangs on."""
+
+PATCH = (0.026, 0.0185)
+"""Half length and half width of the ring around a tyre patch, as parts of the vehicle's length."""
+
+PATCH_Z = 7e-4
+"""Of its height above the ground."""
+
+
+Marks = list[tuple[viser.SceneNodeHandle, str]]
+"""What marks points of bodies, each with the name of its body."""
+
+
+class MountMarker:
+    """A mount: rubber between two washers, along its own axes, with its name."""
+
+    def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup, length: float) -> None:
+        """Draws a mount at rest and not selected; the length of its vehicle, m, gives its size."""
+        self._length = length
+        self._label_text = _short_name(mount, group)
+        self._looks: tuple[float, bool, bool, Color] | None = None
+        axes = SO3.from_matrix(mount.axes.T).wxyz
+        path = f"/mounts/{mount.name.replace('/', '-')}"
+        self._bodies = mount.bodies
+        self._frame = scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.center)
+        self._rubber = scene.add_cylinder(
+            f"{path}/rubber", RADIUS * length, HEIGHT * length, color=RUBBER, cast_shadow=False
+        )
+        self._washers = [
+            scene.add_cylinder(
+                f"{path}/{side}",
+                1.38 * RADIUS * length,
+                0.165 * HEIGHT * length,
+                color=WASHER,
+                cast_shadow=False,
+            )
+            for side in ("above", "below")
+        ]
+        self._ring = scene.add_line_segments(
+            f"{path}/ring",
+            _ellipse(RING_RADIUS * length, RING_RADIUS * length),
+            SELECTED,
+            thickness=3.0,
+            thickness_units="screen",
+            visible=False,
+        )
+        self.label_name = f"{path}/name"
+        self._label = scene.add_label(
+            self.label_name, self._label_text, anchor="center-center", font_screen_scale=0.85
+        )
+
+    def on_click(self, callback: Callable[[], None]) -> None:
+        """Calls back when the mount is clicked."""
+        self._rubber.on_click(lambda _: callback())
+        for washer in self._washers:
+            washer.on_click(lambda _: callback())
+
+    def hide(self, bodies: Collection[str]) -> None:
+        """Leaves the mount out while both bodies that it joins are."""
+        assign(self._frame, visible=self.is_seen(bodies))
+
+    def is_seen(self, hidden: Collection[str]) -> bool:
+        """Whether it is drawn where these bodies are not."""
+        return not hidden or not set(self._bodies) <= set(hidden)
+
+    def show(self, share: float, selected: bool, carded: bool, color: Color = RUBBER) -> None:
+        """Draws the mount by its share of the largest group's energy, and as selected or not.
+
+        Args:
+            share: 0 to 1.
+            selected: whether its group is.
+            carded: whether the group's card hangs on this mount and names it.
+            color: sRGB of its rubber while it is not selected.
+        """
+        size = SIZE_STEP * round((0.6 + 0.9 * math.sqrt(share)) / SIZE_STEP)
+        looks = (size, selected, carded, color)
+        if looks == self._looks:
+            return
+        self._looks = looks
+        assign(self._rubber, scale=size, color=SELECTED if selected else color)
+        for washer, z in zip(self._washers, (WASHER_Z, -WASHER_Z), strict=True):
+            assign(washer, scale=size)
+            washer.position = (0.0, 0.0, z * size * self._length)
+        assign(self._ring, visible=selected)
+        assign(self._label, visible=not carded)
+
+
+class Card:
+    """What there is to say of the selected group, beside one of its mounts."""
+
+    def __init__(self, scene: viser.SceneApi) -> None:
+        """Makes an empty card."""
+        self._frame = scene.add_frame(CARD, show_axes=False, visible=False)
+        self._label = scene.add_label(f"{CARD}/text", "", anchor="center-center")
+        scene.add_line_segments(
+            f"{CARD}/line",
+            np.array([[[0, 0, 0], [1, 0, 0]]], np.float32),
+            SELECTED,
+            thickness=2.0,
+            thickness_units="screen",
+        )
+
+    def show(self, text: str, mount: Floats) -> None:
+        """Hangs the card on a mount; an empty text puts it away."""
+        assign(self._frame, visible=bool(text))
+        assign(self._label, text=text)
+        self._frame.position = mount
+
+
+class Markers:
+    """All marks of a vehicle."""
+
+    def __init__(
+        self,
+        scene: viser.SceneApi,
+        vehicle: Vehicle,
+        theme: Theme,
+        length: float,
+        on_select: Callable[[str], None],
+    ) -> None:
+        """Draws them in sizes that go with the vehicle's.
+
+        Args:
+            scene: of the page.
+            vehicle: whose marks they are.
+            theme: of the scene.
+            length: of the vehicle, m.
+            on_select: called with the group of a clicked mount.
+        """
+        self._groups = {group.name: group for group in vehicle.mount_groups}
+        self._mounts = {
+            name: [MountMarker(scene, mount, group, length) for mount in group.mounts]
+            for name, group in self._groups.items()
+        }
+        for name, markers in self._mounts.items():
+            for marker in markers:
+                marker.on_click(lambda name=name: on_select(name))
+        self._nearest = {name: _nearest_to_us(group) for name, group in self._groups.items()}
+        self._card = Card(scene)
+        self._others = _add_points(scene, vehicle, length) + _add_patches(scene, vehicle, length)
+        labels = [marker.label_name for markers in self._mounts.values() for marker in markers]
+        labels += [f"{_point_path(point)}/name" for point in vehicle.response_points]
+        keep_apart(scene, labels, f"{CARD}/text", f"{CARD}/line", theme)
+
+    def hide(self, bodies: Collection[str]) -> None:
+        """Leaves out what hangs on nothing but bodies that are not drawn."""
+        for markers in self._mounts.values():
+            for marker in markers:
+                marker.hide(bodies)
+        for mark, body in self._others:
+            assign(mark, visible=body not in bodies)
+
+    def are_seen(self, hidden: Collection[str]) -> bool:
+        """Whether one of them is, where these bodies are not drawn."""
+        mounts = (marker for markers in self._mounts.values() for marker in markers)
+        return any(marker.is_seen(hidden) for marker in mounts) or any(
+            body not in hidden for _, body in self._others
+        )
+
+    def show(
+        self,
+        selected: str,
+        rates: Mapping[str, MountRates],
+        unit: str,
+        shares: Mapping[str, float],
+        mode: str,
+        colors: Mapping[str, Color],
+    ) -> None:
+        """Draws each group by its share of a mode's strain energy, and the selected one's card.
+
+        Args:
+            selected: name of a group, or "" for none.
+            rates: what the card says.
+            unit: in which the card says them.
+            shares: of the mode's strain energy, by group.
+            mode: what the mode is called.
+            colors: sRGB, by group, of those whose colour means something.
+        """
+        largest = max(shares.values(), default=0.0) or 1.0
+        for name, markers in self._mounts.items():
+            is_selected = name == selected
+            for i, marker in enumerate(markers):
+                is_carded = is_selected and i == self._nearest[name]
+                color = colors.get(name, RUBBER)
+                marker.show(shares[name] / largest, is_selected, is_carded, color)
+        group = self._groups.get(selected)
+        if group is None:
+            self._card.show("", np.zeros(3))
+        else:
+            text = card_text(group, rates[selected], unit, shares[selected], mode)
+            self._card.show(text, group.mounts[self._nearest[selected]].center)
+
+
+def card_text(group: MountGroup, rates: MountRates, unit: str, share: float, mode: str) -> str:
+    """What the card of a group says: name, mounts, rates in a unit and share of a mode's energy."""
+    sides = " + ".join(mount.name.removeprefix(group.name).strip() for mount in group.mounts)
+    title = f"{group.name}  {group.label}" + (f", {sides}" if sides else "")
+    named = zip(DIRECTIONS, rates.as_tuple(), strict=True)
+    per_unit = factor(unit, "stiffness")
+    values = "  ".join(f"{direction} {rate / per_unit:.0f}" for direction, rate in named)
+    lines = (title, f"{values} {unit}", f"{100 * share:.0f} % of strain energy in {mode}")
+    return "\n".join(fill(line, CARD_LETTERS, replace_whitespace=False) for line in lines)
+
+
+def _short_name(mount: Mount, group: MountGroup) -> str:
+    """The group's name and the initial of what tells its mounts apart: "C1 L"."""
+    side = mount.name.removeprefix(group.name).strip()
+    return f"{cut(group.name, LABEL_LETTERS)} {side[:1].upper()}".strip()
+
+
+def _nearest_to_us(group: MountGroup) -> int:
+    """Which mount of a group the card hangs on."""
+    return int(np.argmin([mount.center[1] for mount in group.mounts]))
+
+
+def _add_points(scene: viser.SceneApi, vehicle: Vehicle, length: float) -> Marks:
+    """The response points; only those on our side are named, which is enough and less to read."""
+    marks: Marks = []
+    for point in vehicle.response_points:
+        path = _point_path(point)
+        mark = scene.add_icosphere(
+            path, POINT_RADIUS * length, BLUE, position=point.position, cast_shadow=False
+        )
+        marks.append((mark, point.body))
+        if point.position[1] <= 0:
+            scene.add_label(
+                f"{path}/name",
+                cut(point.name, LABEL_LETTERS),
+                anchor="center-center",
+                font_screen_scale=0.8,
+            )
+    return marks
+
+
+def _point_path(point: ResponsePoint) -> str:
+    return f"/points/{point.name.replace('/', '-')}"
+
+
+def _add_patches(scene: viser.SceneApi, vehicle: Vehicle, length: float) -> Marks:
+    """The tyre patches."""
+    marks: Marks = []
+    for tyre in vehicle.tyres:
+        x, y, _ = tyre.points[1]
+        mark = scene.add_line_segments(
+            f"/patches/{tyre.name.replace('/', '-')}",
+            _ellipse(*(length * part for part in PATCH)),
+            BLUE,
+            thickness=2.0,
+            thickness_units="screen",
+            position=(x, y, PATCH_Z * length),
+        )
+        marks.append((mark, tyre.bodies[0]))
+    return marks
+
+
+def _ellipse(along_x: float, along_y: float) -> np.ndarray:
+    """A closed ellipse as line segments, (48, 2, 3)."""
+    angle = np.linspace(0, 2 * np.pi, 49)
+    points = np.stack([along_x * np.cos(angle), along_y * np.sin(angle), 0 * angle], axis=1)
+    return np.stack([points[:-1], points[1:]], axis=1).astype(np.float32)

@@ -1,0 +1,151 @@
+"""The vehicle in the middle of the page: its bodies in a moving shape, its marks, the stage."""
+
+from collections.abc import Callable, Collection, Mapping
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from modeviz.dynamics.assembly import System
+from modeviz.shapes.motion import default_amplitude
+from modeviz.text.wording import within_sentence
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.scene.body_view import DrawnBody
+from modeviz.viewer.scene.cameras import Cameras
+from modeviz.viewer.scene.driver import LARGEST, ShapeDriver
+from modeviz.viewer.scene.markers import Markers
+from modeviz.viewer.scene.stage import DARK, LIGHT, Box, Stage, bodies_box, box
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.coloring import (
+    Coloring,
+    Shares,
+    energy_shares,
+    shades,
+    share_colors,
+    strain_shares,
+)
+
+
+class Scene:
+    """A vehicle on its stage. Handles are made once; what changes is assigned."""
+
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        vehicle: Vehicle,
+        dark: bool,
+        on_select: Callable[[str], None],
+    ) -> None:
+        """Draws a vehicle at rest.
+
+        Args:
+            server: where, for all its pages.
+            vehicle: what.
+            dark: whether the page is.
+            on_select: called with the group of a clicked mount.
+        """
+        theme = DARK if dark else LIGHT
+        self._vehicle, self._box = vehicle, box(vehicle)
+        self._server = server
+        self._stage = Stage(server.scene, self._box, theme)
+        self.driver = ShapeDriver(server.scene)
+        self._bodies = [DrawnBody(self.driver, body, theme) for body in vehicle.bodies if body.mesh]
+        self._markers = Markers(server.scene, vehicle, theme, self._box.length, on_select)
+        self._cameras = Cameras(server, self._box)
+
+    def show(self, solved: Solved) -> None:
+        """Draws the answer of a session: what moves in it, and how it wants to be seen."""
+        state = solved.state
+        shares = energy_shares(solved)
+        with self._server.atomic():
+            moving = solved.movement
+            hidden = self._hidden(solved)
+            drawn = self.show_shape(solved.now.prepared.system, moving.shape, moving.other, hidden)
+            self.show_colors(state.coloring, drawn, shares)
+            see_through = state.see_through and state.coloring == "bodies"
+            has_ghost = state.ghost == "rest" or moving.other is not None
+            self.show_bodies(hidden, see_through, has_ghost)
+            if solved.is_detailed:
+                strain = strain_shares(solved)
+                groups = {group: strain[group] for group in state.rates}
+                what = within_sentence(moving.title)
+                group = state.group if moving.bodies is None else ""  # else no mount is at work
+                self._markers.show(group, state.rates, state.unit, groups, what, share_colors(shares))
+        self._cameras.frame(self._framed(solved))
+
+    def is_empty(self, solved: Solved) -> bool:
+        """Whether nothing is drawn of an answer but the ground."""
+        hidden = self._hidden(solved)
+        return all(b.name in hidden for b in self._bodies) and not self._markers.are_seen(hidden)
+
+    def _framed(self, solved: Solved) -> Box:
+        """What cameras look at: the body that moves alone, what is followed, or the vehicle."""
+        state, alone = solved.state, solved.movement.bodies
+        drawn = [b for b in self._vehicle.bodies if b.mesh and alone is not None and b.name in alone]
+        if drawn:
+            return bodies_box(drawn)
+        groups = {group.name: group for group in self._vehicle.mount_groups}
+        if not state.follow or state.group not in groups:
+            return self._box
+        return self._box.around(np.mean([m.center for m in groups[state.group].mounts], axis=0))
+
+    def _hidden(self, solved: Solved) -> Collection[str]:
+        """The bodies that are not drawn: all but the one that moves alone, or those chosen."""
+        alone = solved.movement.bodies
+        if alone is None:
+            return solved.state.hidden
+        return {body.name for body in self._vehicle.bodies} - alone
+
+    def show_shape(
+        self, system: System, shape: NDArray, other: NDArray | None, hidden: Collection[str] = ()
+    ) -> Mapping[str, NDArray]:
+        """Sends the page a shape, scaled so that it is clear to see at the driver's amplitude of one.
+
+        What would be too large to be sent is drawn smaller: a part of a millimetre that turns, in a
+        vehicle of a hundred kilometres.
+
+        Args:
+            system: whose coordinates they are.
+            shape: (n_dofs,), real or complex.
+            other: the shape that outlines show, on the same scale; without it they rest.
+            hidden: names of bodies that are not drawn, which the scale does not go by.
+
+        Returns:
+            The displacements of bodies by name as they are drawn, (n_vertices, 3), m.
+        """
+        shapes = {b.name: b.displacement(shape[system.dofs[b.name]]) for b in self._bodies}
+        seen = [b for b in self._bodies if b.name not in hidden]
+        areas = [b.areas for b in seen]
+        scale = default_amplitude([shapes[b.name] for b in seen], areas, self._box.length)
+        drawn = {name: scale * shape for name, shape in shapes.items()}
+        points = {}
+        for body in self._bodies:
+            dofs = system.dofs[body.name]
+            beside = None if other is None else scale * other[dofs]
+            points |= body.points(drawn[body.name], scale * shape[dofs], beside)
+        largest = max((float(np.abs(p).max(initial=0.0)) for p in points.values()), default=0.0)
+        sent = min(1.0, LARGEST / largest) if largest else 1.0
+        self.driver.show(points if sent == 1 else {path: sent * p for path, p in points.items()})
+        return drawn if sent == 1 else {name: sent * moved for name, moved in drawn.items()}
+
+    def show_colors(self, coloring: Coloring, drawn: Mapping[str, NDArray], shares: Shares) -> None:
+        """Colours bodies by what moves as drawn, and chooses the light for it."""
+        self._stage.light(colored=coloring != "bodies")
+        chosen = shades(coloring, drawn, self._box.length, shares)
+        self.driver.shade({b.path: chosen[b.name] for b in self._bodies if b.name in chosen})
+
+    def show_bodies(self, hidden: Collection[str], see_through: bool, ghost: bool) -> None:
+        """Chooses what is drawn.
+
+        Args:
+            hidden: names of bodies that are not, nor what hangs only on them.
+            see_through: whether sheet metal lets one see mounts and engine.
+            ghost: whether outlines are drawn beside it.
+        """
+        for body in self._bodies:
+            body.show(body.name not in hidden, see_through, ghost)
+        self._markers.hide(hidden)
+
+    def look(self, client: viser.ClientHandle, view: str) -> None:
+        """Turns a page's camera to one of `stage.VIEWS`."""
+        self._cameras.look(client, view)

@@ -1,0 +1,1 @@
+"""What is shown and why: states, answers and plans, without a page."""

@@ -1,0 +1,177 @@
+"""What moves on the screen: a mode, or whatever else was asked for, in generalised coordinates."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modeviz.analysis.deflection_shapes import complex_mode, road_shape, wheel_shape
+from modeviz.analysis.results import Results
+from modeviz.dynamics.components import (
+    ComponentModes,
+    ComponentShare,
+    component_modes,
+    component_shares,
+)
+from modeviz.dynamics.naming import ModeName
+from modeviz.errors import SolveError
+from modeviz.text.wording import sentence_case
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.viewer.session.state import Curve, State
+
+
+@dataclass(frozen=True, eq=False)
+class ShownMode:
+    """The mode that is followed, whatever moves."""
+
+    now: Results
+    index: int
+    """Which of `now.modes`."""
+    name: ModeName
+    shape: Floats
+    """(n_dofs,), in the phase that it is shown in."""
+    base: Results
+    """What all is compared with."""
+    same: int | None
+    """The mode of `base` that it is compared with; None if there is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Movement:
+    """A shape that moves, and what there is to say of it."""
+
+    title: str
+    """What it is called, with a capital."""
+    subject: str
+    """The same in the name of a file: "operating shape 11.0 Hz"."""
+    frequency_hz: float
+    about: str
+    """What else to know, short."""
+    shape: NDArray
+    """(n_dofs,), real or complex."""
+    other: NDArray | None
+    """The shape it is compared with, in the same phase and scale, if its outlines are wanted."""
+    bodies: frozenset[str] | None = None
+    """The only bodies to be seen; None if all are."""
+    component: ComponentModes | None = None
+    """Of a body alone: all its own modes."""
+    shares: tuple[ComponentShare, ...] = ()
+    """What these have of the mode that is followed, the largest first."""
+    problem: str = ""
+    """Why this is not what was asked for, but what moved before; "" if it is."""
+
+
+def movement(state: State, shown: ShownMode) -> Movement:
+    """What moves in the answer to a state.
+
+    Raises:
+        SolveError: there is no such shape, because the mode does not vibrate, the frequency is that of
+            an undamped resonance or the reference does not move.
+    """
+    match state.motion:
+        case "mode":
+            return _undamped(state, shown)
+        case "damped mode":
+            return _damped(state, shown)
+        case "operating shape":
+            return _operating(state, shown)
+        case "component":
+            return _component(state, shown)
+
+
+def asks(state: State) -> tuple:
+    """All of a state that decides what moves beyond the shown mode."""
+    return (
+        state.motion,
+        state.operating_hz,
+        state.load,
+        state.curves[:1],
+        state.component,
+        state.component_mode,
+        state.ghost == "compared",
+    )
+
+
+def _undamped(state: State, shown: ShownMode) -> Movement:
+    modes, i = shown.now.modes, shown.index
+    about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
+    other = _same_mode(state, shown, lambda base, same: base.modes.shapes[:, same])
+    title = sentence_case(shown.name.spoken)
+    return Movement(title, shown.name.name, float(modes.frequency_hz[i]), about, shown.shape, other)
+
+
+def _damped(state: State, shown: ShownMode) -> Movement:
+    mode = complex_mode(shown.now, shown.index)
+    about = f"damped, {100 * mode.damping_ratio:.1f} % of critical"
+    other = _same_mode(state, shown, lambda base, same: complex_mode(base, same).shape)
+    title = sentence_case(shown.name.spoken)
+    shape = _in_phase(mode.shape, shown)
+    subject = f"{shown.name.name} damped"
+    return Movement(title, subject, mode.damped_frequency_hz, about, shape, other)
+
+
+def _operating(state: State, shown: ShownMode) -> Movement:
+    """The shape under road or wheel load; the phase of either is that of what excites or is read."""
+    now = shown.now
+    if state.load:
+        about = state.load
+    else:
+        curve = _reference(state)
+        point = now.vehicle.response_points[curve.point].name
+        about = f"{now.conditions.road}, as at {point}, {curve.direction}"
+    other = _excited(state, shown.base) if state.ghost == "compared" else None
+    f, shape = state.operating_hz, _excited(state, now)
+    return Movement("Operating shape", f"operating shape {f:.1f} Hz", f, about, shape, other)
+
+
+def _excited(state: State, results: Results) -> Complexes:
+    if state.load:
+        return wheel_shape(results, state.load, state.operating_hz)
+    curve = _reference(state)
+    return road_shape(results, state.operating_hz, curve.point, curve.direction)
+
+
+def _reference(state: State) -> Curve:
+    """The response in whose phase a vehicle is seen on its road."""
+    if not state.curves:
+        raise SolveError("an operating shape on a road needs a [[road]] and a [[response_point]]")
+    return state.curves[0]
+
+
+def _component(state: State, shown: ShownMode) -> Movement:
+    system = shown.now.prepared.system
+    modes = _free_modes(system, state.component)
+    i = min(state.component_mode, len(modes.names) - 1)
+    label = sentence_case(system.vehicle.body(state.component).label)
+    return Movement(
+        f"{label} alone: {modes.names[i]}",
+        f"{label} {modes.names[i]}",
+        float(modes.frequency_hz[i]),
+        "free, nothing attached",
+        modes.shapes[:, i],
+        None,
+        frozenset({state.component}),
+        modes,
+        component_shares(system, shown.shape, state.component),
+    )
+
+
+_free_modes = lru_cache(maxsize=1)(component_modes)
+"""A body's own modes, which no rate changes."""
+
+
+def _same_mode(
+    state: State, shown: ShownMode, shape: Callable[[Results, int], NDArray]
+) -> NDArray | None:
+    """The shape of the base's mode that is compared with the shown one, if it is wanted."""
+    if state.ghost != "compared" or shown.same is None:
+        return None
+    return _in_phase(shape(shown.base, shown.same), shown)
+
+
+def _in_phase(shape: NDArray, shown: ShownMode) -> NDArray:
+    """A shape turned to move with the shown mode as far as it can; a real one stays real."""
+    product = np.vdot(shape, shown.now.prepared.system.mass @ shown.shape)
+    return shape * (product / abs(product)) if product else shape

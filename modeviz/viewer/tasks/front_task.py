@@ -1,0 +1,105 @@
+"""The front of a trade-off in a tuning session, found beside it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from modeviz.compute.cancel import Control
+from modeviz.errors import ModevizError, unknown
+from modeviz.optimise.pareto import FrontProgress, find_front
+from modeviz.optimise.trade_off import Compromise, Side, prepare_trade_off, sides
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.problem import Problem
+from modeviz.viewer.session.planning.plan import planned
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State, rate_sets
+from modeviz.viewer.tasks.background_task import Beside, Job, Tell
+
+N_STARTS = 3
+"""For each design, besides those found before: a front is to be there while one waits."""
+
+Designs = tuple[Compromise, ...]
+"""Of a front, the best in the first goal first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trade:
+    """Two goals to trade, and from where."""
+
+    problem: Problem
+    sides: tuple[Side, Side]
+    state: State
+    known: tuple[Rates, ...]
+    """Designs that are known already."""
+
+
+class Trader:
+    """Finds the front between two sides of a session's problem."""
+
+    def __init__(
+        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
+    ) -> None:
+        """Starts nothing.
+
+        Args:
+            session: whose plan, rates and speed.
+            changed: told that there is something new to look at.
+            report: told what is our mistake.
+        """
+        self._session = session
+        self._beside = Beside[Trade, Designs]("search for a front", self._find, changed, report)
+
+    @property
+    def job(self) -> Job[Trade, Designs] | None:
+        """The newest search; None before the first."""
+        return self._beside.job
+
+    def offers(self) -> tuple[str, ...]:
+        """What can be traded, as in "lateral against vertical".
+
+        Raises:
+            VehicleError: the plan asks for what cannot be.
+        """
+        return tuple(sides(self._session.vehicle, self._problem(self._session.state)))
+
+    def start(self, name: str) -> None:
+        """Begins with one of `offers`.
+
+        Raises:
+            ModevizError: another one is running, the plan asks for what cannot be, or no longer
+                offers that.
+        """
+        state, vehicle = self._session.state, self._session.vehicle
+        problem = self._problem(state)
+        offers = sides(vehicle, problem)
+        if name not in offers:
+            raise ModevizError(unknown("trade-off", name, offers))
+        known = (state.rates, *rate_sets(vehicle, state).values())
+        self._beside.start(Trade(problem, offers[name], state, known))
+
+    def cancel(self) -> None:
+        """Ends what is running; the designs found by then are kept."""
+        self._beside.cancel()
+
+    def load(self, number: int) -> None:
+        """Takes over the rates of a design of the front, if there is one of that number."""
+        designs = self.job.found if self.job else None
+        if designs and number < len(designs):
+            self._session.change(rates=dict(designs[number].rates))
+
+    def _problem(self, state: State) -> Problem:
+        assert state.plan is not None
+        return planned(self._session.vehicle, state.plan)
+
+    def _find(self, trade: Trade, control: Control, tell: Tell[Designs]) -> Designs:
+        state, vehicle = trade.state, self._session.vehicle
+        trade_off = prepare_trade_off(
+            vehicle, trade.problem, trade.sides, state.rates, state.conditions.speed, state.locked
+        )
+        control.check()
+
+        def told(progress: FrontProgress) -> None:
+            tell(progress.done, progress.designs or None)
+
+        known = trade.known
+        front = find_front(trade_off, known, n_starts=N_STARTS, control=control, tell=told)
+        return front.designs

@@ -1,0 +1,75 @@
+"""Work for one page that takes a while: a bar and a cancel button in its way until it is done."""
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import viser
+
+from modeviz.errors import ModevizError
+from modeviz.viewer.tasks.background_task import OUR_MISTAKE
+
+Tell = Callable[[float], None]
+"""Told the fraction that is done; raises `CancelledError` once that is wanted."""
+
+
+class CancelledError(Exception):
+    """Nobody wants the result any more."""
+
+
+def run(
+    client: viser.ClientHandle,
+    title: str,
+    work: Callable[[Tell], None],
+    is_there: Callable[[], bool],
+    report: Callable[[Exception], None],
+) -> None:
+    """Does some work; its page shows how far it is, can cancel it, and is told what went wrong.
+
+    Args:
+        client: the page.
+        title: what is being done.
+        work: does it, and tells often.
+        is_there: whether the page still is; without it the work is cancelled.
+        report: told what is our mistake.
+    """
+    window = client.gui.add_modal(title)
+    with window:
+        bar = client.gui.add_progress_bar(0.0, animated=True)
+        cancel = client.gui.add_button("Cancel", hint="Stops at once; nothing is saved")
+    is_cancelled = threading.Event()
+
+    @cancel.on_click
+    def _(_: viser.GuiEvent) -> None:
+        is_cancelled.set()
+        cancel.disabled = True
+
+    def tell(fraction: float) -> None:
+        if is_cancelled.is_set() or not is_there():
+            raise CancelledError
+        if fraction < 1:  # else the bar goes in the same breath, and viser's page would complain
+            bar.value = 100 * fraction
+
+    try:
+        work(tell)
+    except CancelledError:
+        pass
+    except ModevizError as error:
+        if is_there():
+            client.add_notification("Not saved", str(error), color="red")
+    except Exception as error:
+        report(error)
+        client.add_notification("Not saved", OUR_MISTAKE, color="red")
+    finally:
+        window.close()
+
+
+@contextmanager
+def turn(places: threading.Semaphore, tell: Tell) -> Iterator[None]:
+    """Waits for one of a few places in which such work is done at once."""
+    while not places.acquire(timeout=0.1):
+        tell(0.0)
+    try:
+        yield
+    finally:
+        places.release()
