@@ -20,7 +20,7 @@ from modeviz.files.roads import COLUMNS
 from modeviz.files.scaling import WRITTEN_UNITS
 from modeviz.units import UNITS
 
-PAGE = Path(__file__).parents[1].joinpath("docs/vehicle-folder.md").read_text("utf-8")
+PAGE = Path(__file__).parents[2].joinpath("docs/vehicle-folder.md").read_text("utf-8")
 ROW = re.compile(r"\| `(\w+)` \| (.+?) \| (.*?) ?\| (.+?) \|$")
 PLACE = re.compile(r"`\[*([a-zA-Z_.]+)\]*`")
 THE_FILE = "The file itself"

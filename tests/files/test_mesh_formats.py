@@ -621,7 +621,7 @@ def test_a_part_far_outside_is_refused_wherever_it_comes_from():
 @pytest.mark.parametrize("suffix", [".glb", ".stl", ".ply"])
 def test_a_pickup_of_others_has_the_size_its_source_tells(suffix):
     """2.473 x 5.665 x 1.866 m and 1084 faces, whoever converted it."""
-    folder = Path(__file__).parents[2] / "shared/data/s3_pickup_mesh_and_road"
+    folder = Path(__file__).parents[3] / "shared/data/s3_pickup_mesh_and_road"
     mesh = read_mesh(folder / f"gazebo_pickup_metres{suffix}")
     size = np.ptp(corners(mesh).reshape(-1, 3), axis=0)
     np.testing.assert_allclose(np.sort(size), [1.866, 2.473, 5.665], atol=1e-3)

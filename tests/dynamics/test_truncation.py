@@ -19,7 +19,7 @@ from modeviz.vehicle.bodies import FlexibleBody
 BAND_HZ = 20.0
 N_MODES = 30
 RATES = "original", "optimised"
-README = Path(__file__).parents[1] / "README.md"
+README = Path(__file__).parents[2] / "README.md"
 
 
 @dataclass(frozen=True)
