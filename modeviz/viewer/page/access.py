@@ -1,7 +1,7 @@
 """Who gets in: viser's server behind our handshake, limits and gate, silent on the terminal.
 
 Its web server is built inside `ViserServer.__init__`, so these are put in while that runs.
-tests/browser/test_doors.py fails when viser changes.
+tests/viewer/page/test_access.py fails when viser changes.
 """
 
 import asyncio
