@@ -7,10 +7,9 @@ end of a joint moves.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 
 
 def directions(system: System, *rows: Floats) -> Floats:
@@ -22,7 +21,7 @@ def directions(system: System, *rows: Floats) -> Floats:
     return np.vstack([np.pad(r, ((0, 0), (0, width - r.shape[1]))) for r in rows])
 
 
-def led(system: System, actions: NDArray) -> NDArray:
+def led(system: System, actions: Array) -> Array:
     """U a, (..., n_dofs, n_inputs): the motion that rigid joints are given.
 
     Args:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from modeviz.dynamics.rigid_joints import RigidJoints, rigid_joints
 from modeviz.errors import VehicleError
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.connections import GROUND, MOTIONS, Connection, Rates
 from modeviz.vehicle.rigid import rigid_motions
@@ -111,21 +111,21 @@ class System:
         by_mount = self.connection_motions.reshape(-1, 6, self.n_dofs)[: len(turns)]
         return np.vstack([by_mount[:, :3].reshape(-1, self.n_dofs), by_mount[:, 3:][turns]])
 
-    def condensed(self, matrix: NDArray) -> NDArray:
+    def condensed(self, matrix: Array) -> Array:
         """TᵀAT, (n_free, n_free): a matrix for the motions that rigid joints leave."""
         T = self._freedom
         return matrix if T is None else T.T @ matrix @ T
 
-    def condensed_rows(self, rows: NDArray) -> NDArray:
+    def condensed_rows(self, rows: Array) -> Array:
         """R T, (n_rows, n_free): rows that read the motions that rigid joints leave."""
         return rows if self._freedom is None else rows @ self._freedom
 
-    def condensed_shapes(self, shapes: NDArray) -> NDArray:
+    def condensed_shapes(self, shapes: Array) -> Array:
         """Shapes that keep the rigid joints, by the motions these leave: y, (n_free, n_shapes)."""
         T = self._freedom
         return shapes if T is None else T.T @ self.mass @ shapes
 
-    def expanded(self, shapes: NDArray) -> NDArray:
+    def expanded(self, shapes: Array) -> Array:
         """T y, (n_dofs, n_shapes): what motions that rigid joints leave are in all coordinates."""
         return shapes if self._freedom is None else self._freedom @ shapes
 

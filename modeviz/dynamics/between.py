@@ -21,7 +21,7 @@ from modeviz.dynamics.basis import EnrichedBasis
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.poles import poles_near, ritz_poles
 from modeviz.dynamics.reanalysis import Receptances
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 
 N_NODES = 16
 """Lines through which a polynomial goes."""
@@ -79,7 +79,7 @@ class Between:
     def _n_nodes(self) -> int:
         return min(N_NODES, len(self.known.frequency_hz))
 
-    def _weights(self, first: NDArray[np.intp], x: NDArray) -> Complexes:
+    def _weights(self, first: NDArray[np.intp], x: Array) -> Complexes:
         """What values at even nodes count, (n_x, n_nodes), from the first node on."""
         factors, poles, is_local = (a[first] for a in self._windows)
         nodes = self.known.frequency_hz[first[:, None] + np.arange(self._n_nodes)]

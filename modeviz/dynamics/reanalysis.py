@@ -25,7 +25,7 @@ from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import System, mount_stiffness
 from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import drowned
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 
 POLE = 1e10
 """A change of rates that magnifies a stretch more than this has an undamped pole at the frequency:
@@ -161,7 +161,7 @@ class Receptances:
     def merged(self, others: "Receptances", is_own: NDArray[np.bool_]) -> "Receptances":
         """These and others between them; which of all frequencies are these, (n_freqs,)."""
 
-        def both(own: NDArray, other: NDArray) -> NDArray:
+        def both(own: Array, other: Array) -> Array:
             values = np.empty((len(is_own), *own.shape[1:]), own.dtype)
             values[is_own], values[~is_own] = own, other
             return values

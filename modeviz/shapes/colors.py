@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.shapes.motion import mean_square, peak_displacement
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Array, Floats
 
 Color = tuple[int, int, int]
 """sRGB, 0 to 255."""
@@ -39,7 +39,7 @@ def color_map(values: Floats) -> NDArray[np.uint8]:
     return np.stack(channels, axis=-1).round().astype(np.uint8)
 
 
-def shaded(shape: NDArray, shade: Shade) -> NDArray[np.uint8]:
+def shaded(shape: Array, shade: Shade) -> NDArray[np.uint8]:
     """The sRGB colours of vertices, (n_vertices, 3): what the page's shader computes.
 
     Args:
@@ -56,7 +56,7 @@ def displacement_shade(largest: float) -> Shade:
 
 
 def motion_shades(
-    shares: Mapping[str, float], shapes: Mapping[str, NDArray], largest: float
+    shares: Mapping[str, float], shapes: Mapping[str, Array], largest: float
 ) -> dict[str, Shade]:
     """Colours bodies by their shares of an energy of motion, within each by its vertices' |u|².
 

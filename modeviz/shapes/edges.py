@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Array, Floats
 
 FOLD = np.radians(25)
 """Two faces that meet at more than this angle make a visible line."""
@@ -12,7 +12,7 @@ WELD = 2e-6
 """Of the furthest coordinate: vertices closer than this are one corner; single precision is finer."""
 
 
-def feature_edges(vertices: Floats, faces: NDArray) -> NDArray[np.int32]:
+def feature_edges(vertices: Floats, faces: Array) -> NDArray[np.int32]:
     """The border and fold edges of a triangulated surface, (n_edges, 2), indices of vertices.
 
     Which way round a face is numbered does not matter.

@@ -5,10 +5,10 @@ import struct
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modeviz.shapes.colors import Color
 from modeviz.shapes.surface import Patch, Surface
+from modeviz.vehicle.arrays import Array
 from modeviz.vehicle.bodies import Material
 from modeviz.vehicle.srgb import srgb_to_linear
 
@@ -27,7 +27,7 @@ def glb(surface: Surface, edge_color: Color | None = None) -> bytes:
         surface: what to write.
         edge_color: sRGB, 0 to 255, of the border and fold lines; none are written without it.
     """
-    arrays: list[NDArray] = [surface.vertices.astype("<f4")]
+    arrays: list[Array] = [surface.vertices.astype("<f4")]
     materials, primitives = [], []
     for patch in surface.patches:
         arrays.append(patch.faces.reshape(-1).astype("<u4"))
@@ -72,7 +72,7 @@ def _material(material: Material) -> dict[str, Any]:
     }
 
 
-def _accessor(view: int, array: NDArray) -> dict[str, Any]:
+def _accessor(view: int, array: Array) -> dict[str, Any]:
     if array.ndim == 1:
         return {
             "bufferView": view,
@@ -90,7 +90,7 @@ def _accessor(view: int, array: NDArray) -> dict[str, Any]:
     }
 
 
-def _buffers(arrays: list[NDArray]) -> dict[str, Any]:
+def _buffers(arrays: list[Array]) -> dict[str, Any]:
     """The views of arrays laid one after the other; items of four bytes keep them all aligned."""
     offsets = np.cumsum([0, *(array.nbytes for array in arrays)])
     views = [

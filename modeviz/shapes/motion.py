@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import KDTree
 
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 
 N_CARRIERS = 4
@@ -48,7 +48,7 @@ def vertex_shapes(body: Body, vertices: Floats) -> NDArray[np.float32]:
     return _coordinates_first(shapes)
 
 
-def displacement(shapes: NDArray[np.float32], coordinates: ArrayLike) -> NDArray:
+def displacement(shapes: NDArray[np.float32], coordinates: ArrayLike) -> Array:
     """The displacement of every vertex, (n_vertices, 3), real or complex as the coordinates are.
 
     Args:
@@ -61,7 +61,7 @@ def displacement(shapes: NDArray[np.float32], coordinates: ArrayLike) -> NDArray
     return (q.astype(np.float32) @ shapes.reshape(len(q), -1)).reshape(shapes.shape[1:])
 
 
-def animated(vertices: Floats, shape: NDArray, amplitude: float, phase: float) -> Floats:
+def animated(vertices: Floats, shape: Array, amplitude: float, phase: float) -> Floats:
     """The drawn positions x + amplitude Re(φ e^{iθ}), (n_vertices, 3), m.
 
     This is what the page's shader computes.
@@ -75,7 +75,7 @@ def animated(vertices: Floats, shape: NDArray, amplitude: float, phase: float) -
     return vertices + amplitude * (np.asarray(shape) * np.exp(1j * phase)).real
 
 
-def peak_displacement(shape: NDArray) -> Floats:
+def peak_displacement(shape: Array) -> Floats:
     """The largest distance of every vertex from its place during a cycle, (n_vertices,).
 
     A vertex runs around an ellipse, whose longer half axis is √((u·ū + |u·u|)/2); √(u·u) if u is real.
@@ -86,12 +86,12 @@ def peak_displacement(shape: NDArray) -> Floats:
     return np.sqrt((np.real(_dot(u, np.conj(u))) + np.abs(_dot(u, u))) / 2)
 
 
-def mean_square(shape: NDArray) -> Floats:
+def mean_square(shape: Array) -> Floats:
     """u·ū of every vertex, (n_vertices,): |u|² if u is real, else twice the mean of a cycle."""
     return np.real(_dot(shape, np.conj(shape)))
 
 
-def default_amplitude(shapes: Sequence[NDArray], areas: Sequence[Floats], length: float) -> float:
+def default_amplitude(shapes: Sequence[Array], areas: Sequence[Floats], length: float) -> float:
     """The factor that draws a shape clearly and without distortion.
 
     It goes by the displacement that only `SMALL_FRACTION` of the area exceeds, but draws nothing
@@ -127,13 +127,13 @@ def _carriers(body: FlexibleBody, vertices: Floats) -> tuple[NDArray[np.intp], F
     return nearest, weights / weights.sum(axis=1, keepdims=True)
 
 
-def _carried(shapes: NDArray, offset: Floats) -> NDArray:
+def _carried(shapes: Array, offset: Floats) -> Array:
     """What six motions of a point are `offset` away from it, u + θ x r: (n, 3, n_coordinates)."""
     translation, rotation = shapes[:, :3], shapes[:, 3:]
     return translation + np.cross(rotation, offset[..., None].astype(shapes.dtype), axis=1)
 
 
-def _dot(u: NDArray, v: NDArray) -> NDArray:
+def _dot(u: Array, v: Array) -> Array:
     """u·v of every vertex, (n_vertices,); far faster by column than along an axis of three."""
     return u[:, 0] * v[:, 0] + u[:, 1] * v[:, 1] + u[:, 2] * v[:, 2]
 

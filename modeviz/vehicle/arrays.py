@@ -7,6 +7,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from modeviz.errors import VehicleError, quoted
 
+Array = NDArray[Any]
+"""Of numbers of any kind."""
+
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complexfloating]
 

@@ -1,12 +1,12 @@
 """The arrays of a binary glTF file: accessors, strided, normalised and sparse."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modeviz.errors import VehicleError
 from modeviz.files.mesh_formats.glb_document import Glb, item
 from modeviz.files.mesh_formats.glb_records import Accessor, Sparse
 from modeviz.files.mesh_formats.limits import MOST_POINTS, check_size
+from modeviz.vehicle.arrays import Array
 
 DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
@@ -15,7 +15,7 @@ MOST_NUMBERS = 3 * MOST_POINTS
 """Rows of an accessor: the corners of as many faces as are read."""
 
 
-def values(glb: Glb, index: int, *types: str) -> NDArray:
+def values(glb: Glb, index: int, *types: str) -> Array:
     """The values of an accessor as they are stored, (count, width).
 
     Args:
@@ -42,7 +42,7 @@ def values(glb: Glb, index: int, *types: str) -> NDArray:
     return stored if accessor.sparse is None else _replaced(glb, stored, accessor.sparse, index)
 
 
-def scaled(stored: NDArray, accessor: Accessor) -> NDArray:
+def scaled(stored: Array, accessor: Accessor) -> Array:
     """Values of an accessor as numbers: normalised integers stand for 0 to 1, or -1 to 1.
 
     glTF 2.0 specification, section 3.6.2.2, and KHR_mesh_quantization.
@@ -55,7 +55,7 @@ def scaled(stored: NDArray, accessor: Accessor) -> NDArray:
 
 def _rows(
     glb: Glb, view: int, offset: int, shape: tuple[int, int], dtype: np.dtype, index: int
-) -> NDArray:
+) -> Array:
     """Rows of a buffer view, without a copy; `index` is that of the accessor they are for."""
     content, (n_rows, width) = glb.view(view), shape
     stride = glb.document.buffer_views[view].byte_stride or width * dtype.itemsize
@@ -67,7 +67,7 @@ def _rows(
     return np.ndarray(shape, dtype, content, offset, (stride, dtype.itemsize))
 
 
-def _replaced(glb: Glb, stored: NDArray, sparse: Sparse, index: int) -> NDArray:
+def _replaced(glb: Glb, stored: Array, sparse: Sparse, index: int) -> Array:
     """The rows of an accessor with those that are given one by one."""
     check_size(f"sparse rows in accessors[{index}]", sparse.count, MOST_NUMBERS)
     chosen, given = sparse.indices, sparse.values

@@ -4,7 +4,6 @@ import warnings
 from io import BytesIO
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
 from modeviz.errors import VehicleError, reason
@@ -12,7 +11,7 @@ from modeviz.files.mesh_formats.glb_arrays import scaled, values
 from modeviz.files.mesh_formats.glb_document import Glb, embedded, item
 from modeviz.files.mesh_formats.glb_records import MaterialRecord, Primitive
 from modeviz.files.mesh_formats.limits import MOST_PIXELS, check_size
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Material
 from modeviz.vehicle.srgb import linear_to_srgb, srgb_to_linear
 
@@ -31,7 +30,7 @@ class Materials:
         self._means: dict[int, Floats] = {}
         self._n_pixels = 0
 
-    def of(self, primitive: Primitive, vertices: NDArray) -> Material:
+    def of(self, primitive: Primitive, vertices: Array) -> Material:
         """What a primitive looks like as a whole.
 
         Args:
@@ -53,7 +52,7 @@ class Materials:
         looks = Material((0, 0, 0), 1.0, *shine)
         return _material(record, factor if color is None else factor * color, looks)
 
-    def _vertex_color(self, primitive: Primitive, vertices: NDArray) -> Floats | None:
+    def _vertex_color(self, primitive: Primitive, vertices: Array) -> Floats | None:
         """The mean colour of a primitive's vertices, linear RGBA."""
         index = primitive.attributes.get("COLOR_0")
         if index is None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.errors import VehicleError
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 
 
@@ -19,9 +19,9 @@ class RawPart:
     """What a file has of one material."""
 
     name: str
-    vertices: NDArray
+    vertices: Array
     """(n_vertices, 3), m."""
-    faces: NDArray
+    faces: Array
     """(n_faces, 3), indices of vertices."""
     material: Material
 
@@ -48,7 +48,7 @@ def _told_apart(names: Sequence[str]) -> list[str]:
     return found
 
 
-def used(vertices: NDArray, faces: NDArray) -> tuple[NDArray, NDArray]:
+def used(vertices: Array, faces: Array) -> tuple[Array, Array]:
     """The vertices that faces name, in their order, and the faces that name them.
 
     Args:

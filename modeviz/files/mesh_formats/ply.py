@@ -10,7 +10,7 @@ from modeviz.files.mesh_formats.limits import LARGEST_TEXT, MOST_POINTS, check_s
 from modeviz.files.mesh_formats.parts import RawPart, fans, used
 from modeviz.files.mesh_formats.ply_columns import Columns, lines_of, read_columns
 from modeviz.files.mesh_formats.ply_header import read_header
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Material
 from modeviz.vehicle.srgb import linear_to_srgb, srgb_to_linear
 
@@ -50,7 +50,7 @@ def read_ply(content: bytes, plain: Material) -> list[RawPart]:
     return [RawPart("", vertices[drawn], numbered, material)]
 
 
-def _indices(values: NDArray, n_vertices: int) -> NDArray[np.int64]:
+def _indices(values: Array, n_vertices: int) -> NDArray[np.int64]:
     """The corners of faces as indices of vertices."""
     wrong = ~((values >= 0) & (values < n_vertices))
     if wrong.any():
@@ -58,19 +58,19 @@ def _indices(values: NDArray, n_vertices: int) -> NDArray[np.int64]:
     return values.astype(np.int64)
 
 
-def _material(columns: Columns, items: NDArray, plain: Material) -> Material:
+def _material(columns: Columns, items: Array, plain: Material) -> Material:
     """The mean colour of items that have colours."""
     red, green, blue = (_mean(columns[name].values[items]) for name in COLOR)
     opacity = float(np.mean(_unit(columns["alpha"].values[items]))) if "alpha" in columns else 1.0
     return replace(plain, color=(red, green, blue), opacity=opacity)
 
 
-def _mean(levels: NDArray) -> int:
+def _mean(levels: Array) -> int:
     """The mean of an sRGB channel in linear light, 0 to 255."""
     return int(np.rint(255 * linear_to_srgb(srgb_to_linear(_unit(levels)).mean())))
 
 
-def _unit(levels: NDArray) -> Floats:
+def _unit(levels: Array) -> Floats:
     """The levels of a channel from 0 to 1, which whole numbers count up to 255."""
     numbers = np.nan_to_num(levels.astype(float))
     counts_up = levels.dtype.kind in "iu" or numbers.max(initial=0) > 1

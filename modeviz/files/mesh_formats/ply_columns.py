@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from modeviz.errors import VehicleError
 from modeviz.files.mesh_formats.parts import numbers
 from modeviz.files.mesh_formats.ply_header import Element
+from modeviz.vehicle.arrays import Array
 
 Bytes = NDArray[np.uint8]
 Places = NDArray[np.int64]
@@ -27,7 +28,7 @@ class Column:
     """(n_items,), how many values each has."""
 
     @property
-    def values(self) -> NDArray:
+    def values(self) -> Array:
         """All of them, item after item."""
         number = np.arange(self.lengths.sum()) - np.repeat(
             np.cumsum(self.lengths) - self.lengths, self.lengths
@@ -160,7 +161,7 @@ def _check_within(element: Element, place: Places, ends: Places) -> None:
         raise _cut(element, int(beyond.argmax()))
 
 
-def _at(body: Bytes, kind: np.dtype, starts: Places) -> NDArray:
+def _at(body: Bytes, kind: np.dtype, starts: Places) -> Array:
     """The numbers that begin at places."""
     found = body[starts[:, None] + np.arange(kind.itemsize)]
     return np.ascontiguousarray(found).view(kind)[:, 0]

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import displacement, vertex_shapes
 from modeviz.shapes.surface import outlines, surface, vertex_areas
+from modeviz.vehicle.arrays import Array
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.viewer.scene.driver import AT_REST, ShapeDriver
 from modeviz.viewer.scene.stage import Theme
@@ -41,11 +41,11 @@ class DrawnBody:
             self._ghost_shapes = self._shapes[:, kept]
             driver.add(self._ghost_path, glb(ghost, theme.ghost), len(ghost.vertices))
 
-    def displacement(self, coordinates: NDArray) -> NDArray:
+    def displacement(self, coordinates: Array) -> Array:
         """Of every vertex, (n_vertices, 3), real or complex as the body's coordinates are."""
         return displacement(self._shapes, coordinates)
 
-    def points(self, shape: NDArray, motion: NDArray, other: NDArray | None) -> Mapping[str, NDArray]:
+    def points(self, shape: Array, motion: Array, other: Array | None) -> Mapping[str, Array]:
         """What the driver is to show of the body; a rigid one travels as its motion.
 
         Args:

@@ -14,6 +14,7 @@ import viser
 from numpy.typing import NDArray
 
 from modeviz.shapes.colors import Shade, stop_colors
+from modeviz.vehicle.arrays import Array
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.handles import assign
 
@@ -52,7 +53,7 @@ class ShapeDriver:
         self._meshes: dict[str, viser.GlbHandle] = {}
         self._nodes: dict[str, viser.FrameHandle] = {}
         self._n_vertices: dict[str, int] = {}
-        self._shapes: dict[str, NDArray] = {}
+        self._shapes: dict[str, Array] = {}
         self._n_added = 0
         self._amplitude, self._frequency_hz, self._running = 1.0, 1.0, False
         self._phase, self._n_seeks = 0.0, 0
@@ -97,7 +98,7 @@ class ShapeDriver:
             del self._shapes[name], self._n_vertices[name]
             self.show({})
 
-    def show(self, shapes: Mapping[str, NDArray]) -> None:
+    def show(self, shapes: Mapping[str, Array]) -> None:
         """Sends meshes their shapes φ; the last ones sent are what every page shows.
 
         Real shapes are half as long on the way as complex ones, and nothing new is nothing sent.
@@ -201,7 +202,7 @@ def held(client: viser.ClientHandle) -> Iterator[Callable[[float], None]]:
         node.remove()
 
 
-def _halves(shapes: Iterable[NDArray]) -> NDArray[np.float16]:
+def _halves(shapes: Iterable[Array]) -> NDArray[np.float16]:
     """All shapes in one; if any is complex, the real parts of all come before the imaginary ones.
 
     Raises:

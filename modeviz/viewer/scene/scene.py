@@ -4,11 +4,11 @@ from collections.abc import Callable, Collection, Mapping
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System
 from modeviz.shapes.motion import default_amplitude
 from modeviz.text.wording import within_sentence
+from modeviz.vehicle.arrays import Array
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.scene.body_view import DrawnBody
 from modeviz.viewer.scene.cameras import Cameras
@@ -97,8 +97,8 @@ class Scene:
         return {body.name for body in self._vehicle.bodies} - alone
 
     def show_shape(
-        self, system: System, shape: NDArray, other: NDArray | None, hidden: Collection[str] = ()
-    ) -> Mapping[str, NDArray]:
+        self, system: System, shape: Array, other: Array | None, hidden: Collection[str] = ()
+    ) -> Mapping[str, Array]:
         """Sends the page a shape, scaled so that it is clear to see at the driver's amplitude of one.
 
         What would be too large to be sent is drawn smaller: a part of a millimetre that turns, in a
@@ -128,7 +128,7 @@ class Scene:
         self.driver.show(points if sent == 1 else {path: sent * p for path, p in points.items()})
         return drawn if sent == 1 else {name: sent * moved for name, moved in drawn.items()}
 
-    def show_colors(self, coloring: Coloring, drawn: Mapping[str, NDArray], shares: Shares) -> None:
+    def show_colors(self, coloring: Coloring, drawn: Mapping[str, Array], shares: Shares) -> None:
         """Colours bodies by what moves as drawn, and chooses the light for it."""
         self._stage.light(colored=coloring != "bodies")
         chosen = shades(coloring, drawn, self._box.length, shares)

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modeviz.dynamics.energy import kinetic_energy
 from modeviz.shapes.colors import (
@@ -17,6 +16,7 @@ from modeviz.shapes.colors import (
 )
 from modeviz.shapes.motion import DRAWN_FRACTION
 from modeviz.text.wording import sentence_case
+from modeviz.vehicle.arrays import Array
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Solved
@@ -83,7 +83,7 @@ def share_colors(shares: Shares) -> Mapping[str, Color]:
 
 
 def shades(
-    coloring: Coloring, drawn: Mapping[str, NDArray], length: float, shares: Shares
+    coloring: Coloring, drawn: Mapping[str, Array], length: float, shares: Shares
 ) -> dict[str, Shade]:
     """How bodies are coloured, by body; without a shade they have their own colours.
 
