@@ -1,10 +1,24 @@
 import json
+from pathlib import Path
 
 import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
 from modeviz.files import write_vehicle
+
+LONG = {"builtin_truck", "prepared_truck", "truck_modes", "subprocess"}
+"""What a module of tests has imported when its tests take seconds rather than milliseconds."""
+
+
+def pytest_collection_modifyitems(items):
+    """Puts quick tests first, so that a failure shows soon, and those that drive a browser last."""
+
+    def rank(item):
+        drives_browser = Path(__file__).parent / "browser" in item.path.parents
+        return drives_browser, not LONG.isdisjoint(vars(item.module))
+
+    items.sort(key=rank)
 
 
 @pytest.fixture(scope="session")

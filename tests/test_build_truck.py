@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from pickup import roads
 from pickup.dressing.meshes import display_meshes
 from pickup.half_mesh import MIRROR
@@ -20,7 +21,7 @@ from pickup.vehicle import components, pickup
 
 from modeviz.fem.free import center_of_gravity, free_modes
 from modeviz.fem.matrices import assemble
-from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files import builtin_vehicle, write_vehicle
 from modeviz.files.meshes import read_mesh
 from modeviz.files.problems import ProblemRecord
 from modeviz.units import factor
@@ -77,11 +78,6 @@ def parts():
 def matrices(name):
     part = parts()[name]
     return assemble(part.structure.mesh).scaled(part.stiffness_factor, part.mass_factor)
-
-
-@cache
-def truck():
-    return read_vehicle(builtin_vehicle())
 
 
 @cache
@@ -169,21 +165,21 @@ def test_mount_rates_are_those_of_table_4():
     assert [rate / n_per_cm for rates in cab_front for rate in rates.as_tuple()] == pytest.approx(
         [10940, 6700, 4200, 21000, 16600, 5360]
     )
-    assert set(truck().rate_sets) == {"original", "optimised"}
-    assert truck().rates == ORIGINAL
-    for group in truck().mount_groups:
+    assert set(builtin_truck().rate_sets) == {"original", "optimised"}
+    assert builtin_truck().rates == ORIGINAL
+    for group in builtin_truck().mount_groups:
         softest, stiffest = group.bounds
         assert stiffest.lateral / softest.lateral == pytest.approx(12)
 
 
 def test_the_paper_optimises_for_its_rough_road_and_every_wheel_load():
-    problem = truck().problem("paper")
-    built = paper_problem(truck().random_load("road 1"), truck().wheel_loads)
+    problem = builtin_truck().problem("paper")
+    built = paper_problem(builtin_truck().random_load("road 1"), builtin_truck().wheel_loads)
     assert ProblemRecord.of(problem) == ProblemRecord.of(built)
     on_road, on_wheels = problem.performance
     assert on_road.roads == ("road 1",)
     np.testing.assert_allclose(on_road.frequency_hz, np.arange(18, 43) / 3, rtol=1e-15)
-    assert on_wheels.wheel_loads == tuple(load.name for load in truck().wheel_loads)
+    assert on_wheels.wheel_loads == tuple(load.name for load in builtin_truck().wheel_loads)
     assert on_wheels.frequency_hz.tolist() == [11.0, 13.25, 15.75]
     assert {g.group: g.fixed_ratios for g in problem.groups} == {
         "F": False, "C1": False, "C2": False, "E": True, "T": True,
@@ -191,7 +187,7 @@ def test_the_paper_optimises_for_its_rough_road_and_every_wheel_load():
 
 
 def test_every_wheel_has_three_loads_that_are_alike_left_and_right():
-    loads = {load.name: load for load in truck().wheel_loads}
+    loads = {load.name: load for load in builtin_truck().wheel_loads}
     assert len(loads) == 12
     for name, load in loads.items():
         assert load.amplitude == loads[name.replace("left", "right")].amplitude
@@ -199,7 +195,7 @@ def test_every_wheel_has_three_loads_that_are_alike_left_and_right():
 
 
 def test_the_relay_rod_is_held_better_on_the_left():
-    stiffness = {c.name: c.stiffness[1] for c in truck().connections}
+    stiffness = {c.name: c.stiffness[1] for c in builtin_truck().connections}
     left, right = stiffness["relay rod left"], stiffness["relay rod right"]
     p = Parameters()
     assert (left + right) / 2 == pytest.approx(p.relay_rod_rate)
@@ -207,15 +203,17 @@ def test_the_relay_rod_is_held_better_on_the_left():
 
 
 def test_only_loads_and_steering_tell_left_from_right():
-    sides = {c.name.replace("left", "right"): c for c in truck().connections if "left" in c.name}
-    for connection in truck().connections:
+    sides = {
+        c.name.replace("left", "right"): c for c in builtin_truck().connections if "left" in c.name
+    }
+    for connection in builtin_truck().connections:
         if "right" in connection.name and connection.group != "steering":
             np.testing.assert_array_equal(connection.stiffness, sides[connection.name].stiffness)
             np.testing.assert_allclose(connection.points * MIRROR, sides[connection.name].points)
 
 
 def test_rigid_bodies_are_well_within_what_inertias_can_be():
-    for body in truck().bodies:
+    for body in builtin_truck().bodies:
         if isinstance(body, RigidBody):
             *others, largest = np.linalg.eigvalsh(body.inertia)
             assert largest < 0.98 * sum(others), body.name
@@ -235,7 +233,7 @@ def test_road_2_has_lines_at_the_multiples_of_the_slab_frequency():
 
 
 def test_the_folder_holds_what_the_builder_makes_of_the_frame():
-    built = truck().body("frame")
+    built = builtin_truck().body("frame")
     assert isinstance(built, FlexibleBody)
     frame = matrices_now("frame")
     expected = np.sqrt(free_modes(frame, 30).omega_n_squared) / (2 * np.pi)
@@ -249,7 +247,7 @@ def matrices_now(name):
 
 def test_the_folder_is_what_the_builder_writes_with_its_bodies(tmp_path):
     """Nobody has edited it by hand; only the finite elements are not solved again."""
-    built = pickup(Parameters(), solve=lambda name, *_: truck().body(name))
+    built = pickup(Parameters(), solve=lambda name, *_: builtin_truck().body(name))
     write_vehicle(built, tmp_path / "truck")
     written, committed = (
         {p.relative_to(f): p for p in f.rglob("*") if p.is_file()}
@@ -299,7 +297,7 @@ def test_the_truck_is_built_the_same_to_the_byte_every_time(tmp_path):
 
 
 def test_every_body_is_drawn_with_a_bearable_number_of_vertices():
-    assert set(meshes()) == {body.name for body in truck().bodies}
+    assert set(meshes()) == {body.name for body in builtin_truck().bodies}
     assert 2000 < sum(len(part.vertices) for mesh in meshes().values() for part in mesh) < 20000
 
 

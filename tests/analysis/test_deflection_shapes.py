@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from mounted_cabin import mounted_cabin
 
 import modeviz as mv
@@ -28,7 +29,7 @@ def cabin() -> Results:
 
 @pytest.fixture(scope="module")
 def truck() -> Results:
-    vehicle = mv.read_vehicle(mv.builtin_vehicle())
+    vehicle = builtin_truck()
     prepared = prepare(vehicle, np.array([2.1, 8.6, 11.7, 30.0]))
     return solve(prepared, vehicle.rate_sets["optimised"], Conditions("road 1", vehicle.speed))
 

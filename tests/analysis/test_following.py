@@ -4,23 +4,24 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck, truck_modes
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.following import follow, solve_followed
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.results import solve_modal
 from modeviz.dynamics.tracking import EQUAL, MAJORITY
-from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.connections import RATE_FIELDS
 
-TRUCK = read_vehicle(builtin_vehicle())
-RATES = [(group.name, field) for group in TRUCK.mount_groups for field in RATE_FIELDS]
+GROUPS = ("F", "C1", "C2", "E", "T")
+RATES = [(group, field) for group in GROUPS for field in RATE_FIELDS]
 FACTORS = np.geomspace(0.1, 10, 25)
 
 
 @pytest.fixture(scope="module")
 def prepared():
-    return prepare_modes(TRUCK)
+    assert tuple(group.name for group in builtin_truck().mount_groups) == GROUPS
+    return truck_modes()
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +31,7 @@ def original(prepared):
 
 def at(prepared, group, field, factor):
     """The modes with one rate multiplied."""
-    own = TRUCK.rates[group]
+    own = builtin_truck().rates[group]
     return solve_modal(prepared, {group: replace(own, **{field: getattr(own, field) * factor})})
 
 

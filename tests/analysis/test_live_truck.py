@@ -6,6 +6,7 @@ from itertools import islice
 import numpy as np
 import pytest
 import scipy.linalg
+from builtin_truck import prepared_truck
 from differences import central_difference, relative_to_largest
 from rounding import TRUCK, assert_near
 
@@ -40,7 +41,7 @@ NOTHING = 1e-26
 
 @pytest.fixture(scope="module")
 def prepared():
-    return mv.prepare(mv.read_vehicle(mv.builtin_vehicle()))
+    return prepared_truck()
 
 
 @pytest.fixture(scope="module")

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from builtin_truck import truck_modes
 
 import modeviz as mv
 from modeviz.analysis.following import follow
@@ -57,7 +58,7 @@ def test_namesakes_of_unclear_shape_are_compared_by_rising_frequency():
 
 @pytest.fixture(scope="module")
 def prepared():
-    return mv.prepare_modes(mv.read_vehicle(mv.builtin_vehicle()))
+    return truck_modes()
 
 
 @pytest.fixture(scope="module", params=["optimised", *np.geomspace(0.2, 5, 7)])

@@ -6,13 +6,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from apps import listening, n_bytes, open_app
+from builtin_truck import builtin_truck, truck_modes
 from charts import at_lines, has_lines
 from mount_controls import box, drag, open_folder, position, thumb, type_rate
 from pages import CLOSE_NOTICES, send, wait_for, wait_until
 
-from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.results import Conditions, solve_modal
-from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.scene import stage
 
@@ -44,7 +43,7 @@ TITLE = "document.querySelector('.mv .title')?.textContent"
 
 @pytest.fixture(scope="module")
 def app(server):
-    vehicle = read_vehicle(builtin_vehicle())
+    vehicle = builtin_truck()
     with open_app(server, vehicle, Conditions("road 1", vehicle.speed)) as app:
         app.start()
         yield app
@@ -72,7 +71,7 @@ def original(app, page):
 
 def title(app, name, rates=None):
     """How the card should be headed when the mode of that name is shown."""
-    results = solve_modal(prepare_modes(app.session.vehicle), rates or {})
+    results = solve_modal(truck_modes(), rates or {})
     mode = results.mode_index(name)
     f, spoken = results.modes.frequency_hz[mode], results.names[mode].spoken
     return f"{sentence_case(spoken)}  {f:.2f} Hz"

@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import truck_modes
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 
@@ -143,7 +144,7 @@ def test_phase_does_not_change_shares():
 
 
 def test_the_cab_yaws_in_the_cab_yaw_of_the_optimised_truck():
-    truck = mv.prepare_modes(mv.read_vehicle(mv.builtin_vehicle()))
+    truck = truck_modes()
     results = mv.solve_modal(truck, truck.vehicle.rate_sets["optimised"])
     yaw = results.mode_index("cab yaw")
     shares = component_shares(truck.system, results.modes.shapes[:, yaw], "cab")

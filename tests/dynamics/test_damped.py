@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.linalg
+from builtin_truck import truck_modes
 from mounted_cabin import mounted_cabin
 from scipy.integrate import solve_ivp
 from scipy.optimize import linear_sum_assignment
@@ -171,7 +172,7 @@ def test_the_real_part_has_the_most_energy_and_the_sign_of_the_undamped_mode(cab
 
 @pytest.fixture(scope="module")
 def truck():
-    return prepare_modes(mv.read_vehicle(mv.builtin_vehicle()))
+    return truck_modes()
 
 
 @pytest.mark.parametrize("rates", ["original", "optimised"])

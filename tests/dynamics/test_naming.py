@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from cars import car, link, rigid
 from mounted_cabin import mounted_cabin
 from oracles import Beam
@@ -11,7 +12,6 @@ from oracles import Beam
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.naming import ModeName, name_modes, prepare_names
-from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -83,7 +83,7 @@ def test_a_vehicle_of_two_masses_still_gets_names():
 
 @pytest.fixture(scope="module")
 def truck():
-    return assemble(read_vehicle(builtin_vehicle()))
+    return assemble(builtin_truck())
 
 
 @pytest.mark.parametrize("rates", ["original", "optimised"])

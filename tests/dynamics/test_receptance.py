@@ -3,13 +3,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.linalg
+from builtin_truck import builtin_truck
 from differences import row_error
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 from rounding import CABIN, assert_near
 from small_systems import block, damper, mass_on_a_string, spring
 
-import modeviz as mv
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.receptance import receptances
 from modeviz.errors import SolveError
@@ -36,7 +36,7 @@ def read_rows(system):
 
 @pytest.fixture(scope="module")
 def truck():
-    system = assemble(mv.read_vehicle(mv.builtin_vehicle()))
+    system = assemble(builtin_truck())
     groups = system.vehicle.mount_groups
     return system.with_rates({g.name: g.bounds[0] for g in groups})
 

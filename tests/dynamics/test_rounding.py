@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from mounted_cabin import mounted_cabin
 from rounding import CABIN, TRUCK, of_powers
 
 from modeviz.dynamics.assembly import assemble
-from modeviz.files import builtin_vehicle, read_vehicle
 
 BAND_HZ = np.linspace(0.5, 40, 80)
 
@@ -28,4 +28,4 @@ def test_coordinates_in_any_order_have_the_same_response_but_for_what_is_allowed
 
 @pytest.mark.slow
 def test_the_trucks_equations_lose_no_more_than_is_allowed():
-    assert of_powers(assemble(read_vehicle(builtin_vehicle())), np.array([6.0, 10.0, 14.0])) < TRUCK
+    assert of_powers(assemble(builtin_truck()), np.array([6.0, 10.0, 14.0])) < TRUCK

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from pickup.full_model import FullModel, FullModes, full_model, full_vehicle_modes
 from pickup.parameters import Parameters
 
 from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.truncation import modes_only
-from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.bodies import FlexibleBody
 
 BAND_HZ = 20.0
@@ -38,7 +38,7 @@ def case(request):
 
 @cache
 def case_of(rates: str) -> Case:
-    vehicle = read_vehicle(builtin_vehicle())
+    vehicle = builtin_truck()
     vehicle = vehicle.with_rates(vehicle.rate_sets[rates])
     model = full_model(vehicle, Parameters())
     return Case(

@@ -12,10 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from builtin_truck import builtin_truck
 from folders import flexible_body, one_of_everything, part
 
 from modeviz.errors import VehicleError
-from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.meshes import read_mesh, write_mesh
 from modeviz.files.scaling import written
 from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
@@ -128,7 +129,7 @@ def test_bytes_do_not_depend_on_how_arrays_lie_in_memory(folder, tmp_path):
 
 
 def test_builtin_truck_is_a_vehicle_folder():
-    assert read_vehicle(builtin_vehicle()).tyres
+    assert builtin_truck().tyres
 
 
 def test_archive_of_modes_has_no_date_of_its_own(folder):

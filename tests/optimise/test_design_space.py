@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from cabin_problem import cabin_search
 from limits_kept import excess
 from mounted_cabin import mounted_cabin
@@ -23,7 +24,7 @@ ROUNDING = 1e-12
 
 @pytest.fixture(scope="module")
 def truck():
-    return mv.read_vehicle(mv.builtin_vehicle())
+    return builtin_truck()
 
 
 @pytest.fixture(scope="module")

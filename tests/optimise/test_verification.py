@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from cabin_problem import cabin_search
 from mounted_cabin import SOFT, mounted_cabin
 
@@ -32,7 +33,7 @@ def test_every_goal_is_that_of_the_full_model(goal, is_normalised):
 
 @pytest.mark.slow
 def test_the_papers_goal_is_that_of_the_full_truck():
-    vehicle = mv.read_vehicle(mv.builtin_vehicle())
+    vehicle = builtin_truck()
     problem = vehicle.problem("paper")
     search = prepare_search(vehicle, problem, vehicle.rates, vehicle.speed)
     paper = search.space.to_x(vehicle.rate_sets[problem.reference])

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from mounted_cabin import mounted_cabin
 
 from modeviz.errors import VehicleError
-from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.optimise.search import prepare_search
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.default_problem import default_problem
@@ -35,7 +35,7 @@ def test_it_can_be_searched():
 
 
 def test_of_the_pickup_it_has_the_papers_loads_and_points():
-    vehicle = read_vehicle(builtin_vehicle())
+    vehicle = builtin_truck()
     paper, found = vehicle.problem("paper"), default_problem(vehicle)
     for ours, theirs in zip(found.performance, paper.performance, strict=True):
         np.testing.assert_allclose(ours.frequency_hz, theirs.frequency_hz, rtol=1e-12)

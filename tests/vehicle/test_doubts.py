@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from oracles import Beam
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.errors import VehicleError
-from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.vehicle import Vehicle
@@ -33,7 +34,7 @@ def scaled(body: FlexibleBody, factor) -> FlexibleBody:
 def test_right_modes_raise_no_doubt():
     assert said_of(BEAM) == ""
     assert said_of(replace(BEAM, stated_mass=40.0)) == ""
-    assert not any("body 'cab'" in note for note in read_vehicle(builtin_vehicle()).notes)
+    assert not any("body 'cab'" in note for note in builtin_truck().notes)
 
 
 @pytest.mark.parametrize(

@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from folders import one_of_everything
 from small_vehicles import tyre, wheel
 
-from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.bodies import FlexibleBody, Material, MeshPart, RigidBody
 from modeviz.vehicle.connections import Spring
 from modeviz.vehicle.mesh_doubts import mesh_doubts
@@ -86,7 +87,7 @@ def test_a_flexible_body_is_held_against_its_nodes():
 
 
 def test_no_body_of_the_truck_is_doubted():
-    assert list(mesh_doubts(read_vehicle(builtin_vehicle()))) == []
+    assert list(mesh_doubts(builtin_truck())) == []
 
 
 def test_a_wheel_whose_tyre_reaches_down_to_the_ground_is_not_doubted():

@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from mounted_cabin import mounted_cabin
 from turned_vehicles import text, turned, turned_folder
 
-from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.orientation import orientation_doubts
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -80,4 +81,4 @@ def test_names_that_are_exchanged_get_no_advice():
 
 
 def test_the_built_in_truck_stands_the_right_way_round():
-    assert orientation_doubts(read_vehicle(builtin_vehicle()), OURS) == ()
+    assert orientation_doubts(builtin_truck(), OURS) == ()

@@ -1,10 +1,10 @@
 from dataclasses import replace
 
 import numpy as np
+from builtin_truck import builtin_truck
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.preparation import prepare
-from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.vehicle.arrays import FARTHEST
 from modeviz.vehicle.bodies import FlexibleBody, Material, MeshPart
 from modeviz.vehicle.loads import ResponsePoint
@@ -32,7 +32,7 @@ class Driver:
 
 def test_every_flexible_body_has_outlines_that_are_put_away():
     driver = Driver()
-    bodies = read_vehicle(builtin_vehicle()).bodies
+    bodies = builtin_truck().bodies
     drawn = [DrawnBody(driver, body, LIGHT) for body in bodies if body.mesh]
     outlines = {path for path in driver.visible if path.startswith("/ghost/")}
     assert outlines == {f"/ghost/{body.name}" for body in bodies if isinstance(body, FlexibleBody)}
