@@ -33,7 +33,7 @@ from modeviz.viewer.app import App
 from modeviz.viewer.page.access import Server, open_server
 from modeviz.viewer.pictures.headless import chromium
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import Curve
+from modeviz.viewer.session.state import ResponseCurve
 
 WARM_UP = 200
 """The number of actions after which memory is first looked at: until then caches fill."""
@@ -145,7 +145,7 @@ def _use(page: Page, server: Server, found: Soak, seconds: float, seed: int) -> 
 
 def _disagreements(page: Page, server: Server, session: Session) -> list[str]:
     """Where the page shows something else than the server has, or a fresh solve gives."""
-    curves = (Curve(0, "lateral"), Curve(0, "vertical"))
+    curves = (ResponseCurve(0, "lateral"), ResponseCurve(0, "vertical"))
     session.change(load="", decibels=True, log_frequency=False, curves=curves, motion="mode")
     if not session.wait_checked(PATIENCE_S):
         return ["the session does not come to rest"]

@@ -9,7 +9,7 @@ from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions, drive
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.optimise.objective import LoadCase, Objective, prepare_objective
-from modeviz.optimise.peak import Peak
+from modeviz.optimise.peak import PeakGoal
 from modeviz.scatter.tolerance import Parts, Tolerance, scattered_parts
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.loads import ResponsePoint
@@ -41,7 +41,7 @@ def cabin_parts() -> Parts:
     return scattered_parts(prepare(mounted_cabin(), np.array([1.0])), {}, Tolerance())
 
 
-def cabin_objective(prepare_kind=prepare_objective) -> Objective | Peak:
+def cabin_objective(prepare_kind=prepare_objective) -> Objective | PeakGoal:
     """On a road at three frequencies and under a wheel load at another."""
     vehicle = mounted_cabin()
     (load,) = vehicle.wheel_loads

@@ -10,7 +10,7 @@ import pytest
 
 from modeviz.cli import main
 from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
-from modeviz.vehicle.problem import DesignGroup, Goal, Performance, Problem
+from modeviz.vehicle.problem import DesignGroup, GoalKind, Performance, Problem
 
 CHECKOUT = Path(__file__).parents[1]
 README = (CHECKOUT / "README.md").read_text()
@@ -47,7 +47,7 @@ def test_the_problem_it_shows_is_read_and_says_what_is_so_anyway(tmp_path: Path)
     assert performance.points == tuple(point.name for point in vehicle.response_points)
     assert problem.is_normalised is Problem("", problem.groups, (plain,)).is_normalised
     (goals,) = re.findall(r"^goal = (.*)", block, re.MULTILINE)
-    assert re.findall(r'"(.*?)"', goals) == list(get_args(Goal))
+    assert re.findall(r'"(.*?)"', goals) == list(get_args(GoalKind))
 
 
 def keys(value) -> set[str]:

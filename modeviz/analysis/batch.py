@@ -7,8 +7,8 @@ from functools import cached_property
 import numpy as np
 
 from modeviz.analysis.preparation import Prepared
-from modeviz.analysis.results import AXIS, Conditions, Drive, drive, solve_spectra
-from modeviz.compute.cancel import Control
+from modeviz.analysis.results import AXIS, Conditions, RoadExcitation, drive, solve_spectra
+from modeviz.compute.cancel import CancelToken
 from modeviz.compute.runner import Runner
 from modeviz.dynamics.band import natural_frequencies
 from modeviz.dynamics.resonances import resonances_at
@@ -82,10 +82,10 @@ def solve_many(
     chunks = [(start, mount_stiffness[start : start + n_at_once]) for start in starts]
     if runner is None:
         return (_solve(on_road, chunk) for chunk in chunks)
-    return runner.map(_solve, on_road, chunks, Control())
+    return runner.map(_solve, on_road, chunks, CancelToken())
 
 
-def _solve(on_road: Drive, chunk: tuple[int, Complexes]) -> Batch:
+def _solve(on_road: RoadExcitation, chunk: tuple[int, Complexes]) -> Batch:
     """The results of some sets, of which the first has a number."""
     start, sets = chunk
     prepared, f = on_road.prepared, on_road.frequency_hz

@@ -20,7 +20,7 @@ from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.naming import ModeName, name_modes
 from modeviz.dynamics.resonances import Resonances, resonances, resonances_at
 from modeviz.dynamics.response import modal_coordinates
-from modeviz.dynamics.trust import Trust
+from modeviz.dynamics.trust import ErrorEstimate
 from modeviz.errors import ModevizError
 from modeviz.ride.excitation import Load, excitation, input_spectrum
 from modeviz.ride.integration import line_distances
@@ -51,7 +51,7 @@ class Conditions:
 
 
 @dataclass(frozen=True, eq=False)
-class Drive(Driven):
+class RoadExcitation(Driven):
     """A prepared vehicle on a road: all of a ride that does not depend on mount rates."""
 
     conditions: Conditions
@@ -102,7 +102,7 @@ class ModalResults:
         return self.band.modes
 
     @property
-    def trust(self) -> Trust:
+    def trust(self) -> ErrorEstimate:
         return self.band.trust
 
     @cached_property
@@ -165,7 +165,7 @@ class Results(ModalResults):
     """A vehicle's modes, and its ride on one road."""
 
     prepared: Prepared
-    drive: Drive
+    drive: RoadExcitation
     frequency_hz: Floats
     """(n_freqs,): lines of the band, closer where modes are sharp, so that integrals hold."""
     psd: Floats
@@ -327,7 +327,7 @@ def solve(
     return solve_on(drive(prepared, conditions), rates, method)
 
 
-def drive(prepared: Prepared, conditions: Conditions) -> Drive:
+def drive(prepared: Prepared, conditions: Conditions) -> RoadExcitation:
     """A prepared vehicle on a road; for several sets of rates with `solve_on`.
 
     Raises:
@@ -336,10 +336,10 @@ def drive(prepared: Prepared, conditions: Conditions) -> Drive:
     """
     load, speed = prepared.vehicle.random_load(conditions.road), conditions.speed
     under = driven(prepared, [load], speed, load_lines(prepared, [(load, speed)]))
-    return Drive(prepared, under.loads, speed, under.receptances, conditions, load)
+    return RoadExcitation(prepared, under.loads, speed, under.receptances, conditions, load)
 
 
-def solve_on(drive: Drive, rates: Rates, method: Method = "enriched") -> Results:
+def solve_on(drive: RoadExcitation, rates: Rates, method: Method = "enriched") -> Results:
     """Modes and ride on a road with other mount rates; arguments and errors as `solve`."""
     prepared = drive.prepared
     stiffness = prepared.mount_stiffness(rates)
@@ -348,7 +348,9 @@ def solve_on(drive: Drive, rates: Rates, method: Method = "enriched") -> Results
     return Results(prepared, modal.rates, modal.band, drive, f, psd)
 
 
-def solve_spectra(drive: Drive, stiffness: Complexes, resonances: Resonances) -> tuple[Floats, Floats]:
+def solve_spectra(
+    drive: RoadExcitation, stiffness: Complexes, resonances: Resonances
+) -> tuple[Floats, Floats]:
     """The lines that mount rates want, (n_lines,), and PSDs there, (n_lines, n_points, 3), g²/Hz."""
     lines = drive.lines(resonances)
     H = drive.response(stiffness, lines)

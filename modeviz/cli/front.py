@@ -8,7 +8,7 @@ from modeviz.cli.interrupt import cancelled_by_interrupt
 from modeviz.cli.options import json_text, print_json
 from modeviz.cli.results import keep
 from modeviz.cli.terminal import progress, say
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.errors import ModevizError, unknown
 from modeviz.files.disk import write_text
 from modeviz.files.rate_files import rates_format
@@ -52,7 +52,7 @@ def _write(path: Path, problem: Problem, front: Front, record: Record) -> None:
     write_text(path, front_csv(problem, front) if is_csv else json_text(record) + "\n")
 
 
-def _found(options: Namespace, trade_off: TradeOff, rates: Rates, control: Control) -> Front:
+def _found(options: Namespace, trade_off: TradeOff, rates: Rates, control: CancelToken) -> Front:
     """The front as far as it is found until its end, or until it is cancelled."""
     try:
         return find_front(
@@ -68,7 +68,7 @@ def _found(options: Namespace, trade_off: TradeOff, rates: Rates, control: Contr
         say("")
 
 
-def _tell(control: Control, where: FrontProgress) -> None:
+def _tell(control: CancelToken, where: FrontProgress) -> None:
     if control.is_cancelled:
         return
     n = len(where.designs)

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from types import FrameType
 
 from modeviz.cli.terminal import announce, say
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 
 INTERRUPTED = 130
 """The exit status that shells have for it: 128 and the number of the signal."""
@@ -39,13 +39,13 @@ def ended_by_interrupt() -> Iterator[None]:
 
 
 @contextmanager
-def cancelled_by_interrupt() -> Iterator[Control]:
+def cancelled_by_interrupt() -> Iterator[CancelToken]:
     """A control that a signal to end cancels; a second one ends the program as ever.
 
     That is said, and stays to be read if nothing is said of a computation once it is cancelled. A
     signal that is ignored, as `nohup` has it, stays so.
     """
-    control = Control()
+    control = CancelToken()
 
     def cancel(number: int, _frame: FrameType | None) -> None:
         for ending, handler in before.items():

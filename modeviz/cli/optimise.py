@@ -17,7 +17,7 @@ from modeviz.cli.options import (
 )
 from modeviz.cli.results import keep
 from modeviz.cli.terminal import progress, say
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.compute.cluster import runner_at
 from modeviz.compute.runner import Runner
 from modeviz.errors import ModevizError
@@ -83,7 +83,7 @@ def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
 
 
 def _search(
-    options: Namespace, search: Search, rates: Rates, tolerance: Tolerance | None, control: Control
+    options: Namespace, search: Search, rates: Rates, tolerance: Tolerance | None, control: CancelToken
 ) -> tuple[Search, Optimum]:
     """The last search and the best that it found until its end, or until it is cancelled."""
     robustly = robust_search(search, tolerance) if tolerance else None
@@ -103,7 +103,7 @@ def _search_once(
     search: Search,
     rates: Rates,
     runner: Runner,
-    control: Control,
+    control: CancelToken,
     tell: Callable[[Progress], None],
 ) -> Optimum:
     if options.everywhere:
@@ -114,7 +114,7 @@ def _search_once(
     return optimise(search, starts, options.budget, control, tell)
 
 
-def _tell(control: Control, where: Progress) -> None:
+def _tell(control: CancelToken, where: Progress) -> None:
     if control.is_cancelled:
         return
     if where.is_checking:

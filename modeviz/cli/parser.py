@@ -16,7 +16,7 @@ from modeviz.dynamics.band import Method
 from modeviz.files.rate_settings import ORIGINAL
 from modeviz.optimise.run import BUDGET
 from modeviz.scatter.tolerance import Tolerance
-from modeviz.vehicle.problem import Goal
+from modeviz.vehicle.problem import GoalKind
 
 DEFAULT_PORT = 8080
 COMMANDS = ("view", "modes", "psd", "wheels", "render", "report", "optimise", "scatter")
@@ -169,7 +169,7 @@ def _add_search(command: argparse.ArgumentParser) -> None:
     )
     _add_problem(command, "")
     command.add_argument(
-        "--goal", metavar="NAME", help="instead of the problem's: " + ", ".join(get_args(Goal))
+        "--goal", metavar="NAME", help="instead of the problem's: " + ", ".join(get_args(GoalKind))
     )
     command.add_argument(
         "--plain",

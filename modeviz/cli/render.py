@@ -13,8 +13,10 @@ from modeviz.files.disk import check_writable, write_bytes
 def render_file(options: Namespace) -> None:
     """Draws a vehicle in one of its modes and writes the file."""
     with ended_by_interrupt():
-        from modeviz.viewer.pictures.pictures import Shot  # viser alone takes a second to import
-        from modeviz.viewer.rendering import KINDS, Wish, render
+        from modeviz.viewer.pictures.pictures import (
+            ImageSettings,  # viser alone takes a second to import
+        )
+        from modeviz.viewer.rendering import KINDS, RenderRequest, render
         from modeviz.viewer.scene.stage import DARK, FIELD_OF_VIEW, LIGHT
 
     kind = KINDS.get(options.output.suffix.lower())
@@ -23,14 +25,14 @@ def render_file(options: Namespace) -> None:
             f"--output: found {options.output.name!r}, expected a name that ends in {', '.join(KINDS)}"
         )
     theme = DARK if options.dark else LIGHT
-    shot = Shot(options.width, options.height, options.background, theme, FIELD_OF_VIEW)
+    shot = ImageSettings(options.width, options.height, options.background, theme, FIELD_OF_VIEW)
     _check("--amplitude", options.amplitude, 0, 10)
     _check("--phase", options.phase, -360, 360)
     _check("--frames", options.frames, 2, 240)
     check_writable(options.output)
     vehicle, rates = vehicle_and_rates(options)
     vehicle, chosen = shown(options, vehicle)
-    wish = Wish(
+    wish = RenderRequest(
         options.mode,
         options.view,
         options.color,

@@ -42,12 +42,14 @@ def _pictures(
     if conditions is None:
         return []
     with ended_by_interrupt():
-        from modeviz.viewer.pictures.pictures import Shot  # viser alone takes a second to import
-        from modeviz.viewer.rendering import Wish, photographs
+        from modeviz.viewer.pictures.pictures import (
+            ImageSettings,  # viser alone takes a second to import
+        )
+        from modeviz.viewer.rendering import RenderRequest, photographs
         from modeviz.viewer.scene.stage import FIELD_OF_VIEW, ISO, LIGHT
 
-    wish = Wish("", ISO, "bodies", amplitude=1.0, phase=0.0, n_frames=1)
-    shot = Shot(*PICTURE_SIZE, "white", LIGHT, FIELD_OF_VIEW)
+    wish = RenderRequest("", ISO, "bodies", amplitude=1.0, phase=0.0, n_frames=1)
+    shot = ImageSettings(*PICTURE_SIZE, "white", LIGHT, FIELD_OF_VIEW)
     try:
         return photographs(vehicle, sets, conditions, wish, shot, tell)
     except ModevizError as error:

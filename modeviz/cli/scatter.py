@@ -15,7 +15,7 @@ from modeviz.cli.options import (
     vehicle_and_rates,
 )
 from modeviz.cli.terminal import progress, remark, say
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.cluster import runner_at
 from modeviz.errors import ModevizError, SolveError
 from modeviz.optimise.goals import ResponseGoal, prepare_goal
@@ -59,7 +59,7 @@ def _scattered(
     tolerance: Tolerance,
     chosen: Conditions,
     problem: Problem,
-    control: Control,
+    control: CancelToken,
 ) -> Scattered:
     """What the vehicles do, or those driven until it is cancelled."""
     goal = prepare_goal(vehicle, problem, rates, chosen.speed)

@@ -7,7 +7,7 @@ class CancelledError(Exception):
     """A computation was told to end."""
 
 
-class Control:
+class CancelToken:
     """A switch for a computation in another thread, which asks `check` often."""
 
     def __init__(self) -> None:

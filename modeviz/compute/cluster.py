@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 from urllib.parse import urlsplit
 
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.compute.runner import HERE, Runner
 from modeviz.compute.threads import one_thread
 from modeviz.errors import ModevizError, quoted
@@ -98,7 +98,7 @@ class _Cluster:
         self._client = client
 
     def map(
-        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: Control
+        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: CancelToken
     ) -> Iterator[T]:
         kept = self._sent(shared)
         n_ahead = AHEAD * max(1, self._n_threads())
@@ -120,7 +120,7 @@ class _Cluster:
         with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1GB"}):
             return self._client.submit(_kept, shared, pure=False)
 
-    def _result(self, future: "Future", control: Control):
+    def _result(self, future: "Future", control: CancelToken):
         """Waits for a task while there is hope."""
         from distributed import KilledWorker
 

@@ -8,7 +8,7 @@ from typing import Protocol, TypeVar
 
 from threadpoolctl import threadpool_limits
 
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 
 N_THREADS = min(4, os.cpu_count() or 1)
 """Tasks side by side: linear algebra does not hold the interpreter's lock."""
@@ -25,7 +25,7 @@ class Runner(Protocol):
     """Something that computes tasks."""
 
     def map(
-        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: Control
+        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: CancelToken
     ) -> Iterator[T]:
         """What a function of a module or class gives for each item, in their order.
 
@@ -45,7 +45,7 @@ class Here:
     """Computes in threads of this process, a few tasks ahead of who takes the results."""
 
     def map(
-        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: Control
+        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: CancelToken
     ) -> Iterator[T]:
         pool, waiting = ThreadPoolExecutor(N_THREADS), deque()
         with threadpool_limits(1, user_api="blas"):
@@ -62,7 +62,7 @@ class Here:
                 pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _result(future: Future[T], control: Control) -> T:
+def _result(future: Future[T], control: CancelToken) -> T:
     """Waits for a task as long as it may."""
     control.check()
     while not future.done():

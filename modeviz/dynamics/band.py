@@ -12,7 +12,7 @@ import scipy.linalg
 from modeviz.dynamics.assembly import mounts_of_springs
 from modeviz.dynamics.basis import REACH, EnrichedBasis
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes, damping_ratio
-from modeviz.dynamics.trust import EDGE, Trust, count_below, frequency_error, gap_error, missed
+from modeviz.dynamics.trust import EDGE, ErrorEstimate, count_below, frequency_error, gap_error, missed
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 
@@ -30,7 +30,7 @@ class BandModes:
     """φᵀCφ, (n_modes, n_modes): damping couples modes."""
     structural_damping: Floats
     """φᵀK_gφ, (n_modes, n_modes)."""
-    trust: Trust
+    trust: ErrorEstimate
     ritz: tuple[Floats, Floats] | None
     """ω² (n_vectors,) and vectors (n_vectors, n_vectors) of all modes of the enriched basis; None if
     the band's were found otherwise."""
@@ -55,7 +55,7 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
     viscous, structural = solution.damping, solution.structural + (stretch.T * change.imag) @ stretch
     ratio = damping_ratio(omega, np.diag(viscous), np.diag(structural))
     n_counted = count_below(basis.n_below, basis.top_receptance, change.real)
-    trust = Trust(
+    trust = ErrorEstimate(
         solution.residual,
         frequency_error(solution.omega_squared, solution.error + basis.rounding),
         missed(n_counted, solution.omega_squared, basis.top),
@@ -123,9 +123,9 @@ class _Solution:
     structural: Floats
     """φᵀK_gφ at the base rates, (n_modes, n_modes)."""
     residual: Floats
-    """See `Trust.residual`."""
+    """See `ErrorEstimate.residual`."""
     error: Floats
-    """See `Trust`, of ω², but for rounding."""
+    """See `ErrorEstimate`, of ω², but for rounding."""
     ritz: tuple[Floats, Floats] | None = None
     """See `BandModes`."""
 

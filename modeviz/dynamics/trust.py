@@ -11,7 +11,7 @@ EDGE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Trust:
+class ErrorEstimate:
     """What is known of the error of modes without another solve."""
 
     residual: Floats
@@ -32,7 +32,7 @@ def gap_error(omega_squared: Floats, residual: Floats) -> Floats:
 
     Args:
         omega_squared: (n_modes,), rising.
-        residual: (n_modes,), see `Trust.residual`.
+        residual: (n_modes,), see `ErrorEstimate.residual`.
     """
     steps = np.diff(omega_squared, prepend=-np.inf, append=np.inf)
     gap = np.minimum(steps[:-1], steps[1:])

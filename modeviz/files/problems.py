@@ -14,7 +14,7 @@ from modeviz.vehicle.problem import (
     UNLIMITED,
     DesignGroup,
     FrequencyWindow,
-    Goal,
+    GoalKind,
     Performance,
     Problem,
 )
@@ -139,7 +139,7 @@ class ProblemRecord(Record, kw_only=True):
     """[[problem]]."""
 
     name: Name
-    goal: Goal = "accelerations"
+    goal: GoalKind = "accelerations"
     normalised: bool = True
     reference: str = ""
     group: list[DesignGroupRecord]

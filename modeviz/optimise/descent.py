@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import OptimizeResult, minimize
 
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.compute.threads import one_thread
 from modeviz.optimise.evaluator import Descent, Evaluator, Step
 from modeviz.optimise.min_max import MinMax
@@ -34,7 +34,7 @@ def descend(
     search: Search,
     start: Floats,
     budget: int,
-    control: Control | None = None,
+    control: CancelToken | None = None,
     tell: Callable[[Step], None] = lambda _: None,
 ) -> Descent:
     """The best design down from a start.
@@ -54,7 +54,7 @@ def descend(
     Raises:
         SolveError: a design that cannot be solved, with its rates.
     """
-    evaluator = Evaluator(search, budget, control or Control(), tell)
+    evaluator = Evaluator(search, budget, control or CancelToken(), tell)
     return evaluator.run(lambda: _past_windows(search, evaluator, search.space.admitted(start)))
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import OptimizeResult
 
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.optimise.search import Search
 from modeviz.optimise.windows import SLACK
 from modeviz.vehicle.arrays import Floats
@@ -55,7 +55,7 @@ class Evaluator:
     """Evaluates designs for a solver, counts, and remembers the best feasible one."""
 
     def __init__(
-        self, search: Search, budget: int, control: Control, tell: Callable[[Step], None]
+        self, search: Search, budget: int, control: CancelToken, tell: Callable[[Step], None]
     ) -> None:
         self._search, self._budget, self._control, self._tell = search, budget, control, tell
         self._n_evaluations = 0

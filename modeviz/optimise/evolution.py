@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from scipy.optimize import differential_evolution
 
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.compute.threads import one_thread
 from modeviz.optimise.evaluator import Descent, Evaluator, Step
 from modeviz.optimise.search import Search
@@ -15,7 +15,7 @@ def evolve(
     search: Search,
     seed: int,
     budget: int,
-    control: Control | None = None,
+    control: CancelToken | None = None,
     tell: Callable[[Step], None] = lambda _: None,
 ) -> Descent:
     """The best design that a population comes to.
@@ -33,7 +33,7 @@ def evolve(
     Raises:
         SolveError: a design that cannot be solved, with its rates.
     """
-    evaluator = Evaluator(search, budget, control or Control(), tell)
+    evaluator = Evaluator(search, budget, control or CancelToken(), tell)
     return evaluator.run(
         lambda: differential_evolution(
             lambda fractions: evaluator.value(search.space.sampled(fractions)),

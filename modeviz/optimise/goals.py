@@ -12,7 +12,7 @@ from modeviz.dynamics.assembly import mount_stiffness
 from modeviz.errors import VehicleError
 from modeviz.optimise.integral import BandCase, Integral, prepare_integral
 from modeviz.optimise.objective import LoadCase, Objective, prepare_objective
-from modeviz.optimise.peak import Peak, prepare_peak
+from modeviz.optimise.peak import PeakGoal, prepare_peak
 from modeviz.ride.psd import RIDE_BAND
 from modeviz.ride.rating import COMFORT_FACTORS
 from modeviz.units import STANDARD_GRAVITY
@@ -24,7 +24,7 @@ from modeviz.vehicle.vehicle import Vehicle
 DRIVER = 0
 """The response point that is rated."""
 
-ResponseGoal = Objective | Integral | Peak
+ResponseGoal = Objective | Integral | PeakGoal
 """A goal that is made of responses, and so scatters with parts."""
 
 

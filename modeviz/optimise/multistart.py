@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import Runner
 from modeviz.optimise.descent import descend
 from modeviz.optimise.evaluator import CANCELLED, Descent
@@ -16,7 +16,7 @@ def optimise_on(
     search: Search,
     starts: Sequence[Floats],
     budget: int = BUDGET,
-    control: Control | None = None,
+    control: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The same as `optimise` finds while no search runs out of its budget.
@@ -35,7 +35,7 @@ def optimise_on(
     descents: list[Descent] = []
     shared = search, max(1, budget // len(starts))
     try:
-        for descent in runner.map(_descend, shared, starts, control or Control()):
+        for descent in runner.map(_descend, shared, starts, control or CancelToken()):
             descents.append(descent)
             best = min(descents, key=lambda d: d.value)
             if best.x is not None:

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import HERE
 from modeviz.compute.threads import one_thread
 from modeviz.optimise.descent import descend
 from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent
 from modeviz.optimise.run import BUDGET
 from modeviz.optimise.search import Search
-from modeviz.optimise.trade_off import Compromise, TradeOff
+from modeviz.optimise.trade_off import ParetoPoint, TradeOff
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 
@@ -32,7 +32,7 @@ class Front:
 
     names: tuple[str, str]
     """Of the goals."""
-    designs: tuple[Compromise, ...]
+    designs: tuple[ParetoPoint, ...]
     """The best in the first goal first."""
     reason: str
     """Why it ended: "converged", "cancelled" or "out of budget"."""
@@ -54,7 +54,7 @@ class FrontProgress:
     """Where the search for a front is."""
 
     evaluations: int
-    designs: tuple[Compromise, ...]
+    designs: tuple[ParetoPoint, ...]
     """The front so far."""
     done: float
     """Of all its designs, 0 to 1; at 1 they are held against the full model, one after the other."""
@@ -68,7 +68,7 @@ def find_front(
     n_starts: int = 5,
     seed: int = 0,
     budget: int = BUDGET,
-    control: Control | None = None,
+    control: CancelToken | None = None,
     tell: Callable[[FrontProgress], None] = lambda _: None,
 ) -> Front:
     """Designs along the front of two goals.
@@ -98,7 +98,7 @@ def find_front(
     Raises:
         SolveError: a design that cannot be solved.
     """
-    walk = _Walk(trade_off, n_designs, n_starts, budget, control or Control(), tell)
+    walk = _Walk(trade_off, n_designs, n_starts, budget, control or CancelToken(), tell)
     space = trade_off.searches[0].space
     walk.spread([*map(space.to_x, known), *space.samples(SCREENED * n_starts, seed)])
     for search, weights in zip(trade_off.searches, np.eye(2), strict=True):
@@ -109,7 +109,7 @@ def find_front(
     return Front(trade_off.names, walk.checked(), walk.reason, walk.evaluations)
 
 
-def largest_difference(designs: Sequence[Compromise]) -> float:
+def largest_difference(designs: Sequence[ParetoPoint]) -> float:
     """Of the full model's goals, relative; NaN where one is not known, 0 of no designs."""
     differences = [np.nan if d.verification is None else d.verification.difference for d in designs]
     return float(np.max(differences, initial=0.0))
@@ -124,13 +124,13 @@ class _Walk:
         n_designs: int,
         n_starts: int,
         budget: int,
-        control: Control,
+        control: CancelToken,
         tell: Callable[[FrontProgress], None],
     ) -> None:
         self._trade_off, self._n_designs, self._n_starts = trade_off, n_designs, n_starts
         self._budget, self._control, self._tell = budget, control, tell
-        self._spread: list[Compromise] = []
-        self._found: list[Compromise] = []
+        self._spread: list[ParetoPoint] = []
+        self._found: list[ParetoPoint] = []
         self._n_done = 0
         self.evaluations = 0
         self.reason = CONVERGED
@@ -166,18 +166,20 @@ class _Walk:
         first, last = (np.divide(*front[i].values) for i in (0, -1))
         return np.geomspace(first, last, count + 2)[1:-1]
 
-    def front(self) -> tuple[Compromise, ...]:
+    def front(self) -> tuple[ParetoPoint, ...]:
         """The designs found that none dominates, the best in the first goal first."""
-        kept: list[Compromise] = []
+        kept: list[ParetoPoint] = []
         for design in sorted(self._found, key=lambda d: d.values):
             if not kept or design.values[1] < kept[-1].values[1] * (1 - SAME):
                 kept.append(design)
         return tuple(kept)
 
-    def checked(self) -> tuple[Compromise, ...]:
+    def checked(self) -> tuple[ParetoPoint, ...]:
         """The front, held against the full model; also what was found by the time of a cancel."""
         designs = list(self.front())
-        for i, design in enumerate(HERE.map(TradeOff.verified, self._trade_off, designs, Control())):
+        for i, design in enumerate(
+            HERE.map(TradeOff.verified, self._trade_off, designs, CancelToken())
+        ):
             designs[i] = design
             self._tell(FrontProgress(self.evaluations, tuple(designs), 1.0))
         return tuple(d for d in designs if d.verification and d.verification.are_kept)
@@ -185,7 +187,7 @@ class _Walk:
     def _starts(self, weights: Floats) -> list[Floats]:
         """The designs that are best for one search."""
 
-        def worse(design: Compromise) -> float:
+        def worse(design: ParetoPoint) -> float:
             return float(np.max(weights * design.values))
 
         found, spread = sorted(self._found, key=worse), sorted(self._spread, key=worse)

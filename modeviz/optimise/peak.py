@@ -125,7 +125,7 @@ class _Cells:
 
 
 @dataclass(frozen=True, eq=False)
-class Peak(MinMax):
+class PeakGoal(MinMax):
     """max w (a - target)² over load cases, ranges of frequency, response points and directions.
 
     A range is parted into cells, in each of which the largest square is found between the lines that
@@ -172,7 +172,7 @@ class Peak(MinMax):
         """The goal from the largest of each case."""
         return float(values.max())
 
-    def scaled(self, factors: Floats) -> "Peak":
+    def scaled(self, factors: Floats) -> "PeakGoal":
         """The same with other weights: each case's times a factor, (n_cases,)."""
         pairs = zip(self.cases, factors.tolist(), strict=True)
         return replace(
@@ -274,7 +274,7 @@ class Peak(MinMax):
         return bends[is_within & (apart > CLOSE)]
 
 
-def prepare_peak(vehicle: Vehicle, listed: Sequence[LoadCase]) -> Peak:
+def prepare_peak(vehicle: Vehicle, listed: Sequence[LoadCase]) -> PeakGoal:
     """The peak of load cases, of each from its first frequency to its last.
 
     Args:
@@ -293,7 +293,7 @@ def prepare_peak(vehicle: Vehicle, listed: Sequence[LoadCase]) -> Peak:
     lines = np.round(numbers * step, 12).astype(np.float64)
     top_hz = max(vehicle.highest_frequency, last)
     prepared = prepare(vehicle, lines, top_hz=top_hz, is_graded=True)
-    return Peak(prepared, tuple(case.parted(WIDEST * step) for case in cases))
+    return PeakGoal(prepared, tuple(case.parted(WIDEST * step) for case in cases))
 
 
 def _ranged(vehicle: Vehicle, case: LoadCase) -> PeakCase:

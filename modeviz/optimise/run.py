@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.compute.threads import one_thread
 from modeviz.errors import SolveError
 from modeviz.optimise.active_limits import ActiveConstraint, active_constraints
@@ -74,7 +74,7 @@ def optimise(
     search: Search,
     starts: Sequence[Floats],
     budget: int = BUDGET,
-    control: Control | None = None,
+    control: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The best of the designs down from each start.
@@ -105,7 +105,7 @@ def search_globally(
     search: Search,
     seed: int = 0,
     budget: int = BUDGET,
-    control: Control | None = None,
+    control: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The best design of an evolution, and down from there.

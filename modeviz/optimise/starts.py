@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.threads import one_thread
 from modeviz.optimise.descent import descend
 from modeviz.optimise.search import Search
@@ -24,7 +24,7 @@ best of these that take some more."""
 
 @one_thread
 def start_points(
-    search: Search, rates: Rates, n_starts: int, seed: int = 0, control: Control | None = None
+    search: Search, rates: Rates, n_starts: int, seed: int = 0, control: CancelToken | None = None
 ) -> list[Floats]:
     """Where to search from: some rates, and the best of many spread designs after some steps down.
 
@@ -49,7 +49,7 @@ def start_points(
     Raises:
         SolveError: a design that cannot be solved, with its rates.
     """
-    n_others, control = n_starts - 1, control or Control()
+    n_others, control = n_starts - 1, control or CancelToken()
     spread = search.space.samples(SCREENED * n_others, seed)
     values: list[float] = []
     try:
@@ -62,7 +62,7 @@ def start_points(
     return [search.space.to_x(rates), *_gone_on_with(search, designs, n_others, control)[:n_others]]
 
 
-def _gone_on_with(search: Search, designs: list[Floats], n: int, control: Control) -> list[Floats]:
+def _gone_on_with(search: Search, designs: list[Floats], n: int, control: CancelToken) -> list[Floats]:
     """Of designs, the best first, those that some steps show to be the best, or as far as that came."""
     for n_each, n_evaluations in ROUNDS:
         ends = []
@@ -81,7 +81,9 @@ def _best(designs: Sequence[Floats] | Floats, values: list[float]) -> list[Float
     return [designs[i] for i in np.argsort(values, kind="stable")]
 
 
-def _stepped(search: Search, x: Floats, n_evaluations: int, control: Control) -> tuple[Floats, float]:
+def _stepped(
+    search: Search, x: Floats, n_evaluations: int, control: CancelToken
+) -> tuple[Floats, float]:
     """A design after some steps, and its goal; where windows allow none on the way, the same."""
     end = descend(search, x, n_evaluations, control)
     return x if end.x is None else end.x, end.value

@@ -28,7 +28,7 @@ class Side:
 
 
 @dataclass(frozen=True, eq=False)
-class Compromise:
+class ParetoPoint:
     """A design on the front."""
 
     x: Floats
@@ -48,12 +48,12 @@ class TradeOff:
     searches: tuple[Search, Search]
     """In one space, within the same windows."""
 
-    def compromise(self, x: Floats) -> Compromise:
+    def compromise(self, x: Floats) -> ParetoPoint:
         """A design with what both goals are; raises as `Search.value`."""
         first, second = (search.value(x) for search in self.searches)
-        return Compromise(x, self.searches[0].space.rates(x), (first, second))
+        return ParetoPoint(x, self.searches[0].space.rates(x), (first, second))
 
-    def verified(self, design: Compromise) -> Compromise:
+    def verified(self, design: ParetoPoint) -> ParetoPoint:
         """The same design with what the full model says of it."""
         both = [
             verify(search, design.x, value)

@@ -33,7 +33,7 @@ class RateSet:
 
 
 @dataclass(frozen=True)
-class Worth:
+class ObjectiveValues:
     """What the goal of a problem is."""
 
     problem: Problem
@@ -61,7 +61,7 @@ class Comparison:
     """Where the modes of `base` went."""
     wheels: tuple[WheelResults, WheelResults] | None
     """The response to harmonic loads, if there are any."""
-    worth: Worth | None
+    worth: ObjectiveValues | None
     """By the vehicle's usual problem, its first; None if it has none."""
 
     @property
@@ -106,14 +106,14 @@ def compare(
     return Comparison((base.name, now.name), first, second, track, wheels, worth)
 
 
-def _worth(vehicle: Vehicle, base: Rates, now: Rates, speed: float) -> Worth | None:
+def _worth(vehicle: Vehicle, base: Rates, now: Rates, speed: float) -> ObjectiveValues | None:
     if not vehicle.problems:
         return None
     problem = vehicle.problems[0]
     goal = prepare_goal(vehicle, problem, vehicle.rates, speed)
     reference = goal.value(vehicle.rate_sets[problem.reference]) if problem.reference else None
     values = goal.value({}), goal.value(base), goal.value(now)
-    return Worth(problem, *values, reference, _space(vehicle, problem))
+    return ObjectiveValues(problem, *values, reference, _space(vehicle, problem))
 
 
 def _space(vehicle: Vehicle, problem: Problem) -> DesignSpace | None:

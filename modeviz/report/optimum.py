@@ -15,10 +15,9 @@ from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.wording import percent_change, scientific, significant
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, Rates
-from modeviz.vehicle.problem import Goal as GoalName
-from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.problem import GoalKind, Problem
 
-SMALL: dict[GoalName, str] = {
+SMALL: dict[GoalKind, str] = {
     "accelerations": "squared accelerations",
     "peak": "largest squared acceleration",
     "rms": "mean squares on the road",

@@ -10,7 +10,7 @@ from modeviz.report.records import Record
 from modeviz.report.tables import table
 from modeviz.scatter.monte_carlo import Scatter, rating_of
 from modeviz.scatter.sobol import Spread
-from modeviz.scatter.worst_case import Corner
+from modeviz.scatter.worst_case import WorstCase
 from modeviz.text.wording import MINUS, percent_change, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.problem import Problem
@@ -28,7 +28,7 @@ class Scattered:
     conditions: Conditions
     seed: int
     scatter: Scatter
-    worst: Corner
+    worst: WorstCase
     spread: Spread | None
     """Of the goal; None of too few samples."""
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from modeviz.analysis.driven import load_lines
 from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import AXIS, Conditions, drive
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import HERE, Runner
 from modeviz.dynamics.galerkin import reduced
 from modeviz.dynamics.lines import FewLines, few_lines
@@ -20,7 +20,7 @@ from modeviz.errors import SolveError, VehicleError, unknown
 from modeviz.optimise.goals import ResponseGoal
 from modeviz.optimise.integral import Integral
 from modeviz.optimise.objective import Criterion, Objective
-from modeviz.optimise.peak import Peak
+from modeviz.optimise.peak import PeakGoal
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
 from modeviz.scatter.tolerance import Parts
@@ -84,7 +84,7 @@ def scatter(
     seed: int = 0,
     points: Sequence[str] = (),
     runner: Runner = HERE,
-    control: Control | None = None,
+    control: CancelToken | None = None,
     tell: Callable[[float], None] = lambda _: None,
 ) -> Scatter:
     """Rides and goals of vehicles whose mounts are evenly spread within their tolerance.
@@ -114,7 +114,7 @@ def scatter(
     if n_samples < 2:
         raise SolveError(f"samples: found {n_samples}, expected 2 or more")
     numbers = _points(prepared, points)
-    control = control or Control()
+    control = control or CancelToken()
     deviations = parts.samples(n_samples, seed)
     loads = [(prepared.vehicle.random_load(conditions.road), conditions.speed)]
     if isinstance(objective, Integral):
@@ -123,7 +123,7 @@ def scatter(
         prepared = prepared.on(_lines(prepared, parts, seed, load_lines(prepared, loads)))
     if isinstance(objective, Integral):
         objective = objective.on(prepared.frequency_hz)
-    elif isinstance(objective, Peak):
+    elif isinstance(objective, PeakGoal):
         own = objective.prepared
         objective = objective.on(_lines(own, parts, seed, own.frequency_hz))
     given = prepared, conditions, objective, parts, numbers, control
@@ -200,7 +200,7 @@ class _Study:
 
 
 def _study(
-    given: tuple[Prepared, Conditions, Objective, Parts, NDArray[np.intp], Control], seed: int
+    given: tuple[Prepared, Conditions, Objective, Parts, NDArray[np.intp], CancelToken], seed: int
 ) -> tuple[_Study, _Sampled, tuple[float, float]]:
     """What vehicles are solved with, what the one as drawn does, and how far PSDs and goals are off."""
     prepared, conditions, objective, parts, points, control = given

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.stats import beta
 
 from modeviz.analysis.sensitivity import spring_shares
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.errors import SolveError
 from modeviz.optimise.evaluator import CANCELLED, OUT_OF_BUDGET
 from modeviz.optimise.goals import ResponseGoal, exact_goal
@@ -131,7 +131,7 @@ def optimise_robustly(
     robustly: Search,
     before: Optimum,
     budget: int = BUDGET,
-    control: Control | None = None,
+    control: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The optimum for parts that scatter, from that for parts as drawn on.

@@ -10,7 +10,7 @@ from modeviz.vehicle.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)
-class Corner:
+class WorstCase:
     """All parts at an end of their tolerance."""
 
     deviations: Floats
@@ -18,7 +18,7 @@ class Corner:
     goal: float
 
 
-def worst_corner(objective: ResponseGoal, parts: Parts, sampled: Floats) -> Corner:
+def worst_corner(objective: ResponseGoal, parts: Parts, sampled: Floats) -> WorstCase:
     """The corner where the goal is largest, of those that a local search comes to.
 
     From the corner that the goal's derivatives point to with parts as drawn, and from the one next to a
@@ -40,16 +40,16 @@ def worst_corner(objective: ResponseGoal, parts: Parts, sampled: Floats) -> Corn
     return max(ends, key=lambda corner: corner.goal)
 
 
-def _climb(objective: ResponseGoal, parts: Parts, start: Floats) -> Corner:
+def _climb(objective: ResponseGoal, parts: Parts, start: Floats) -> WorstCase:
     """The corner that moving single parts leads to."""
-    corner = Corner(start, float(goals(objective, parts, start[None])[0]))
+    corner = WorstCase(start, float(goals(objective, parts, start[None])[0]))
     while True:
         neighbours = corner.deviations * (1 - 2 * np.eye(parts.n_deviations))
         values = goals(objective, parts, neighbours)
         best = int(values.argmax())
         if not values[best] > corner.goal * (1 + 1e-12):
             return corner
-        corner = Corner(neighbours[best], float(values[best]))
+        corner = WorstCase(neighbours[best], float(values[best]))
 
 
 def goals(objective: ResponseGoal, parts: Parts, deviations: Floats) -> Floats:

@@ -9,7 +9,7 @@ from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.connections import DIRECTIONS, MountRates, check_bounds
 
-Goal = Literal["accelerations", "peak", "rms", "rating", "iso 2631", "change"]
+GoalKind = Literal["accelerations", "peak", "rms", "rating", "iso 2631", "change"]
 """What is to become small.
 
 accelerations: the performance variables. peak: the largest of them, and of all between the first and
@@ -19,7 +19,7 @@ rating falls with, at the driver's point. iso 2631: the vibration total value th
 square of ln(k/k₀) of the rates that may change.
 """
 
-VARIABLES: tuple[Goal, ...] = ("accelerations", "peak")
+VARIABLES: tuple[GoalKind, ...] = ("accelerations", "peak")
 """Goals that are made of performance variables."""
 
 UNLIMITED = (0.0, np.inf)
@@ -143,7 +143,7 @@ class Problem:
     name: str
     groups: tuple[DesignGroup, ...]
     performance: tuple[Performance, ...] = ()
-    goal: Goal = "accelerations"
+    goal: GoalKind = "accelerations"
     is_normalised: bool = True
     """Whether each load case is divided by what it is with the vehicle's own rates, so that units do
     not decide; the paper adds them up as they are."""
@@ -153,8 +153,8 @@ class Problem:
 
     def __post_init__(self) -> None:
         where = f"problem {self.name!r}"
-        if self.goal not in get_args(Goal):
-            raise VehicleError(f"{where}: " + unknown("goal", self.goal, get_args(Goal)))
+        if self.goal not in get_args(GoalKind):
+            raise VehicleError(f"{where}: " + unknown("goal", self.goal, get_args(GoalKind)))
         if not self.groups:
             raise VehicleError(f"{where}: has no groups, so nothing may change; expected one or more")
         check_unique(f"{where}: design group", (g.group for g in self.groups))

@@ -45,8 +45,8 @@ from modeviz.viewer.session.answers import Solved, asks_for_the_same
 from modeviz.viewer.session.coloring import ColorScale, color_scale
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State, first_state, variant_name
-from modeviz.viewer.tasks.front_task import Trader
-from modeviz.viewer.tasks.scatter_task import Scatterer
+from modeviz.viewer.tasks.front_task import FrontTask
+from modeviz.viewer.tasks.scatter_task import ScatterTask
 from modeviz.viewer.tasks.search_task import Optimiser
 
 LEFT = {WIDE: 376, NARROW: 300}
@@ -87,8 +87,8 @@ class App:
         )
         mistake = server.notices.mistake
         self.optimiser = Optimiser(self.session, lambda: self._optimise.follow(), mistake)
-        self.trader = Trader(self.session, lambda: self._trade_off.follow(), mistake)
-        self.scatterer = Scatterer(self.session, lambda: self._scatter.follow(), mistake)
+        self.trader = FrontTask(self.session, lambda: self._trade_off.follow(), mistake)
+        self.scatterer = ScatterTask(self.session, lambda: self._scatter.follow(), mistake)
         scripts.run(self._gui, "page/style.js", style_sheet())
         scripts.run(self._gui, "page/delivery.js")
         scripts.run(self._gui, "page/numbers.js")

@@ -27,7 +27,7 @@ from modeviz.viewer.panels.plots import Line, Scale, level_axis, level_range
 from modeviz.viewer.scene.driver import DRIVER
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.responses import NOW, Responses, curve_label
-from modeviz.viewer.session.state import Curve as ResponseCurve
+from modeviz.viewer.session.state import ResponseCurve
 
 
 def offline_page(

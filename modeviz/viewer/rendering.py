@@ -20,8 +20,8 @@ from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
 from modeviz.viewer.page.access import open_server
 from modeviz.viewer.panels.modes import listed
-from modeviz.viewer.pictures.headless import Studio
-from modeviz.viewer.pictures.pictures import CYCLE_S, N_CYCLES, Shot, cycle, picture
+from modeviz.viewer.pictures.headless import HeadlessPage
+from modeviz.viewer.pictures.pictures import CYCLE_S, N_CYCLES, ImageSettings, cycle, picture
 from modeviz.viewer.scene.stage import box, camera
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.state import Coloring
@@ -41,7 +41,7 @@ WINDOW_PIXELS = 900 * 500
 
 
 @dataclass(frozen=True)
-class Wish:
+class RenderRequest:
     """What is to be seen."""
 
     mode: str
@@ -61,8 +61,8 @@ def render(
     vehicle: Vehicle,
     rates: Rates,
     conditions: Conditions,
-    wish: Wish,
-    shot: Shot,
+    wish: RenderRequest,
+    shot: ImageSettings,
     kind: Kind,
     tell: Callable[[str, float], None],
 ) -> bytes:
@@ -89,7 +89,7 @@ def render(
         if kind == "html":
             return app.offline(*seen)
         tell("opening", 0.0)
-        with Studio(app.server, *_window(shot), bare=True) as studio:
+        with HeadlessPage(app.server, *_window(shot), bare=True) as studio:
             tell("drawing", 0.0)
             pose = studio.look(*seen)
             studio.stand(wish.phase)
@@ -106,8 +106,8 @@ def photographs(
     vehicle: Vehicle,
     sets: Sequence[RateSet],
     conditions: Conditions,
-    wish: Wish,
-    shot: Shot,
+    wish: RenderRequest,
+    shot: ImageSettings,
     tell: Callable[[str, float], None],
 ) -> list[Picture]:
     """A still of a mode with each of several sets of rates; arguments and errors as `render`."""
@@ -116,7 +116,7 @@ def photographs(
         with located(sets[0].name):
             shot = replace(shot, scale=app.pictured(_show(app, wish)))
         tell("opening", 0.0)
-        with Studio(app.server, *_window(shot), bare=True) as studio:
+        with HeadlessPage(app.server, *_window(shot), bare=True) as studio:
             seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)
             pose = studio.look(*seen)
             pictures = []
@@ -157,13 +157,13 @@ def _app(
             app.close()
 
 
-def _window(shot: Shot) -> tuple[int, int]:
+def _window(shot: ImageSettings) -> tuple[int, int]:
     """A window in which labels are as far apart as in the picture: of the same proportions, pixels."""
     scale = math.sqrt(WINDOW_PIXELS / (shot.width * shot.height))
     return round(scale * shot.width), round(scale * shot.height)
 
 
-def _show(app: App, wish: Wish) -> Solved:
+def _show(app: App, wish: RenderRequest) -> Solved:
     """Has the app show what is wished; raises ModevizError as `render`."""
     app.session.change(coloring=wish.coloring, group="")
     if wish.mode:

@@ -10,7 +10,7 @@ from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import animated
 from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart
-from modeviz.viewer.pictures.pictures import Pose, Shot, picture
+from modeviz.viewer.pictures.pictures import ImageSettings, Pose, picture
 from modeviz.viewer.scene.driver import ShapeDriver
 from modeviz.viewer.scene.stage import LIGHT
 
@@ -122,7 +122,7 @@ def test_shader_moves_what_is_seen(server, driver, page):
     for phase in (0.0, np.pi):
         driver.seek(phase)
         wait_for(page, "Math.abs(window.__modeviz.phase - a.phase) < 1e-9", phase=phase)
-        image = picture(client, Shot(200, 200, "white", LIGHT, 0.5), pose)
+        image = picture(client, ImageSettings(200, 200, "white", LIGHT, 0.5), pose)
         heights.append(np.nonzero(np.asarray(image).max(axis=-1) < 200)[0].mean())
     two_metres = 2 / (2 * 10 * np.tan(0.25)) * 200
     assert heights[1] - heights[0] == pytest.approx(two_metres, abs=1.0)
@@ -231,7 +231,7 @@ def test_shader_colors_by_the_measure_of_the_displacement(server, driver, page, 
         coded = [shade.gain, shade.power]
         shown = "(m => m?.userData.shade?.value.join() === a.coded.join() && m.vertexColors)"
         wait_for(page, f"{shown}({MATERIAL})", name=NAME, coded=coded)
-        image = picture(client, Shot(100, 100, "white", LIGHT, 0.5), pose)
+        image = picture(client, ImageSettings(100, 100, "white", LIGHT, 0.5), pose)
         return np.asarray(image)[35:65, 35:65].reshape(-1, 3).mean(axis=0)
 
     measured = drawn(Shade(gain, power))

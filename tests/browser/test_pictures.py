@@ -23,8 +23,8 @@ from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart
 from modeviz.viewer.app import App
 from modeviz.viewer.page.access import open_server
-from modeviz.viewer.pictures.headless import Studio
-from modeviz.viewer.pictures.pictures import N_CYCLES, Pose, Shot, cycle, picture
+from modeviz.viewer.pictures.headless import HeadlessPage
+from modeviz.viewer.pictures.pictures import N_CYCLES, ImageSettings, Pose, cycle, picture
 from modeviz.viewer.scene.driver import ShapeDriver, held
 from modeviz.viewer.scene.stage import LIGHT, box, camera
 
@@ -69,7 +69,7 @@ def center(image):
 def test_frames_of_a_cycle_are_where_their_phases_put_them(client):
     n = 8
     with held(client) as hold:
-        shot = Shot(SIDE, SIDE, "white", LIGHT, 0.5)
+        shot = ImageSettings(SIDE, SIDE, "white", LIGHT, 0.5)
         frames = list(cycle(client, hold, shot, POSE, n))
     angles = 2 * np.pi * np.arange(n) / n
     expected = np.stack([-(DRIFT * np.exp(1j * angles)).real, (RISE * np.exp(1j * angles)).real])
@@ -78,7 +78,7 @@ def test_frames_of_a_cycle_are_where_their_phases_put_them(client):
 
 
 def test_a_whole_turn_later_is_the_same_picture(client):
-    shot, pose = Shot(SIDE, SIDE, "white", LIGHT, 0.5), POSE
+    shot, pose = ImageSettings(SIDE, SIDE, "white", LIGHT, 0.5), POSE
     with held(client) as hold:
         drawn = []
         for phase in (1.0, 4.0, 1.0 + 2 * np.pi):
@@ -109,7 +109,7 @@ def test_picture_has_the_size_asked_for_and_its_backdrop(client):
         ("white", (255, 255, 255)),
         ("transparent", (0,) * 4),
     ):
-        image = picture(client, Shot(96, 64, backdrop, LIGHT, 0.5), POSE)
+        image = picture(client, ImageSettings(96, 64, backdrop, LIGHT, 0.5), POSE)
         assert image.size == (96, 64)
         assert image.getpixel((0, 0))[: len(corner)] == corner
     assert image.getpixel((48, 32))[3] == 255
@@ -119,7 +119,7 @@ def test_background_of_the_page_is_in_no_picture_and_stays_on_the_page(server, c
     server.scene.set_background_image(np.full((4, 4, 3), (255, 0, 0), np.uint8), format="png")
     is_drawn = "window.__viserMutable.backgroundMaterial.uniforms.enabled.value"
     wait_for(page, is_drawn)
-    image = picture(client, Shot(64, 64, "transparent", LIGHT, 0.5), POSE)
+    image = picture(client, ImageSettings(64, 64, "transparent", LIGHT, 0.5), POSE)
     assert image.getpixel((0, 0))[3] == 0
     wait_for(page, "window.__viserMutable.backgroundMaterial.visible")
     server.scene.set_background_image(None)
@@ -247,7 +247,7 @@ LABELS_OFF = """() => {
 
 def test_labels_of_a_page_beside_are_placed_for_its_camera_as_soon_as_it_stands(app):
     def photographed():
-        with Studio(app.server, 600, 400, bare=True) as studio:
+        with HeadlessPage(app.server, 600, 400, bare=True) as studio:
             seen = camera(box(app.session.vehicle), "Side", 600, 400)
             studio.client.camera.position, studio.client.camera.look_at = seen
             studio.stand(1.0)

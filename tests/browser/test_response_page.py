@@ -15,12 +15,12 @@ from modeviz.cli import main
 from modeviz.files import write_vehicle
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.panels.plots import SHOWN_HZ
-from modeviz.viewer.session.state import Curve
+from modeviz.viewer.session.state import ResponseCurve
 
 SOLVE_S = 60
 SINGLE = 2.0**-23  # relative, between neighbours in single precision
 FLAT = Conditions("flat", 20.0)
-CURVES = Curve(0, "lateral"), Curve(0, "vertical")
+CURVES = ResponseCurve(0, "lateral"), ResponseCurve(0, "vertical")
 LOW, HIGH = SHOWN_HZ
 CHARTS = """
   Object.values(window.__viserTestpoints?.uplots ?? {}).sort((one, other) =>
@@ -89,7 +89,7 @@ def range_of(chart):
 def test_a_chart_keeps_its_zoom_when_another_response_is_chosen(app, page):
     seen = zoom(page, 0, 10.0, 17.0)
     assert seen == pytest.approx([10, 17], abs=0.3)
-    for curve in (Curve(0, "vertical"), Curve(0, "fore-aft")):
+    for curve in (ResponseCurve(0, "vertical"), ResponseCurve(0, "fore-aft")):
         app.session.change(curves=(curve, CURVES[1]))
         assert app.session.wait(SOLVE_S)
         assert_drawn(page, 0, "now", decibels_of(app, curve))
@@ -146,20 +146,20 @@ def test_curves_are_the_results_in_decibels_and_in_their_unit(app, page):
     page.get_by_role("tab", name="Road").click()
     choose(page, "Level", "Linear unit, logarithmic axis")
     page.get_by_role("tab", name="Response").click()
-    assert_drawn(page, 0, "now", spectrum(now, Curve(0, "lateral")))
+    assert_drawn(page, 0, "now", spectrum(now, ResponseCurve(0, "lateral")))
 
 
 def test_another_direction_is_drawn_where_it_is_chosen(app, page):
     page.get_by_role("combobox", name="dB re 1 g²/Hz").first.click()
     page.get_by_role("option", name="Seat, fore-aft").click()
     assert app.session.wait(SOLVE_S)
-    assert_drawn(page, 0, "now", decibels_of(app, Curve(0, "fore-aft")))
+    assert_drawn(page, 0, "now", decibels_of(app, ResponseCurve(0, "fore-aft")))
 
 
 def test_an_overlaid_set_is_drawn_as_a_curve_of_its_own_and_named(app, page):
     app.session.overlay("Soft", True)
     soft = solve(prepare(mounted_cabin()), mounted_cabin().rate_sets["soft"], FLAT)
-    assert_drawn(page, 1, "Soft", decibels(soft, Curve(0, "vertical")))
+    assert_drawn(page, 1, "Soft", decibels(soft, ResponseCurve(0, "vertical")))
     wait_for(page, "document.querySelector('.mv .keyed')?.textContent.includes('Soft')")
 
 
@@ -187,7 +187,7 @@ def test_the_zoom_stays_while_rates_move(app, page):
     for rate in (2.9e5, 2.5e5, 2e5):
         app.session.set_rate("A", "lateral", rate)
         assert app.session.wait(SOLVE_S)
-        assert_drawn(page, 0, "now", decibels_of(app, Curve(0, "lateral")))
+        assert_drawn(page, 0, "now", decibels_of(app, ResponseCurve(0, "lateral")))
     assert page.evaluate(zoom) == [[8, 14], [8, 14]]
 
 

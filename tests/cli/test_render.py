@@ -18,8 +18,8 @@ from modeviz.shapes.colors import stop_colors
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.pictures.pictures import Pose, Shot, picture
-from modeviz.viewer.rendering import Wish, photographs
+from modeviz.viewer.pictures.pictures import ImageSettings, Pose, picture
+from modeviz.viewer.rendering import RenderRequest, photographs
 from modeviz.viewer.scene.stage import FIELD_OF_VIEW, LIGHT
 from modeviz.viewer.session.coloring import ColorScale
 
@@ -122,11 +122,11 @@ def test_no_set_is_shown_in_place_of_one_without_an_answer(monkeypatch, resonant
     studio = SimpleNamespace(
         client=None, look=lambda *_: None, stand=lambda _: None, follow=lambda _: None
     )
-    monkeypatch.setattr("modeviz.viewer.rendering.Studio", lambda *_, **__: nullcontext(studio))
+    monkeypatch.setattr("modeviz.viewer.rendering.HeadlessPage", lambda *_, **__: nullcontext(studio))
     monkeypatch.setattr("modeviz.viewer.rendering.picture", lambda *_: None)
     monkeypatch.setattr("modeviz.viewer.rendering.png_bytes", lambda _: b"")
-    wish = Wish("", "Iso", "bodies", amplitude=1.0, phase=0.0, n_frames=1)
-    shot = Shot(64, 64, "white", LIGHT, FIELD_OF_VIEW)
+    wish = RenderRequest("", "Iso", "bodies", amplitude=1.0, phase=0.0, n_frames=1)
+    shot = ImageSettings(64, 64, "white", LIGHT, FIELD_OF_VIEW)
     sets = [RateSet("own", {}), RateSet("odd", resonant)]
     with pytest.raises(ModevizError, match="odd: an undamped resonance lies on 10 Hz"):
         photographs(mounted_cabin(), sets, Conditions("flat", 20.0), wish, shot, lambda *_: None)
@@ -149,7 +149,7 @@ POSE = Pose(np.array([1.0, 0, 0, 0]), np.zeros(3))
 
 def test_an_empty_picture_is_reported_and_not_given(monkeypatch):
     monkeypatch.setattr("modeviz.viewer.pictures.pictures.asked", lambda *_: nullcontext())
-    shot = Shot(64, 48, "scene", LIGHT, FIELD_OF_VIEW)
+    shot = ImageSettings(64, 48, "scene", LIGHT, FIELD_OF_VIEW)
     with pytest.raises(ModevizError, match="the picture is empty: the camera looks past the vehicle"):
         picture(Page((9, 9, 9, 0)), shot, POSE)
     assert picture(Page((9, 9, 9, 255)), shot, POSE).getpixel((0, 0)) == (9, 9, 9)
@@ -157,7 +157,7 @@ def test_an_empty_picture_is_reported_and_not_given(monkeypatch):
 
 def test_a_picture_says_what_its_colours_mean(monkeypatch):
     monkeypatch.setattr("modeviz.viewer.pictures.pictures.asked", lambda *_: nullcontext())
-    plain = Shot(640, 360, "scene", LIGHT, FIELD_OF_VIEW)
+    plain = ImageSettings(640, 360, "scene", LIGHT, FIELD_OF_VIEW)
     scaled = replace(plain, scale=ColorScale("Displacement", "100 %", ""))
     for shot, colors in ((plain, False), (scaled, True), (scaled.moving("gif"), True)):
         pixels = np.asarray(picture(Page((9, 9, 9, 255)), shot, POSE)).reshape(-1, 3)

@@ -2,17 +2,17 @@ import threading
 
 import pytest
 
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 
 
 def test_it_lets_a_computation_run():
-    control = Control()
+    control = CancelToken()
     control.check()
     assert not control.is_cancelled
 
 
 def test_cancelled_it_ends_it():
-    control = Control()
+    control = CancelToken()
     control.cancel()
     assert control.is_cancelled
     with pytest.raises(CancelledError):
@@ -21,7 +21,7 @@ def test_cancelled_it_ends_it():
 
 @pytest.mark.parametrize("release", ["resume", "cancel"])
 def test_held_it_waits_until_it_may_go_on_or_has_to_end(release):
-    control, ends = Control(), []
+    control, ends = CancelToken(), []
     control.pause()
 
     def compute():

@@ -11,7 +11,7 @@ from mounted_cabin import mounted_cabin
 from scattered_cabin import FLAT, cabin_objective, prepared_cabin
 
 from modeviz.analysis.batch import SENT, solve_many
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.cluster import runner_at
 from modeviz.errors import ModevizError
 from modeviz.files import write_vehicle
@@ -95,7 +95,7 @@ def test_a_lost_worker_is_survived(address):
     """The first worker that answers is killed, with all it was to do and what it was sent."""
     with runner_at(address) as runner:
         results = []
-        for result in runner.map(slowly_squared, 3, range(40), Control()):
+        for result in runner.map(slowly_squared, 3, range(40), CancelToken()):
             if not results:
                 os.kill(result[0], signal.SIGKILL)
             results.append(result)
@@ -104,7 +104,7 @@ def test_a_lost_worker_is_survived(address):
 
 
 def test_cancel_answers_at_once(address):
-    control = Control()
+    control = CancelToken()
     with runner_at(address) as runner:
         control.cancel()
         start = time.monotonic()
@@ -119,7 +119,7 @@ def fails(shared, item):
 
 def test_what_fails_there_fails_here_in_the_same_words(address):
     with runner_at(address) as runner, pytest.raises(ModevizError, match=r"^item 0 is bad$"):
-        next(runner.map(fails, None, range(3), Control()))
+        next(runner.map(fails, None, range(3), CancelToken()))
 
 
 def lacks(shared, item):
@@ -129,13 +129,13 @@ def lacks(shared, item):
 def test_workers_without_the_same_modeviz_are_an_error(address):
     answer = pytest.raises(ModevizError, match=r"^the workers need the same modeviz as here: No module")
     with runner_at(address) as runner, answer:
-        next(runner.map(lacks, None, range(3), Control()))
+        next(runner.map(lacks, None, range(3), CancelToken()))
 
 
 def test_a_lost_scheduler_is_an_error():
     answer = pytest.raises(ModevizError, match=r"^the scheduler is lost; start it and this again$")
     with cluster(1) as own, answer, runner_at(own.scheduler_address) as runner:
-        for _ in runner.map(slowly_squared, 3, range(1000), Control()):
+        for _ in runner.map(slowly_squared, 3, range(1000), CancelToken()):
             own.close()
 
 

@@ -2,7 +2,7 @@ import threading
 
 import pytest
 
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import HERE, N_THREADS
 
 SOON = 20
@@ -13,11 +13,11 @@ def times(shared, item):
 
 
 def test_results_come_in_the_order_of_their_items():
-    assert list(HERE.map(times, 3, range(50), Control())) == [3 * n for n in range(50)]
+    assert list(HERE.map(times, 3, range(50), CancelToken())) == [3 * n for n in range(50)]
 
 
 def test_nothing_has_no_results():
-    assert list(HERE.map(times, 3, [], Control())) == []
+    assert list(HERE.map(times, 3, [], CancelToken())) == []
 
 
 def join_all_but(before):
@@ -36,7 +36,7 @@ def counted(taken):
 
 def test_it_is_only_a_few_tasks_ahead_of_who_takes_the_results():
     taken = []
-    results = HERE.map(times, 1, counted(taken), Control())
+    results = HERE.map(times, 1, counted(taken), CancelToken())
     assert next(results) == 0
     assert len(taken) <= N_THREADS + 1
     results.close()
@@ -47,12 +47,12 @@ def test_what_a_task_raises_is_raised():
         raise ValueError(f"item {item}")
 
     with pytest.raises(ValueError, match="item 0"):
-        list(HERE.map(fails, None, range(5), Control()))
+        list(HERE.map(fails, None, range(5), CancelToken()))
 
 
 def test_cancelled_it_ends_and_its_threads_soon():
     before = set(threading.enumerate())
-    control = Control()
+    control = CancelToken()
     taken = []
     results = HERE.map(times, 1, counted(taken), control)
     next(results)
@@ -65,7 +65,7 @@ def test_cancelled_it_ends_and_its_threads_soon():
 
 def test_cancelled_it_does_not_wait_for_what_is_being_computed():
     before = set(threading.enumerate())
-    control, has_begun, may_end, ended = Control(), threading.Event(), threading.Event(), []
+    control, has_begun, may_end, ended = CancelToken(), threading.Event(), threading.Event(), []
 
     def held(_shared, item):
         has_begun.set()

@@ -3,7 +3,7 @@ import pytest
 from cabin_problem import cabin_search
 from rounding import CABIN, SEARCHED, SEARCHED_X
 
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.compute.runner import HERE
 from modeviz.optimise.multistart import optimise_on
 from modeviz.optimise.run import optimise
@@ -36,7 +36,7 @@ def test_every_end_of_a_search_is_told(search, starts):
 
 
 def test_cancelled_it_keeps_the_best_so_far(search, starts):
-    control = Control()
+    control = CancelToken()
     found = optimise_on(HERE, search, starts, control=control, tell=lambda _: control.cancel())
     assert found.reason == "cancelled"
     assert not found.converged
@@ -44,7 +44,7 @@ def test_cancelled_it_keeps_the_best_so_far(search, starts):
 
 
 def test_cancelled_before_anything_was_found_it_gives_the_better_of_the_first_starts(search, starts):
-    control = Control()
+    control = CancelToken()
     control.cancel()
     found = optimise_on(HERE, search, starts, control=control)
     assert found.reason == "cancelled"

@@ -7,7 +7,7 @@ from limits_kept import excess
 from mounted_cabin import mounted_cabin
 from toy_goals import logarithmic_search, paraboloid
 
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.optimise.descent import descend
 from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.optimise.pareto import find_front
@@ -94,7 +94,7 @@ def test_every_design_keeps_all_limits_and_none_dominates_another(cabin):
 @pytest.mark.parametrize("is_cancelled", [False, True])
 def test_designs_are_checked_one_after_the_other_also_after_a_cancel(cabin, is_cancelled):
     trade_off, _ = cabin
-    control, told = Control(), []
+    control, told = CancelToken(), []
 
     def tell(progress):
         told.append(progress)
@@ -159,7 +159,7 @@ def test_windows_hold_on_the_whole_front():
 
 def test_it_tells_each_design_and_can_be_cancelled(cabin):
     trade_off, _ = cabin
-    control, told = Control(), []
+    control, told = CancelToken(), []
 
     def tell(progress):
         told.append(progress)
@@ -176,7 +176,7 @@ def test_it_tells_each_design_and_can_be_cancelled(cabin):
 
 
 def test_cancelled_before_it_begins_it_has_no_designs(cabin):
-    control = Control()
+    control = CancelToken()
     control.cancel()
     front = find_front(cabin[0], [{}], control=control)
     assert (front.reason, front.designs, front.evaluations) == (CANCELLED, (), 0)

@@ -15,7 +15,7 @@ from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 import modeviz as mv
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.cli.optimise import N_STARTS
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.compute.runner import HERE
 from modeviz.errors import SolveError
 from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
@@ -80,12 +80,12 @@ def test_starts_are_the_given_rates_and_the_best_of_many_designs():
 
 
 def test_starts_are_chosen_from_what_there_is_when_it_is_cancelled():
-    control = Control()
+    control = CancelToken()
     control.cancel()
     assert len(start_points(cabin_search(), {}, 4, control=control)) == 1
 
 
-class Patience(Control):
+class Patience(CancelToken):
     """Is cancelled after so many designs."""
 
     def __init__(self, n_designs):
@@ -139,7 +139,7 @@ def test_the_same_seed_evolves_the_same():
 
 
 def test_a_global_search_ends_with_its_budget_or_when_it_is_cancelled():
-    search, control = cabin_search(), Control()
+    search, control = cabin_search(), CancelToken()
     spent = search_globally(search, budget=50)
     assert (spent.reason, spent.evaluations) == (OUT_OF_BUDGET, 50)
     optimum = search_globally(search, control=control, tell=lambda _: control.cancel())
@@ -199,7 +199,7 @@ def in_thread(search, control, tell):
 
 
 def test_cancelled_from_outside_it_answers_at_once_with_the_best():
-    control, told, has_begun = Control(), [], threading.Event()
+    control, told, has_begun = CancelToken(), [], threading.Event()
 
     def tell(progress):
         told.append(progress)
@@ -220,7 +220,7 @@ def test_cancelled_from_outside_it_answers_at_once_with_the_best():
 
 
 def test_held_it_waits_and_then_finds_the_same():
-    control, told, is_held = Control(), [], threading.Event()
+    control, told, is_held = CancelToken(), [], threading.Event()
 
     def tell(progress):
         told.append(progress)
@@ -250,7 +250,7 @@ def test_without_a_design_that_keeps_the_windows_there_is_an_error():
         match=r"no design was found that keeps the frequency windows \(cab yaw: at most 1 Hz\): widen",
     ):
         optimise(search, starts, budget=40)
-    control = Control()
+    control = CancelToken()
     control.cancel()
     with pytest.raises(SolveError, match="cancelled: no design was found"):
         optimise(search, starts, control=control)
@@ -258,7 +258,7 @@ def test_without_a_design_that_keeps_the_windows_there_is_an_error():
 
 def test_cancelled_while_starts_are_chosen_the_best_of_these_is_kept():
     search = cabin_search()
-    control = Control()
+    control = CancelToken()
     starts = start_points(search, {}, 3)
     control.cancel()
     optimum = optimise(search, starts, control=control)

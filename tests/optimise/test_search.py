@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
 import modeviz as mv
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.errors import SolveError, VehicleError
 from modeviz.optimise.descent import descend
 from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
@@ -76,7 +76,7 @@ def test_it_stops_when_its_budget_is_spent_and_keeps_the_best():
 
 
 def test_it_stops_when_it_is_cancelled_and_keeps_the_best():
-    control = Control()
+    control = CancelToken()
 
     def cancel(step):
         if step.evaluations == 3:
@@ -89,7 +89,7 @@ def test_it_stops_when_it_is_cancelled_and_keeps_the_best():
 
 
 def test_cancelled_before_it_starts_it_keeps_the_start():
-    control = Control()
+    control = CancelToken()
     control.cancel()
     descent = descend(cabin_search(), np.zeros(4), 100, control)
     assert (descent.reason, descent.evaluations) == (CANCELLED, 1)

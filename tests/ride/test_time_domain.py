@@ -85,7 +85,7 @@ def simulate(system: tuple[np.ndarray, ...], inputs: np.ndarray, step: float) ->
 
 
 @dataclass(frozen=True, eq=False)
-class Drive:
+class RoadExcitation:
     """The seat's accelerations on a road: as simulated, and by the model's frequency response."""
 
     frequency_hz: np.ndarray
@@ -102,7 +102,7 @@ class Drive:
 
 
 @pytest.fixture(scope="module")
-def drive() -> Drive:
+def drive() -> RoadExcitation:
     truck = viscous(read_vehicle(builtin_vehicle()))
     road, seat = truck.random_load("road 1"), truck.response_points[0]
     system = assemble(truck)
@@ -120,7 +120,7 @@ def drive() -> Drive:
         # Straight lines between samples weaken the road by sinc².
         return -((2 * np.pi * f * np.sinc(f / sample_rate)) ** 2)[:, None, None] * H
 
-    return Drive(f, road_spectrum(road, f, SPEED), response(SPEED), response(1e9), estimate)
+    return RoadExcitation(f, road_spectrum(road, f, SPEED), response(SPEED), response(1e9), estimate)
 
 
 def vibrating(modes: Modes) -> Modes:

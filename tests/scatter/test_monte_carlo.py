@@ -6,7 +6,7 @@ from scattered_cabin import FLAT, cabin_objective, prepared_cabin
 
 from modeviz.analysis.batch import solve_many
 from modeviz.analysis.results import solve
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.errors import SolveError, VehicleError
 from modeviz.optimise.peak import prepare_peak
 from modeviz.scatter.monte_carlo import CHUNK, scatter
@@ -107,7 +107,7 @@ def test_progress_ends_with_one(prepared, parts, objective):
 
 
 def test_it_ends_when_told_to_with_the_vehicles_so_far(prepared, parts, objective):
-    control = Control()
+    control = CancelToken()
     told = []
 
     def tell(done):
@@ -122,7 +122,7 @@ def test_it_ends_when_told_to_with_the_vehicles_so_far(prepared, parts, objectiv
 
 
 def test_it_ends_also_before_it_has_a_sample(monkeypatch, prepared, parts, objective):
-    control, may_end, ended = Control(), threading.Event(), []
+    control, may_end, ended = CancelToken(), threading.Event(), []
 
     def held(*_):
         control.cancel()

@@ -10,7 +10,7 @@ from modeviz.analysis.pairing import Pair, pair_modes
 from modeviz.analysis.results import ModalResults, Results
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.optimise.outside import outside_space
-from modeviz.report.comparison import Comparison, Worth
+from modeviz.report.comparison import Comparison, ObjectiveValues
 from modeviz.report.optimum import objective_words
 from modeviz.report.space import outside_words, ratio_words
 from modeviz.ride.psd import power_decibels
@@ -69,7 +69,7 @@ def objective(comparison: Comparison) -> str:
     )
 
 
-def _space(comparison: Comparison, worth: Worth) -> list[str]:
+def _space(comparison: Comparison, worth: ObjectiveValues) -> list[str]:
     """Which ratios a search from the vehicle's own rates keeps, and which sets it could not find."""
     if worth.space is None:
         return []

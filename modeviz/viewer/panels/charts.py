@@ -19,7 +19,7 @@ from modeviz.viewer.panels.plots import Line, ResponsePlot, Scale, set_line
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.responses import NOW, Responses, curve_label
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import Curve, State, set_numbers
+from modeviz.viewer.session.state import ResponseCurve, State, set_numbers
 
 
 class ChartsPanel:
@@ -44,7 +44,7 @@ class ChartsPanel:
         solved: Solved,
         responses: Responses,
         peaks: list[list[int]],
-        band: Callable[[Curve], tuple[Floats, Floats] | None],
+        band: Callable[[ResponseCurve], tuple[Floats, Floats] | None],
     ) -> None:
         """Draws an answer.
 
@@ -117,9 +117,9 @@ def chart_lines(solved: Solved, responses: Responses, base: str, now: str) -> li
     return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
 
 
-def _curve_labels(vehicle: Vehicle) -> dict[str, Curve]:
+def _curve_labels(vehicle: Vehicle) -> dict[str, ResponseCurve]:
     """All responses there are, by what they are called."""
-    curves = [Curve(i, d) for i in range(len(vehicle.response_points)) for d in DIRECTIONS]
+    curves = [ResponseCurve(i, d) for i in range(len(vehicle.response_points)) for d in DIRECTIONS]
     return {curve_label(vehicle, curve): curve for curve in curves}
 
 

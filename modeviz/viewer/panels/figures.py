@@ -15,7 +15,7 @@ from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, change, heading, named, row, span, table
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.responses import NOW, PSD, Responses
-from modeviz.viewer.session.state import Curve
+from modeviz.viewer.session.state import ResponseCurve
 
 DRIVER = 0
 """The response point that is rated: the vehicle's first."""
@@ -77,7 +77,7 @@ def _road_figures(solved: Solved, responses: Responses) -> str:
     gain = span(f"{signed(after - before, 2)} points", _kind(after - before))
     figures = [_figure("Ride rating", number(after, 2), "MPR", gain, _about_rating(now))]
     for direction in ("lateral", "vertical"):
-        curve = Curve(DRIVER, direction)
+        curve = ResponseCurve(DRIVER, direction)
         value, old = responses.figure(NOW, curve), responses.figure(solved.state.against, curve)
         about = f"RMS acceleration, {_point(now)}, {direction}, {band_text(now)}"
         label = f"RMS {direction}"
@@ -95,12 +95,12 @@ def _wheel_figures(solved: Solved, responses: Responses) -> str:
     against, now = solved.state.against, solved.now
     figures = []
     for direction in ("lateral", "vertical", "fore-aft"):
-        curve = Curve(DRIVER, direction)
+        curve = ResponseCurve(DRIVER, direction)
         value, old = responses.figure(NOW, curve), responses.figure(against, curve)
         about = f"Mean peak acceleration, {_point(now)}, {direction}, {_band_text(solved)}"
         label = f"Mean {direction}"
         figures.append(_figure(label, f"{1000 * value:.2f}", "10⁻³ g", change(value, old), about))
-    lateral = Curve(DRIVER, "lateral")
+    lateral = ResponseCurve(DRIVER, "lateral")
     value, old = (
         _highest(solved, responses.lines(name), responses.of(name, lateral)) for name in (NOW, against)
     )
@@ -124,7 +124,7 @@ def _all_points(solved: Solved, responses: Responses) -> str:
     rows = []
     for i, point in enumerate(solved.now.vehicle.response_points):
         for direction in DIRECTIONS:
-            curve = Curve(i, direction)
+            curve = ResponseCurve(i, direction)
             old, value = (responses.figure(n, curve) for n in (solved.state.against, NOW))
             name = named(sentence_case(point.name)) if direction == DIRECTIONS[0] else ""
             cells = [

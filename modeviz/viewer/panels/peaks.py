@@ -13,7 +13,7 @@ from modeviz.viewer.page.html import HiddenButtons, block, heading, span
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import Curve
+from modeviz.viewer.session.state import ResponseCurve
 
 PEAK_BAND = (5.0, 25.0)
 """Hz: below it mounts do nothing (Duncan, "The requirement")."""
@@ -92,7 +92,7 @@ class PeaksPanel:
                 self._session.show_mode(results.names[chosen.mode].name, results.rates, chosen.group)
 
 
-def strongest(responses: Responses, curve: Curve, solved: Solved) -> list[int]:
+def strongest(responses: Responses, curve: ResponseCurve, solved: Solved) -> list[int]:
     """The lines of the `N_PEAKS` highest peaks within `PEAK_BAND` that stand apart, rising."""
     f, levels = responses.lines(""), responses.of("", curve)
     lines = [i for i in responses.peak_lines(curve) if PEAK_BAND[0] <= f[i] <= PEAK_BAND[1]]
@@ -103,7 +103,7 @@ def strongest(responses: Responses, curve: Curve, solved: Solved) -> list[int]:
     return sorted(chosen[:N_PEAKS])
 
 
-def _labels(curves: tuple[Curve, ...]) -> list[str]:
+def _labels(curves: tuple[ResponseCurve, ...]) -> list[str]:
     """What the charts are called beside their peaks: the direction, if that tells them apart."""
     if len({curve.direction for curve in curves}) == len(curves):
         return [SHORT[curve.direction] for curve in curves]

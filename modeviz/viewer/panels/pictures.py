@@ -14,15 +14,15 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page.access import Server
 from modeviz.viewer.page.connection import MOST_PAGES
 from modeviz.viewer.page.limits import Places
-from modeviz.viewer.pictures.headless import Studio
+from modeviz.viewer.pictures.headless import HeadlessPage
 from modeviz.viewer.pictures.pictures import (
     CYCLE_S,
     N_CYCLES,
     N_FRAMES,
     SIZES,
     Backdrop,
+    ImageSettings,
     Pose,
-    Shot,
     cycle,
     picture,
     same_field_of_view,
@@ -30,7 +30,7 @@ from modeviz.viewer.pictures.pictures import (
 from modeviz.viewer.scene.driver import held
 from modeviz.viewer.scene.stage import Theme
 from modeviz.viewer.session.coloring import ColorScale
-from modeviz.viewer.tasks.page_jobs import Tell, run, turn
+from modeviz.viewer.tasks.page_jobs import Progress, run, turn
 
 PRESETS = {
     "1920 × 1080": (1920, 1080),
@@ -77,7 +77,7 @@ class PicturePanel:
         self._subject, self._scale, self._offline, self._report = subject, scale, offline, report
         self._pages = Places(MOST_PAGES, 1)
         self._jobs, self._browsers = threading.Semaphore(N_JOBS), threading.Semaphore(N_BROWSERS)
-        self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Tell], bytes]]] = {
+        self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Progress], bytes]]] = {
             "Picture, PNG": ("", "png", self._picture),
             "Loop, GIF": ("", "gif", self._gif),
             "Film, MP4": ("", "mp4", self._mp4),
@@ -118,7 +118,7 @@ class PicturePanel:
         kind = self._kind.value
         what, ending, make = self._makers[kind]
 
-        def work(tell: Tell) -> None:
+        def work(tell: Progress) -> None:
             with turn(self._jobs, tell):
                 content = make(client, tell)
             tell(1.0)  # the last moment to cancel
@@ -133,52 +133,54 @@ class PicturePanel:
         finally:
             self._pages.leave(str(client.client_id))
 
-    def _shot(self, client: viser.ClientHandle) -> Shot:
+    def _shot(self, client: viser.ClientHandle) -> ImageSettings:
         width, height = round(self._width.value), round(self._height.value)
         fov = same_field_of_view(client.camera, width, height)
-        return Shot(width, height, BACKDROPS[self._backdrop.value], self._theme, fov, self._scale())
+        return ImageSettings(
+            width, height, BACKDROPS[self._backdrop.value], self._theme, fov, self._scale()
+        )
 
-    def _picture(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+    def _picture(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """The 3-D view at this moment."""
         tell(0.0)
         return png_bytes(picture(client, self._shot(client), Pose.of(client.camera)))
 
-    def _gif(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+    def _gif(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """One cycle that repeats without a seam."""
         shot, pose = self._shot(client).moving("gif"), Pose.of(client.camera)
         with held(client) as hold:
             return gif_bytes(_told(cycle(client, hold, shot, pose, N_FRAMES), tell), CYCLE_S)
 
-    def _mp4(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+    def _mp4(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """Some cycles as a film."""
         check_films()
         shot, pose = self._shot(client).moving("mp4"), Pose.of(client.camera)
         with held(client) as hold:
             return mp4_bytes(_told(cycle(client, hold, shot, pose, N_FRAMES), tell), CYCLE_S, N_CYCLES)
 
-    def _page(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+    def _page(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """The page with its panels, from a browser beside: no page can photograph itself."""
         done = count(1)
 
         def tick() -> None:
             tell(1 - math.exp(-next(done) / 100))  # nobody knows how long
 
-        with turn(self._browsers, tell), Studio(self._server, tick=tick) as studio:
+        with turn(self._browsers, tell), HeadlessPage(self._server, tick=tick) as studio:
             return studio.page_png(like=client)
 
-    def _html(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+    def _html(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """The scene with its plots in a file."""
         tell(0.0)
         return self._offline(client.camera.position, client.camera.look_at)
 
-    def _illustrated(self, client: viser.ClientHandle, tell: Tell) -> bytes:
+    def _illustrated(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """The comparison on paper."""
         png = self._picture(client, tell)
         tell(0.5)
         return self._report(png)
 
 
-def _told(frames: Iterator[Image.Image], tell: Tell) -> Iterator[Image.Image]:
+def _told(frames: Iterator[Image.Image], tell: Progress) -> Iterator[Image.Image]:
     """The frames of a cycle, and word of how many there are."""
     for done in range(N_FRAMES):
         # Before each: viser's page complains of news for a bar that goes in the same breath.

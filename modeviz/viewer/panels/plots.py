@@ -10,7 +10,7 @@ import viser
 from modeviz.text.axes import DECIBELS, USUAL_SHOWN_HZ, Axis
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page.handles import send_together
-from modeviz.viewer.session.responses import Quantity
+from modeviz.viewer.session.responses import LevelUnit
 
 SHOWN_HZ = USUAL_SHOWN_HZ
 TICKS_HZ, LOG_TICKS_HZ = (1.0, 5.0, 10.0, 15.0, 20.0, 25.0), (1.0, 2.0, 5.0, 10.0, 25.0)
@@ -36,7 +36,7 @@ SET_DASHES = ((), (7, 3), (2, 3))
 class Scale:
     """How responses are drawn."""
 
-    quantity: Quantity
+    quantity: LevelUnit
     decibels: bool
     log_frequency: bool
 

@@ -10,13 +10,13 @@ from modeviz.viewer.panels.peaks import PeaksPanel
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.tasks.scatter_task import Scatterer
+from modeviz.viewer.tasks.scatter_task import ScatterTask
 
 
 class ResponsePanel:
     """Four figures, two charts, and the modes in their peaks."""
 
-    def __init__(self, gui: viser.GuiApi, session: Session, scatterer: Scatterer, dark: bool) -> None:
+    def __init__(self, gui: viser.GuiApi, session: Session, scatterer: ScatterTask, dark: bool) -> None:
         """Builds the parts; `show` fills them."""
         self._scatterer = scatterer
         self._figures = FiguresPanel(gui)

@@ -18,7 +18,7 @@ from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, row, span, table, title
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job
-from modeviz.viewer.tasks.scatter_task import PERCENT, Build, Scattered, Scatterer
+from modeviz.viewer.tasks.scatter_task import PERCENT, Build, ScatterOutcome, ScatterTask
 
 SCATTER, CANCEL = "Scatter", "Cancel"
 N_VEHICLES = 1000
@@ -30,7 +30,7 @@ N_PARTS = 3
 class ScatterPanel:
     """A button that scatters the mounts at the present rates, and what came of it."""
 
-    def __init__(self, gui: viser.GuiApi, session: Session, scatterer: Scatterer) -> None:
+    def __init__(self, gui: viser.GuiApi, session: Session, scatterer: ScatterTask) -> None:
         """Builds the controls; nothing for a vehicle without anything to optimise for."""
         self._session, self._scatterer = session, scatterer
         self._lock = threading.Lock()
@@ -78,7 +78,7 @@ class ScatterPanel:
                 event.client.add_notification("Not possible", str(error), color="red")
 
 
-def _text(job: Job[Build, Scattered], is_current: bool) -> list[str]:
+def _text(job: Job[Build, ScatterOutcome], is_current: bool) -> list[str]:
     if job.phase == "failed":
         return [heading("Failed"), span(escape(job.failure), "bad")]
     if job.phase == "cancelled":

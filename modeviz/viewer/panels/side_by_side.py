@@ -12,7 +12,7 @@ from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.responses import NOW, Responses
-from modeviz.viewer.session.state import Curve, variant_name
+from modeviz.viewer.session.state import ResponseCurve, variant_name
 
 LEAST_HZ = 0.005
 """Smaller changes of a frequency are not listed."""
@@ -87,7 +87,7 @@ def _figures(solved: Solved) -> list[str]:
     scale, unit = (1, "RMS g") if not solved.state.load else (1000, "mean 10⁻³ g")
     rows = []
     for direction in DIRECTIONS:
-        curve = Curve(DRIVER, direction)
+        curve = ResponseCurve(DRIVER, direction)
         old, new = (responses.figure(name, curve) for name in (solved.state.against, NOW))
         texts = (f"{scale * value:.3f}" for value in (old, new))
         rows.append(row([f"{sentence_case(direction)}, {unit}", *texts, change(new, old)]))

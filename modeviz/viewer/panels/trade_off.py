@@ -15,7 +15,7 @@ from modeviz.viewer.page.html import HiddenButtons, block, heading, span
 from modeviz.viewer.panels.status import ALARMING, percent
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job
-from modeviz.viewer.tasks.front_task import Designs, Trade, Trader
+from modeviz.viewer.tasks.front_task import Designs, FrontTask, Trade
 
 FIND, CANCEL = "Find front", "Cancel"
 NOTHING = "Nothing"
@@ -27,7 +27,7 @@ MARGIN = 0.06
 class TradeOffPanel:
     """Which two goals, a button that finds their front, and the front."""
 
-    def __init__(self, gui: viser.GuiApi, session: Session, trader: Trader) -> None:
+    def __init__(self, gui: viser.GuiApi, session: Session, trader: FrontTask) -> None:
         """Builds the controls; nothing where nothing can be traded."""
         self._session, self._trader = session, trader
         self._lock = threading.Lock()

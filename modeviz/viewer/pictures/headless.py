@@ -73,7 +73,7 @@ STANDS_AT = """async (phase) => {
 }"""
 
 
-class Studio:
+class HeadlessPage:
     """One page of a server in a headless Chromium, to be used in a `with` statement by one thread."""
 
     client: viser.ClientHandle

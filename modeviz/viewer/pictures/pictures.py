@@ -44,7 +44,7 @@ LONGEST_SIDE = {"gif": 1280, "mp4": 1920}
 
 
 @dataclass(frozen=True)
-class Shot:
+class ImageSettings:
     """How a picture is taken."""
 
     width: int
@@ -64,7 +64,7 @@ class Shot:
             if not SIZES[0] <= side <= SIZES[1]:
                 raise ModevizError(f"{name}: found {side}, expected {SIZES[0]} to {SIZES[1]} pixels")
 
-    def moving(self, ending: Literal["gif", "mp4"]) -> "Shot":
+    def moving(self, ending: Literal["gif", "mp4"]) -> "ImageSettings":
         """The same for a moving picture: opaque, no larger than wise, of even width and height."""
         scale = min(1.0, LONGEST_SIDE[ending] / max(self.width, self.height))
         width, height = (max(2 * round(scale * s / 2), SIZES[0]) for s in (self.width, self.height))
@@ -88,7 +88,7 @@ class Pose:
 
 
 def picture(
-    client: viser.ClientHandle, shot: Shot, pose: Pose, timeout: float = TIMEOUT
+    client: viser.ClientHandle, shot: ImageSettings, pose: Pose, timeout: float = TIMEOUT
 ) -> Image.Image:
     """The 3-D view of a page as it is, RGBA if the backdrop is transparent, else RGB.
 
@@ -128,7 +128,7 @@ def picture(
     return _explained(_on_backdrop(Image.fromarray(drawn), shot), shot)
 
 
-def _on_backdrop(image: Image.Image, shot: Shot) -> Image.Image:
+def _on_backdrop(image: Image.Image, shot: ImageSettings) -> Image.Image:
     if shot.backdrop == "transparent":
         return image
     if shot.backdrop == "white":
@@ -136,7 +136,7 @@ def _on_backdrop(image: Image.Image, shot: Shot) -> Image.Image:
     return on_color(image, shot.theme.top, shot.theme.bottom)
 
 
-def _explained(image: Image.Image, shot: Shot) -> Image.Image:
+def _explained(image: Image.Image, shot: ImageSettings) -> Image.Image:
     """The picture with the scale of its colours, if they mean something."""
     if shot.scale is None:
         return image
@@ -149,7 +149,7 @@ def _explained(image: Image.Image, shot: Shot) -> Image.Image:
 def cycle(
     client: viser.ClientHandle,
     hold: Callable[[float], None],
-    shot: Shot,
+    shot: ImageSettings,
     pose: Pose,
     n_frames: int,
     timeout: float = TIMEOUT,

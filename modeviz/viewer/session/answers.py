@@ -13,9 +13,9 @@ from modeviz.analysis.pairing import Pair, pair_modes, same_mode
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import (
     Conditions,
-    Drive,
     ModalResults,
     Results,
+    RoadExcitation,
     WheelResults,
     drive,
     solve_modal,
@@ -122,9 +122,9 @@ class Answers:
         self._vehicle = vehicle
         self.prepared: Prepared
         """The vehicle made ready, once `prepare` has."""
-        self._drive: Drive
+        self._drive: RoadExcitation
         """Near the rates of the last rest."""
-        self._home: Drive
+        self._home: RoadExcitation
         """At the vehicle's own rates: what is kept for long shares its receptances."""
         self._named: dict[str, Results] = {}
         self._unsolved: dict[str, str] = {}
@@ -258,7 +258,7 @@ class Answers:
         before, found = self._wheels.get(name, (None, None))
         return found if before is results else None
 
-    def _drive_on(self, conditions: Conditions) -> Drive:
+    def _drive_on(self, conditions: Conditions) -> RoadExcitation:
         found = self._drive  # `rebase` may put another in its place
         if found.conditions != conditions:
             self._drive = found = drive(found.prepared, conditions)

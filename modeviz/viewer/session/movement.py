@@ -19,7 +19,7 @@ from modeviz.dynamics.naming import ModeName
 from modeviz.errors import SolveError
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.viewer.session.state import Curve, State
+from modeviz.viewer.session.state import ResponseCurve, State
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +133,7 @@ def _excited(state: State, results: Results) -> Complexes:
     return road_shape(results, state.operating_hz, curve.point, curve.direction)
 
 
-def _reference(state: State) -> Curve:
+def _reference(state: State) -> ResponseCurve:
     """The response in whose phase a vehicle is seen on its road."""
     if not state.curves:
         raise SolveError("an operating shape on a road needs a [[road]] and a [[response_point]]")

@@ -13,7 +13,7 @@ from modeviz.text.wording import sentence_case
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.state import Curve
+from modeviz.viewer.session.state import ResponseCurve
 
 NOW = ""
 """In place of a set's name: the present rates."""
@@ -23,7 +23,7 @@ LONGEST_POINT = 26
 
 
 @dataclass(frozen=True)
-class Quantity:
+class LevelUnit:
     """What is drawn."""
 
     unit: str
@@ -35,8 +35,8 @@ class Quantity:
         return f"dB re 1 {self.unit}" if in_decibels else self.unit
 
 
-PSD = Quantity("g²/Hz", power_decibels, 1)
-PEAK_ACCELERATION = Quantity("g", amplitude_decibels, 2)
+PSD = LevelUnit("g²/Hz", power_decibels, 1)
+PEAK_ACCELERATION = LevelUnit("g", amplitude_decibels, 2)
 
 
 class Responses:
@@ -54,7 +54,7 @@ class Responses:
         state = self._solved.state
         return [n for n in self._solved.named if n in state.overlaid and n != state.against]
 
-    def of(self, name: str, curve: Curve) -> Floats:
+    def of(self, name: str, curve: ResponseCurve) -> Floats:
         """The response with a set's rates, or `NOW`, (n_freqs,), in the unit of `quantity`."""
         if self._load is None:
             return self._results(name).response(curve.point, curve.direction)
@@ -67,7 +67,7 @@ class Responses:
             return self._results(name).frequency_hz
         return self._solved.wheels[name].frequency_hz
 
-    def figure(self, name: str, curve: Curve) -> float:
+    def figure(self, name: str, curve: ResponseCurve) -> float:
         """The RMS on the road, or the mean over the paper's band under a wheel load, g."""
         at = curve.point, AXIS[curve.direction]
         if self._load is None:
@@ -75,13 +75,13 @@ class Responses:
         band = wheel_band(self._solved.now.prepared.vehicle)
         return float(self._solved.wheels[name].mean(band)[self._load][at])
 
-    def peak_lines(self, curve: Curve) -> list[int]:
+    def peak_lines(self, curve: ResponseCurve) -> list[int]:
         """Where the present response has its peaks, numbers of frequencies."""
         if self._load is None:
             return self._solved.now.peak_lines(curve.point, curve.direction)
         return wheel_peak_lines(self._wheels, self._load, curve.point, curve.direction)
 
-    def peaks(self, curve: Curve, count: int, lines: list[int]) -> tuple[Peak, ...]:
+    def peaks(self, curve: ResponseCurve, count: int, lines: list[int]) -> tuple[Peak, ...]:
         """Those peaks of the present response with the `count` modes that make most of each."""
         now = self._solved.now
         if self._load is None:
@@ -101,7 +101,7 @@ def load_number(vehicle: Vehicle, name: str) -> int | None:
     return next((i for i, load in enumerate(vehicle.harmonic_loads) if load.name == name), None)
 
 
-def curve_label(vehicle: Vehicle, curve: Curve) -> str:
+def curve_label(vehicle: Vehicle, curve: ResponseCurve) -> str:
     """A response as people call it: "Seat track left, lateral".
 
     Long names of points are cut in their midst, if they still differ.

@@ -30,7 +30,7 @@ one component alone."""
 
 
 @dataclass(frozen=True)
-class Curve:
+class ResponseCurve:
     """A response that is drawn."""
 
     point: int
@@ -81,7 +81,7 @@ class State:
 
     load: str = ""
     """The wheel load whose response is drawn, or the road: ""."""
-    curves: tuple[Curve, ...] = (Curve(0, "lateral"), Curve(0, "vertical"))
+    curves: tuple[ResponseCurve, ...] = (ResponseCurve(0, "lateral"), ResponseCurve(0, "vertical"))
     """What is drawn, top down; nothing where there is no response point."""
     decibels: bool = True
     log_frequency: bool = False
@@ -148,7 +148,7 @@ class State:
         number = before.number if before else next(i for i in count() if i not in taken)
         return replace(self, variants={**self.variants, name: Variant(dict(rates), number)})
 
-    def with_curve(self, chart: int, curve: Curve) -> "State":
+    def with_curve(self, chart: int, curve: ResponseCurve) -> "State":
         """Drawing another response in a chart, counted from the top."""
         curves = (*self.curves[:chart], curve, *self.curves[chart + 1 :])
         return replace(self, curves=curves)
@@ -169,7 +169,7 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
     cabin = unit_of_role(vehicle, "cabin")
     mode = f"{cabin.word} yaw" if cabin else ""
     every = vehicle.all_rates(rates)
-    felt = tuple(Curve(0, direction) for direction in ("lateral", "vertical"))
+    felt = tuple(ResponseCurve(0, direction) for direction in ("lateral", "vertical"))
     curves = felt if vehicle.response_points else ()
     return State(
         every,

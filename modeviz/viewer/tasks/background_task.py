@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Generic, Literal, Protocol, TypeVar
 
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.errors import ModevizError
 
 OUR_MISTAKE = "This is our mistake: the terminal says more."
@@ -19,7 +19,7 @@ Found = TypeVar("Found")
 Found_contra = TypeVar("Found_contra", contravariant=True)
 
 
-class Tell(Protocol[Found_contra]):
+class Progress(Protocol[Found_contra]):
     """Told how far a computation is."""
 
     def __call__(self, done: float, found: Found_contra | None = None) -> None:
@@ -45,13 +45,13 @@ class Job(Generic[Asked, Found]):
         return self.phase == "running"
 
 
-class Beside(Generic[Asked, Found]):
+class BackgroundTask(Generic[Asked, Found]):
     """Runs a computation in a thread of its own."""
 
     def __init__(
         self,
         what: str,
-        work: Callable[[Asked, Control, Tell[Found]], Found],
+        work: Callable[[Asked, CancelToken, Progress[Found]], Found],
         changed: Callable[[], None],
         report: Callable[[Exception], None],
     ) -> None:
@@ -66,7 +66,7 @@ class Beside(Generic[Asked, Found]):
         self._report = report
         self._what, self._work, self._changed = what, work, changed
         self._lock = threading.Lock()
-        self._control = Control()
+        self._control = CancelToken()
         self._told = 0.0
         self.job: Job[Asked, Found] | None = None
         """The newest; None before the first."""
@@ -80,7 +80,7 @@ class Beside(Generic[Asked, Found]):
         with self._lock:
             if self.job and self.job.is_running:
                 raise ModevizError(f"a {self._what} is running: cancel it first")
-            self.job, self._control = Job(asked), Control()
+            self.job, self._control = Job(asked), CancelToken()
         arguments = asked, self._control
         threading.Thread(target=self._run, args=arguments, name=self._what, daemon=True).start()
         self._changed()
@@ -90,7 +90,7 @@ class Beside(Generic[Asked, Found]):
         self._control.cancel()
         self._put(self._control, phase="cancelled")
 
-    def _run(self, asked: Asked, control: Control) -> None:
+    def _run(self, asked: Asked, control: CancelToken) -> None:
         def tell(done: float, found: Found | None = None) -> None:
             control.check()
             if found is not None or time.monotonic() - self._told > TELL_EVERY:
@@ -109,7 +109,7 @@ class Beside(Generic[Asked, Found]):
         else:
             self._put(control, phase="ended", done=1.0, found=found)
 
-    def _put(self, control: Control, **news) -> None:
+    def _put(self, control: CancelToken, **news) -> None:
         """Keeps news of the newest as long as it runs; those of one that was cancelled are nobody's."""
         with self._lock:
             if control is not self._control or self.job is None or not self.job.is_running:

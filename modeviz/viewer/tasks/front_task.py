@@ -3,21 +3,21 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.errors import ModevizError, unknown
 from modeviz.optimise.pareto import FrontProgress, find_front
-from modeviz.optimise.trade_off import Compromise, Side, prepare_trade_off, sides
+from modeviz.optimise.trade_off import ParetoPoint, Side, prepare_trade_off, sides
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State, rate_sets
-from modeviz.viewer.tasks.background_task import Beside, Job, Tell
+from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Progress
 
 N_STARTS = 3
 """For each design, besides those found before: a front is to be there while one waits."""
 
-Designs = tuple[Compromise, ...]
+Designs = tuple[ParetoPoint, ...]
 """Of a front, the best in the first goal first."""
 
 
@@ -32,7 +32,7 @@ class Trade:
     """Designs that are known already."""
 
 
-class Trader:
+class FrontTask:
     """Finds the front between two sides of a session's problem."""
 
     def __init__(
@@ -46,7 +46,7 @@ class Trader:
             report: told what is our mistake.
         """
         self._session = session
-        self._beside = Beside[Trade, Designs]("search for a front", self._find, changed, report)
+        self._beside = BackgroundTask[Trade, Designs]("search for a front", self._find, changed, report)
 
     @property
     def job(self) -> Job[Trade, Designs] | None:
@@ -90,7 +90,7 @@ class Trader:
         assert state.plan is not None
         return planned(self._session.vehicle, state.plan)
 
-    def _find(self, trade: Trade, control: Control, tell: Tell[Designs]) -> Designs:
+    def _find(self, trade: Trade, control: CancelToken, tell: Progress[Designs]) -> Designs:
         state, vehicle = trade.state, self._session.vehicle
         trade_off = prepare_trade_off(
             vehicle, trade.problem, trade.sides, state.rates, state.conditions.speed, state.locked

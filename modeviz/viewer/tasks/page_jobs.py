@@ -9,7 +9,7 @@ import viser
 from modeviz.errors import ModevizError
 from modeviz.viewer.tasks.background_task import OUR_MISTAKE
 
-Tell = Callable[[float], None]
+Progress = Callable[[float], None]
 """Told the fraction that is done; raises `CancelledError` once that is wanted."""
 
 
@@ -20,7 +20,7 @@ class CancelledError(Exception):
 def run(
     client: viser.ClientHandle,
     title: str,
-    work: Callable[[Tell], None],
+    work: Callable[[Progress], None],
     is_there: Callable[[], bool],
     report: Callable[[Exception], None],
 ) -> None:
@@ -65,7 +65,7 @@ def run(
 
 
 @contextmanager
-def turn(places: threading.Semaphore, tell: Tell) -> Iterator[None]:
+def turn(places: threading.Semaphore, tell: Progress) -> Iterator[None]:
     """Waits for one of a few places in which such work is done at once."""
     while not places.acquire(timeout=0.1):
         tell(0.0)

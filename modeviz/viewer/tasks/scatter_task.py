@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from modeviz.analysis.results import AXIS, Conditions
-from modeviz.compute.cancel import Control
+from modeviz.compute.cancel import CancelToken
 from modeviz.optimise.goals import ResponseGoal, prepare_goal
 from modeviz.scatter.monte_carlo import Scatter, scatter
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
@@ -14,8 +14,8 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import Curve, State
-from modeviz.viewer.tasks.background_task import Beside, Job, Tell
+from modeviz.viewer.session.state import ResponseCurve, State
+from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Progress
 
 PERCENT = (5.0, 95.0)
 """Between these percentiles a band is drawn."""
@@ -37,7 +37,7 @@ class Build:
 
 
 @dataclass(frozen=True, eq=False)
-class Scattered:
+class ScatterOutcome:
     """What these vehicles do."""
 
     scatter: Scatter
@@ -48,7 +48,7 @@ class Scattered:
         return self.scatter.psd_percentiles(PERCENT)
 
 
-class Scatterer:
+class ScatterTask:
     """Scatters the mounts of a session's present rates."""
 
     def __init__(
@@ -62,10 +62,12 @@ class Scatterer:
             report: told what is our mistake.
         """
         self._session, self._changed = session, changed
-        self._beside = Beside[Build, Scattered]("scatter", self._scatter, self._tell, report)
+        self._beside = BackgroundTask[Build, ScatterOutcome](
+            "scatter", self._scatter, self._tell, report
+        )
 
     @property
-    def job(self) -> Job[Build, Scattered] | None:
+    def job(self) -> Job[Build, ScatterOutcome] | None:
         """The newest scatter; None before the first."""
         return self._beside.job
 
@@ -86,12 +88,12 @@ class Scatterer:
         """Ends what is running; nothing of it is kept."""
         self._beside.cancel()
 
-    def band(self, state: State, curve: Curve) -> Floats | None:
+    def band(self, state: State, curve: ResponseCurve) -> Floats | None:
         """Between what a curve scatters, (2, n_freqs), g²/Hz, if that is known for a state."""
         shaded = self.shaded(state, curve)
         return None if shaded is None else shaded[1]
 
-    def shaded(self, state: State, curve: Curve) -> tuple[Floats, Floats] | None:
+    def shaded(self, state: State, curve: ResponseCurve) -> tuple[Floats, Floats] | None:
         """That with its frequencies, (n_freqs,)."""
         job = self.job
         if job is None or job.found is None or state.load or not job.asked.is_of(state):
@@ -99,7 +101,9 @@ class Scatterer:
         axis = AXIS[curve.direction]
         return job.found.scatter.frequency_hz, job.found.percentiles[:, :, curve.point, axis]
 
-    def _scatter(self, build: Build, control: Control, tell: Tell[Scattered]) -> Scattered:
+    def _scatter(
+        self, build: Build, control: CancelToken, tell: Progress[ScatterOutcome]
+    ) -> ScatterOutcome:
         vehicle, prepared = self._session.vehicle, self._session.prepared
         goal = prepare_goal(vehicle, build.problem, build.rates, build.conditions.speed)
         assert isinstance(goal, ResponseGoal)
@@ -115,7 +119,7 @@ class Scatterer:
             tell=tell,
         )
         control.check()
-        return Scattered(found)
+        return ScatterOutcome(found)
 
     def _tell(self) -> None:
         """Has the charts drawn again once there is a band."""

@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from modeviz.compute.cancel import CancelledError, Control
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.errors import ModevizError
 from modeviz.optimise.run import Optimum, Progress, optimise
 from modeviz.optimise.search import Search, prepare_search
@@ -32,7 +32,7 @@ RUNNING: tuple[Phase, ...] = ("preparing", "searching", "paused", "checking")
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
+class SearchStatus:
     """What there is to know of a search at some moment."""
 
     problem: Problem
@@ -49,7 +49,7 @@ class Look:
     """Why these two, by name, could not be found; nothing for what could."""
     progress: Progress | None = None
     """The best design so far; None while there is none."""
-    falls: tuple[tuple[int, float], ...] = ()
+    history: tuple[tuple[int, float], ...] = ()
     """Every better design: the number of the evaluation, and its goal."""
     optimum: Optimum | None = None
     """What was found, once the search has ended."""
@@ -61,7 +61,7 @@ class Look:
         return self.phase in RUNNING
 
 
-class Pursuit:
+class SearchTask:
     """One search in a thread of its own, which the session's rates follow.
 
     They follow as long as nobody else changes them: no slider is taken out of anybody's hand.
@@ -82,10 +82,10 @@ class Pursuit:
         """
         state, vehicle = session.state, session.vehicle
         assert state.plan is not None
-        self.look = Look(planned(vehicle, state.plan), state.rates)
+        self.look = SearchStatus(planned(vehicle, state.plan), state.rates)
         self._session, self._changed, self._report = session, changed, report
         self._state, self._plan = state, state.plan
-        self._control, self._lock = Control(), threading.Lock()
+        self._control, self._lock = CancelToken(), threading.Lock()
         self._followed: Rates = state.rates
         self._told = 0.0
         self._thread = threading.Thread(target=self._run, name="optimiser", daemon=True)
@@ -142,7 +142,7 @@ class Pursuit:
         if robustly is None or control.is_cancelled:
             return optimum
         try:
-            self._begin(robustly, is_robust=True, progress=None, falls=())
+            self._begin(robustly, is_robust=True, progress=None, history=())
         except CancelledError:
             return optimum
         return optimise_robustly(robustly, optimum, control=control, tell=self._note)
@@ -159,11 +159,11 @@ class Pursuit:
 
     def _note(self, progress: Progress) -> None:
         """Takes down an evaluation, and now and then tells and brings the session after it."""
-        falls = self.look.falls
-        if not falls or progress.value < falls[-1][1]:
-            falls = (*falls, (progress.evaluations, progress.value))
+        history = self.look.history
+        if not history or progress.value < history[-1][1]:
+            history = (*history, (progress.evaluations, progress.value))
         with self._lock:
-            self.look = replace(self.look, progress=progress, falls=falls)
+            self.look = replace(self.look, progress=progress, history=history)
         if progress.is_checking:
             self._follow()
             self._turn("checking", "searching", "paused")
@@ -219,13 +219,13 @@ class Optimiser:
     def __init__(
         self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
     ) -> None:
-        """Starts nothing; arguments as of `Pursuit`."""
+        """Starts nothing; arguments as of `SearchTask`."""
         self._session, self._changed, self._report = session, changed, report
         self._lock = threading.Lock()
-        self._pursuit: Pursuit | None = None
+        self._pursuit: SearchTask | None = None
 
     @property
-    def look(self) -> Look | None:
+    def look(self) -> SearchStatus | None:
         """The newest search; None before the first."""
         return None if self._pursuit is None else self._pursuit.look
 
@@ -233,12 +233,12 @@ class Optimiser:
         """Begins a search from the present rates.
 
         Raises:
-            ModevizError: one is running, or as `Pursuit`.
+            ModevizError: one is running, or as `SearchTask`.
         """
         with self._lock:
             if self.look is not None and self.look.is_running:
                 raise ModevizError("a search is running: cancel it first")
-            self._pursuit = Pursuit(self._session, self._changed, self._report)
+            self._pursuit = SearchTask(self._session, self._changed, self._report)
         self._changed()
 
     def pause(self) -> None:

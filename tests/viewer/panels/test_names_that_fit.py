@@ -9,7 +9,7 @@ from mounted_cabin import mounted_cabin
 from modeviz.viewer.page.html import TWO_LINES, named
 from modeviz.viewer.page.title import PANEL_LETTERS, panel_label
 from modeviz.viewer.session.responses import curve_label
-from modeviz.viewer.session.state import Curve
+from modeviz.viewer.session.state import ResponseCurve
 
 LONG = "a name that somebody wrote out in full, on the driver's side"
 
@@ -21,16 +21,16 @@ def with_points(*names):
 
 
 def test_a_response_keeps_its_direction_whatever_its_point_is_called():
-    label = curve_label(with_points(LONG, "seat"), Curve(0, "lateral"))
+    label = curve_label(with_points(LONG, "seat"), ResponseCurve(0, "lateral"))
     assert label.startswith("A name that")
     assert label.endswith("side, lateral")
     assert len(label) < 36
-    assert curve_label(with_points(LONG, "seat"), Curve(1, "vertical")) == "Seat, vertical"
+    assert curve_label(with_points(LONG, "seat"), ResponseCurve(1, "vertical")) == "Seat, vertical"
 
 
 def test_points_that_differ_only_in_their_midst_are_told_apart():
     vehicle = with_points(f"{LONG}, left, {LONG}", f"{LONG}, right, {LONG}")
-    assert len({curve_label(vehicle, Curve(i, "lateral")) for i in (0, 1)}) == 2
+    assert len({curve_label(vehicle, ResponseCurve(i, "lateral")) for i in (0, 1)}) == 2
 
 
 @pytest.mark.parametrize(

@@ -19,11 +19,11 @@ from modeviz.viewer.panels.optimise.panel import OptimisePanel, offered
 from modeviz.viewer.panels.optimise.summary import summary
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
-from modeviz.viewer.tasks.search_task import Look, Optimiser
+from modeviz.viewer.tasks.search_task import Optimiser, SearchStatus
 
 RATES = mounted_cabin().rates
 BETTER = mounted_cabin().all_rates(mounted_cabin().rate_sets["soft"])
-LOOK = Look(PROBLEM, RATES, phase="searching", original=1.0, reference=0.8)
+LOOK = SearchStatus(PROBLEM, RATES, phase="searching", original=1.0, reference=0.8)
 FLAT = Conditions("flat", 20.0)
 
 

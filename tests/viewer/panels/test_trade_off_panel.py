@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from modeviz.optimise.trade_off import Compromise
+from modeviz.optimise.trade_off import ParetoPoint
 from modeviz.optimise.verification import Verification
 from modeviz.viewer.panels.trade_off import where
 from modeviz.viewer.tasks.background_task import Job
@@ -13,7 +13,7 @@ from modeviz.viewer.tasks.background_task import Job
 
 def design(difference=None, impossible=""):
     verification = Verification(1.0, difference, np.zeros(0), True, impossible)
-    found = Compromise(np.zeros(1), {}, (1.0, 1.0))
+    found = ParetoPoint(np.zeros(1), {}, (1.0, 1.0))
     return found if difference is None else replace(found, verification=verification)
 
 

@@ -16,7 +16,7 @@ from modeviz.viewer.page.access import open_server
 from modeviz.viewer.panels import pictures as panel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.pictures.headless import MOST_PIXELS, _bounded, _launched
-from modeviz.viewer.pictures.pictures import Pose, Shot, picture
+from modeviz.viewer.pictures.pictures import ImageSettings, Pose, picture
 from modeviz.viewer.scene.stage import LIGHT
 from modeviz.viewer.tasks.page_jobs import CancelledError, run, turn
 
@@ -137,7 +137,7 @@ def test_few_pages_are_asked_at_once_and_the_next_when_one_has_answered(server, 
 
 @pytest.fixture
 def shot():
-    return Shot(40, 30, "transparent", LIGHT, 0.5)
+    return ImageSettings(40, 30, "transparent", LIGHT, 0.5)
 
 
 def test_a_picture_is_taken_as_the_page_draws_it(server, shot):
@@ -168,7 +168,7 @@ def test_a_picture_of_another_kind_is_refused(server, shot, color_type):
 
 
 def test_a_page_may_send_what_is_as_large_as_a_picture_only_while_it_is_asked(server, monkeypatch):
-    large = Shot(1000, 1000, "transparent", LIGHT, 0.5)
+    large = ImageSettings(1000, 1000, "transparent", LIGHT, 0.5)
     noise = np.random.default_rng(1).integers(0, 256, 2_000_000, np.uint8).tobytes()
     payload = drawn(1000, 1000)[:-12] + struct.pack(">I", len(noise)) + b"tEXt" + noise
     with page(server) as (_, number):

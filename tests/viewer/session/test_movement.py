@@ -14,7 +14,7 @@ from modeviz.dynamics.components import component_modes, component_shares
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.session.movement import ShownMode, movement
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import Curve, first_state
+from modeviz.viewer.session.state import ResponseCurve, first_state
 
 FLAT = Conditions("flat", 20.0)
 SOFT = {"A": MountRates(6e5, 2e5, 3e5)}
@@ -87,7 +87,7 @@ def test_the_shape_compared_with_moves_in_phase_and_on_the_same_scale(state, sho
 
 
 def test_under_the_road_the_reference_moves_as_its_spectrum_says(state, shown):
-    curve = Curve(0, "vertical")
+    curve = ResponseCurve(0, "vertical")
     state = replace(
         state, motion="operating shape", operating_hz=11.0, curves=(curve,), ghost="compared"
     )

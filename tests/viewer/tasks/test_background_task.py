@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from modeviz.errors import ModevizError, SolveError
-from modeviz.viewer.tasks.background_task import Beside
+from modeviz.viewer.tasks.background_task import BackgroundTask
 
 SOON = 20
 
@@ -16,7 +16,7 @@ class Works:
     def __init__(self):
         self._told = threading.Condition()
         self.may_end = {name: threading.Event() for name in ("first", "second")}
-        self.beside = Beside("work", self._work, self._tell, print)
+        self.beside = BackgroundTask("work", self._work, self._tell, print)
 
     def _tell(self):
         with self._told:
@@ -88,7 +88,7 @@ def test_a_failure_is_told(error, said):
         raise error
 
     failed, reported = threading.Event(), []
-    beside = Beside("work", fails, lambda: beside.job.failure and failed.set(), reported.append)
+    beside = BackgroundTask("work", fails, lambda: beside.job.failure and failed.set(), reported.append)
     beside.start(None)
     assert failed.wait(SOON)
     assert beside.job.phase == "failed"

@@ -10,7 +10,7 @@ from cabin_session import SOON, Watcher, open_session
 
 from modeviz.errors import ModevizError, VehicleError
 from modeviz.viewer.tasks import front_task as module
-from modeviz.viewer.tasks.front_task import Trader
+from modeviz.viewer.tasks.front_task import FrontTask
 
 OFFER = "lateral against vertical"
 
@@ -31,7 +31,7 @@ def short(monkeypatch):
 @pytest.fixture
 def trader(session):
     watcher = Watcher()
-    trader = Trader(session, watcher.tell, print)
+    trader = FrontTask(session, watcher.tell, print)
     trader.wait = watcher.wait
     yield trader
     trader.cancel()

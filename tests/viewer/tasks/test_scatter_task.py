@@ -9,11 +9,11 @@ from cabin_session import SOON, Watcher, open_session
 
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError, SolveError
-from modeviz.viewer.session.state import Curve
+from modeviz.viewer.session.state import ResponseCurve
 from modeviz.viewer.tasks import scatter_task as module
-from modeviz.viewer.tasks.scatter_task import Scatterer
+from modeviz.viewer.tasks.scatter_task import ScatterTask
 
-CURVE = Curve(0, "lateral")
+CURVE = ResponseCurve(0, "lateral")
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def scatterer(session):
         watcher.wait(lambda: not scatterer.job.is_running)
         return scatterer.job
 
-    scatterer = Scatterer(session, watcher.tell, print)
+    scatterer = ScatterTask(session, watcher.tell, print)
     scatterer.finish = finish
     yield scatterer
     scatterer.cancel()

@@ -13,7 +13,7 @@ from modeviz.optimise.design_space import design_space
 from modeviz.optimise.starts import MOST_STARTS
 from modeviz.text.wording import file_name, sentence_case
 from modeviz.vehicle.default_problem import problem_called, problems
-from modeviz.vehicle.problem import Goal
+from modeviz.vehicle.problem import GoalKind
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, span
 from modeviz.viewer.panels.modes import listed
@@ -26,14 +26,14 @@ from modeviz.viewer.session.planning.plan import Plan, plan_of, planned
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import ORIGINAL, State
 
-WORDS: dict[Goal, str] = {
+WORDS: dict[GoalKind, str] = {
     "peak": "Highest peak",
     "rms": "RMS on the road",
     "rating": "Ride rating",
     "iso 2631": "ISO 2631",
     "change": "Least change",
 }
-GOALS = {WORDS.get(goal) or sentence_case(goal): goal for goal in get_args(Goal)}
+GOALS = {WORDS.get(goal) or sentence_case(goal): goal for goal in get_args(GoalKind)}
 NO_MODE = "None"
 BANDS = {"Within": True, "Out of": False}
 SAVE = "Save problem"
@@ -114,7 +114,7 @@ class ProblemEditor:
             words = {sentence_case(problem.name): problem.name for problem in known}
             choose("Problem", words, lambda _, p: p.problem, self._take_problem, "Of this vehicle")
         choose(
-            "Goal",
+            "GoalKind",
             GOALS,
             lambda _, p: p.goal,
             lambda goal: put(goal=goal),

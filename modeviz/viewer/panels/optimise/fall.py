@@ -9,7 +9,7 @@ from modeviz.text.axes import Axis
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page.handles import send_together
 from modeviz.viewer.panels.plots import FONT, GRID, NO_TICKS, SET_COLORS
-from modeviz.viewer.tasks.search_task import Look
+from modeviz.viewer.tasks.search_task import SearchStatus
 
 HEIGHT = 120
 FIRST = 100
@@ -44,7 +44,7 @@ class FallChart:
             visible=False,
         )
 
-    def show(self, look: Look) -> None:
+    def show(self, look: SearchStatus) -> None:
         """Draws the fall of a search."""
         x, best = steps(look)
         ends = np.full(len(x), look.original), np.full(len(x), look.reference)
@@ -77,11 +77,11 @@ class FallChart:
         }
 
 
-def steps(look: Look) -> tuple[Floats, Floats]:
-    """The best goal so far as a staircase: evaluations and values, of the last falls if many."""
-    falls = look.falls[-MOST_POINTS:]
-    at = np.array([n for n, _ in falls], float)
-    values = np.array([v for _, v in falls])
+def steps(look: SearchStatus) -> tuple[Floats, Floats]:
+    """The best goal so far as a staircase: evaluations and values, of the last history if many."""
+    history = look.history[-MOST_POINTS:]
+    at = np.array([n for n, _ in history], float)
+    values = np.array([v for _, v in history])
     last = float(look.progress.evaluations) if look.progress else at[-1]
     x = np.append(np.repeat(at, 2)[1:], last)
     return x, np.repeat(values, 2)

@@ -11,7 +11,7 @@ from modeviz.report.space import outside_words
 from modeviz.text.wording import sentence_case, signed, significant
 from modeviz.viewer.page.html import change, heading, row, span, table
 from modeviz.viewer.panels.status import ALARMING, percent
-from modeviz.viewer.tasks.search_task import Look
+from modeviz.viewer.tasks.search_task import SearchStatus
 
 LEAST_GAIN = 5e-4
 """Of the goal: what gains less is not worth a word."""
@@ -26,7 +26,7 @@ ENDINGS = {
 }
 
 
-def where(look: Look) -> str:
+def where(look: SearchStatus) -> str:
     """A line on how far it is."""
     if look.phase == "preparing":
         return heading("Preparing")
@@ -42,7 +42,7 @@ def where(look: Look) -> str:
     return heading(_word(look), f"{which}, {n} {noun}")
 
 
-def figures(look: Look) -> str:
+def figures(look: SearchStatus) -> str:
     """The goal of the best design, and of those it is compared with."""
     if look.progress is None:
         return ""
@@ -82,7 +82,7 @@ def limits(optimum: Optimum) -> str:
     return f'<div class="limits">{table(("Held back by", "10 % wider gains"), rows)}</div>{more}'
 
 
-def _word(look: Look) -> str:
+def _word(look: SearchStatus) -> str:
     if look.optimum is not None:
         reason = look.optimum.reason
         return ENDINGS.get(reason, escape(sentence_case(reason)))

@@ -16,7 +16,7 @@ from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, w
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
-from modeviz.viewer.tasks.search_task import Look, Optimiser
+from modeviz.viewer.tasks.search_task import Optimiser, SearchStatus
 
 START, PAUSE, RESUME, CANCEL = "Start", "Pause", "Resume", "Cancel"
 ACCEPT, GO_BACK = "Accept", "Go back"
@@ -82,13 +82,13 @@ class OptimisePanel:
                 return
             self._offer()
             assign(self._where, content=block(where(look), figures(look)))
-            if look.falls:
+            if look.history:
                 self._fall.show(look)
             else:
                 self._fall.hide()
             assign(self._result, content=self._outcome(look))
 
-    def _outcome(self, look: Look) -> str:
+    def _outcome(self, look: SearchStatus) -> str:
         if look.optimum is None:
             return ""
         return block(limits(look.optimum), f"<div>{exactness(look.optimum)}</div>")
@@ -105,7 +105,7 @@ class OptimisePanel:
                 event.client.add_notification("Not possible", str(error), color="red")
 
 
-def offered(look: Look | None, state: State) -> tuple[str, ...]:
+def offered(look: SearchStatus | None, state: State) -> tuple[str, ...]:
     """The buttons that have something to do."""
     if look is None or look.optimum is None:
         return OFFERED.get(look.phase, (START,)) if look else (START,)

@@ -10,7 +10,7 @@ from typing import Any
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.default_problem import problem_called, problems
-from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Goal, Performance, Problem
+from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, GoalKind, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.group_plan import GroupPlan, group_plan
 from modeviz.viewer.session.planning.load_plan import LoadPlan, load_plan, spare_load
@@ -24,7 +24,7 @@ class Plan:
 
     problem: str
     """The name of the problem that it came from."""
-    goal: Goal
+    goal: GoalKind
     is_normalised: bool
     free: frozenset[str]
     """Mount groups whose rates may change."""
