@@ -84,7 +84,7 @@ def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page
 
 def test_it_is_paused_goes_on_and_is_cancelled_with_the_best_design(app, page, held):
     press(page, "Start")
-    wait_until(page, lambda: app.optimiser.look and app.optimiser.look.falls)
+    wait_until(page, lambda: app.optimiser.look and app.optimiser.look.history)
     press(page, "Pause")
     wait_for(page, f"{TEXT}.includes('Paused')")
     held.set()
@@ -95,7 +95,7 @@ def test_it_is_paused_goes_on_and_is_cancelled_with_the_best_design(app, page, h
 
 def test_cancel_keeps_the_best_design(app, page, held):
     press(page, "Start")
-    wait_until(page, lambda: app.optimiser.look and app.optimiser.look.falls)
+    wait_until(page, lambda: app.optimiser.look and app.optimiser.look.history)
     press(page, "Cancel")
     wait_for(page, f"{TEXT}.includes('Cancelled')")
     look = app.optimiser.look

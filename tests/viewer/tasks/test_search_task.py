@@ -78,7 +78,7 @@ def test_it_ends_with_the_session_at_the_best_design(session, optimiser):
     assert look.original == pytest.approx(of.value({}), rel=1e-12) == 1.0
     soft = session.vehicle.rate_sets["soft"]
     assert look.reference == pytest.approx(of.value(soft), rel=1e-12)
-    values = [value for _, value in look.falls]
+    values = [value for _, value in look.history]
     assert values == sorted(values, reverse=True)
     assert values[-1] == look.optimum.value < 1
 
@@ -100,7 +100,7 @@ def test_a_robust_search_is_better_for_parts_that_were_not_in_it(session, optimi
     assert look.optimum.converged
     assert look.optimum.value == pytest.approx(percentile(session, look.optimum.rates, 7), rel=0.02)
     assert look.original == pytest.approx(percentile(session, {}, 7), rel=0.02)
-    assert look.falls[-1][1] == look.optimum.value > as_drawn.value
+    assert look.history[-1][1] == look.optimum.value > as_drawn.value
     assert percentile(session, look.optimum.rates, 7) < percentile(session, as_drawn.rates, 7)
     assert session.state.rates == look.optimum.rates
 
@@ -164,14 +164,14 @@ def test_to_go_back_brings_the_rates_before_and_can_be_undone(session, optimiser
 
 def test_cancel_answers_at_once_and_keeps_the_best(session, optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.wait(lambda: optimiser.look.history)
     begin = time.perf_counter()
     optimiser.cancel()
     optimiser.wait(lambda: not optimiser.look.is_running)
     assert time.perf_counter() - begin < ANSWERS_WITHIN
     look = optimiser.look
     assert look.optimum.reason == "cancelled"
-    assert look.optimum.value == look.falls[-1][1]
+    assert look.optimum.value == look.history[-1][1]
     assert session.state.rates == look.optimum.rates
 
 
@@ -196,7 +196,7 @@ def test_it_says_when_the_full_model_is_solved_with_the_session_at_the_best(
     optimiser.start()
     optimiser.wait(lambda: optimiser.look.phase == "checking")
     assert optimiser.look.is_running
-    assert optimiser.look.falls[-1][1] == optimiser.look.progress.value
+    assert optimiser.look.history[-1][1] == optimiser.look.progress.value
     best = optimiser.look.progress.rates
     assert session.state.rates == best
     full_model.set()
@@ -210,7 +210,7 @@ def test_cancel_brings_the_session_to_the_best_before_the_full_model_is_solved(
     plan(session, n_starts=50)
     optimiser.start()
     deadline = time.monotonic() + SOON
-    while len(optimiser.look.falls) < 3 and time.monotonic() < deadline:
+    while len(optimiser.look.history) < 3 and time.monotonic() < deadline:
         time.sleep(0.01)  # nothing is told
     assert session.state.rates == optimiser.look.before
     optimiser.cancel()
@@ -271,7 +271,7 @@ def test_a_search_is_paused_before_it_began(optimiser, gate, monkeypatch):
     may_prepare.set()
     assert optimiser.look.phase == "paused"
     optimiser.resume()
-    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.wait(lambda: optimiser.look.history)
     optimiser.cancel()
     optimiser.wait(lambda: not optimiser.look.is_running)
     assert optimiser.look.optimum.reason == "cancelled"
@@ -279,7 +279,7 @@ def test_a_search_is_paused_before_it_began(optimiser, gate, monkeypatch):
 
 def test_a_paused_search_evaluates_nothing_until_it_goes_on(session, optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.wait(lambda: optimiser.look.history)
     optimiser.pause()
     paused = optimiser.look.progress.evaluations
     gate.set()
@@ -294,7 +294,7 @@ def test_a_paused_search_evaluates_nothing_until_it_goes_on(session, optimiser, 
 
 def test_a_paused_search_is_cancelled_too(optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.wait(lambda: optimiser.look.history)
     optimiser.pause()
     optimiser.cancel()
     optimiser.wait(lambda: not optimiser.look.is_running)
@@ -344,7 +344,7 @@ def test_a_plan_that_cannot_be_is_refused_and_the_next_one_is_searched(session, 
 
 def test_a_second_search_is_refused_while_one_runs(optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.wait(lambda: optimiser.look.history)
     with pytest.raises(ModevizError, match="cancel it first"):
         optimiser.start()
 
@@ -360,7 +360,7 @@ def test_locked_rates_stay(session, optimiser):
 
 def test_rates_that_somebody_moves_meanwhile_are_not_taken_from_them(session, optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.wait(lambda: optimiser.look.history)
     session.set_rate("A", "vertical", 3.21e5)
     mine = session.state.rates
     gate.set()
@@ -372,7 +372,7 @@ def test_rates_that_somebody_moves_meanwhile_are_not_taken_from_them(session, op
 
 def test_closing_ends_a_search(session, optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.falls)
+    optimiser.wait(lambda: optimiser.look.history)
     optimiser.close()
     assert not optimiser.look.is_running
     assert not any(thread.name == "optimiser" for thread in threading.enumerate())
