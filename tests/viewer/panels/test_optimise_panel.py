@@ -124,7 +124,7 @@ def test_what_the_full_model_says_is_bad_where_it_does_not_agree(optimum):
 
 def test_the_fall_is_a_staircase_to_the_last_evaluation():
     progress = Progress(9, BETTER, 0.3, 1, 1)
-    x, best = steps(replace(LOOK, falls=((1, 1.0), (4, 0.5), (6, 0.3)), progress=progress))
+    x, best = steps(replace(LOOK, history=((1, 1.0), (4, 0.5), (6, 0.3)), progress=progress))
     np.testing.assert_array_equal(x, [1, 4, 4, 6, 6, 9])
     np.testing.assert_array_equal(best, [1, 1, 0.5, 0.5, 0.3, 0.3])
 
