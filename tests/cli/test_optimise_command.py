@@ -252,7 +252,7 @@ def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path
 @pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGHUP])
 def test_what_batch_systems_send_keeps_the_best_in_print_and_in_a_file(cabin, tmp_path, ending):
     path = tmp_path / "rates.json"
-    arguments = ["optimise", cabin, "--starts", "1000", "--json", "--output", str(path)]
+    arguments = ["optimise", cabin, "--starts", "4", "--json", "--output", str(path)]
     with subprocess.Popen(
         [sys.executable, "-c", TELLING, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as run:
@@ -268,15 +268,23 @@ def test_what_batch_systems_send_keeps_the_best_in_print_and_in_a_file(cabin, tm
 
 
 TELLING = """
-import sys
+import sys, time
 from itertools import count
 from modeviz.cli import main
 from modeviz.cli import optimise
 
 n = count()
-optimise._tell = lambda *_: print("searching", file=sys.stderr) if next(n) == 3 else None
+
+def tell(control, progress):
+    if next(n) == 3:
+        print("searching", file=sys.stderr, flush=True)
+        while not control.is_cancelled:
+            time.sleep(0.01)
+
+optimise._tell = tell
 sys.exit(main())
 """
+"""The command, which goes on after a few steps only when it is told to end."""
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
