@@ -12,12 +12,11 @@ from pathlib import Path
 import av
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck, truck_modes
 from pages import CLOSE_NOTICES, wait_for, wait_until
 from PIL import Image
 
-from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.results import Conditions, solve_modal
-from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart
@@ -129,7 +128,7 @@ def test_background_of_the_page_is_in_no_picture_and_stays_on_the_page(server, c
 @pytest.fixture(scope="module")
 def app():
     """The pickup at the optimised rates, drawn without what is slow in software."""
-    vehicle = read_vehicle(builtin_vehicle())
+    vehicle = builtin_truck()
     server = open_server(port=0, token="open-sesame-open")
     app = App(vehicle, vehicle.rate_sets["optimised"], Conditions("road 1", vehicle.speed), server)
     server.scene.configure_environment_map(None)
@@ -300,7 +299,7 @@ def test_report_is_downloaded_with_a_picture_of_what_is_seen(app, bench):
     assert "Pickup: Optimised against Original" in text
     (picture,) = pictures_in(text)
     assert picture.size == (160, 120)
-    results = solve_modal(prepare_modes(app.session.vehicle), app.session.state.rates)
+    results = solve_modal(truck_modes(), app.session.state.rates)
     yaw = results.modes.frequency_hz[results.mode_index("cab yaw")]
     assert f"ab yaw, {yaw:.2f} Hz, Optimised" in text
 

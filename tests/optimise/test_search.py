@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from cabin_problem import PROBLEM, cabin_search
 from differences import central_difference
 from limits_kept import excess
@@ -11,7 +12,6 @@ from scipy.optimize import nnls
 from threadpoolctl import threadpool_limits
 from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
-import modeviz as mv
 from modeviz.compute.cancel import CancelToken
 from modeviz.errors import SolveError, VehicleError
 from modeviz.optimise.descent import descend
@@ -150,7 +150,7 @@ def test_an_unknown_mode_of_a_window_is_an_error():
 
 @pytest.fixture(scope="module")
 def truck():
-    vehicle = mv.read_vehicle(mv.builtin_vehicle())
+    vehicle = builtin_truck()
     with threadpool_limits(limits=1, user_api="blas"):
         yield prepare_search(vehicle, vehicle.problem("paper"), vehicle.rates, vehicle.speed)
 

@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from builtin_truck import builtin_truck
 from scipy import signal, stats
 
 from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.response import modal_response
-from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.ride.psd import response_psd
 from modeviz.ride.roads import lag, road_spectrum, track_forces, track_shares, two_track_profile
 from modeviz.vehicle.connections import Connection, Tyre
@@ -103,7 +103,7 @@ class RoadExcitation:
 
 @pytest.fixture(scope="module")
 def drive() -> RoadExcitation:
-    truck = viscous(read_vehicle(builtin_vehicle()))
+    truck = viscous(builtin_truck())
     road, seat = truck.random_load("road 1"), truck.response_points[0]
     system = assemble(truck)
     modes = vibrating(solve_modes(system, N_MODES))

@@ -7,13 +7,34 @@ import time
 from contextlib import ExitStack, contextmanager, suppress
 
 import pytest
-from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin, update, visit, wait_until
+from visitors import (
+    CAMERA,
+    PATIENCE_S,
+    TOKEN,
+    encoded,
+    get,
+    knock,
+    own_origin,
+    update,
+    visit,
+    wait_until,
+)
 from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.frames import Frame, Opcode
 
 from modeviz.viewer.page import access as doors
 from modeviz.viewer.page import connection, tokens
 from modeviz.viewer.page.access import open_server
-from modeviz.viewer.page.connection import MOST_PAGES_OF_ONE, MOST_WRONG
+from modeviz.viewer.page.connection import MOST_BYTES, MOST_PAGES_OF_ONE, MOST_WRONG
+from modeviz.viewer.page.decoding import PART
+
+PART_OF_FILE = {
+    "type": "FileTransferPart",
+    "source_component_uuid": "button",
+    "transfer_uuid": "new",
+    "part_index": 0,
+    "content": b"x" * PART,
+}
 
 
 @contextmanager
@@ -63,19 +84,29 @@ def lines(capfd):
     return [line for line in capfd.readouterr().err.splitlines() if line]
 
 
+def next_lines(capfd):
+    """What is on the terminal as soon as something is: a page may know first that it is closed."""
+    said = []
+    wait_until(lambda: said or said.extend(lines(capfd)))
+    return said
+
+
 def test_a_message_of_megabytes_closes_the_page_before_it_is_read(server, capfd):
+    message = b"\x81\xa4type\xdd\x01\x00\x00\x00" + b"\x80" * 20_000_000
     with page(server) as socket:
-        with suppress(ConnectionClosed):
-            socket.send(b"\x81\xa4type\xdd\x01\x00\x00\x00" + b"\x80" * 20_000_000)
+        begin = Frame(Opcode.BINARY, message).serialize(mask=True)[:1000]
+        socket.socket.sendall(begin)  # the rest never comes
         assert closed(socket)[0] == 1009
-    assert lines(capfd) == ["modeviz: 127.0.0.1 sent a message that is too large: its page is closed"]
+    assert next_lines(capfd) == [
+        "modeviz: 127.0.0.1 sent a message that is too large: its page is closed"
+    ]
 
 
 def test_a_message_that_is_there_to_exhaust_closes_its_page(server, capfd):
     with page(server) as socket:
         socket.send(b"\x81\xa1x" * 100_000 + b"\x80")
         assert closed(socket) == (1008, "This page sent a message that is too large or too deep.")
-    assert len(lines(capfd)) == 1
+    assert len(next_lines(capfd)) == 1
 
 
 def test_whatever_a_page_says_of_a_slider_is_one_line_on_the_terminal(server, slider, capfd):
@@ -118,13 +149,16 @@ def test_a_page_that_sends_nothing_but_nonsense_is_closed(server, capfd):
     assert len(lines(capfd)) == 2
 
 
-def test_a_page_that_sends_megabytes_in_small_messages_is_closed(server, slider, capfd):
+def test_a_page_that_sends_megabytes_in_small_messages_is_closed(server, capfd, monkeypatch):
+    """Each is answered before the next: whoever writes to a closed door may not hear why it is."""
+    monkeypatch.setattr(connection, "BYTES_PER_S", 1.0)
     with page(server) as socket:
         with suppress(ConnectionClosed):
-            for _ in range(40):
-                socket.send(encoded({"type": "CommandTriggerMessage", "uuid": "x" * 500_000}))
-        assert closed(socket)[0] == 1008
-    assert len(lines(capfd)) == 1
+            for _ in range(int(MOST_BYTES // PART) + 2):
+                socket.send(encoded(PART_OF_FILE))
+                assert socket.ping(ack_on_close=True).wait(PATIENCE_S)
+        assert closed(socket) == (1008, "This page sent more than 8 MB at once.")
+    assert next_lines(capfd) == ["modeviz: 127.0.0.1 sent more than 8 MB at once: its page is closed"]
 
 
 def test_a_page_that_hurries_on_and_on_is_closed(server, slider, monkeypatch):
@@ -153,8 +187,9 @@ def test_a_request_that_does_not_end_is_given_up(monkeypatch, begin):
             assert slow.recv(1) == b""
 
 
-def test_pages_of_one_client_are_bounded_and_make_place_when_they_close(server, capfd):
-    with ExitStack() as pages:
+def test_pages_of_one_client_are_bounded_and_make_place_when_they_close(monkeypatch, capfd):
+    monkeypatch.setattr(connection, "OPENINGS_PER_S", 1000.0)
+    with opened() as server, ExitStack() as pages:
         first = pages.enter_context(visit(server))
         for _ in range(MOST_PAGES_OF_ONE - 1):
             pages.enter_context(visit(server))
@@ -166,8 +201,8 @@ def test_pages_of_one_client_are_bounded_and_make_place_when_they_close(server, 
         first.close()
         wait_until(lambda: server._websock_server._live_connections.get(0) is None)
         pages.enter_context(visit(server))
-    expected = "127.0.0.1 opened more pages than it may: the last are refused"
-    assert lines(capfd) == [f"modeviz: {expected}"]
+    said = "modeviz: 127.0.0.1 opened more pages than it may: the last are refused"
+    assert lines(capfd) == [said, f"{said}: 5 times in all"]
 
 
 def test_connections_of_one_client_are_bounded(monkeypatch, capfd):
@@ -209,13 +244,15 @@ def test_what_goes_wrong_in_the_servers_loop_is_said_once(server, capfd):
     ]
 
 
-def test_what_is_no_request_is_not_on_the_terminal(server, capfd):
-    for nonsense in (b"\x16\x03\x01" + b"\0" * 200, b"GET nothing\r\n\r\n", b"\r\n" * 10):
-        with reach(server) as scan:
-            scan.sendall(nonsense)
-            with suppress(OSError):
-                scan.recv(1000)
-    assert get(server)[0] == 200
+def test_what_is_no_request_is_not_on_the_terminal(monkeypatch, capfd):
+    monkeypatch.setattr(doors, "HANDSHAKE_S", 0.5)
+    with opened() as server:
+        for nonsense in (b"\x16\x03\x01" + b"\0" * 200, b"GET nothing\r\n\r\n", b"\r\n" * 10):
+            with reach(server) as scan:
+                scan.sendall(nonsense)
+                with suppress(OSError):
+                    scan.recv(1000)
+        assert get(server)[0] == 200
     out, err = capfd.readouterr()
     assert (out, err) == ("", "")
 
