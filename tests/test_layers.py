@@ -37,6 +37,10 @@ LAYERS = [
 ]
 """From the ground up; what stands side by side knows nothing of each other."""
 
+PRIVATE = re.compile(
+    r"viser(?:\.\w+)* import _|viser\._|_websock_\w+|\._impl\b|_handle_from_node|_insert_message|_queue_update"
+)
+"""Of viser: modules and members that begin with an underscore."""
 MODULES = sorted(PACKAGE.rglob("*.py"))
 MACHINE_PATH = re.compile(r"/(?:home|opt|private|root|tmp|Users|usr|work)/|\b[A-Z]:\\")
 
@@ -92,6 +96,14 @@ def users_of(library: str) -> list[str]:
 
 def test_viser_is_imported_by_the_viewer_alone():
     assert {name.split("/")[0] for name in users_of("viser")} <= {"viewer"}
+
+
+def test_only_the_page_leans_on_private_parts_of_viser():
+    """Whatever of viser may change without notice is in one folder."""
+    leaning = {
+        path.relative_to(PACKAGE).as_posix() for path in MODULES if PRIVATE.search(path.read_text())
+    }
+    assert {name for name in leaning if not name.startswith("viewer/page/")} == set()
 
 
 def test_pyfe3d_is_imported_by_one_module_of_fem():

@@ -8,7 +8,6 @@ from importlib.resources import files
 
 import numpy as np
 import viser
-from viser import _messages
 
 from modeviz.report.charts import BASE, Curve, line_chart
 from modeviz.report.charts import NOW as NOW_COLOR
@@ -19,6 +18,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
 from modeviz.viewer.page.handshake import named_page
 from modeviz.viewer.page.html import block, row, span, style_sheet, table, title
+from modeviz.viewer.page.recording import recorded_page
 from modeviz.viewer.panels.charts import chart_lines, legend
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.panels.modes import listed, moved_by
@@ -50,16 +50,11 @@ def offline_page(
         position: of the camera at first, m.
         look_at: what it looks at first, m.
     """
-    recording = server.get_scene_serializer()
-    for message in (
-        _messages.SetCameraPositionMessage(_three(position)),
-        _messages.SetCameraLookAtMessage(_three(look_at)),
-        _messages.SetCameraNearMessage(server.initial_camera.near),
-        _messages.SetCameraFarMessage(server.initial_camera.far),
-    ):
-        recording._insert_message(message)
     vehicle = solved.now.prepared.vehicle
-    page = named_page(recording.as_html(dark).encode(), f"{vehicle.name}: {solved.movement.title}")
+    page = named_page(
+        recorded_page(server, dark, position, look_at).encode(),
+        f"{vehicle.name}: {solved.movement.title}",
+    )
     beside = (
         f"<style>{style_sheet()}{_file('offline.css')}</style><aside>{_content(solved, name)}</aside>"
         f"<script>({_file('offline.js').rstrip().rstrip(';')})({json.dumps(DRIVER)});</script>"
@@ -152,8 +147,3 @@ def _rate_cells(now: MountRates, base: MountRates, per_unit: float) -> list[str]
 
 def _file(name: str) -> str:
     return files("modeviz.viewer").joinpath(name).read_text("utf-8")
-
-
-def _three(vector: Floats) -> tuple[float, float, float]:
-    x, y, z = vector.tolist()
-    return x, y, z

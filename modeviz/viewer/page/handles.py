@@ -4,9 +4,13 @@ viser takes 0.1 ms to assign a value, even one that it already has, mostly to lo
 an array five times. Here a value that viser would store as it is goes straight to its `_queue_update`.
 """
 
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from typing import Any
 
+import viser
 from viser import _messages
+from viser._gui_handles import GuiModalHandle as GuiModalHandle
 
 
 def assign(handle: Any, **values: Any) -> None:
@@ -23,6 +27,11 @@ def assign(handle: Any, **values: Any) -> None:
 def send(handle: Any, name: str, value: Any) -> None:
     """Gives a property a value that is known to be new and of its type; nobody may change it later."""
     setattr(handle._impl.props, name, value)
+    announce(handle, name, value)
+
+
+def announce(handle: Any, name: str, value: Any) -> None:
+    """Tells pages of a property that viser need not know."""
     handle._queue_update(name, value)
 
 
@@ -32,3 +41,23 @@ def send_together(handle: Any, **values: Any) -> None:
         setattr(handle._impl.props, name, value)
     message = _messages.GuiUpdateMessage(handle._impl.uuid, values)
     handle._impl.gui_api._websock_interface.queue_message(message)
+
+
+def mark(slider: Any, value: float | None) -> None:
+    """Marks the place of one value on a slider's track, or of none."""
+    assign(slider, _marks=() if value is None else (_messages.GuiSliderMark(value, None),))
+
+
+def name_of(widget: Any) -> str:
+    """What pages know a widget by."""
+    return widget._impl.uuid
+
+
+def at_once(scene: viser.SceneApi) -> AbstractContextManager[None]:
+    """Lets pages have all that is said of a scene within, or nothing yet."""
+    return scene._websock_interface.atomic()
+
+
+def nodes(scene: viser.SceneApi) -> Mapping[str, Any]:
+    """The handles of all nodes of a scene, by name."""
+    return scene._handle_from_node_name

@@ -19,3 +19,8 @@ def run(api: viser.SceneApi | viser.GuiApi, path: str, *arguments: Any) -> None:
     function = files("modeviz.viewer").joinpath(path).read_text("utf-8").rstrip()
     source = f"({function})({', '.join(map(json.dumps, arguments))});"
     api._websock_interface.queue_message(_messages.RunJavascriptMessage(source=source))
+
+
+def say(client: viser.ClientHandle, source: str) -> None:
+    """Runs some JavaScript in one page."""
+    client._websock_connection.queue_message(_messages.RunJavascriptMessage(source))

@@ -8,7 +8,7 @@ import viser
 
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.page import scripts
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.handles import assign, name_of
 from modeviz.viewer.page.html import block, heading, title
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
@@ -82,7 +82,7 @@ class AnimationCard:
         """Stops the motion for all pages where it is in one of them, or lets it go on."""
         self._run(not self._is_running)
         if client is not None and not self._is_running:
-            scripts.run(client.gui, "page/tell_phase.js", self._stands._impl.uuid)
+            scripts.run(client.gui, "page/tell_phase.js", name_of(self._stands))
 
     def _say_phase(self) -> None:
         """Takes over the phase at which a page stands, unless the motion has gone on meanwhile."""

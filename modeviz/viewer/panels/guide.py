@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 import viser
-from viser._gui_handles import GuiModalHandle
 
+from modeviz.viewer.page.handles import GuiModalHandle
 from modeviz.viewer.page.hotkeys import Hotkey, Hotkeys
 from modeviz.viewer.page.html import block
 

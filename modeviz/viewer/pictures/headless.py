@@ -14,11 +14,12 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 import viser
-from viser import _messages
 
 from modeviz.errors import ModevizError
 from modeviz.vehicle.arrays import Floats
+from modeviz.viewer.page import scripts
 from modeviz.viewer.page.access import Server
+from modeviz.viewer.page.handles import nodes
 from modeviz.viewer.pictures.pictures import Pose
 from modeviz.viewer.scene.driver import PREFIX, ShapeDriver, held
 
@@ -202,16 +203,15 @@ class HeadlessPage:
         def client() -> viser.ClientHandle | None:
             clients = self._server.get_clients()
             for number, page in clients.items():
-                source = f"window.{MARK} = {number};"
-                page._websock_connection.queue_message(_messages.RunJavascriptMessage(source))
+                scripts.say(page, f"window.{MARK} = {number};")
             return clients.get(self._page.evaluate(f"window.{MARK} ?? null"))
 
         return self._until(client)
 
     def _wait_drawn(self) -> None:
-        nodes = self._server.scene._handle_from_node_name.items()
+        every = nodes(self._server.scene).items()
         # Their parents, which viser adds, stand at zero.
-        meshes = [node for name, node in nodes if name.startswith(PREFIX + "/") and node.position[1]]
+        meshes = [node for name, node in every if name.startswith(PREFIX + "/") and node.position[1]]
         self._wait(DRAWN, len(meshes))
 
     def _wait(self, condition: str, argument: float | None = None) -> None:

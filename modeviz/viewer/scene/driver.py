@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from modeviz.shapes.colors import Shade, stop_colors
 from modeviz.vehicle.arrays import Array
 from modeviz.viewer.page import scripts
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.handles import announce, assign, at_once
 
 PREFIX = "/_shape"
 """Where the hidden nodes of the meshes are; the rest of their name is their mesh's. Their position is
@@ -75,7 +75,7 @@ class ShapeDriver:
             cast_shadow: whether it shades the ground, which sees it undeformed.
         """
         self._n_added += 1
-        with self._scene._websock_interface.atomic():
+        with at_once(self._scene):
             self._meshes[name] = self._scene.add_glb(
                 name, glb, cast_shadow=cast_shadow, receive_shadow=False
             )
@@ -92,7 +92,7 @@ class ShapeDriver:
 
     def remove(self, name: str) -> None:
         """Removes a mesh and its shape."""
-        with self._scene._websock_interface.atomic():
+        with at_once(self._scene):
             self._meshes.pop(name).remove()
             self._nodes.pop(name).remove()
             del self._shapes[name], self._n_vertices[name]
@@ -119,7 +119,7 @@ class ShapeDriver:
         newest = {**self._shapes, **shapes}
         content = _packed(_halves(newest.values()))
         self._shapes = newest
-        with self._scene._websock_interface.atomic():
+        with at_once(self._scene):
             for name, shape in shapes.items():
                 order, n_points, opacity = self._nodes[name].position
                 if n_points != len(shape):
@@ -178,7 +178,7 @@ class ShapeDriver:
 
     def _send_shapes(self, content: bytes) -> None:
         self._sent = content
-        self._carrier._queue_update("shapes", content)
+        announce(self._carrier, "shapes", content)
 
     def _send_motion(self) -> None:
         frequency_hz = self._frequency_hz if self._running else 0.0

@@ -5,12 +5,11 @@ from functools import partial
 from html import escape
 
 import viser
-from viser import _messages
 
 from modeviz.text.wording import signed
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, MountRates, Rates
 from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.actions import damp, link
@@ -101,8 +100,8 @@ class Details:
         listing = table(self._header(state, base, mode), self._rows(state, base, effects))
         assign(self._table, content=block(f'<div class="effects{old}">{listing}</div>'))
         loss, its_base = self._loss_factor(state), self._group.loss_factor_with(base)
-        marks = (_messages.GuiSliderMark(its_base, None),)
-        assign(self._loss, label=row_label("loss factor", loss, its_base), _marks=marks)
+        assign(self._loss, label=row_label("loss factor", loss, its_base))
+        mark(self._loss, its_base)
 
     def _header(self, state: State, base: MountRates, mode: str) -> Sequence[str]:
         reset = ""

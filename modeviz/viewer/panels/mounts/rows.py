@@ -3,7 +3,6 @@
 import math
 
 import viser
-from viser import _messages
 
 from modeviz.errors import ModevizError
 from modeviz.files.scaling import written
@@ -11,7 +10,7 @@ from modeviz.text.wording import MINUS, sentence_case, signed
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, Rates
 from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.travel import Travel, travel
 from modeviz.viewer.session.session import Session
@@ -76,14 +75,13 @@ class RateRow:
             f"{state.against}: {in_unit:g}."
         )
         locked = " Locked: loading a set is all that moves it." if is_locked else ""
-        marks = (self._mark(base),) if self._travel.has(base) else ()
         assign(
             self._slider,
             label=row_label(self._direction, self._rate_in(state.rates), base),
             hint=f"{about} {effect}{locked}",
             disabled=is_locked,
-            _marks=marks,
         )
+        mark(self._slider, self._travel.position(base) if self._travel.has(base) else None)
         assign(
             self._number,
             label=state.unit,
@@ -122,9 +120,6 @@ class RateRow:
                 f"expected 0 to {STIFFEST / per_unit:.0f} {unit}"
             )
         self._session.set_rate(self._group.name, self._field, value * per_unit)
-
-    def _mark(self, base: float) -> _messages.GuiSliderMark:
-        return _messages.GuiSliderMark(self._travel.position(base), None)
 
 
 def row_label(direction: str, now: float, base: float) -> str:
