@@ -38,7 +38,8 @@ LAYERS = [
 """From the ground up; what stands side by side knows nothing of each other."""
 
 PRIVATE = re.compile(
-    r"viser(?:\.\w+)* import _|viser\._|_websock_\w+|\._impl\b|_handle_from_node|_insert_message|_queue_update"
+    r"viser(?:\.\w+)* import _|viser\._|_websock_\w+|\._impl\b|_handle_from_node|_insert_message"
+    r"|_queue_update"
 )
 """Of viser: modules and members that begin with an underscore."""
 MODULES = sorted(PACKAGE.rglob("*.py"))
