@@ -2,6 +2,8 @@
 
 import math
 import re
+import unicodedata
+from collections import Counter
 
 from modeviz.errors import ModevizError, quoted, unknown
 
@@ -76,6 +78,51 @@ def factor(unit: str, quantity: str) -> float:
     if unit not in units:
         raise ModevizError(unknown(f"unit of {quantity}", unit, units))
     return units[unit]
+
+
+def psd_factor(unit: str, quantity: str) -> float:
+    """What one unit of the PSD of a quantity is in SI: of mm²/Hz, or (m/s²)²/Hz, or m²/s⁴/Hz.
+
+    Raises:
+        ModevizError: the unit is not the square of one of that quantity's per Hz.
+    """
+    found = _psd_powers(unit)
+    for known, value in UNITS[quantity].items():
+        if found == _squared(_powers(known)):
+            return value**2
+    squares = [f"({u})²/Hz" if "/" in u else f"{u}²/Hz" for u in UNITS[quantity] if "^" not in u]
+    raise ModevizError(f"found the unit {quoted(unit)}, expected one of {', '.join(squares)}")
+
+
+def _psd_powers(unit: str) -> Counter[str]:
+    """The power of each part of a unit that should be a square per Hz; none of another's."""
+    level = _level(unit)
+    square = re.fullmatch(r"\((.+)\)2\s*/\s*Hz", level)
+    if square:
+        return _squared(_powers(square[1]))
+    powers = _powers(level)
+    powers["Hz"] += 1
+    return Counter({part: power for part, power in powers.items() if power})
+
+
+def _squared(powers: Counter[str]) -> Counter[str]:
+    return Counter({part: 2 * power for part, power in powers.items()})
+
+
+def _powers(unit: str) -> Counter[str]:
+    """The power of each part of a unit: of m/s² one for m and -2 for s."""
+    powers: Counter[str] = Counter()
+    above, *below = _level(unit).split("/")
+    for sign, parts in ((1, above), *((-1, parts) for parts in below)):
+        for part, power in re.findall(r"([^\W\d]+)(-?\d+)?", parts):
+            powers[part] += sign * int(power or 1)
+    return powers
+
+
+def _level(unit: str) -> str:
+    """A unit with powers as plain numbers behind what they are of, and Hz spelled so."""
+    level = unicodedata.normalize("NFKD", unit).replace("−", "-").replace("^", "")
+    return re.sub("hz", "Hz", level, flags=re.IGNORECASE)
 
 
 def parse(text: str, quantity: str) -> float:

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from modeviz.errors import ModevizError, unknown
-from modeviz.units import UNITS, factor, parse, parse_number
+from modeviz.units import UNITS, factor, parse, parse_number, psd_factor
 
 
 @pytest.mark.parametrize(
@@ -25,6 +25,33 @@ from modeviz.units import UNITS, factor, parse, parse_number
 )
 def test_unit_is_what_its_definition_says(unit, quantity, expected):
     assert factor(unit, quantity) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("unit", "quantity", "root"),
+    [
+        ("mm²/Hz", "length", 1e-3),
+        ("mm2 / hz", "length", 1e-3),
+        ("in^2/Hz", "length", 0.0254),
+        ("(m/s²)²/Hz", "acceleration", 1.0),
+        ("(mm/s^2)^2/Hz", "acceleration", 1e-3),
+        ("m²/s⁴/Hz", "acceleration", 1.0),
+        ("m^2/s^4/Hz", "acceleration", 1.0),
+        ("mm²/(s⁴ Hz)", "acceleration", 1e-3),
+        ("m² s⁻⁴ Hz⁻¹", "acceleration", 1.0),
+        ("g²/Hz", "acceleration", 9.80665),
+        ("kN²/Hz", "force", 1e3),
+    ],
+)
+def test_a_psd_has_the_square_of_its_unit(unit, quantity, root):
+    assert psd_factor(unit, quantity) == pytest.approx(root**2, rel=1e-15)
+
+
+@pytest.mark.parametrize("unit", ["m/s²/Hz", "m²/s⁴", "mm²/Hz", "g/√Hz", "(g)³/Hz", "", "²/Hz"])
+def test_no_psd_of_an_acceleration_is_told_what_is(unit):
+    words = r"expected one of \(m/s²\)²/Hz, \(mm/s²\)²/Hz, g²/Hz$"
+    with pytest.raises(ModevizError, match=words):
+        psd_factor(unit, "acceleration")
 
 
 @pytest.mark.parametrize("quantity", UNITS)

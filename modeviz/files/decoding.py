@@ -2,6 +2,7 @@
 
 import math
 import re
+import sys
 from reprlib import repr as brief
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
@@ -50,6 +51,17 @@ def decode(data: Any, kind: type[T], where: str = "") -> T:
         message, _, path = str(error).partition(" - at `$")
         steps = re.findall(r"[^.\[\]`]+|\.\.\.", path)
         raise VehicleError(_explain(message, data, kind, steps, where)) from None
+
+
+def unreadable(error: ValueError | RecursionError) -> str:
+    """Why a text is not TOML or JSON, by the error of who read it."""
+    if isinstance(error, RecursionError):
+        return "it is nested too deeply"
+    if isinstance(error, UnicodeDecodeError):
+        return "its bytes are not UTF-8 text"
+    if type(error) is ValueError:
+        return f"it has a whole number of more than {sys.get_int_max_str_digits():,} digits"
+    return str(error)
 
 
 def joined(where: str, key: str | int) -> str:

@@ -24,17 +24,22 @@ def check_size(what: str, found: int, most: int) -> None:
     """
     allowed = int(most * _factor())
     if found > allowed:
-        needed = -(-found // most)
-        advice = f"; {VARIABLE}={needed} in the environment would allow them"
         raise VehicleError(
-            f"found {found:,} {what}, expected at most {allowed:,}"
-            f"{advice if needed <= LARGEST_FACTOR else ''}"
+            f"found {found:,} {what}, expected at most {allowed:,}; {_advice(found, most)}"
         )
 
 
 def most_allowed(most: int) -> int:
     """How many of something are read that are usually at most so many."""
     return int(most * _factor())
+
+
+def _advice(found: int, most: int) -> str:
+    """How more than usual is allowed, as far as it can be."""
+    needed = -(-found // most)
+    if needed <= LARGEST_FACTOR:
+        return f"{VARIABLE}={needed} in the environment would allow them"
+    return f"{VARIABLE}={LARGEST_FACTOR} in the environment would allow {most * LARGEST_FACTOR:,}"
 
 
 def _factor() -> float:

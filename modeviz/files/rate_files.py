@@ -9,7 +9,7 @@ from typing import Literal, get_args
 import msgspec
 
 from modeviz.errors import VehicleError, check_unique, located
-from modeviz.files.decoding import decode
+from modeviz.files.decoding import decode, unreadable
 from modeviz.files.disk import LARGEST_TEXT, WESTERN, read_text, write_text
 from modeviz.files.records import RateSetRecord
 from modeviz.files.scaling import written
@@ -91,7 +91,7 @@ def _from_json(text: str) -> Rates:
     try:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise VehicleError(f"not JSON: {error}") from None
+        raise VehicleError(f"not JSON: {unreadable(error)}") from None
     file = decode(data, RatesFile)
     return {group: _in_si(record, file.units) for group, record in file.rates.items()}
 

@@ -1,6 +1,5 @@
 """Tables of spectra, one line for each frequency: roads, random forces and base motions."""
 
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,13 +10,11 @@ from modeviz.errors import VehicleError, located
 from modeviz.files.conventions import Conventions
 from modeviz.files.disk import LARGEST_TABLE, WESTERN, read_text
 from modeviz.files.tables import Row, read_table
-from modeviz.units import factor
+from modeviz.units import psd_factor
 from modeviz.vehicle.arrays import Floats
 
 FREQUENCY = "frequency_hz"
 """The first column of each."""
-
-_UNIT = re.compile(r"\(?(.+?)\)?(?:²|\^?2)\s*/\s*Hz", re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,11 +76,8 @@ def _unit(column: str, unit: str, quantity: str, conventions: Conventions) -> fl
     """What one unit of a column is in SI."""
     if not unit:
         return conventions.unit(quantity) ** 2
-    match = _UNIT.fullmatch(unit)
-    if match is None:
-        raise VehicleError(f"column {column}: found the unit {unit!r}, expected such as mm²/Hz")
     with located(f"column {column}"):
-        return factor(match[1], quantity) ** 2
+        return psd_factor(unit, quantity)
 
 
 def _rising(rows: tuple[Row, ...]) -> Floats:

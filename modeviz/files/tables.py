@@ -18,6 +18,9 @@ from modeviz.files.limits import check_size
 MOST_LINES = 100_000
 """A spectrum every 0.001 Hz up to 100 Hz."""
 
+LONGEST_LINE = 10_000
+"""Letters."""
+
 _NAME_AND_UNIT = re.compile(r"(.*?)\s*[\[(](.*)[\])]")
 
 
@@ -80,6 +83,7 @@ def read_table(text: str, columns: Sequence[str], optional: Sequence[str] = ()) 
     declared = re.fullmatch(r'"?sep=(.)"?', lines[first].strip(" ")) if lines else None
     if declared:  # as Excel writes it
         first += 1
+    _check_lengths(lines)
     separator = declared[1] if declared else _separator(lines[first] if lines else "")
     found = _cells(lines, first, separator)
     header_line, header = next(found, (1, []))
@@ -88,6 +92,15 @@ def read_table(text: str, columns: Sequence[str], optional: Sequence[str] = ()) 
         Row(line, _by_column(line, cells, list(units)), separator != ",") for line, cells in found
     )
     return Table(units, rows)
+
+
+def _check_lengths(lines: list[str]) -> None:
+    """Raises VehicleError for a line that has no line end where one is due."""
+    for number, line in enumerate(lines, start=1):
+        if len(line) > LONGEST_LINE:
+            raise VehicleError(
+                f"line {number}: found {len(line):,} letters, expected at most {LONGEST_LINE:,}"
+            )
 
 
 def _separator(header: str) -> str:
@@ -106,8 +119,10 @@ def _cells(lines: list[str], first: int, separator: str):
             cells = [cell.strip() for cell in next(reader)]
         except StopIteration:
             return
-        except csv.Error as error:
-            raise VehicleError(f"line {line}: not CSV: {error}") from None
+        except csv.Error:
+            raise VehicleError(
+                f"line {line}: not CSV: a quote does not end, or something stands behind it"
+            ) from None
         if any(cells):
             yield line, cells
 

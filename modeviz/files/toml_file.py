@@ -8,7 +8,7 @@ from typing import TypeVar
 import msgspec
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.decoding import decode
+from modeviz.files.decoding import decode, unreadable
 from modeviz.files.disk import read_text
 from modeviz.files.record import FileRecord
 from modeviz.files.scaling import to_si
@@ -38,7 +38,7 @@ def read_toml(path: Path, kind: type[R]) -> R:
     try:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        raise VehicleError(f"{path}: not TOML: {error}") from None
+        raise VehicleError(f"{path}: not TOML: {unreadable(error)}") from None
     with located(path):
         record = decode(data, kind)  # before scaling, so that errors show the file's own numbers
         return msgspec.convert(to_si(data, kind, record.units), kind)

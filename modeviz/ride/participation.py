@@ -9,6 +9,9 @@ from modeviz.dynamics.modes import Modes
 from modeviz.ride.psd import power_decibels
 from modeviz.vehicle.arrays import Complexes, Floats
 
+NEGLIGIBLE = 0.005
+"""Of the largest participation: less reads 0.00."""
+
 PROMINENCE_DB = 1.0
 """How far a peak must stand above the dip that parts it from a higher one."""
 
@@ -79,10 +82,14 @@ def participation_above(
 
 
 def contributors(participations: Floats, count: int) -> tuple[Contributor, ...]:
-    """The `count` largest of the modes' participations (n_modes,), the largest first."""
-    largest = np.argsort(participations)[::-1][:count]
-    reference = participations[largest[0]] or 1.0
-    return tuple(Contributor(int(r), float(participations[r] / reference)) for r in largest)
+    """The `count` largest of the modes' participations (n_modes,), the largest first.
+
+    Of the others none that is `NEGLIGIBLE` beside it.
+    """
+    largest, *others = np.argsort(participations)[::-1][:count]
+    reference = participations[largest] or 1.0
+    named = [largest, *(r for r in others if participations[r] >= NEGLIGIBLE * reference)]
+    return tuple(Contributor(int(r), float(participations[r] / reference)) for r in named)
 
 
 def peaks(

@@ -361,15 +361,16 @@ def test_longer_circles_of_nodes_and_shared_children_are_refused(complaint):
 
 
 CONTAINERS = {
-    b"": "found b'', expected a binary glTF",
-    b"version https://git-lfs.github.com/spec/v1\n": "found b'vers', expected a binary glTF",
+    b"": "found no bytes, expected a binary glTF, which begins with 'glTF'",
+    b"version https://git-lfs.github.com/spec/v1\n": "found bytes that begin with 'vers', expected a",
     struct.pack("<4sII", b"glTF", 1, 20) + bytes(8): "found glTF 1, expected glTF 2",
     struct.pack("<4sII", b"glTF", 2, 900) + bytes(8): "is cut: found 20 of its 900 bytes",
     struct.pack("<4sII", b"glTF", 2, 12): "found no JSON chunk",
     struct.pack("<4sIII4s", b"glTF", 2, 20, 99, b"JSON"): "the chunk at byte 12 ends behind",
     container(b"{]  ", b""): "its JSON cannot be read (",
-    container(b"[" * 100_000, b""): "its JSON is nested too deeply",
-    container(b'{"x": ' + b"9" * 5000 + b"}", b""): "its JSON cannot be read (",
+    container(b"[" * 100_000, b""): "its JSON cannot be read (it is nested too deeply)",
+    container(b'{"x": ' + b"9" * 5000 + b"}", b""): "(it has a whole number of more than 4,300 digits)",
+    container(b'{"x": "\xff"}', b""): "its JSON cannot be read (its bytes are not UTF-8 text)",
     container(b"[1] ", b""): "found [1], expected a table",
 }
 

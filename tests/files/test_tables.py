@@ -153,7 +153,8 @@ def test_a_file_without_a_road_is_refused(tmp_path, content, words):
         ("\n\na,b\n\n1,x\n", "line 5, column b: found 'x', expected a number"),
         ("a,b\n1\n", "line 2: found 1 cells, expected 2"),
         ("a,b\n1,2,3\n", "line 2: found 3 cells, expected 2"),
-        ('a,b\n1,"2\n', "line 2: not CSV"),
+        ('a,b\n1,"2\n', "line 2: not CSV: a quote does not end, or something stands behind it"),
+        ("a,b\n" + "1" * 20_000, "line 2: found 20,000 letters, expected at most 10,000"),
         ("a,b,d\n", "line 1: unknown column 'd': there are a, b, c"),
     ],
 )

@@ -112,4 +112,10 @@ def test_silence_has_no_contributors_of_any_size():
     modes = solve_modes(system)
     q = coordinates(system, modes, F[:1], track_forces(system, F[:1], 20.0)[:, :, [RIGHT]])
     p = participation(np.ones(6), q, np.ones((1, 1, 1)))
-    assert [c.ratio for c in contributors(p[0], 3)] == [0.0, 0.0, 0.0]
+    assert [c.ratio for c in contributors(p[0], 3)] == [0.0]
+
+
+def test_what_would_read_as_nothing_is_not_named():
+    found = contributors(np.array([2.0, 0.0101, 0.0099, 0.0]), 4)
+    assert [c.mode for c in found] == [0, 1]
+    assert f"{found[1].ratio:.2f}" == "0.01"

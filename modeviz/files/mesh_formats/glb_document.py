@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from modeviz.errors import VehicleError, reason
-from modeviz.files.decoding import decode
+from modeviz.errors import VehicleError, quoted, reason
+from modeviz.files.decoding import decode, unreadable
 from modeviz.files.mesh_formats.glb_records import Buffer, Document
 from modeviz.files.mesh_formats.limits import LARGEST_DOCUMENT, check_size
 
@@ -92,7 +92,10 @@ def _chunks(content: bytes) -> tuple[bytes, memoryview]:
     """The JSON and the binary chunk of a container."""
     magic, version, length = struct.unpack_from("<4sII", content.ljust(12, b"\0"))
     if magic != b"glTF":
-        raise VehicleError(f"found {content[:4]!r}, expected a binary glTF, which begins with b'glTF'")
+        found = (
+            f"bytes that begin with {quoted(content[:4].decode('latin-1'))}" if content else "no bytes"
+        )
+        raise VehicleError(f"found {found}, expected a binary glTF, which begins with 'glTF'")
     if version != 2:
         raise VehicleError(f"found glTF {version}, expected glTF 2")
     if length > len(content):
@@ -113,10 +116,8 @@ def _chunks(content: bytes) -> tuple[bytes, memoryview]:
 def _decoded(text: bytes) -> Document:
     try:
         return decode(json.loads(text), Document)
-    except RecursionError:
-        raise VehicleError("its JSON is nested too deeply to be read") from None
-    except ValueError as error:
-        raise VehicleError(f"its JSON cannot be read ({reason(error)})") from None
+    except (ValueError, RecursionError) as error:
+        raise VehicleError(f"its JSON cannot be read ({unreadable(error)})") from None
 
 
 def _buffer(buffer: Buffer, index: int, binary: memoryview) -> memoryview:
