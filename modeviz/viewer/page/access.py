@@ -86,6 +86,7 @@ def open_server(
     token: str | None = None,
     title: str = "modeviz",
     public_names: Sequence[str] = (),
+    is_framed: bool = False,
 ) -> Server:
     """A viser server that only who has the token, or without one the users of this machine, can reach.
 
@@ -95,6 +96,7 @@ def open_server(
         token: what a link must carry, `?token=…`; needed beyond this machine.
         title: of the page.
         public_names: under which a proxy makes the page known.
+        is_framed: whether pages of this machine may show it in a frame, as notebooks do.
 
     Raises:
         ModevizError: the port is none or in use, the address is not this machine's, a name is none, or
@@ -112,7 +114,8 @@ def open_server(
     if not 0 <= port <= 65535:
         raise ModevizError(f"port: found {port}, expected 0 to 65535")
     _check_free(host, port)
-    server = Server(host, port, Door(host, token, title, tuple(map(str.lower, public_names))))
+    names = tuple(map(str.lower, public_names))
+    server = Server(host, port, Door(host, token, title, names, is_framed))
     if port and server.get_port() != port:
         server.stop()
         raise ModevizError(_in_use(host, port))

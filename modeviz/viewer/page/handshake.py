@@ -35,6 +35,18 @@ OTHER_VERSION = "this page is of another version of modeviz: load it again"
 BUSY = "many pages are being opened: this one is tried again"
 TOO_MANY = "there are as many pages open as this server takes: close some"
 
+ANCESTORS = " ".join(
+    [
+        *(f"{scheme}://{name}:*" for scheme in ("http", "https") for name in LOOPBACK[:2]),
+        "vscode-webview:",
+    ]
+)
+"""Where notebooks of this machine are shown, as Content-Security-Policy names them."""
+
+FRAMED = "SameSite=None; Secure; Partitioned"
+"""How a cookie is kept in a frame of a page of another name: for that page alone. Browsers take
+127.0.0.1 and localhost for secure."""
+
 HOST = re.compile(r"(?:\[([0-9a-f:.]+)\]|([\w.-]+))(?::\d+)?", re.ASCII | re.IGNORECASE)
 """A Host header: an IPv6 address in brackets or a name, and a port."""
 
@@ -61,6 +73,8 @@ class Door:
     title: str
     public_names: tuple[str, ...] = ()
     """Names of this server besides its own, lower case."""
+    is_framed: bool = False
+    """Whether pages of this machine may show it in a frame, as notebooks do."""
     is_hung: bool = False
     """Whether a server asks it."""
     is_open: bool = False
@@ -141,10 +155,11 @@ class Door:
             await asyncio.sleep(delay)
             return _answer(403, NO_TOKEN)
         self.guesses.forget(client)
+        kept = FRAMED if self.is_framed else "SameSite=Strict"
         return _answer(
             303,
             Location=_without_token(request.path),
-            **{"Set-Cookie": f"{_cookie_name(connection)}={self.entered}; HttpOnly; SameSite=Strict"},
+            **{"Set-Cookie": f"{_cookie_name(connection)}={self.entered}; HttpOnly; {kept}"},
         )
 
     def _has_entered(self, connection: PageConnection, request: Request) -> bool:
@@ -219,8 +234,9 @@ class Door:
             _set(response.headers, "Content-Encoding", "gzip" if zipped else "identity")
         hosts = [request.headers["Host"], *(f"{name}:*" for name in self.public_names)]
         sockets = " ".join(f"ws://{host} wss://{host}" for host in hosts)
+        ancestors = ANCESTORS if self.is_framed else "'none'"
         response.headers["Content-Security-Policy"] = (
-            f"frame-ancestors 'none'; connect-src 'self' {sockets} data: blob:; "
+            f"frame-ancestors {ancestors}; connect-src 'self' {sockets} data: blob:; "
             "object-src 'none'; base-uri 'none'"
         )
         return response
