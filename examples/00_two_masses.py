@@ -21,13 +21,12 @@ mount = mv.Spring(
     stiffness=np.array([0.0, 0.0, STIFFNESS]),
 )
 
-system = mv.assemble(mv.Vehicle("two masses", (frame, cab), (mount,)))
-modes = mv.solve_modes(system)
-frequency_hz = modes.frequency_hz[-1]
-cab_energy = mv.kinetic_energy(system, modes.shapes)["cab"][-1]
+modes = mv.Study(mv.Vehicle("two masses", (frame, cab), (mount,))).modes()
+swinging = modes[-1]
 cab_mass_share = CAB_MASS / (CAB_MASS + FRAME_MASS)
 
 if __name__ == "__main__":
-    print(f"{np.sum(modes.frequency_hz < 1e-3)} of {system.n_dofs} modes move freely")
-    print(f"the masses swing against each other at {frequency_hz:.2f} Hz")
-    print(f"the cab, {cab_mass_share:.0%} of the mass, has {cab_energy:.0%} of the energy")
+    print(f"{np.sum(modes.frequency_hz < 1e-3)} of {len(modes)} modes move freely")
+    print(f"the masses swing against each other at {swinging.frequency_hz:.2f} Hz")
+    share = swinging.kinetic_energy["cab"]
+    print(f"the cab, {cab_mass_share:.0%} of the mass, has {share:.0%} of the energy")

@@ -9,31 +9,22 @@ import modeviz as mv
 
 BAND = (11.0, 17.0)  # Hz, where the paper sees the greatest change
 
-vehicle = mv.read_vehicle(mv.builtin_vehicle())
-prepared = mv.prepare(vehicle)
-conditions = mv.Conditions("road 1", vehicle.speed)
-original, optimised = (
-    mv.solve(prepared, rates, conditions) for rates in (vehicle.rates, vehicle.rate_sets["optimised"])
-)
+study = mv.Study()
+seat = study.points[0]
+cab_yaw_hz, rides = {}, {}
+for name in ("original", "optimised"):
+    study.rates.use(name)
+    cab_yaw_hz[name] = study.modes()["cab yaw"].frequency_hz
+    rides[name] = study.ride("road 1")
 
-
-def cab_yaw_hz(results: mv.Results) -> float:
-    """Natural frequency of the mode that bears the name."""
-    return float(results.modes.frequency_hz[results.mode_index("cab yaw")])
-
-
-def lateral_g(results: mv.Results) -> float:
-    """RMS at the driver's seat within the band."""
-    return float(mv.rms(results.frequency_hz, results.response(point=0, direction="lateral"), BAND))
-
-
-fall = 1 - lateral_g(optimised) / lateral_g(original)
+lateral_g = {name: ride.rms(seat, "lateral", BAND) for name, ride in rides.items()}
+fall = 1 - lateral_g["optimised"] / lateral_g["original"]
 
 if __name__ == "__main__":
-    for label, results in (("original", original), ("optimised", optimised)):
-        peak = max(results.peaks(0, "lateral", count=2), key=lambda p: p.level)
-        names = [results.names[c.mode].name for c in peak.contributors]
-        print(f"{label}: cab yaw at {cab_yaw_hz(results):.2f} Hz, {lateral_g(results):.4f} g lateral")
-        print(f"  highest peak at {peak.frequency_hz:.1f} Hz, mostly {' and '.join(names)}")
-        print(f"  rating {results.rating.mean_personal_rating:.1f}")
+    for name, ride in rides.items():
+        peak = max(ride.peaks(seat, "lateral", count=2), key=lambda p: p.level)
+        print(f"{name}: cab yaw at {cab_yaw_hz[name]:.2f} Hz, {lateral_g[name]:.4f} g lateral")
+        names = " and ".join(part.name for part in peak.parts)
+        print(f"  highest peak at {peak.frequency_hz:.1f} Hz, mostly {names}")
+        print(f"  rating {ride.rating.mean_personal_rating:.1f}")
     print(f"from {BAND[0]:g} to {BAND[1]:g} Hz the lateral acceleration falls by {fall:.0%}")

@@ -8,28 +8,29 @@ of the peak, which is only a part of that; and the cab's own free-free modes, of
 import numpy as np
 
 import modeviz as mv
+from modeviz.dynamics.components import component_shares
 
-vehicle = mv.read_vehicle(mv.builtin_vehicle())
-prepared = mv.prepare(vehicle)
-results = mv.solve(prepared, vehicle.rates, mv.Conditions("road 1", vehicle.speed))
+study = mv.Study()
+ride, modes, seat = study.ride("road 1"), study.modes(), study.points[0]
+system = ride.results.system
 
-peak = max(results.peaks(0, "lateral"), key=lambda p: p.level)
-on_road = mv.road_shape(results, peak.frequency_hz, point=0, direction="lateral")
-mode = peak.contributors[0].mode
-damped = mv.complex_mode(results, mode)
+peak = max(ride.peaks(seat, "lateral"), key=lambda p: p.level)
+on_road = ride.shape(peak.frequency_hz, seat, "lateral")
+mode = modes[peak.parts[0].name]
+damped = modes.damped(mode.name)
 
 
 def likeness(a: np.ndarray, b: np.ndarray) -> float:
     """How much two motions are alike, weighted with mass, 0 to 1."""
-    M = prepared.system.mass
+    M = system.mass
     product = abs(np.vdot(a, M @ b)) ** 2
     return float(product / np.real(np.vdot(a, M @ a) * np.vdot(b, M @ b)))
 
 
-shares = mv.component_shares(prepared.system, damped.shape, "cab")
+shares = component_shares(system, damped.shape, "cab")
 
 if __name__ == "__main__":
-    print(f"at {peak.frequency_hz:.1f} Hz mostly {results.names[mode].name}")
+    print(f"at {peak.frequency_hz:.1f} Hz mostly {mode.name}")
     print(f"  damped: {damped.damped_frequency_hz:.2f} Hz, {damped.damping_ratio:.1%} of critical")
     print(f"  {likeness(on_road, damped.shape):.0%} of the motion on the road is like it")
     for share in shares[:4]:

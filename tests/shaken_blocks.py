@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from mounted_cabin import mounted_cabin
 
-import modeviz as mv
+from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import AXIS, solve_wheels
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.bodies import RigidBody
@@ -54,7 +54,7 @@ def stiffness_of(rate, f):
 
 def vertical_peaks(vehicle, rates=None):
     """Peak accelerations of the seat, m/s², (n_freqs, n_loads)."""
-    found = solve_wheels(mv.prepare(vehicle), rates or {})
+    found = solve_wheels(prepare(vehicle), rates or {})
     return found.acceleration_g[:, :, 0, AXIS["vertical"]] * STANDARD_GRAVITY
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from modeviz.errors import VehicleError, located, quoted, unknown
+from modeviz.errors import VehicleError, listed, located, quoted, unknown
 from modeviz.files.rate_files import read_rates
 from modeviz.units import parse, parse_number
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, Rates
@@ -12,6 +12,9 @@ from modeviz.vehicle.vehicle import Vehicle
 
 ORIGINAL = "original"
 """The choice of the rates that the vehicle has."""
+
+LOSS_FACTOR = "loss_factor"
+"""The field of `MountRates` that is no rate."""
 
 
 def parse_setting(text: str, rates: Rates) -> Rates:
@@ -25,16 +28,39 @@ def parse_setting(text: str, rates: Rates) -> Rates:
         VehicleError: not of that form, or a group, direction or unit that does not exist.
     """
     name, _, value = text.partition("=")
-    group, _, key = name.strip().rpartition(".")
     with located(f"setting {quoted(text)}"):
-        if not group or not value:
+        if "." not in name or not value:
             raise VehicleError(
                 "expected GROUP.DIRECTION=RATE UNIT, as in C2.lateral=131 N/mm, or "
                 "GROUP.loss_factor=NUMBER"
             )
-        if group not in rates:
-            raise VehicleError(unknown("mount group", group, rates))
-        return {group: replace(rates[group], **_parse_change(key, value))}
+        group, field = rate_field(name, rates)
+        number = parse_number(value) if field == LOSS_FACTOR else parse(value, "stiffness")
+        return {group: replace(rates[group], **{field: number})}
+
+
+def rate_field(name: str, rates: Rates) -> tuple[str, str]:
+    """Return the group and the field of `MountRates` that a name such as "C2.fore-aft" means.
+
+    Args:
+        name: that, or "C2.loss_factor".
+        rates: of every group.
+
+    Raises:
+        VehicleError: not of that form, or a group or direction that does not exist.
+    """
+    group, dot, key = name.strip().rpartition(".")
+    if not dot:
+        raise VehicleError(
+            "expected GROUP.DIRECTION or GROUP.loss_factor, as in C2.lateral; there are the groups "
+            + listed(rates)
+        )
+    if group not in rates:
+        raise VehicleError(unknown("mount group", group, rates))
+    spoken = key.replace("_", "-")
+    if key != LOSS_FACTOR and spoken not in DIRECTIONS:
+        raise VehicleError(unknown("direction", key, (*DIRECTIONS, LOSS_FACTOR)))
+    return group, key if key == LOSS_FACTOR else RATE_FIELDS[DIRECTIONS.index(spoken)]
 
 
 def resolve_rates(vehicle: Vehicle, choice: str, settings: Iterable[str] = ()) -> Rates:
@@ -52,16 +78,6 @@ def resolve_rates(vehicle: Vehicle, choice: str, settings: Iterable[str] = ()) -
     for setting in settings:
         rates |= parse_setting(setting, rates)
     return vehicle.all_rates(rates)
-
-
-def _parse_change(key: str, value: str) -> dict[str, float]:
-    """The field of `MountRates` that a setting changes, and to what."""
-    if key == "loss_factor":
-        return {key: parse_number(value)}
-    spoken = key.replace("_", "-")
-    if spoken not in DIRECTIONS:
-        raise VehicleError(unknown("direction", key, (*DIRECTIONS, "loss_factor")))
-    return {RATE_FIELDS[DIRECTIONS.index(spoken)]: parse(value, "stiffness")}
 
 
 def _chosen(vehicle: Vehicle, choice: str) -> Rates:

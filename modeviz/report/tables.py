@@ -50,9 +50,9 @@ def modes_table(followed: Followed, below_hz: float) -> str:
             f"{i + 1:3d}  {results.names[i].spoken}",
             f"{f:.2f}",
             f"{100 * results.modes.damping_ratio[i]:.1f}",
-            _largest(results.kinetic_energy, i),
-            _largest(results.strain_energy, i),
-            _came_from(followed, i),
+            largest(results.kinetic_energy, i),
+            largest(results.strain_energy, i),
+            came_from(followed, i),
         ]
         for i, f in enumerate(results.modes.frequency_hz)
         if f < below_hz
@@ -62,7 +62,7 @@ def modes_table(followed: Followed, below_hz: float) -> str:
     return f"{table(header, rows)}\n\n{health(results)}{components}"
 
 
-def _came_from(followed: Followed, mode: int) -> str:
+def came_from(followed: Followed, mode: int) -> str:
     """Names and frequencies of the modes with the vehicle's own rates that had this one's shape."""
     base, sources = followed.base, followed.track.sources(mode)
     said = [f"{base.names[i].name} {base.modes.frequency_hz[i]:.2f}" for i, _ in sources]
@@ -145,7 +145,8 @@ def _rating(results: Results) -> str:
     return "\n".join(lines)
 
 
-def _largest(energy: Mapping[str, Floats], mode: int) -> str:
+def largest(energy: Mapping[str, Floats], mode: int) -> str:
+    """Return what has most of a mode's energy, and how much."""
     share, name = max(((share[mode], name) for name, share in energy.items()), default=(0.0, ""))
     return f"{name} {100 * share:.0f} %" if share > 0 else "-"
 

@@ -7,7 +7,6 @@ import pytest
 from builtin_truck import builtin_truck
 from mounted_cabin import mounted_cabin
 
-import modeviz as mv
 from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import AXIS, Conditions, Results, solve, solve_wheels
@@ -16,10 +15,11 @@ from modeviz.errors import SolveError, VehicleError
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.ride.wheels import wheel_forces
 from modeviz.units import STANDARD_GRAVITY
+from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import ResponsePoint, Road
 
 F = np.array([1.3, 8.0, 11.0, 23.7])
-RATES = {"A": mv.MountRates(2e5, 1e5, 1e5)}
+RATES = {"A": MountRates(2e5, 1e5, 1e5)}
 
 
 @pytest.fixture(scope="module")

@@ -10,14 +10,14 @@ from builtin_truck import prepared_truck
 from differences import central_difference, relative_to_largest
 from rounding import TRUCK, assert_near
 
-import modeviz as mv
 from modeviz.analysis.batch import solve_many
 from modeviz.analysis.exact_check import check_exactly, classic_error
 from modeviz.analysis.results import Conditions, solve, solve_modal
 from modeviz.analysis.sensitivity import frequency_sensitivity, rate_variables, ride_sensitivity
 from modeviz.dynamics import basis as enriched
-from modeviz.dynamics.assembly import mount_stiffness
+from modeviz.dynamics.assembly import System, assemble, mount_stiffness
 from modeviz.dynamics.band import band_modes
+from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.dynamics.trust import count_below
 from modeviz.optimise.goals import load_cases
@@ -76,7 +76,7 @@ def rate_sets(prepared, optimised):
 class FullModel:
     """The truck's equations of motion with other rates, in its generalised coordinates."""
 
-    system: mv.System
+    system: System
     stiffness: np.ndarray
     """(n_dofs, n_dofs), complex."""
 
@@ -299,7 +299,7 @@ def test_a_mode_that_the_basis_lacks_is_missed(prepared, rate_sets, true_squares
 
 def test_the_count_at_the_base_does_not_rest_on_the_modes_found(prepared, monkeypatch):
     def with_half_of_them(system, below_hz):
-        return mv.solve_modes(system, below_hz=below_hz / 2)
+        return solve_modes(system, below_hz=below_hz / 2)
 
     monkeypatch.setattr(enriched, "solve_modes", with_half_of_them)
     assert enriched.prepare_basis(prepared.system).n_below == prepared.basis.n_below
@@ -359,7 +359,7 @@ def objective(prepared):
 def test_the_papers_objective_is_the_direct_solution_squared_and_summed(objective, road, optimised):
     lateral_and_vertical = [3 * point + axis for point in range(4) for axis in (1, 2)]
     vehicle = objective.prepared.vehicle.with_rates(optimised)
-    system, outputs = mv.assemble(vehicle), objective.prepared.outputs[lateral_and_vertical]
+    system, outputs = assemble(vehicle), objective.prepared.outputs[lateral_and_vertical]
     f = np.linspace(6, 14, 25)
     H = direct_response(system, f, track_forces(system, f, road.speed), outputs)
     on_road = acceleration_psd(f, H, road_spectrum(vehicle.roads[0], f, road.speed)).sum()

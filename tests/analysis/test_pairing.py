@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from builtin_truck import truck_modes
 
-import modeviz as mv
 from modeviz.analysis.following import follow
 from modeviz.analysis.pairing import Pair, pair_modes, same_mode
+from modeviz.analysis.results import solve_modal
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import EQUAL, WEAK_MAC, Track
 
@@ -70,7 +70,7 @@ def both(request, prepared):
     else:
         own = truck.rates["C1"]
         rates = {"C1": replace(own, vertical=own.vertical * request.param, lateral=own.lateral * 4)}
-    return mv.solve_modal(prepared, {}), mv.solve_modal(prepared, rates)
+    return solve_modal(prepared, {}), solve_modal(prepared, rates)
 
 
 def test_every_mode_is_there_once(both):
@@ -100,7 +100,7 @@ def test_namesakes_that_are_surely_paired_have_the_most_of_each_others_shape(bot
 
 
 def test_modes_with_the_same_rates_are_compared_with_themselves(prepared):
-    base, now = (mv.solve_modal(prepared, {}) for _ in range(2))
+    base, now = (solve_modal(prepared, {}) for _ in range(2))
     found = pair_modes(base, now, follow(base, now))
     assert set(found) == {Pair(i, i) for i in range(len(base.names))}
 

@@ -13,11 +13,12 @@ from mounted_cabin import mounted_cabin
 from rounding import SEARCHED_X
 from usual_signals import usual_signals
 
-import modeviz as mv
 from modeviz.cli import front as command
 from modeviz.cli import main
 from modeviz.cli.interrupt import ENDINGS
 from modeviz.files import write_vehicle
+from modeviz.optimise.pareto import find_front
+from modeviz.optimise.trade_off import prepare_trade_off, sides
 
 OFFER = "lateral against vertical"
 KEYS = {
@@ -44,9 +45,9 @@ def refused(capsys, cabin):
 
 def expected(seed=0):
     vehicle = mounted_cabin()
-    pair = mv.sides(vehicle, PROBLEM)[OFFER]
-    trade_off = mv.prepare_trade_off(vehicle, PROBLEM, pair, vehicle.rates, vehicle.speed)
-    return mv.find_front(trade_off, [vehicle.rates], n_starts=1, seed=seed)
+    pair = sides(vehicle, PROBLEM)[OFFER]
+    trade_off = prepare_trade_off(vehicle, PROBLEM, pair, vehicle.rates, vehicle.speed)
+    return find_front(trade_off, [vehicle.rates], n_starts=1, seed=seed)
 
 
 def test_its_designs_are_those_of_python(printed_json, cabin, tmp_path):

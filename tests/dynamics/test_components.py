@@ -6,7 +6,7 @@ from builtin_truck import truck_modes
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 
-import modeviz as mv
+from modeviz.analysis.results import solve_modal
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.components import component_modes, component_shares
 from modeviz.dynamics.energy import kinetic_energy
@@ -145,7 +145,7 @@ def test_phase_does_not_change_shares():
 
 def test_the_cab_yaws_in_the_cab_yaw_of_the_optimised_truck():
     truck = truck_modes()
-    results = mv.solve_modal(truck, truck.vehicle.rate_sets["optimised"])
+    results = solve_modal(truck, truck.vehicle.rate_sets["optimised"])
     yaw = results.mode_index("cab yaw")
     shares = component_shares(truck.system, results.modes.shapes[:, yaw], "cab")
     assert shares[0].name == "yaw"

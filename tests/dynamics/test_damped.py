@@ -11,19 +11,19 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import linear_sum_assignment
 from small_systems import damper, mass_on_a_string, spring
 
-import modeviz as mv
 from modeviz.analysis.deflection_shapes import complex_mode
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.results import ModalResults, solve_modal
 from modeviz.dynamics.modes import solve_complex_modes, solve_modes, vibrating_roots
 from modeviz.errors import SolveError
+from modeviz.vehicle.connections import Damper, MountRates, Spring
 from modeviz.vehicle.vehicle import Vehicle
 
 A, B = 2, 8
 """Where the heights of the two masses are among the coordinates."""
 
 
-def two_masses(*links: mv.Spring | mv.Damper) -> ModalResults:
+def two_masses(*links: Spring | Damper) -> ModalResults:
     """1 kg and 2 kg that are held along z; all else is free."""
     masses = mass_on_a_string("a", 1.0), mass_on_a_string("b", 2.0)
     return solve_modal(prepare_modes(Vehicle("two", masses, links)), {})
@@ -142,7 +142,7 @@ def cabin():
     vehicle = mounted_cabin()
     front, rear = vehicle.mount_groups
     lossy = replace(vehicle, mount_groups=(replace(front, loss_factor=0.6), rear))
-    return solve_modal(prepare_modes(lossy, top_hz=6.0), {"B": mv.MountRates(3e5, 1e5, 2e5)})
+    return solve_modal(prepare_modes(lossy, top_hz=6.0), {"B": MountRates(3e5, 1e5, 2e5)})
 
 
 def test_the_basis_gives_what_the_modes_of_the_band_leave_out(cabin):

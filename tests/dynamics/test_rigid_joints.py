@@ -7,7 +7,6 @@ from mounted_cabin import mounted_cabin
 from oracles import Beam
 from small_systems import block, joined_beams
 
-import modeviz as mv
 from modeviz.dynamics.assembly import assemble, mount_stiffness
 from modeviz.dynamics.band import band_modes
 from modeviz.dynamics.basis import prepare_basis
@@ -17,7 +16,7 @@ from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Damper, Spring
+from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Damper, MountRates, Spring
 from modeviz.vehicle.vehicle import Vehicle
 
 F = np.array([0.3, 2.0, 9.0, 31.0])
@@ -159,7 +158,7 @@ def test_the_enriched_basis_holds_the_modes_at_any_rates():
     basis = prepare_basis(system)
     for factor in (0.1, 1.0, 7.0):
         group = vehicle.mount_groups[0]
-        rates = {group.name: mv.MountRates(*(factor * k for k in group.rates.as_tuple()))}
+        rates = {group.name: MountRates(*(factor * k for k in group.rates.as_tuple()))}
         changed = system.with_rates(rates)
         stiffness = mount_stiffness(changed.vehicle)
         direct = solve_modes(changed, below_hz=basis.top_hz).frequency_hz

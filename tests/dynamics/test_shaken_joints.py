@@ -24,10 +24,10 @@ from shaken_blocks import (
     vertical_peaks,
 )
 
-import modeviz as mv
 from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
 from modeviz.analysis.exact_check import check_exactly
-from modeviz.analysis.results import AXIS, Conditions, solve_wheels
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import AXIS, Conditions, solve, solve_wheels
 from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
@@ -50,7 +50,7 @@ def cabin_on_table():
 
 @pytest.mark.parametrize("rate", [RATE, 4e4, 9e5])
 def test_what_is_bolted_to_a_shaken_ground_moves_as_it_does(rate):
-    found = solve_wheels(mv.prepare(on_table(shaken_block(SHAKER))), softer(rate))
+    found = solve_wheels(prepare(on_table(shaken_block(SHAKER))), softer(rate))
     omega = 2 * np.pi * found.frequency_hz
     moved = found.acceleration_g[:, 0, 1] * STANDARD_GRAVITY
     np.testing.assert_allclose(moved[:, AXIS["vertical"]], Z * omega**2, rtol=1e-9)
@@ -74,7 +74,7 @@ def test_a_white_acceleration_of_the_ground_gives_a_light_oscillator_its_closed_
                     rotational_stiffness=np.full(3, 1e5), damping=dashpot)  # fmt: skip
     shaken = shaken_block(BaseMotion("white", UP, "acceleration", FLAT))
     vehicle = on_table(replace(shaken, connections=(spring,), mount_groups=()))
-    results = mv.solve(mv.prepare(vehicle), {}, Conditions("white", 20.0))
+    results = solve(prepare(vehicle), {}, Conditions("white", 20.0))
     closed = np.pi / 2 * natural_hz * level * (1 + 4 * zeta**2) / (2 * zeta)
     beyond = level * (0.1 + natural_hz**4 / (3 * 40.0**3))
     found = (results.rms[0, AXIS["vertical"]] * STANDARD_GRAVITY) ** 2
@@ -148,7 +148,7 @@ def test_modes_and_receptances_answer_a_shaken_joint_as_the_equations_of_motion_
 def test_every_way_to_solve_agrees_where_the_ground_moves_joints_and_mounts(near):
     vehicle = cabin_on_table()
     rates = changed(vehicle)
-    prepared = mv.prepare(vehicle).near(rates) if near else mv.prepare(vehicle)
+    prepared = prepare(vehicle).near(rates) if near else prepare(vehicle)
     system = assemble(vehicle.with_rates(rates))
     wheels = solve_wheels(prepared, rates)
     found, f = wheels.acceleration_g, wheels.frequency_hz
@@ -157,15 +157,15 @@ def test_every_way_to_solve_agrees_where_the_ground_moves_joints_and_mounts(near
         H = direct_response(system, f, actions, prepared.outputs)[:, :, 0]
         expected = np.abs(H) * (2 * np.pi * f[:, None]) ** 2 / STANDARD_GRAVITY
         assert np.abs(found[:, i].reshape(len(f), -1) - expected).max() < 1e-9 * expected.max()
-    *_, check = check_exactly(mv.solve(prepared, rates, Conditions("random floor", 20.0)))
+    *_, check = check_exactly(solve(prepared, rates, Conditions("random floor", 20.0)))
     assert check.error < 1e-8
 
 
 def test_what_is_shown_moving_is_what_the_response_is_of():
     vehicle = cabin_on_table()
     rates = changed(vehicle)
-    prepared = mv.prepare(vehicle, vehicle.frequency_hz)
-    results = mv.solve(prepared, rates, Conditions("random floor", 20.0))
+    prepared = prepare(vehicle, vehicle.frequency_hz)
+    results = solve(prepared, rates, Conditions("random floor", 20.0))
     omega, line = 2 * np.pi * 9.0, 89
     shapes = road_shape(results, 9.0, 0, "vertical"), wheel_shape(results, "floor", 9.0)
     at_random, harmonic = (np.abs(omega**2 * prepared.outputs @ x) / STANDARD_GRAVITY for x in shapes)
@@ -195,7 +195,7 @@ def test_a_goal_under_shaken_joints_has_its_true_derivatives():
 
 
 def test_many_sets_of_rates_at_once_are_each_alone():
-    prepared = mv.prepare(cabin_on_table(), LINES)
+    prepared = prepare(cabin_on_table(), LINES)
     driven = prepared.excited(prepared.vehicle.harmonic_loads, 20.0)
     sets = np.outer([0.5, 1.0, 3.0], prepared.mount_stiffness({}))
     for stiffness, H in zip(sets, driven.responses(sets), strict=True):
@@ -210,7 +210,7 @@ def shaken_table():
 
 def test_the_parts_of_a_peak_are_its_modes_and_what_is_led_without_any():
     """The block moves in its one vertical mode, the table in none."""
-    results = mv.solve(mv.prepare(shaken_table()), softer(6e4), Conditions("random", 20.0))
+    results = solve(prepare(shaken_table()), softer(6e4), Conditions("random", 20.0))
     f = np.array([4.0, 11.0])
     one = np.ones((len(f), 1, 1), complex)
     seat, on_table = (
@@ -231,7 +231,7 @@ def test_a_rigid_rod_leads_along_its_line_alone():
                   np.full(3, 1e4), np.full(3, 50.0))  # fmt: skip
     push = BaseMotion("push", np.array([0.0, 3.0, 4.0]), "displacement", Z, ("rod",))
     vehicle = replace(shaken_block(), connections=(feet, rod), mount_groups=(), base_motions=(push,))
-    found = solve_wheels(mv.prepare(vehicle), {})
+    found = solve_wheels(prepare(vehicle), {})
     omega = 2 * np.pi * found.frequency_hz
     g = found.acceleration_g[:, 0, 0] * STANDARD_GRAVITY
     np.testing.assert_allclose(g[:, AXIS["lateral"]], 0.6 * Z * omega**2, rtol=1e-9)
@@ -240,7 +240,7 @@ def test_a_rigid_rod_leads_along_its_line_alone():
 
 def test_joints_that_hold_the_same_lead_it_together():
     found, expected = (
-        solve_wheels(mv.prepare(vehicle, F), {}).acceleration_g
+        solve_wheels(prepare(vehicle, F), {}).acceleration_g
         for vehicle in (bolted_twice(), on_table(shaken_block(SHAKER)))
     )
     np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-10 * expected.max())
@@ -249,4 +249,4 @@ def test_joints_that_hold_the_same_lead_it_together():
 def test_joints_that_would_have_to_part_are_refused_by_name():
     words = r"base motion 'shaker': '(bolt|again)' .*all rigid connections to the ground"
     with pytest.raises(VehicleError, match=words):
-        mv.prepare(bolted_apart())
+        prepare(bolted_apart())

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from mounted_cabin import SOFT, mounted_cabin
 
-import modeviz as mv
+from modeviz.errors import VehicleError
+from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.problems import MOST_FREQUENCIES, ProblemRecord, SpacedRecord
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance, Problem
@@ -40,7 +41,7 @@ PLAIN = Problem("plain", (DesignGroup("A"),), goal="change")
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    mv.write_vehicle(replace(mounted_cabin(), problems=(EVERYTHING, PLAIN)), tmp_path / "cabin")
+    write_vehicle(replace(mounted_cabin(), problems=(EVERYTHING, PLAIN)), tmp_path / "cabin")
     return tmp_path / "cabin"
 
 
@@ -53,7 +54,7 @@ def edit(folder: Path, old: str, new: str) -> None:
 
 
 def test_problems_come_back_to_the_last_bit(folder):
-    everything, plain = mv.read_vehicle(folder).problems
+    everything, plain = read_vehicle(folder).problems
     assert ProblemRecord.of(everything) == ProblemRecord.of(EVERYTHING)
     assert ProblemRecord.of(plain) == ProblemRecord.of(PLAIN)
     for found, written in zip(everything.performance, EVERYTHING.performance, strict=True):
@@ -91,7 +92,7 @@ def test_bounds_are_in_the_units_of_the_file(folder):
     assert data["problem"][0]["group"][0]["stiffest"]["lateral"] == 2000.0
     path = folder / "vehicle.toml"
     path.write_text(path.read_text().replace('"N/mm"', '"kN/mm"'))
-    problem = mv.read_vehicle(folder).problem("everything")
+    problem = read_vehicle(folder).problem("everything")
     bounds, before = problem.groups[0].bounds, EVERYTHING.groups[0].bounds
     assert bounds is not None
     assert before is not None
@@ -206,8 +207,8 @@ EDITS = {
 def test_a_wrong_problem_is_explained(folder, case):
     old, new, words = EDITS[case]
     edit(folder, old, new)
-    with pytest.raises(mv.VehicleError) as caught:
-        mv.read_vehicle(folder)
+    with pytest.raises(VehicleError) as caught:
+        read_vehicle(folder)
     text = str(caught.value)
     assert text.startswith(f"{folder / 'vehicle.toml'}: ")
     assert words in text

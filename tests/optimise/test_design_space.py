@@ -9,7 +9,8 @@ from cabin_problem import cabin_search
 from limits_kept import excess
 from mounted_cabin import mounted_cabin
 
-import modeviz as mv
+from modeviz.errors import VehicleError
+from modeviz.optimise.design_space import design_space
 from modeviz.optimise.run import optimise, search_globally
 from modeviz.optimise.starts import start_points
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
@@ -29,12 +30,12 @@ def truck():
 
 @pytest.fixture(scope="module")
 def of_paper(truck):
-    return mv.design_space(truck, truck.problem("paper").groups)
+    return design_space(truck, truck.problem("paper").groups)
 
 
 @pytest.fixture(scope="module")
 def of_cabin():
-    return mv.design_space(mounted_cabin(), (LIMITED, FIXED))
+    return design_space(mounted_cabin(), (LIMITED, FIXED))
 
 
 def worst(rates, bounds, ratio_limits) -> float:
@@ -139,7 +140,7 @@ def test_locked_rates_and_loss_factors_stay():
     vehicle = mounted_cabin()
     base = {"A": MountRates(5e5, 2e5, 3e5, loss_factor=0.4)}
     locked = frozenset({("A", "fore_aft")})
-    space = mv.design_space(vehicle, (LIMITED,), base, locked)
+    space = design_space(vehicle, (LIMITED,), base, locked)
     assert [v.spoken for v in space.variables] == ["A vertical", "A lateral"]
     for x in space.samples(20, seed=1):
         rates = space.rates(x)
@@ -150,14 +151,14 @@ def test_locked_rates_and_loss_factors_stay():
 
 def test_a_locked_rate_locks_a_group_of_fixed_ratios():
     locked = frozenset({("B", "lateral")})
-    space = mv.design_space(mounted_cabin(), (LIMITED, FIXED), locked=locked)
+    space = design_space(mounted_cabin(), (LIMITED, FIXED), locked=locked)
     assert {v.group for v in space.variables} == {"A"}
 
 
 @pytest.mark.parametrize("kept", RATE_FIELDS)
 def test_ratios_to_a_rate_that_is_kept_are_limited_too(kept):
     locked = frozenset({("A", kept)})
-    space = mv.design_space(mounted_cabin(), (replace(LIMITED, bounds=None),), locked=locked)
+    space = design_space(mounted_cabin(), (replace(LIMITED, bounds=None),), locked=locked)
     found = [space.rates(x)["A"] for x in space.samples(100, seed=1)]
     bounds = mounted_cabin().mount_group("A").bounds
     over = [worst(rates, bounds, (0.25, 0.8)) for rates in found]
@@ -174,14 +175,14 @@ def test_a_limit_says_what_it_is_of(of_cabin):
         "A fore-aft: upper ratio limit",
         "B rates: upper bound",
     } <= spoken
-    kept = mv.design_space(mounted_cabin(), (LIMITED,), locked=frozenset({("A", "vertical")}))
+    kept = design_space(mounted_cabin(), (LIMITED,), locked=frozenset({("A", "vertical")}))
     assert "A lateral: lower ratio limit" in {limit.spoken for limit in kept.limits}
     assert not kept.ratios.any()
 
 
 def test_a_ratio_without_a_lower_limit_has_one_side():
     group = replace(LIMITED, ratio_limits=(0.0, 0.8))
-    limits = mv.design_space(mounted_cabin(), (group,)).limits
+    limits = design_space(mounted_cabin(), (group,)).limits
     assert [limit.spoken for limit in limits if "ratio" in limit.spoken] == [
         "A lateral: upper ratio limit",
         "A fore-aft: upper ratio limit",
@@ -248,8 +249,8 @@ SOFT_SIDES = MountRates(2e5, 1e3, 1e3), MountRates(4e6, 4e4, 1e6)
     ],
 )
 def test_a_space_without_designs_is_refused_with_the_rate(group, base, locked, words):
-    with pytest.raises(mv.VehicleError) as caught:
-        mv.design_space(
+    with pytest.raises(VehicleError) as caught:
+        design_space(
             mounted_cabin(), (group,), base, frozenset((group.group, field) for field in locked)
         )
     assert str(caught.value).startswith(words)
@@ -258,7 +259,7 @@ def test_a_space_without_designs_is_refused_with_the_rate(group, base, locked, w
 @pytest.mark.parametrize("kept", RATE_FIELDS)
 def test_a_kept_rate_of_zero_limits_no_ratio(kept):
     base = {"A": replace(START, **{kept: 0.0})}
-    space = mv.design_space(mounted_cabin(), (LIMITED,), base, frozenset({("A", kept)}))
+    space = design_space(mounted_cabin(), (LIMITED,), base, frozenset({("A", kept)}))
     limited = {limit.spoken.partition(":")[0] for limit in space.limits if "ratio" in limit.spoken}
     assert limited == {"vertical": set(), "lateral": {"A fore-aft"}, "fore_aft": {"A lateral"}}[kept]
     assert all(getattr(space.rates(x)["A"], kept) == 0 for x in space.samples(5, seed=1))
@@ -266,7 +267,7 @@ def test_a_kept_rate_of_zero_limits_no_ratio(kept):
 
 def test_a_rate_of_zero_that_nothing_changes_is_no_matter():
     base = {"A": MountRates(8e5, 0.0, 4e5), "B": MountRates(0.0, 0.0, 0.0)}
-    space = mv.design_space(mounted_cabin(), (DesignGroup("A", ("vertical",)),), base)
+    space = design_space(mounted_cabin(), (DesignGroup("A", ("vertical",)),), base)
     assert space.rates(np.array([np.log(2.0)]))["A"].as_tuple() == pytest.approx((1.6e6, 0, 4e5))
 
 

@@ -6,10 +6,14 @@ from cabin_problem import PROBLEM
 from differences import central_difference, relative_to_largest
 from mounted_cabin import mounted_cabin
 
-import modeviz as mv
+from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.optimise.goals import prepare_goal
+from modeviz.ride.roads import road_spectrum, track_forces
+from modeviz.ride.wheels import wheel_forces
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import Performance
@@ -25,7 +29,7 @@ def goal_of(vehicle=None, base=None, **changes):
 
 def ride(rates):
     vehicle = mounted_cabin()
-    return solve(mv.prepare(vehicle), rates, Conditions("flat", vehicle.speed))
+    return solve(prepare(vehicle), rates, Conditions("flat", vehicle.speed))
 
 
 def with_target(target):
@@ -70,20 +74,20 @@ def test_a_change_of_nothing_is_zero():
 def test_the_plain_sum_is_the_papers():
     """Σ a² over lines, points and directions, from the equations of motion."""
     vehicle = mounted_cabin()
-    system = mv.assemble(vehicle.with_rates(RATES))
+    system = assemble(vehicle.with_rates(RATES))
     point = vehicle.response_points[0]
     outputs = system.motion(point.body, point.position)[1:3]
     road, wheel = PROBLEM.performance
 
     f = road.frequency_hz
-    H = mv.direct_response(system, f, mv.track_forces(system, f, vehicle.speed), outputs)
-    S = mv.road_spectrum(vehicle.random_load("flat"), f, vehicle.speed)
+    H = direct_response(system, f, track_forces(system, f, vehicle.speed), outputs)
+    S = road_spectrum(vehicle.random_load("flat"), f, vehicle.speed)
     powers = np.einsum("foi,fij,foj->fo", H, S, H.conj()).real
     expected = ((2 * np.pi * f)[:, None] ** 4 * powers).sum() / STANDARD_GRAVITY**2
 
     f = wheel.frequency_hz
-    forces = mv.wheel_forces(system, vehicle.wheel_loads, f)
-    peaks = (2 * np.pi * f)[:, None, None] ** 2 * np.abs(mv.direct_response(system, f, forces, outputs))
+    forces = wheel_forces(system, vehicle.wheel_loads, f)
+    peaks = (2 * np.pi * f)[:, None, None] ** 2 * np.abs(direct_response(system, f, forces, outputs))
     expected += wheel.weight * (peaks**2).sum() / STANDARD_GRAVITY**2
     assert goal_of(is_normalised=False).value(RATES) == pytest.approx(expected, rel=1e-9)
 
@@ -92,7 +96,7 @@ def test_a_target_is_what_accelerations_are_to_be():
     vehicle, target = mounted_cabin(), 2e-3
     problem = {"performance": (replace(PROBLEM.performance[0], target=target),), "is_normalised": False}
     results = solve(
-        mv.prepare(vehicle, PROBLEM.performance[0].frequency_hz),
+        prepare(vehicle, PROBLEM.performance[0].frequency_hz),
         RATES,
         Conditions("flat", vehicle.speed),
     )
@@ -130,7 +134,7 @@ def test_rms_is_of_every_road_that_is_named():
     problem = replace(PROBLEM, goal="rms", performance=(named,), is_normalised=False)
     both = prepare_goal(vehicle, problem, vehicle.rates, 20.0).value({})
     expected = [
-        (solve(mv.prepare(vehicle), {}, Conditions(road, 20.0)).rms[:, 1:] ** 2).sum()
+        (solve(prepare(vehicle), {}, Conditions(road, 20.0)).rms[:, 1:] ** 2).sum()
         for road in ("flat", "rough")
     ]
     assert both == pytest.approx(sum(expected), rel=1e-9)

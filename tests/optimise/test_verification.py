@@ -6,7 +6,8 @@ from builtin_truck import builtin_truck
 from cabin_problem import cabin_search
 from mounted_cabin import SOFT, mounted_cabin
 
-import modeviz as mv
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.modes import solve_modes
 from modeviz.optimise.search import prepare_search
 from modeviz.optimise.verification import verify
 from modeviz.vehicle.connections import MountRates
@@ -59,7 +60,7 @@ def test_a_mode_of_a_window_is_where_the_full_eigenproblem_has_it():
     search = cabin_search(windows=windows)
     found = verification(search)
     tuned = search.space.vehicle.with_rates(search.space.rates(X))
-    exact = mv.solve_modes(mv.assemble(tuned)).frequency_hz
+    exact = solve_modes(assemble(tuned)).frequency_hz
     for frequency_hz in found.frequency_hz:
         assert np.abs(exact / frequency_hz - 1).min() < 1e-12
     yaw, bounce = found.frequency_hz

@@ -18,10 +18,10 @@ from shaken_blocks import (
 )
 from small_vehicles import tyre, wheel
 
-import modeviz as mv
 from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
 from modeviz.analysis.exact_check import check_exactly
-from modeviz.analysis.results import AXIS, Conditions, solve_wheels
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import AXIS, Conditions, solve, solve_wheels
 from modeviz.analysis.wheel_peaks import wheel_peaks
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.response import direct_response
@@ -79,8 +79,8 @@ def test_a_force_acts_along_its_direction_at_any_rate():
     ids=lambda load: f"{type(load).__name__} {getattr(load, 'quantity', '')}",
 )
 def test_a_random_load_has_the_spectrum_of_its_transfer(load):
-    prepared = mv.prepare(shaken_block(load))
-    found = mv.solve(prepared, softer(6e4), Conditions("random", 20.0)).response(0, "vertical")
+    prepared = prepare(shaken_block(load))
+    found = solve(prepared, softer(6e4), Conditions("random", 20.0)).response(0, "vertical")
     omega, k = 2 * np.pi * F, stiffness_of(6e4, F)
     transfer = 1 / (k - MASS * omega**2)
     if isinstance(load, BaseMotion):
@@ -92,7 +92,7 @@ def test_a_random_load_has_the_spectrum_of_its_transfer(load):
 def test_a_spectrum_is_a_power_law_between_its_values():
     table = Spectrum(np.array([0.1, 1.0, 50.0]), np.array([4.0, 1e-2, 1e-2]))
     vehicle = shaken_block(Force("random", "block", np.zeros(3), UP, table))
-    found = mv.solve(mv.prepare(vehicle), {}, Conditions("random", 20.0)).drive.spectrum_at(F)[:, 0, 0]
+    found = solve(prepare(vehicle), {}, Conditions("random", 20.0)).drive.spectrum_at(F)[:, 0, 0]
     np.testing.assert_allclose(found[F == 0.2], 4.0 * 2 ** np.log10(1e-2 / 4.0), rtol=1e-9)
     np.testing.assert_allclose(found[F == 20.0], 1e-2, rtol=1e-12)
 
@@ -113,14 +113,14 @@ def test_shaking_all_tyres_is_driving_over_both_tracks_at_once():
         base_motions=(BaseMotion("posts", UP, "displacement", Spectrum([0.05, 100.0], [1e-4, 1e-4])),),
         response_points=(ResponsePoint("hub", "left", wheels[0].center_of_gravity),),
     )  # fmt: skip
-    prepared = mv.prepare(vehicle)
-    on_road, on_posts = (mv.solve(prepared, {}, Conditions(n, 1e9)).psd for n in ("even", "posts"))
+    prepared = prepare(vehicle)
+    on_road, on_posts = (solve(prepared, {}, Conditions(n, 1e9)).psd for n in ("even", "posts"))
     np.testing.assert_allclose(on_posts, on_road, rtol=1e-9, atol=1e-12 * on_road.max())
 
 
 def test_every_way_to_solve_agrees_where_the_ground_moves_mounts():
     vehicle = shaken_cabin()
-    prepared, rates = mv.prepare(vehicle), changed(vehicle)
+    prepared, rates = prepare(vehicle), changed(vehicle)
     system = assemble(vehicle.with_rates(rates))
     for near in (prepared, prepared.near(rates)):
         wheels = solve_wheels(near, rates)
@@ -131,7 +131,7 @@ def test_every_way_to_solve_agrees_where_the_ground_moves_mounts():
             expected = np.abs(H) * (2 * np.pi * f[:, None]) ** 2 / STANDARD_GRAVITY
             error = np.abs(found[:, i].reshape(len(f), -1) - expected).max()
             assert error < 1e-9 * expected.max()
-    results = mv.solve(prepared, rates, Conditions("random floor", 20.0))
+    results = solve(prepared, rates, Conditions("random floor", 20.0))
     *_, check = check_exactly(results)
     assert check.error < 1e-8
 
@@ -139,8 +139,8 @@ def test_every_way_to_solve_agrees_where_the_ground_moves_mounts():
 def test_what_is_shown_moving_is_what_the_spectrum_is_of():
     vehicle = shaken_cabin()
     rates = changed(vehicle)
-    prepared = mv.prepare(vehicle, vehicle.frequency_hz)
-    results = mv.solve(prepared, rates, Conditions("random floor", 20.0))
+    prepared = prepare(vehicle, vehicle.frequency_hz)
+    results = solve(prepared, rates, Conditions("random floor", 20.0))
     omega, line = 2 * np.pi * 9.0, 89
     shape = road_shape(results, 9.0, 0, "vertical")
     row = prepared.outputs[AXIS["vertical"]]
@@ -154,8 +154,8 @@ def test_what_is_shown_moving_is_what_the_spectrum_is_of():
 
 def test_the_modes_of_a_peak_are_those_that_the_load_makes():
     vehicle = shaken_block(BaseMotion("shaker", UP, "displacement", 1e-3))
-    prepared = mv.prepare(replace(vehicle, roads=(coherent_road(),)))
-    results = mv.solve(prepared, {}, Conditions("even", 1e9))
+    prepared = prepare(replace(vehicle, roads=(coherent_road(),)))
+    results = solve(prepared, {}, Conditions("even", 1e9))
     (peak, *_) = wheel_peaks(results, solve_wheels(prepared, {}), 0, 0, "vertical")
     bounce = np.sqrt(RATE / MASS) / (2 * np.pi)
     assert results.modes.frequency_hz[peak.contributors[0].mode] == pytest.approx(bounce, rel=1e-6)

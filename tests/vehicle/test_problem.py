@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mounted_cabin import SOFT, STIFF, mounted_cabin
 
-import modeviz as mv
+from modeviz.errors import VehicleError
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance, Problem
 
 NAN, INF = float("nan"), float("inf")
@@ -18,7 +18,7 @@ PROBLEM = Problem("comfort", (GROUP,), (ON_ROAD,))
 
 
 def refused(value, **changes) -> str:
-    with pytest.raises(mv.VehicleError) as caught:
+    with pytest.raises(VehicleError) as caught:
         replace(value, **changes)
     return str(caught.value)
 
@@ -146,7 +146,7 @@ def test_only_accelerations_need_performance_variables(goal):
     ],
 )
 def test_a_name_in_a_problem_that_the_vehicle_does_not_have_is_told(changes, words):
-    with pytest.raises(mv.VehicleError) as caught:
+    with pytest.raises(VehicleError) as caught:
         replace(mounted_cabin(), problems=(replace(PROBLEM, **changes),))
     assert str(caught.value).startswith(f"problem 'comfort': {words}")
 
@@ -165,14 +165,14 @@ def test_every_name_that_the_vehicle_has_is_accepted():
 
 
 def test_a_problem_is_told_from_others_by_its_name():
-    with pytest.raises(mv.VehicleError, match="problem 'comfort' is there twice"):
+    with pytest.raises(VehicleError, match="problem 'comfort' is there twice"):
         replace(mounted_cabin(), problems=(PROBLEM, PROBLEM))
-    with pytest.raises(mv.VehicleError, match="unknown problem 'paper': there are none"):
+    with pytest.raises(VehicleError, match="unknown problem 'paper': there are none"):
         mounted_cabin().problem("paper")
 
 
 def test_accelerations_need_a_point_where_they_are_felt():
     nowhere = replace(mounted_cabin(), response_points=())
-    with pytest.raises(mv.VehicleError, match=r"goal 'accelerations' needs a \[\[response_point\]\]"):
+    with pytest.raises(VehicleError, match=r"goal 'accelerations' needs a \[\[response_point\]\]"):
         replace(nowhere, problems=(PROBLEM,))
     assert replace(nowhere, problems=(replace(PROBLEM, goal="change", performance=()),)).problems

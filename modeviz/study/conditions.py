@@ -1,0 +1,58 @@
+"""What shakes the vehicle of a study: the road that was asked for, or the one it has."""
+
+from collections.abc import Sized
+from dataclasses import replace
+
+import numpy as np
+
+from modeviz.analysis.results import Conditions
+from modeviz.errors import ModevizError
+from modeviz.ride.excitation import known_part
+from modeviz.vehicle.loads import Road
+from modeviz.vehicle.vehicle import Vehicle
+
+EVEN_HZ = np.array([1e-3, 1e3])
+"""At which an even road is known: everywhere, at any speed."""
+
+
+def road_conditions(vehicle: Vehicle, road: str | None, speed: float) -> Conditions:
+    """Return a road, or the first that shakes the vehicle, and the speed on it.
+
+    Args:
+        vehicle: that is to be shaken.
+        road: name of a road or another random load; None: the vehicle's.
+        speed: m/s.
+
+    Raises:
+        ModevizError: there is no such road, or nothing to drive or to feel it with.
+    """
+    need(vehicle, "road", vehicle.random_loads)
+    need(vehicle, "response point", vehicle.response_points)
+    shaking = [load.name for load in vehicle.random_loads if vehicle.is_shaken_by(load)]
+    load = vehicle.random_load(road or (*shaking, vehicle.random_loads[0].name)[0])
+    if not vehicle.is_shaken_by(load):
+        raise ModevizError(
+            f"road {load.name!r} does not shake vehicle {vehicle.name!r}: give its vehicle.toml a "
+            "[[tyre]] with stiffness or damping along z"
+        )
+    known_part(load, vehicle.frequency_hz, speed)  # what is wrong there is better said before preparing
+    return Conditions(load.name, speed)
+
+
+def has_ride(vehicle: Vehicle) -> bool:
+    """Whether something shakes a vehicle at random, and somebody feels it."""
+    return any(map(vehicle.is_shaken_by, vehicle.random_loads)) and bool(vehicle.response_points)
+
+
+def on_even_road(vehicle: Vehicle) -> tuple[Vehicle, Conditions]:
+    """Return a vehicle without a ride as one that can be shown: on an even road, unfelt."""
+    even = Road("no road", "No road", vehicle.speed, EVEN_HZ, np.zeros((len(EVEN_HZ), 2, 2), complex))
+    still = replace(vehicle, roads=(even,), response_points=(), problems=())
+    return still, Conditions(even.name, still.speed)
+
+
+def need(vehicle: Vehicle, what: str, found: Sized) -> None:
+    """Raises ModevizError unless the vehicle has some of what is asked for."""
+    if not found:
+        key = what.replace(" ", "_")
+        raise ModevizError(f"vehicle {vehicle.name!r} has no {what}: give its vehicle.toml a [[{key}]]")
