@@ -5,8 +5,8 @@ from functools import partial
 from pathlib import Path
 
 from modeviz.cli.interrupt import cancelled_by_interrupt
-from modeviz.cli.options import json_text, print_json
-from modeviz.cli.results import keep
+from modeviz.cli.options import json_text
+from modeviz.cli.results import keep, print_result
 from modeviz.cli.terminal import progress, say
 from modeviz.compute.cancel import CancelToken
 from modeviz.errors import ModevizError, unknown
@@ -41,9 +41,7 @@ def optimise_front(
         record = front_record(problem, trade_off, front)
         keep(
             lambda: _write(options.output, problem, front, record) if options.output else None,
-            lambda: (
-                print_json(record) if options.json else print(front_table(problem, trade_off, front))
-            ),
+            lambda: print_result(record if options.json else front_table(problem, trade_off, front)),
         )
 
 

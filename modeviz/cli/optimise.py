@@ -12,10 +12,9 @@ from modeviz.cli.options import (
     chosen_problem,
     chosen_speed,
     chosen_tolerance,
-    print_json,
     vehicle_and_rates,
 )
-from modeviz.cli.results import keep
+from modeviz.cli.results import check_printable, keep, print_result
 from modeviz.cli.terminal import progress, say
 from modeviz.compute.cancel import CancelToken
 from modeviz.compute.cluster import runner_at
@@ -28,6 +27,7 @@ from modeviz.optimise.run import Optimum, Progress, optimise, search_globally
 from modeviz.optimise.search import Search, prepare_search
 from modeviz.optimise.starts import MOST_STARTS, start_points
 from modeviz.report.optimum import optimum_record, optimum_table
+from modeviz.report.records import Record
 from modeviz.scatter.robust import optimise_robustly, robust_search
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.wording import significant
@@ -48,6 +48,8 @@ def optimise_rates(options: Namespace) -> None:
         raise ModevizError("--global is one search: expected it without --scheduler")
     if not options.robust and (options.tolerance, options.loss_tolerance) != (None, None):
         raise ModevizError("--tolerance and --loss-tolerance: expected them with --robust")
+    if options.output is None:
+        check_printable()
     vehicle, rates = vehicle_and_rates(options)
     problem = _problem(options, vehicle)
     speed = chosen_speed(options, vehicle)
@@ -63,15 +65,13 @@ def optimise_rates(options: Namespace) -> None:
         search, optimum = _search(options, search, rates, tolerance, control)
         keep(
             lambda: write_rates(options.output, optimum.rates) if options.output else None,
-            lambda: _print(options, problem, search, optimum),
+            lambda: print_result(_result(options, problem, search, optimum)),
         )
 
 
-def _print(options: Namespace, problem: Problem, search: Search, optimum: Optimum) -> None:
-    if options.json:
-        print_json(optimum_record(problem, search, optimum))
-    else:
-        print(optimum_table(problem, search, optimum))
+def _result(options: Namespace, problem: Problem, search: Search, optimum: Optimum) -> Record | str:
+    told = optimum_record if options.json else optimum_table
+    return told(problem, search, optimum)
 
 
 def _problem(options: Namespace, vehicle: Vehicle) -> Problem:

@@ -1,7 +1,6 @@
 """What commands share: the vehicle, rates, road and speed that were asked for."""
 
 import json
-import sys
 from argparse import Namespace
 from collections.abc import Sized
 from dataclasses import replace
@@ -11,7 +10,6 @@ import numpy as np
 
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions
-from modeviz.cli.streams import plain
 from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError, located
 from modeviz.files import builtin_vehicle, read_vehicle
@@ -122,13 +120,6 @@ def need(vehicle: Vehicle, what: str, found: Sized) -> None:
 def prepare_telling(vehicle: Vehicle) -> Prepared:
     """Prepares a vehicle and shows on a terminal how far that is."""
     return prepare(vehicle, progress=progress("preparing"))
-
-
-def print_json(record: Record) -> None:
-    """Prints what `--json` asks for; names to the letter, whatever letters the terminal has."""
-    text = json_text(record)
-    encoding = sys.stdout.encoding or "utf-8"
-    print(text if plain(text, encoding) == text else json.dumps(record, indent=1))
 
 
 def json_text(record: Record) -> str:

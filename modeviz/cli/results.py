@@ -1,9 +1,45 @@
 """What a run has found at its end: kept, whatever fails."""
 
+import json
 import sys
 from collections.abc import Callable
 
+from modeviz.cli.options import json_text
+from modeviz.cli.streams import Printed, plain
 from modeviz.errors import ModevizError
+from modeviz.report.records import Record
+
+
+def check_printable() -> None:
+    """Checks that there is somewhere to print to, before the work for it begins.
+
+    Raises:
+        ModevizError: standard output is closed or full.
+    """
+    if isinstance(sys.stdout, Printed):
+        sys.stdout.check()
+
+
+def print_result(result: Record | str) -> None:
+    """Prints a table, or the record that `--json` asks for; with the errors if nowhere else.
+
+    Of a record names stay to the letter, whatever letters the terminal has.
+
+    Raises:
+        ModevizError: standard output cannot be written.
+    """
+    text = result if isinstance(result, str) else _json(result)
+    try:
+        print(text, flush=True)
+    except ModevizError:
+        print(text, file=sys.stderr)
+        raise
+
+
+def _json(record: Record) -> str:
+    text = json_text(record)
+    encoding = sys.stdout.encoding or "utf-8"
+    return text if plain(text, encoding) == text else json.dumps(record, indent=1)
 
 
 def keep(*steps: Callable[[], None]) -> None:
@@ -16,7 +52,6 @@ def keep(*steps: Callable[[], None]) -> None:
     for step in steps:
         try:
             step()
-            sys.stdout.flush()
         except ModevizError as error:
             failed.append(error)
     if failed:

@@ -1,6 +1,7 @@
 """The command that drives many vehicles whose mounts scatter."""
 
 from argparse import Namespace
+from functools import partial
 from math import inf
 
 from modeviz.analysis.results import Conditions
@@ -11,16 +12,16 @@ from modeviz.cli.options import (
     conditions,
     need,
     prepare_telling,
-    print_json,
     vehicle_and_rates,
 )
+from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import progress, remark, say
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.cluster import runner_at
 from modeviz.errors import ModevizError, SolveError
 from modeviz.optimise.goals import ResponseGoal, prepare_goal
 from modeviz.report.scatter import Scattered, scatter_record, scatter_table
-from modeviz.scatter.monte_carlo import Scatter, scatter
+from modeviz.scatter.monte_carlo import CHUNK, Scatter, scatter
 from modeviz.scatter.sobol import Spread, spread
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.scatter.worst_case import worst_corner
@@ -34,6 +35,7 @@ MOST_SAMPLES = 1_000_000
 
 def scatter_mounts(options: Namespace) -> None:
     """Prints percentiles of ride and goal, the worst corner, and which mounts make the spread."""
+    check_printable()
     tolerance = chosen_tolerance(options)
     for name, least, most in (("samples", 2, MOST_SAMPLES), ("seed", 0, inf)):
         found = getattr(options, name)
@@ -46,10 +48,7 @@ def scatter_mounts(options: Namespace) -> None:
     problem = chosen_problem(options, vehicle)
     with cancelled_by_interrupt() as control:
         told = _scattered(options, vehicle, rates, tolerance, chosen, problem, control)
-        if options.json:
-            print_json(scatter_record(told))
-        else:
-            print(scatter_table(told))
+        print_result(scatter_record(told) if options.json else scatter_table(told))
 
 
 def _scattered(
@@ -61,7 +60,7 @@ def _scattered(
     problem: Problem,
     control: CancelToken,
 ) -> Scattered:
-    """What the vehicles do, or those driven until it is cancelled."""
+    """What the vehicles do, or those driven until it is cancelled, a few at least."""
     goal = prepare_goal(vehicle, problem, rates, chosen.speed)
     if not isinstance(goal, ResponseGoal):
         raise ModevizError(
@@ -72,21 +71,12 @@ def _scattered(
     with runner_at(options.scheduler) as runner:
         prepared = prepare_telling(vehicle)
         parts = scattered_parts(prepared, rates, tolerance)
+        drive = partial(scatter, prepared, parts, chosen, goal, seed=options.seed, points=points)
         try:
-            result = scatter(
-                prepared,
-                parts,
-                chosen,
-                goal,
-                options.samples,
-                options.seed,
-                points,
-                runner,
-                control,
-                progress("scattering"),
-            )
+            tell = progress("scattering")
+            result = drive(options.samples, runner=runner, control=control, tell=tell)
         except CancelledError:
-            raise KeyboardInterrupt from None
+            result = drive(min(options.samples, CHUNK))
         finally:
             say("")
     if len(result.goal) < options.samples:

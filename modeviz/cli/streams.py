@@ -6,7 +6,7 @@ import re
 import sys
 import unicodedata
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TextIO
 
 from modeviz.errors import ModevizError
@@ -83,6 +83,18 @@ class Printed(io.TextIOBase):
         if self._stream is None:
             raise io.UnsupportedOperation("closed before the program began")
         return self._stream.fileno()
+
+    def check(self) -> None:
+        """Checks that something can be written.
+
+        Raises:
+            ModevizError: the stream is closed, or what it leads to is full.
+        """
+        with self._told():
+            if self._stream is None:
+                raise OSError("it is closed")
+            with suppress(io.UnsupportedOperation):  # a stream that is no file
+                os.write(self._stream.fileno(), b"")
 
     def write(self, text: str, /) -> int:
         with self._told():

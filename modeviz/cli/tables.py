@@ -10,9 +10,9 @@ from modeviz.cli.options import (
     conditions,
     need,
     prepare_telling,
-    print_json,
     vehicle_and_rates,
 )
+from modeviz.cli.results import check_printable, print_result
 from modeviz.errors import ModevizError
 from modeviz.report.records import modes_record, psd_record, wheels_record
 from modeviz.report.tables import modes_table, psd_table, wheels_table
@@ -20,36 +20,30 @@ from modeviz.report.tables import modes_table, psd_table, wheels_table
 
 def modes(options: Namespace) -> None:
     """Prints natural frequencies, damping, names and energies."""
+    check_printable()
     if not (options.below > 0 and math.isfinite(options.below)):
         raise ModevizError(f"--below: found {options.below:g} Hz, expected more than zero")
     vehicle, rates = vehicle_and_rates(options)
     prepared = prepare_modes(vehicle, max(options.below or 0, vehicle.highest_frequency))
     followed = solve_followed(prepared, rates, options.method)
-    if options.json:
-        print_json(modes_record(followed, options.below))
-    else:
-        print(modes_table(followed, options.below))
+    print_result((modes_record if options.json else modes_table)(followed, options.below))
 
 
 def psd(options: Namespace) -> None:
     """Prints accelerations on a road and their rating."""
+    check_printable()
     vehicle, rates = vehicle_and_rates(options)
     chosen = conditions(options, vehicle)
     results = solve(prepare_telling(vehicle), rates, chosen)
-    if options.json:
-        print_json(psd_record(results))
-    else:
-        print(psd_table(results))
+    print_result((psd_record if options.json else psd_table)(results))
 
 
 def wheels(options: Namespace) -> None:
     """Prints the response to every wheel load."""
+    check_printable()
     vehicle, rates = vehicle_and_rates(options)
     need(vehicle, "response point", vehicle.response_points)
     need(vehicle, "wheel load", vehicle.harmonic_loads)
     results = solve_wheels(prepare_telling(vehicle), rates)
     tuned = vehicle.with_rates(rates)
-    if options.json:
-        print_json(wheels_record(tuned, results))
-    else:
-        print(wheels_table(tuned, results))
+    print_result((wheels_record if options.json else wheels_table)(tuned, results))

@@ -142,14 +142,21 @@ def test_a_signal_ends_it_with_the_vehicles_so_far(monkeypatch, capsys, cabin, e
     assert f"modeviz: note: ended after {CHUNK} of 5000 vehicles\n" in err
 
 
-def test_ended_before_it_has_vehicles_it_has_nothing_to_say(monkeypatch, cabin):
-    def interrupted(*arguments):
-        control = arguments[8]
-        control.cancel()
-        return scatter(*arguments)
+@pytest.mark.parametrize(("samples", "driven"), [(5000, CHUNK), (20, 20)])
+def test_ended_before_it_has_vehicles_it_drives_a_few(
+    monkeypatch, capsys, cabin, expected, samples, driven
+):
+    def ended(vehicle):
+        signal.raise_signal(signal.SIGTERM)
+        return prepare(vehicle)
 
-    monkeypatch.setattr(command, "scatter", interrupted)
-    assert main(["scatter", cabin, "--samples", "5000"]) == 130
+    monkeypatch.setattr(command, "prepare_telling", ended)
+    with usual_signals():
+        assert main(["scatter", cabin, "--samples", str(samples), *ROAD, "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["samples"] == driven
+    nominal = record["quantities"]["rms_vertical_g"]["nominal"]
+    assert nominal == pytest.approx(expected[2].nominal_rms[0, 2], rel=1e-6)
 
 
 @pytest.mark.parametrize(

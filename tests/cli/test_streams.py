@@ -135,8 +135,30 @@ def test_what_cannot_be_printed_is_said_and_what_can_be_written_is(tmp_path, hos
     path = tmp_path / "rates.json"
     run = shell(line, "optimise", hostile, "--starts", "1", "--output", str(path))
     assert run.returncode == 2
-    assert run.stderr == f"modeviz: standard output cannot be written ({why})\n"
+    table, sentence = run.stderr.rstrip("\n").rsplit("\n", 1)
+    assert sentence == f"modeviz: standard output cannot be written ({why})"
+    assert "objective" in table
     assert read_rates(path, mounted_cabin())
+
+
+@pytest.mark.parametrize("command", ["modes", "psd", "wheels", "scatter", "optimise"])
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [("MODEVIZ > /dev/full", "No space left on device"), ("MODEVIZ >&-", "it is closed")],
+)
+def test_what_has_nowhere_to_be_printed_is_not_computed(line, why, command):
+    run = shell(line, command, "no vehicle is looked at")
+    assert run.returncode == 2
+    assert run.stderr == f"modeviz: standard output cannot be written ({why})\n"
+
+
+@pytest.mark.parametrize("options", [[], ["--json"]], ids=["table", "json"])
+def test_what_cannot_be_printed_at_the_end_goes_where_errors_go(tmp_path, hostile, options):
+    line = f"ulimit -f 0; MODEVIZ > '{tmp_path}/result'"
+    run = shell(line, "modes", hostile, *options)
+    expected = shell("MODEVIZ", "modes", hostile, *options)
+    sentence = "modeviz: standard output cannot be written (File too large)\n"
+    assert (run.returncode, run.stderr) == (2, expected.stdout + sentence)
 
 
 @pytest.mark.parametrize("line", ["MODEVIZ 2>&-", "MODEVIZ 2> /dev/full"])
