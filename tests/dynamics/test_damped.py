@@ -190,7 +190,6 @@ def test_a_damped_mode_of_the_truck_is_its_undamped_one_followed_as_damping_grow
     np.testing.assert_allclose(results.damped.eigenvalue[moves], roots[moves], rtol=1e-9)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("rates", ["original", "optimised"])
 def test_damped_modes_of_the_truck_are_those_of_the_full_model(truck, rates):
     """430 coordinates: shapes within 1 %, roots as near as the basis can have them.

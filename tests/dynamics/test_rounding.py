@@ -1,7 +1,6 @@
 """What tests allow for rounding is what the equations lose at most, and little more than they lose."""
 
 import numpy as np
-import pytest
 from builtin_truck import builtin_truck
 from mounted_cabin import mounted_cabin
 from rounding import CABIN, TRUCK, of_powers
@@ -26,6 +25,5 @@ def test_coordinates_in_any_order_have_the_same_response_but_for_what_is_allowed
     assert CABIN < 1e-10
 
 
-@pytest.mark.slow
 def test_the_trucks_equations_lose_no_more_than_is_allowed():
     assert of_powers(assemble(builtin_truck()), np.array([6.0, 10.0, 14.0])) < TRUCK

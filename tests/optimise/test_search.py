@@ -164,7 +164,6 @@ def residual(search, x):
     return np.abs(gradient + rows.T @ multipliers).max() / np.abs(gradient).max()
 
 
-@pytest.mark.slow
 def test_on_the_truck_every_step_keeps_the_papers_limits_and_ends_at_a_minimum(truck):
     for start in (np.zeros(truck.space.n_variables), *truck.space.samples(2, seed=1)):
         steps = []
@@ -174,7 +173,6 @@ def test_on_the_truck_every_step_keeps_the_papers_limits_and_ends_at_a_minimum(t
         assert residual(truck, descent.x) < 1e-5
 
 
-@pytest.mark.slow
 def test_on_the_truck_cab_yaw_is_kept_under_ten_hertz_in_the_full_model(truck):
     vehicle = truck.space.vehicle
     window = FrequencyWindow("cab yaw", high_hz=10.0)

@@ -32,7 +32,6 @@ def test_every_goal_is_that_of_the_full_model(goal, is_normalised):
     assert found.difference < 1e-9
 
 
-@pytest.mark.slow
 def test_the_papers_goal_is_that_of_the_full_truck():
     vehicle = builtin_truck()
     problem = vehicle.problem("paper")

@@ -20,8 +20,6 @@ from modeviz.ride.roads import lag, road_spectrum, track_forces, track_shares, t
 from modeviz.vehicle.connections import Connection, Tyre
 from modeviz.vehicle.vehicle import Vehicle
 
-pytestmark = pytest.mark.slow
-
 SPEED = 20.0
 WHEELBASE_SAMPLES = 37
 """From front to rear wheels, so that the delay is a whole number of samples: about 250 Hz."""
