@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modeviz.analysis.driven import Driven, driven, load_lines
 from modeviz.analysis.latest import Latest
@@ -27,7 +26,7 @@ from modeviz.ride.integration import line_distances
 from modeviz.ride.participation import Peak, participation, participation_above, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
 from modeviz.vehicle.loads import RandomLoad
 from modeviz.vehicle.vehicle import Vehicle
@@ -144,7 +143,7 @@ class ModalResults:
         """Share of each flexible body and connection group, (n_modes,) by name."""
         return strain_energy(self.prepared.system, self.modes.shapes, self._mount_rates)
 
-    def strain_shares(self, shape: NDArray) -> dict[str, float]:
+    def strain_shares(self, shape: Array) -> dict[str, float]:
         """The strain energy of a shape: share of each flexible body and connection group.
 
         Args:

@@ -53,7 +53,8 @@ class RecordError(VehicleError):
 
     def __init__(self, path: str, words: str) -> None:
         super().__init__(f"{path}: {words}")
-        self.path, self.words = path, words
+        self.path: str = path
+        self.words: str = words
 
 
 def built(records: Iterable[R], key: str, build: Callable[[R], P]) -> tuple[P, ...]:

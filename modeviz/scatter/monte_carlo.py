@@ -24,7 +24,7 @@ from modeviz.optimise.peak import PeakGoal
 from modeviz.ride.psd import acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
 from modeviz.scatter.tolerance import Parts
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 
 CHUNK = 100
 """Vehicles that are solved at a time, wherever they are, so that numbers never depend on where."""
@@ -245,7 +245,7 @@ def _others(parts: Parts, seed: int) -> Floats:
     return parts.samples(N_TAUGHT + N_CHECKED, np.random.default_rng([seed, N_TAUGHT]))
 
 
-def _error(found: NDArray, expected: NDArray) -> float:
+def _error(found: Array, expected: Array) -> float:
     """The largest relative difference."""
     off = np.abs(found - expected)
     return float(np.divide(off, expected, out=np.zeros_like(off), where=expected > 0).max())

@@ -1,6 +1,7 @@
 """The page of a study: in a browser, or in a notebook's cell."""
 
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from html import escape
@@ -32,8 +33,8 @@ class Page:
     """In a notebook, pixels."""
     app: "App" = field(repr=False)
     """What is shown, as the viewer has it."""
-    limits: threadpool_limits = field(repr=False)
-    """BLAS on one thread, as long as the page is open: two, beside a browser, are far slower."""
+    unlimit: Callable[[], None] = field(repr=False)
+    """Gives BLAS its threads back: as long as the page is open it has one, for two are far slower."""
 
     @property
     def rates(self) -> dict[str, MountRates]:
@@ -43,7 +44,7 @@ class Page:
     def close(self) -> None:
         """Close it; whoever has it open is told."""
         self.app.close()
-        self.limits.restore_original_limits()
+        self.unlimit()
 
     def _repr_html_(self) -> str:
         link = escape(self.link, quote=True)
@@ -98,4 +99,4 @@ def open_page(
         server.stop()
         limits.restore_original_limits()
         raise
-    return Page(server.link, height, app, limits)
+    return Page(server.link, height, app, limits.restore_original_limits)

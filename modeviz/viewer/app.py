@@ -78,17 +78,18 @@ class App:
             server: an open one, see `doors.open_server`.
             dark: whether the page is dark.
         """
-        self.server, self._gui = server, server.gui
+        self.server: Server = server
+        self._gui = server.gui
         self._last: Solved | None = None
         self._failure: Exception | None = None
         self._title, self._dark = Title(server), dark
-        self.session = Session(
+        self.session: Session = Session(
             vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
         )
         mistake = server.notices.mistake
-        self.optimiser = Optimiser(self.session, lambda: self._optimise.follow(), mistake)
-        self.trader = FrontTask(self.session, lambda: self._trade_off.follow(), mistake)
-        self.scatterer = ScatterTask(self.session, lambda: self._scatter.follow(), mistake)
+        self.optimiser: Optimiser = Optimiser(self.session, lambda: self._optimise.follow(), mistake)
+        self.trader: FrontTask = FrontTask(self.session, lambda: self._trade_off.follow(), mistake)
+        self.scatterer: ScatterTask = ScatterTask(self.session, lambda: self._scatter.follow(), mistake)
         scripts.run(self._gui, "page/style.js", style_sheet())
         scripts.run(self._gui, "page/delivery.js")
         scripts.run(self._gui, "page/numbers.js")
@@ -224,7 +225,7 @@ class App:
                 self._illustrated_report,
             )
         self._status = StatusPanel(gui, session.vehicle.notes)
-        self.guide = Guide(self.server, self._hotkeys)
+        self.guide: Guide = Guide(self.server, self._hotkeys)
 
         right = gui.add_panel()
         with right.add_tab("Response", viser.Icon.CHART_LINE):

@@ -44,7 +44,7 @@ class Server(viser.ViserServer):
     """viser's server behind a door, silent on the terminal."""
 
     def __init__(self, host: str, port: int, door: Door) -> None:
-        self.notices = Notices()
+        self.notices: Notices = Notices()
         house = House(self.notices, Turns(self.notices.mistake))
         with _guarded_by(door, house), redirect_stdout(io.StringIO()):
             super().__init__(host=host, port=port, label=door.title, verbose=False)

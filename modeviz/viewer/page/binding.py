@@ -28,7 +28,7 @@ class Binding:
 
     def __init__(
         self,
-        widget: viser.GuiInputHandle,
+        widget: viser.GuiInputHandle[Any],
         session: Session,
         read: Read,
         write: Write,

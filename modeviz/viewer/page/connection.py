@@ -67,7 +67,7 @@ class PageConnection(ServerConnection):
         """As websockets does, in a house that has places for it or none."""
         super().__init__(*arguments, **options)
         self._house = house
-        self.client = "a client"
+        self.client: str = "a client"
         """Who it is, see `client_of`."""
         self._places: list[Places] = []
         self._messages = Allowance(MESSAGES_PER_S, MOST_MESSAGES)

@@ -1,6 +1,6 @@
 """Fragments of page text: tables, changes, and rows that can be clicked."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from html import escape
 from importlib.resources import files
 
@@ -76,7 +76,7 @@ class HiddenButtons:
     A `<label>` around that text names the button's element; viser gives it the widget's private id.
     """
 
-    def __init__(self, gui: viser.GuiApi, count: int, press) -> None:
+    def __init__(self, gui: viser.GuiApi, count: int, press: Callable[[int], None]) -> None:
         """Makes the buttons; `press` gets the number of the one pressed."""
         self._ids = []
         for i in range(count):

@@ -96,7 +96,7 @@ def _widget(server: viser.ViserServer, client_id: ClientId, uuid: str) -> "_GuiI
     return None
 
 
-def is_possible(widget: "_GuiInputHandle", value: Any) -> bool:
+def is_possible(widget: "_GuiInputHandle[Any]", value: Any) -> bool:
     """Whether a value is one that the widget can produce: of its type, in its range, of its choices."""
     props, current = widget._impl.props, widget._impl.value
     options = getattr(props, "options", None)

@@ -8,6 +8,7 @@ here by viser's private message.
 import threading
 import time
 from collections.abc import Callable
+from typing import Any
 
 import viser
 from viser import _messages
@@ -15,7 +16,7 @@ from viser import _messages
 DELAY = 0.4
 """s: longer than the pauses within a drag, and between two digits."""
 
-Touched = tuple[viser.GuiInputHandle, Callable[[], None] | None]
+Touched = tuple[viser.GuiInputHandle[Any], Callable[[], None] | None]
 """A widget that was moved, and what to do instead of sending its value."""
 
 
@@ -28,7 +29,9 @@ class WriteBack:
         self._touched: dict[str, Touched] = {}
         self._due = 0.0
 
-    def touch(self, widget: viser.GuiInputHandle, instead: Callable[[], None] | None = None) -> None:
+    def touch(
+        self, widget: viser.GuiInputHandle[Any], instead: Callable[[], None] | None = None
+    ) -> None:
         """Notes that somebody moved a widget.
 
         Args:

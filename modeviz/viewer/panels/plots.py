@@ -16,8 +16,8 @@ SHOWN_HZ = USUAL_SHOWN_HZ
 TICKS_HZ, LOG_TICKS_HZ = (1.0, 5.0, 10.0, 15.0, 20.0, 25.0), (1.0, 2.0, 5.0, 10.0, 25.0)
 """Of what is shown of the usual band."""
 FONT = '11px -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif'
-GRID = {"show": True, "width": 1, "stroke": "rgba(128,138,150,0.16)"}
-NO_TICKS = {"show": False, "size": 0}
+GRID: dict[str, object] = {"show": True, "width": 1, "stroke": "rgba(128,138,150,0.16)"}
+NO_TICKS: dict[str, object] = {"show": False, "size": 0}
 
 HEADROOM = 3
 """dB above the highest curve, so that the scale need not change when the present one grows."""

@@ -7,7 +7,7 @@ import numpy as np
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import displacement, vertex_shapes
 from modeviz.shapes.surface import outlines, surface, vertex_areas
-from modeviz.vehicle.arrays import Array
+from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.viewer.scene.driver import AT_REST, ShapeDriver
 from modeviz.viewer.scene.stage import Theme
@@ -23,9 +23,10 @@ class DrawnBody:
 
     def __init__(self, driver: ShapeDriver, body: Body, theme: Theme) -> None:
         """Draws a body at rest."""
-        self.name = body.name
+        self.name: str = body.name
         part = body.name.replace("/", "-")
-        self.path, self._ghost_path = f"/vehicle/{part}", f"/ghost/{part}"
+        self.path: str = f"/vehicle/{part}"
+        self._ghost_path = f"/ghost/{part}"
         self._driver = driver
         self._is_rigid = isinstance(body, RigidBody)
         self._is_sheet = body.role in SHEET_ROLES
@@ -33,7 +34,7 @@ class DrawnBody:
         self._has_ghost = self._is_sheet or isinstance(body, FlexibleBody)
         drawn = surface(body.mesh)
         self._shapes = vertex_shapes(body, drawn.vertices)
-        self.areas = vertex_areas(drawn)
+        self.areas: Floats = vertex_areas(drawn)
         edge_color = theme.edges if self._is_sheet else None
         driver.add(self.path, glb(drawn, edge_color), len(drawn.vertices), cast_shadow=True)
         if self._has_ghost:

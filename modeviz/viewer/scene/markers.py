@@ -87,7 +87,7 @@ class MountMarker:
             thickness_units="screen",
             visible=False,
         )
-        self.label_name = f"{path}/name"
+        self.label_name: str = f"{path}/name"
         self._label = scene.add_label(
             self.label_name, self._label_text, anchor="center-center", font_screen_scale=0.85
         )

@@ -48,7 +48,7 @@ class Scene:
         self._vehicle, self._box = vehicle, box(vehicle)
         self._server = server
         self._stage = Stage(server.scene, self._box, theme)
-        self.driver = ShapeDriver(server.scene)
+        self.driver: ShapeDriver = ShapeDriver(server.scene)
         self._bodies = [DrawnBody(self.driver, body, theme) for body in vehicle.bodies if body.mesh]
         self._markers = Markers(server.scene, vehicle, theme, self._box.length, on_select)
         self._cameras = Cameras(server, self._box)

@@ -19,7 +19,7 @@ class History(Generic[Value]):
         """Starts with a value that cannot be undone."""
         self._past: list[Value] = []
         self._future: list[Value] = []
-        self.value = value
+        self.value: Value = value
         self._kind: Hashable = None
         self._changed_at = 0.0
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modeviz.analysis.deflection_shapes import complex_mode, road_shape, wheel_shape
 from modeviz.analysis.results import Results
@@ -18,7 +17,7 @@ from modeviz.dynamics.components import (
 from modeviz.dynamics.naming import ModeName
 from modeviz.errors import SolveError
 from modeviz.text.wording import sentence_case
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.viewer.session.state import ResponseCurve, State
 
 
@@ -49,9 +48,9 @@ class Movement:
     frequency_hz: float
     about: str
     """What else to know, short."""
-    shape: NDArray
+    shape: Array
     """(n_dofs,), real or complex."""
-    other: NDArray | None
+    other: Array | None
     """The shape it is compared with, in the same phase and scale, if its outlines are wanted."""
     bodies: frozenset[str] | None = None
     """The only bodies to be seen; None if all are."""
@@ -81,7 +80,7 @@ def movement(state: State, shown: ShownMode) -> Movement:
             return _component(state, shown)
 
 
-def asks(state: State) -> tuple:
+def asks(state: State) -> tuple[object, ...]:
     """All of a state that decides what moves beyond the shown mode."""
     return (
         state.motion,
@@ -162,16 +161,14 @@ _free_modes = lru_cache(maxsize=1)(component_modes)
 """A body's own modes, which no rate changes."""
 
 
-def _same_mode(
-    state: State, shown: ShownMode, shape: Callable[[Results, int], NDArray]
-) -> NDArray | None:
+def _same_mode(state: State, shown: ShownMode, shape: Callable[[Results, int], Array]) -> Array | None:
     """The shape of the base's mode that is compared with the shown one, if it is wanted."""
     if state.ghost != "compared" or shown.same is None:
         return None
     return _in_phase(shape(shown.base, shown.same), shown)
 
 
-def _in_phase(shape: NDArray, shown: ShownMode) -> NDArray:
+def _in_phase(shape: Array, shown: ShownMode) -> Array:
     """A shape turned to move with the shown mode as far as it can; a real one stays real."""
     product = np.vdot(shape, shown.now.prepared.system.mass @ shown.shape)
     return shape * (product / abs(product)) if product else shape

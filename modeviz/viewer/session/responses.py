@@ -46,7 +46,7 @@ class Responses:
         """Looks at an answer."""
         self._solved = solved
         self._load = load_number(solved.now.prepared.vehicle, solved.state.load)
-        self.quantity = PSD if self._load is None else PEAK_ACCELERATION
+        self.quantity: LevelUnit = PSD if self._load is None else PEAK_ACCELERATION
 
     @property
     def overlaid(self) -> list[str]:

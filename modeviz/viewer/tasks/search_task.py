@@ -82,7 +82,7 @@ class SearchTask:
         """
         state, vehicle = session.state, session.vehicle
         assert state.plan is not None
-        self.look = SearchStatus(planned(vehicle, state.plan), state.rates)
+        self.look: SearchStatus = SearchStatus(planned(vehicle, state.plan), state.rates)
         self._session, self._changed, self._report = session, changed, report
         self._state, self._plan = state, state.plan
         self._control, self._lock = CancelToken(), threading.Lock()

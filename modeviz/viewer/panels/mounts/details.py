@@ -76,7 +76,7 @@ class Details:
                 hint="When one of these rates moves, the others move by the same factor",
             )
         damped, linked = partial(damp, session, group.name), partial(link, session, group.name)
-        self.bindings = (
+        self.bindings: tuple[Binding, ...] = (
             Binding(self._loss, session, self._loss_factor, damped, WriteBack()),
             Binding(self._linked, session, self._is_linked, linked),
         )

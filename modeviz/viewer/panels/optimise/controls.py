@@ -54,7 +54,7 @@ class PlanControls:
 
     def choose(
         self, label: str, words: Mapping[str, Any], read: Read, write: Write, hint: str
-    ) -> viser.GuiDropdownHandle:
+    ) -> viser.GuiDropdownHandle[Any]:
         """A dropdown of values by what they are called."""
         called = {value: word for word, value in words.items()}
         first = called[self._now(read)]
@@ -62,13 +62,13 @@ class PlanControls:
         self.bind(dropdown, lambda s, p: called[read(s, p)], lambda word: write(words[word]))
         return dropdown
 
-    def check(self, label: str, read: Read, write: Write, hint: str) -> viser.GuiInputHandle:
+    def check(self, label: str, read: Read, write: Write, hint: str) -> viser.GuiInputHandle[Any]:
         """A checkbox."""
         return self.bind(self._gui.add_checkbox(label, self._now(read), hint=hint), read, write)
 
     def number(
         self, label: str, limits: tuple[float, float | None], read: Read, write: Write, hint: str
-    ) -> viser.GuiInputHandle:
+    ) -> viser.GuiInputHandle[Any]:
         """A box for a number, a whole one if its limits are."""
         low, high = limits
         box = self._gui.add_number(label, self._now(read), min=low, max=high, step=1, hint=hint)
@@ -82,7 +82,7 @@ class PlanControls:
         assign(boxes, precision=DECIMALS)
         return self.bind(boxes, read, write, typed=True)
 
-    def text(self, label: str, read: Read, write: Write, hint: str) -> viser.GuiInputHandle:
+    def text(self, label: str, read: Read, write: Write, hint: str) -> viser.GuiInputHandle[Any]:
         """A box for a text."""
         return self.bind(self._gui.add_text(label, self._now(read), hint=hint), read, write, typed=True)
 

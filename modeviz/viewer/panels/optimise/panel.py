@@ -20,7 +20,7 @@ from modeviz.viewer.tasks.search_task import Optimiser, SearchStatus
 
 START, PAUSE, RESUME, CANCEL = "Start", "Pause", "Resume", "Cancel"
 ACCEPT, GO_BACK = "Accept", "Go back"
-OFFERED = {
+OFFERED: dict[str, tuple[str, ...]] = {
     "preparing": (PAUSE, CANCEL),
     "searching": (PAUSE, CANCEL),
     "paused": (RESUME, CANCEL),
