@@ -98,14 +98,14 @@ def _solve(on_road: RoadExcitation, chunk: tuple[int, Complexes]) -> Batch:
     for i, stiffness in enumerate(sets):
         try:
             frequency_hz[i] = natural_frequencies(prepared.basis, stiffness)
-            lines, on_lines = solve_spectra(
+            lines, _, around = solve_spectra(
                 on_road, stiffness, resonances_at(prepared.basis, stiffness)
             )
             response = on_road.receptances.response(stiffness)
         except SolveError as error:
             raise SolveError(f"set {start + i + 1}: {error}") from None
         psd[i] = acceleration_psd(f, response, spectrum).reshape(psd.shape[1:])
-        roots[i] = rms(lines, on_lines, band)
+        roots[i] = rms(lines, around, band)
     return Batch(start, frequency_hz, psd, roots)
 
 

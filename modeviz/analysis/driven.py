@@ -139,6 +139,6 @@ def load_lines(prepared: Prepared, loads: Sequence[tuple[RandomLoad, float]]) ->
         ModevizError: nothing of the band is known of a load.
     """
     if prepared.is_graded:
-        return resolving_lines(loads, prepared.frequency_hz)
+        return resolving_lines(prepared.vehicle, loads, prepared.frequency_hz)
     parts = [known_part(load, prepared.frequency_hz, speed) for load, speed in loads]
     return prepared.frequency_hz[min(p.start for p in parts) : max(p.stop for p in parts)]

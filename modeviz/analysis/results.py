@@ -21,10 +21,11 @@ from modeviz.dynamics.resonances import Resonances, resonances, resonances_at
 from modeviz.dynamics.response import modal_coordinates
 from modeviz.dynamics.trust import ErrorEstimate
 from modeviz.errors import ModevizError
+from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.excitation import Load, excitation, input_spectrum
 from modeviz.ride.integration import line_distances
 from modeviz.ride.participation import Peak, participation, participation_above, peak_lines, peaks
-from modeviz.ride.psd import acceleration_psd, harmonic_acceleration, rms
+from modeviz.ride.psd import acceleration_psd, averaged_acceleration_psd, harmonic_acceleration, rms
 from modeviz.ride.rating import Rating, rate
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
@@ -57,12 +58,19 @@ class RoadExcitation(Driven):
     load: RandomLoad
     """That of the conditions."""
     latest_spectrum: Latest[Complexes] = field(default_factory=Latest, init=False)
+    latest_average: Latest[Complexes] = field(default_factory=Latest, init=False)
 
     def spectrum_at(self, frequency_hz: Floats) -> Complexes:
         """Of the load's inputs, (n_freqs, n_inputs, n_inputs), m²/Hz of a road."""
         return self.latest_spectrum.get(
             frequency_hz.tobytes(),
             lambda: input_spectrum(self.load, frequency_hz, self.conditions.speed),
+        )
+
+    def spectrum_around(self, lines: Floats) -> Complexes:
+        """The same averaged around lines, for integrals."""
+        return self.latest_average.get(
+            lines.tobytes(), lambda: averaged_spectrum(self.load, lines, self.conditions.speed)
         )
 
     @property
@@ -169,6 +177,8 @@ class Results(ModalResults):
     """(n_freqs,): lines of the band, closer where modes are sharp, so that integrals hold."""
     psd: Floats
     """(n_freqs, n_points, 3): acceleration x, y, z of each response point, g²/Hz."""
+    averaged_psd: Floats
+    """The same around each line, of which RMS values are made: see `averaged_spectrum`."""
 
     @property
     def conditions(self) -> Conditions:
@@ -177,7 +187,7 @@ class Results(ModalResults):
     @cached_property
     def rms(self) -> Floats:
         """(n_points, 3), g, over the band, as far as the load is known."""
-        return rms(self.frequency_hz, self.psd, self.band_hz)
+        return rms(self.frequency_hz, self.averaged_psd, self.band_hz)
 
     @property
     def band_hz(self) -> tuple[float, float]:
@@ -187,7 +197,7 @@ class Results(ModalResults):
     @cached_property
     def rating(self) -> Rating:
         """Of the first response point, the driver's."""
-        return rate(self.frequency_hz, self.psd[:, 0], self.drive.is_known_from_start)
+        return rate(self.frequency_hz, self.averaged_psd[:, 0], self.drive.is_known_from_start)
 
     def response(self, point: int, direction: str) -> Floats:
         """Acceleration PSD of a response point along one of `DIRECTIONS`, (n_freqs,), g²/Hz."""
@@ -343,18 +353,20 @@ def solve_on(drive: RoadExcitation, rates: Rates, method: Method = "enriched") -
     prepared = drive.prepared
     stiffness = prepared.mount_stiffness(rates)
     modal = _modal(prepared, rates, stiffness, method)
-    f, psd = solve_spectra(drive, stiffness, modal.resonances)
-    return Results(prepared, modal.rates, modal.band, drive, f, psd)
+    spectra = solve_spectra(drive, stiffness, modal.resonances)
+    return Results(prepared, modal.rates, modal.band, drive, *spectra)
 
 
 def solve_spectra(
     drive: RoadExcitation, stiffness: Complexes, resonances: Resonances
-) -> tuple[Floats, Floats]:
-    """The lines that mount rates want, (n_lines,), and PSDs there, (n_lines, n_points, 3), g²/Hz."""
+) -> tuple[Floats, Floats, Floats]:
+    """The lines that mount rates want, (n_lines,), and PSDs at and around them, see `Results`."""
     lines = drive.lines(resonances)
     H = drive.response(stiffness, lines)
-    psd = acceleration_psd(lines, H, drive.spectrum_at(lines))
-    return lines, psd.reshape(len(lines), H.shape[1] // 3, 3)
+    at = acceleration_psd(lines, H, drive.spectrum_at(lines))
+    around = averaged_acceleration_psd(lines, H, drive.spectrum_around(lines))
+    shape = len(lines), H.shape[1] // 3, 3
+    return lines, at.reshape(shape), around.reshape(shape)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ from modeviz.analysis.preparation import Prepared, PreparedModes
 from modeviz.analysis.results import Conditions, ModalResults, Results, drive
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.resonances import resonances_at
-from modeviz.ride.psd import acceleration_psd, mean_square, rms
+from modeviz.ride.psd import averaged_acceleration_psd, mean_square, rms
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import RATE_FIELDS, Rates
@@ -68,11 +68,11 @@ def ride_sensitivity(prepared: Prepared, rates: Rates, conditions: Conditions) -
     stiffness = prepared.mount_stiffness(rates)
     on_road, band = drive(prepared, conditions), (0.0, prepared.vehicle.highest_frequency)
     f = on_road.lines(resonances_at(prepared.basis, stiffness))
-    spectrum = on_road.spectrum_at(f)
-    H, a, b = on_road.response_gradient(stiffness, f)
-    change = psd_gradient(f, H, a, b, spectrum, spring_shares(prepared, rates))
-    root = rms(f, acceleration_psd(f, H, spectrum), band)[:, None]
-    square_change = mean_square(f, change, band)
+    at, around = on_road.spectrum_at(f), on_road.spectrum_around(f)
+    response, shares = on_road.response_gradient(stiffness, f), spring_shares(prepared, rates)
+    change = psd_gradient(f, *response, at, shares)
+    root = rms(f, averaged_acceleration_psd(f, response[0], around), band)[:, None]
+    square_change = mean_square(f, psd_gradient(f, *response, around, shares), band)
     rms_change = np.divide(square_change, 2 * root, out=np.zeros_like(square_change), where=root > 0)
     shape = (len(prepared.vehicle.response_points), 3, change.shape[2])
     return RideSensitivity(f, change.reshape(len(f), *shape), rms_change.reshape(shape))

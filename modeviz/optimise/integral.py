@@ -44,7 +44,7 @@ class BandCase:
         pattern = weights * self.selected
         if self.is_weighted:
             pattern = pattern * squared_weights(f)[:, None]
-        return LoadCase(self.load, tuple(f.tolist()), self.weight, pattern)
+        return LoadCase(self.load, tuple(f.tolist()), self.weight, pattern, is_averaged=True)
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,8 +14,9 @@ from modeviz.dynamics.assembly import System
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.response import check_frequencies, direct_response
 from modeviz.errors import SolveError
+from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.excitation import Excitation, Load, excitation, input_spectrum, together
-from modeviz.ride.psd import acceleration_psd
+from modeviz.ride.psd import averaged_acceleration_psd
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.loads import HarmonicLoad, Road
@@ -44,6 +45,8 @@ class LoadCase:
     lateral and vertical."""
     target: float = 0.0
     """The desired acceleration: g under a wheel load, g/√Hz on a road."""
+    is_averaged: bool = False
+    """Whether the load's spectrum at a frequency is that around it, for an integral."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +67,9 @@ class Term:
 
     def squares(self, power: Floats) -> Floats:
         """W (a - target)², from a², (..., n_lines, n_outputs) both."""
-        return self.weights * (np.sqrt(power) - self.target) ** 2
+        if not self.target:
+            return self.weights * power
+        return self.weights * (np.sqrt(np.maximum(power, 0.0)) - self.target) ** 2
 
     def value(self, power: Floats) -> Floats:
         """Σ w (a - target)², from a² (..., n_lines, n_outputs)."""
@@ -74,7 +79,7 @@ class Term:
         """∂value/∂a², as a² (n_lines, n_outputs); 0 where nothing moves, for there it has none."""
         if not self.target:
             return self.weights
-        a = np.sqrt(power)
+        a = np.sqrt(np.maximum(power, 0.0))
         return self.weights * (1 - np.divide(self.target, a, out=np.ones_like(a), where=a > 0))
 
 
@@ -105,7 +110,9 @@ class Criterion:
 
     def power(self, term: Term, response: Complexes) -> Floats:
         """a² of a case, (..., n_lines, n_outputs), from the response of all outputs to all inputs."""
-        return acceleration_psd(self.frequency_hz[term.lines], term.own(response), term.input_psd)
+        return averaged_acceleration_psd(
+            self.frequency_hz[term.lines], term.own(response), term.input_psd
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,7 +230,7 @@ class Objective:
         H, a, b = self.driven.response_gradient(stiffness)
         for term in self.terms:
             f, own = self.driven.frequency_hz[term.lines], term.own(H)
-            power = acceleration_psd(f, own, term.input_psd)
+            power = averaged_acceleration_psd(f, own, term.input_psd)
             yield term, power, (f, own, a[term.lines], term.own(b), term.input_psd)
 
     @property
@@ -301,7 +308,7 @@ def _term(prepared: Prepared, case: LoadCase, weights: Floats, inputs: slice) ->
     lines = np.searchsorted(prepared.frequency_hz, np.subtract(case.frequency_hz, SAME_HZ))
     f = prepared.frequency_hz[lines]
     load, speed = load_of(prepared.vehicle, case.load)
-    spectrum = input_spectrum(load, f, speed)
+    spectrum = (averaged_spectrum if case.is_averaged else input_spectrum)(load, f, speed)
     return Term(weights, case.target, lines, inputs, spectrum)
 
 

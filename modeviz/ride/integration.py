@@ -41,14 +41,18 @@ def integration_weights(frequency_hz: Floats, band: tuple[float, float]) -> Floa
 def _weights(frequency_hz: bytes, band: tuple[float, float]) -> Floats:
     """The same, kept for the next spectrum at the same lines."""
     f = np.frombuffer(frequency_hz)
-    if len(f) <= N_SLOPE:
-        return _trapezia(f, band)
-    slope = line_distances(f)
-    polygon = np.gradient(f)
-    if (np.abs(slope - polygon) > SMOOTH * polygon).any():
+    if not is_graded(f):
         return _trapezia(f, band)
     start, end = (_position(f, float(np.clip(edge, f[0], f[-1]))) for edge in band)
-    return slope * (_up_to(end, len(f)) - _up_to(start, len(f)))
+    return line_distances(f) * (_up_to(end, len(f)) - _up_to(start, len(f)))
+
+
+def is_graded(f: Floats) -> bool:
+    """Whether there are enough lines, and their distances change smoothly."""
+    if len(f) <= N_SLOPE:
+        return False
+    slope, polygon = line_distances(f), np.gradient(f)
+    return not (np.abs(slope - polygon) > SMOOTH * polygon).any()
 
 
 def _trapezia(f: Floats, band: tuple[float, float]) -> Floats:

@@ -37,10 +37,16 @@ def acceleration_psd(
         frequency_response: displacements per input, (..., n_freqs, n_outputs, n_inputs).
         input_psd: (n_freqs, n_inputs, n_inputs).
     """
+    # Where coherent tracks cancel, rounding can leave a power just below zero.
+    return np.maximum(averaged_acceleration_psd(frequency_hz, frequency_response, input_psd), 0.0)
+
+
+def averaged_acceleration_psd(
+    frequency_hz: Floats, frequency_response: Complexes, input_psd: Complexes
+) -> Floats:
+    """The same around lines, of an `averaged_spectrum`: for integrals, it may be negative."""
     H = frequency_response
     S_xx = (H @ input_psd * H.conj()).real.sum(axis=-1)
-    # Where coherent tracks cancel, rounding can leave a power just below zero.
-    S_xx = np.maximum(S_xx, 0.0)
     omega = 2 * np.pi * np.asarray(frequency_hz)[:, None]
     return omega**4 * S_xx / STANDARD_GRAVITY**2
 
@@ -53,7 +59,7 @@ def harmonic_acceleration(frequency_hz: Floats, displacement: Complexes) -> Floa
 
 def rms(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = RIDE_BAND) -> Floats:
     """Root of the mean square over a band; arguments as `mean_square`."""
-    return np.sqrt(mean_square(frequency_hz, psd, band))
+    return np.sqrt(np.maximum(mean_square(frequency_hz, psd, band), 0.0))
 
 
 def mean_square(frequency_hz: Floats, psd: Floats, band: tuple[float, float] = RIDE_BAND) -> Floats:

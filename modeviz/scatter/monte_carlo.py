@@ -21,7 +21,7 @@ from modeviz.optimise.goals import ResponseGoal
 from modeviz.optimise.integral import Integral
 from modeviz.optimise.objective import Criterion, Objective
 from modeviz.optimise.peak import PeakGoal
-from modeviz.ride.psd import acceleration_psd, rms
+from modeviz.ride.psd import acceleration_psd, averaged_acceleration_psd, rms
 from modeviz.ride.rating import mean_personal_rating
 from modeviz.scatter.tolerance import Parts
 from modeviz.vehicle.arrays import Array, Complexes, Floats
@@ -178,7 +178,9 @@ class _Study:
     parts: Parts
     frequency_hz: Floats
     spectrum: Complexes
-    """(n_freqs, 2, 2), m²/Hz: of the tracks."""
+    """(n_freqs, n_inputs, n_inputs): of the load's inputs."""
+    averaged: Complexes
+    """The same around each line, for integrals."""
     ride: FewLines | Receptances
     goal: FewLines | Receptances
     criterion: Criterion
@@ -192,11 +194,15 @@ class _Study:
     def sample(self, deviations: Floats) -> _Sampled:
         """What vehicles of some deviations, (n, n_deviations), do."""
         stiffness = self.parts.stiffness(deviations)
-        psd = acceleration_psd(self.frequency_hz, self.ride.responses(stiffness), self.spectrum)
-        psd = psd.reshape(*psd.shape[:2], -1, 3)
-        roots = rms(self.frequency_hz, psd.swapaxes(0, 1), self.band)
+        H, kept = self.ride.responses(stiffness), self.kept
+        psd = acceleration_psd(self.frequency_hz[kept], H[:, kept], self.spectrum[kept])
+        around = averaged_acceleration_psd(self.frequency_hz, H, self.averaged)
+        roots = rms(self.frequency_hz, around.swapaxes(0, 1), self.band)
         goal = self.criterion.total(self.goal.responses(stiffness))
-        return _Sampled(psd[:, self.kept].astype(np.float32), roots, goal)
+        shape = len(H), -1, 3
+        return _Sampled(
+            psd.reshape(*psd.shape[:2], -1, 3).astype(np.float32), roots.reshape(shape), goal
+        )
 
 
 def _study(
@@ -219,6 +225,7 @@ def _study(
         parts,
         on_road.frequency_hz,
         on_road.spectrum_at(on_road.frequency_hz),
+        on_road.spectrum_around(on_road.frequency_hz),
         replace(few, receptances=reduced(ride.at(few.lines), taught)),
         few_goal,
         objective.criterion,

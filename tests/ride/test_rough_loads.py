@@ -11,12 +11,12 @@ from modeviz.analysis.batch import solve_many
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, Results, drive, solve
 from modeviz.optimise.goals import prepare_goal
-from modeviz.ride.resolution import resolving_lines
+from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.roads import road_spectrum
 from modeviz.scatter.monte_carlo import scatter
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.loads import Force, ResponsePoint, Road, Spectrum
+from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum
 from modeviz.vehicle.problem import DesignGroup, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -55,18 +55,26 @@ def test_a_road_met_slowly_has_its_exact_rms(kmh):
     assert results.rms[0, 2] == pytest.approx(np.sqrt(expected), rel=1e-3)
 
 
-def test_lines_of_a_smooth_road_stay():
-    vehicle = oscillator(9.97, 0.05)
-    lines = vehicle.frequency_hz
-    np.testing.assert_array_equal(resolving_lines([(vehicle.roads[0], 20.0)], lines), lines)
+@pytest.mark.parametrize("kmh", [2, 5, 10])
+def test_lines_resolve_what_lies_between_the_axles(kmh):
+    """Eight lines a turn of 2πfτ, the lines of the band among them."""
+    cabin, speed = replace(mounted_cabin(), roads=(humped_road(),)), kmh * KMH
+    lines = drive(prepare(cabin), Conditions("road", speed)).frequency_hz
+    wheelbase = np.ptp([tyre.points[1, 0] for tyre in cabin.tyres])
+    assert np.diff(lines).max() <= speed / wheelbase / 8
+    known = cabin.frequency_hz[cabin.frequency_hz <= 150 * speed / ROAD_SPEED]
+    assert set(known) <= set(lines)
 
 
-def test_more_lines_have_those_of_the_band_among_them():
-    vehicle = replace(oscillator(9.97, 0.05), roads=(humped_road(),))
-    on_road = drive(prepare(vehicle), Conditions("road", 5 * KMH))
-    known = vehicle.frequency_hz[vehicle.frequency_hz <= 150 * 5 * KMH / ROAD_SPEED]
-    assert len(on_road.frequency_hz) > 2 * len(known)
-    assert set(known) <= set(on_road.frequency_hz)
+@pytest.mark.parametrize("kmh", [2, 5, 10, 20])
+def test_a_vehicle_with_two_axles_has_the_rms_of_very_fine_lines(kmh):
+    cabin, conditions = replace(mounted_cabin(), roads=(humped_road(),)), Conditions("road", kmh * KMH)
+    prepared = prepare(cabin)
+    results = solve(prepared, {}, conditions)
+    low, high = results.drive.known
+    fine = solve(prepared.on(np.linspace(low, high, 40_001)), {}, conditions)
+    expected = np.sqrt(np.trapezoid(fine.psd, fine.frequency_hz, axis=0))
+    np.testing.assert_allclose(results.rms, expected, rtol=1e-3, atol=1e-9)
 
 
 def free_mass(spectrum: Spectrum) -> Vehicle:
@@ -95,6 +103,41 @@ def test_a_spike_narrower_than_the_lines_counts_in_full(width, at):
     S = np.exp(np.interp(np.log(fine), np.log(f), np.log(power)))
     expected = np.trapezoid(accelerance(fine, vehicle.bodies[0].mass) * S, fine)
     assert results.rms[0, 2] * STANDARD_GRAVITY == pytest.approx(np.sqrt(expected), rel=1e-3)
+
+
+TABLES = {
+    "notch": ([0.05, 1.4499, 1.45, 1.55, 1.5501, 50.0], [1.0, 1.0, 1e-3, 1e-3, 1.0, 1.0]),
+    "spike": ([0.05, 1.4929, 1.493, 1.513, 1.5131, 50.0], [1.0, 1.0, 100.0, 100.0, 1.0, 1.0]),
+    "far spike": ([0.05, 20.0229, 20.023, 20.043, 20.0431, 50.0], [1e-6, 1e-6, 1.0, 1.0, 1e-6, 1e-6]),
+}
+
+
+@pytest.mark.parametrize("zeta", [0.001, 0.005, 0.03])
+@pytest.mark.parametrize("table", TABLES)
+def test_what_a_table_says_beside_a_sharp_resonance_counts_in_full(table, zeta):
+    """Acceleration of the ground under an oscillator, integrated at places that graze every corner."""
+    known, power = (np.array(values) for values in TABLES[table])
+    held = oscillator(1.5, zeta)
+    motion = BaseMotion("shake", np.array([0.0, 0.0, 1.0]), "acceleration", Spectrum(known, power))
+    vehicle = replace(held, roads=(), base_motions=(motion,))
+    results = solve(prepare(vehicle), {}, Conditions("shake", 20.0))
+    near = 1.5 * (1 + zeta * np.sinh(np.linspace(-9, 9, 200_001)))
+    f = np.unique(np.concatenate([np.linspace(0.1, 40, 400_001), near, known]))
+    f = f[(f >= 0.1) & (f <= 40)]
+    S = np.exp(np.interp(np.log(f), np.log(known), np.log(power)))
+    expected = np.trapezoid(transmitted(f, 1.5, zeta) / LEVEL * S, f)
+    found = results.rms[0, 2] * STANDARD_GRAVITY
+    assert found == pytest.approx(np.sqrt(expected), rel=1e-3)
+
+
+def test_where_a_table_is_smooth_an_average_is_the_spectrum():
+    load = oscillator(1.5, 0.01).roads[0]
+    lines = np.arange(10, 400) / 10
+    np.testing.assert_allclose(
+        averaged_spectrum(load, lines, 20.0)[6:-6, 1, 1],
+        road_spectrum(load, lines, 20.0)[6:-6, 1, 1],
+        rtol=2e-4,
+    )
 
 
 def test_a_steep_slope_at_the_first_line_counts_in_full():
