@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import System, mount_stiffness
-from modeviz.dynamics.receptance import receptances
+from modeviz.dynamics.receptance import receptance_lines
 from modeviz.dynamics.response import drowned
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 
@@ -262,17 +262,15 @@ def prepare_receptances(
         SolveError: a frequency that is zero, repeated or not finite, or one with an undamped pole.
     """
     rows = directions(system, system.mount_motions, outputs, inputs)
-    G = receptances(system, frequency_hz, rows, progress)
-    n_springs = len(system.mount_motions)
-    springs, others = slice(0, n_springs), slice(n_springs, n_springs + len(outputs))
-    return Receptances(
-        np.asarray(frequency_hz, float),
-        mount_stiffness(system.vehicle),
-        G[:, springs, springs].copy(),
-        G[:, springs, others].copy(),
-        G[:, springs, others.stop :].copy(),
-        G[:, others, others.stop :].copy(),
-    )
+    f, n_springs = np.asarray(frequency_hz, float), len(system.mount_motions)
+    sizes = n_springs, len(outputs), len(rows) - n_springs - len(outputs)
+    blocks = [(0, 0), (0, 1), (0, 2), (1, 2)]
+    parts = [np.empty((len(f), sizes[i], sizes[j]), complex) for i, j in blocks]
+    of = [slice(end - size, end) for size, end in zip(sizes, np.cumsum(sizes), strict=True)]
+    for line, G in enumerate(receptance_lines(system, f, rows, progress)):
+        for part, (i, j) in zip(parts, blocks, strict=True):
+            part[line] = G[of[i], of[j]]
+    return Receptances(f, mount_stiffness(system.vehicle), *parts)
 
 
 def solve_checked(A: Complexes, b: Complexes, frequency_hz: Floats, pole: float = POLE) -> Complexes:

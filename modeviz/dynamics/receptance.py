@@ -16,7 +16,7 @@ what a force there gives is the joint's own force.
 """
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -66,15 +66,26 @@ def receptances(
     Raises:
         SolveError: the frequencies are not such, or one lies on an undamped resonance.
     """
+    G = np.empty((len(frequency_hz), len(rows), len(rows)), complex)
+    for i, G_i in enumerate(receptance_lines(system, frequency_hz, rows, progress)):
+        G[i] = G_i
+    return G
+
+
+def receptance_lines(
+    system: System,
+    frequency_hz: Floats,
+    rows: Floats,
+    progress: Callable[[float], None] | None = None,
+) -> Iterator[Complexes]:
+    """G (n_rows, n_rows) at each frequency in turn; memory, arguments and errors as `receptances`."""
     check_frequencies(frequency_hz)
     parts = _disassemble(system, rows)
-    G = np.empty((len(frequency_hz), len(rows), len(rows)), complex)
     with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(N_THREADS) as pool:
-        for i, G_i in enumerate(pool.map(parts.receptance, frequency_hz)):
-            G[i] = G_i
+        for i, G in enumerate(pool.map(parts.receptance, frequency_hz)):
+            yield G
             if progress:
                 progress((i + 1) / len(frequency_hz))
-    return G
 
 
 def receptances_along(system: System, rows: Floats) -> Callable[[Complexes, Complexes], Complexes]:

@@ -48,6 +48,7 @@ from modeviz.files.source import Source
 from modeviz.files.spectra import write_spectrum
 from modeviz.files.toml import to_toml
 from modeviz.files.toml_file import read_toml
+from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring, Tyre
 from modeviz.vehicle.doubts import doubts
@@ -68,9 +69,6 @@ COORDINATES, MOST_COORDINATES = "coordinates (6 of a rigid body, the modes of a 
 
 MOST_BODIES = 200
 """All that move freely have modes in the band, each of which takes time and is named."""
-
-MOST_RECEPTANCES = 100_000_000
-"""Complex numbers, 1.6 GB: between mount springs, points and loads at the lines of the band."""
 
 CONNECTION_KINDS: dict[str, type[Connection]] = {
     "spring": Spring,
@@ -164,6 +162,10 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         built(getattr(record, key), key, lambda r, kind=kind: r.build(kind))
         for key, kind in CONNECTION_KINDS.items()
     ]
+    roads = built(record.road, "road", lambda r: r.build(source))
+    forces = built(record.force, "force", lambda r: r.build(source))
+    base_motions = built(record.base_motion, "base_motion", lambda r: r.build(source))
+    source.check_lines()
     vehicle = Vehicle(
         name=record.name,
         bodies=(*flexible, *rigid),
@@ -171,10 +173,10 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         mount_groups=built(record.mount_group, "mount_group", MountGroupRecord.build),
         added_masses=built(record.added_mass, "added_mass", AddedMassRecord.build),
         response_points=built(record.response_point, "response_point", ResponsePointRecord.build),
-        roads=built(record.road, "road", lambda r: r.build(source)),
+        roads=roads,
         wheel_loads=built(record.wheel_load, "wheel_load", WheelLoadRecord.build),
-        forces=built(record.force, "force", lambda r: r.build(source)),
-        base_motions=built(record.base_motion, "base_motion", lambda r: r.build(source)),
+        forces=forces,
+        base_motions=base_motions,
         rate_sets={
             name: {group: rates.build() for group, rates in groups.items()}
             for name, groups in record.rates.items()
@@ -185,22 +187,11 @@ def _build(record: VehicleRecord, source: Source) -> Vehicle:
         frequency_step=record.frequency_step,
         mode_damping=built(record.mode_damping, "mode_damping", ModeDampingRecord.build),
     )
-    _check_receptances(vehicle)
+    check_workload(vehicle)
     axes = source.conventions.axes
     for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
         source.note(doubt)
     return replace(vehicle, notes=source.notes)
-
-
-def _check_receptances(vehicle: Vehicle) -> None:
-    """Raises VehicleError for more than fits into memory."""
-    n = 3 * (len(vehicle.mounts) + len(vehicle.response_points)) + 6 * len(vehicle.tyres)
-    n_lines = len(vehicle.frequency_hz)
-    check_size(
-        f"responses between {n:,} directions of mounts, points and tyres at {n_lines:,} frequencies",
-        n**2 * n_lines,
-        MOST_RECEPTANCES,
-    )
 
 
 def _write_content(vehicle: Vehicle, folder: Path) -> None:

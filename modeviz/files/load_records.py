@@ -1,5 +1,6 @@
 """The tables of `vehicle.toml` that say what shakes the vehicle, in SI."""
 
+from dataclasses import replace
 from typing import Self
 
 import numpy as np
@@ -42,7 +43,13 @@ class RoadRecord(Record, kw_only=True):
         with located("file"):
             path = source.path(self.file)
         label = self.label or self.name
-        return read_road(path, self.name, label, self.speed, source.conventions, source.note)
+        road = source.once(
+            (path, "road"),
+            lambda: read_road(path, self.name, label, self.speed, source.conventions, source.note),
+        )
+        if not source.count_lines(len(road.frequency_hz)):
+            return road  # no copy of what is refused once all are counted
+        return replace(road, name=self.name, label=label, speed=self.speed)
 
 
 class WheelLoadRecord(Record, kw_only=True):
@@ -147,7 +154,11 @@ def _amplitude(source: Source, key: str, given: float | str, quantity: str) -> f
         return given
     with located(key):
         path = source.path(given)
-    return read_spectrum(path, quantity, source.conventions, source.note)
+    spectrum = source.once(
+        (path, quantity), lambda: read_spectrum(path, quantity, source.conventions, source.note)
+    )
+    source.count_lines(len(spectrum.frequency_hz))
+    return spectrum
 
 
 def _unit_vector(direction: str | Vector) -> Floats:

@@ -1,17 +1,25 @@
 """The folder that a vehicle is read from, and what there is to say about it."""
 
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, TypeVar
 
 from modeviz.files.conventions import Conventions
 from modeviz.files.disk import inside
-from modeviz.files.limits import check_size
+from modeviz.files.limits import check_size, most_allowed
 
 LARGEST_ARRAYS = 256_000_000
 """Bytes of the modes of all bodies, which take some times as much while they are read."""
 
+MOST_LINES = 300_000
+"""Of the spectra of all loads together."""
+
 MOST_NOTES = 20
 """Nobody reads more."""
+
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -23,6 +31,10 @@ class Source:
     """Of the files in it."""
     _reserved: list[int] = field(default_factory=list)
     """Bytes of each file of modes."""
+    _lines: list[int] = field(default_factory=list)
+    """Of each load's spectrum."""
+    _known: dict[Hashable, Any] = field(default_factory=dict)
+    """What was read, by file and kind."""
     _notes: list[str] = field(default_factory=list)
     """Grows while the folder is read."""
 
@@ -49,6 +61,30 @@ class Source:
         """
         self._reserved.append(n_bytes)
         check_size("bytes of modes", sum(self._reserved), LARGEST_ARRAYS)
+
+    def once(self, what: Hashable, read: Callable[[], T]) -> T:
+        """What is read of a file, which is done once however often it is named.
+
+        Args:
+            what: file and kind of content.
+            read: gives the content.
+        """
+        if what not in self._known:
+            self._known[what] = read()
+        return self._known[what]
+
+    def count_lines(self, n_lines: int) -> bool:
+        """Counts the lines of a load's spectrum; whether it and those before it pass `check_lines`."""
+        self._lines.append(n_lines)
+        return sum(self._lines) <= most_allowed(MOST_LINES)
+
+    def check_lines(self) -> None:
+        """Checks the lines of all loads together.
+
+        Raises:
+            VehicleError: they are too many.
+        """
+        check_size(f"lines in the spectra of {len(self._lines):,} loads", sum(self._lines), MOST_LINES)
 
     def note(self, sentence: str) -> None:
         """Notes what was taken otherwise than it stands, or is likely wrong, with what it is about."""

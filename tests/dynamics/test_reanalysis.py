@@ -161,6 +161,15 @@ def test_a_response_takes_little_memory_beside_the_receptances():
     assert peak < 4 * BLOCK < large.springs.nbytes
 
 
+def test_what_outputs_do_to_each_other_is_not_kept(system):
+    f, outputs = np.arange(1.0, 101), np.tile(OUTPUTS, (50, 1))
+    tracemalloc.start()
+    prepare_receptances(system, f, outputs, INPUTS)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 16 * len(f) * len(outputs) ** 2
+
+
 def two_mass_receptances(frequency_hz, damping=0.0):
     z = np.eye(12)[[2, 8]]
     return prepare_receptances(two_masses(1.0, damping), np.array([0.1, frequency_hz, 30.0]), z, z)

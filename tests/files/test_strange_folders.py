@@ -15,9 +15,10 @@ from folders import one_of_everything
 
 from modeviz.cli import main
 from modeviz.errors import VehicleError
-from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files import load_records, read_vehicle, write_vehicle
 from modeviz.files.limits import check_size
 from modeviz.files.modal import KINDS
+from modeviz.files.roads import read_road
 
 FILES = ["vehicle.toml", "roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"]
 
@@ -178,6 +179,27 @@ def test_bodies_that_name_the_same_modes_count_each(folder, monkeypatch):
 
 POINT = '[[response_point]]\nname = "p{0}"\nbody = "b0"\nat = [0.0, 0.0, 0.0]\n'
 
+GROUP = """[[mount_group]]
+name = "A"
+rates = { vertical = 1e5, lateral = 1e5, fore_aft = 1e5 }
+loss_factor = 0.1
+"""
+MOUNT = '[[mount_group.mount]]\nname = "m{}"\nbodies = ["b0", "ground"]\nat = [0, 0, 0]\n'
+SPRING = """[[spring]]
+name = "s{}"
+bodies = ["b0", "ground"]
+at = [0, 0, 0]
+stiffness = [1e5, 1e5, 1e5]
+"""
+FORCE = """[[force]]
+name = "f{}"
+body = "b0"
+at = [0, 0, 0]
+direction = "vertical"
+amplitude = 1
+"""
+MOTION = '[[base_motion]]\nname = "m{}"\ndirection = "vertical"\ndisplacement = 1\n'
+
 TEXTS = {
     "2 000 free bodies": (
         HEAD + "".join(BODY.format(i, 1) for i in range(2_000)),
@@ -185,8 +207,32 @@ TEXTS = {
     ),
     "a thousand response points": (
         HEAD + BODY.format(0, 1) + "".join(POINT.format(i) for i in range(1_000)),
-        "found 3,600,000,000 responses between 3,000 directions of mounts, points and tyres at 400 "
-        "frequencies, expected at most 100,000,000; MODEVIZ_LIMIT=36",
+        "found 216,000,000 responses among 0 mount springs, 3,000 directions of points and 0 of loads "
+        "at 400 frequencies, expected at most 50,000,000; MODEVIZ_LIMIT=5 in the environment would",
+    ),
+    "150 mounts": (
+        HEAD + BODY.format(0, 1) + GROUP + "".join(MOUNT.format(i) for i in range(150)),
+        "responses among 450 mount springs, 0 directions of points and 0 of loads at 400 frequencies, "
+        "expected at most 50,000,000; MODEVIZ_LIMIT=3 in the environment would allow them",
+    ),
+    "200 springs and points": (
+        HEAD + BODY.format(0, 1) + "".join(SPRING.format(i) + POINT.format(i) for i in range(200)),
+        "operations to solve 600 directions at 400 frequencies, expected at most 300,000,000,000; MO",
+    ),
+    "1 900 forces": (
+        HEAD
+        + 'force = "N"\n'
+        + BODY.format(0, 1)
+        + POINT.format(0)
+        + "".join(FORCE.format(i) for i in range(1900)),
+        "responses among 0 mount springs, 3 directions of points and 1,900 of loads at 400 frequencies",
+    ),
+    "1 900 motions of the ground": (
+        HEAD
+        + BODY.format(0, 1)
+        + "".join(SPRING.format(i) for i in range(12))
+        + "".join(MOTION.format(i) for i in range(1900)),
+        "responses to 1,900 harmonic loads at 400 frequencies, expected at most 50,000,000; MODEVIZ_L",
     ),
     "100 000 free bodies": (
         HEAD + "".join(BODY.format(i, 1) for i in range(100_000)),
@@ -261,6 +307,33 @@ def test_a_table_without_line_ends_is_refused_in_a_sentence(complaint, folder):
     assert "road_1.csv: line 2: found 19,000,000 letters, expected at most 10,000\n" in complaint(
         folder
     )
+
+
+def road_tables(n_roads: int) -> str:
+    table = '[[road]]\nname = "r{}"\nfile = "roads/road_1.csv"\nspeed = 20\n'
+    return "".join(table.format(i) for i in range(n_roads))
+
+
+def test_a_table_that_many_roads_name_is_read_once_and_counts_for_each(complaint, folder, monkeypatch):
+    path = folder / "vehicle.toml"
+    path.write_text(path.read_text("utf-8") + road_tables(200), "utf-8")
+    table = folder / "roads/road_1.csv"
+    header = table.read_text("utf-8").partition("\n")[0]
+    rows = "".join(f"{i / 100},1e-6,1e-6,1e-6,0\n" for i in range(1, 2001))
+    table.write_text(f"{header}\n{rows}", "utf-8")
+    words = "found 402,012 lines in the spectra of 203 loads, expected at most 300,000"
+    assert f"vehicle.toml: {words}" in complaint(folder)
+    monkeypatch.setenv("MODEVIZ_LIMIT", "2")
+    read = []
+
+    def counted(path: Path, *others):
+        read.append(path)
+        return read_road(path, *others)
+
+    monkeypatch.setattr(load_records, "read_road", counted)
+    roads = read_vehicle(folder).roads
+    assert len(roads) == len({road.name for road in roads}) > 200
+    assert read.count(table) == 1
 
 
 def test_an_archive_of_very_many_names_is_refused_in_a_sentence(complaint, folder):
