@@ -16,8 +16,8 @@ from modeviz.ride.excitation import Load, input_spectrum, table_hz
 from modeviz.ride.integration import N_CELL, integration_weights, is_graded, line_distances
 from modeviz.vehicle.arrays import Complexes, Floats
 
-N_GAUSS = 4
-"""Places between two values of a table or lines."""
+GAUSS = np.polynomial.legendre.leggauss(4)
+"""Places between two values of a table or lines, and weights, from -1 to 1."""
 
 N_STEPS = 3
 """Of Newton's method, to find where in its cell a frequency is."""
@@ -57,7 +57,7 @@ def _places(table: Floats, lines: Floats) -> tuple[Floats, Floats]:
     """Places between the values of a table and lines, rising, and Gauss's weights, (n,) each, Hz."""
     inside = table[(table > lines[0]) & (table < lines[-1])]
     ends = np.union1d(lines, inside)
-    nodes, weights = np.polynomial.legendre.leggauss(N_GAUSS)
+    nodes, weights = GAUSS
     middle, half = (ends[1:] + ends[:-1]) / 2, np.diff(ends) / 2
     return (middle[:, None] + half[:, None] * nodes).ravel(), (half[:, None] * weights).ravel()
 
