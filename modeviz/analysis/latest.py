@@ -13,7 +13,7 @@ class Latest(Generic[V]):
         self._kept: tuple[Hashable, V] | None = None
 
     def get(self, key: Hashable, compute: Callable[[], V]) -> V:
-        """The value for a key, computed if the last one was another."""
+        """The value for a key, computed if the last one was another; by two threads perhaps twice."""
         kept = self._kept
         if kept is None or kept[0] != key:
             self._kept = kept = key, compute()

@@ -95,7 +95,7 @@ class Between:
 
     @cached_property
     def _windows(self) -> tuple[Complexes, Complexes, NDArray[np.bool_]]:
-        """What counts of nodes and poles wherever between the nodes one looks, for each first node.
+        """The part of the weights that depends on the nodes alone, for each first node.
 
         Returns:
             Factors of the nodes, (n_windows, n_nodes); the poles nearest to their middle, (n_windows,

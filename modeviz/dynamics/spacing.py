@@ -94,7 +94,7 @@ class _Counting:
     """Number of the grid's last line."""
 
     def __call__(self, x: Floats) -> tuple[Floats, Floats]:
-        """T and dt/dx, (n,) both."""
+        """The counts t and dt/dx, (n,) both."""
         stretched = self.stretched(x)
         added, slope = self.added(*stretched)
         shift, turn = self.shift(*stretched)
@@ -109,8 +109,9 @@ class _Counting:
         i = np.minimum(place.astype(int), N_CELLS - 1)
         w = place - i
         cells = self.cells[i + N_CELLS * np.arange(len(self.center))]
-        a, p, c, d = np.moveaxis(cells, -1, 0)
-        return a + w * (p + w * (c + w * d)), (p + w * (2 * c + 3 * w * d)) * per_u / width
+        c0, c1, c2, c3 = np.moveaxis(cells, -1, 0)
+        slope = (c1 + w * (2 * c2 + 3 * w * c3)) * per_u / width
+        return c0 + w * (c1 + w * (c2 + w * c3)), slope
 
     def shift(self, d: Floats, u: Floats, width: Floats) -> tuple[Floats, Floats]:
         """One on a mode, falling to zero beside it, and that differentiated, (n, n_modes)."""
@@ -118,7 +119,7 @@ class _Counting:
         return shift, -2 * shift * (u / PHASE**2 / width + d / REACH**2)
 
     def stretched(self, x: Floats) -> tuple[Floats, Floats, Floats]:
-        """D = x - center, u = asinh(d/γ) and what one of that is in x, (n, n_modes) each."""
+        """Distances d = x - center, u = asinh(d/γ) and dx/du, (n, n_modes) each."""
         d = x[:, None] - self.center
         width = np.sqrt(self.gamma**2 + d**2)
         return d, np.arcsinh(d / self.gamma), width
