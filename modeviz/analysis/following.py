@@ -22,7 +22,7 @@ class Followed:
 def solve_followed(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> Followed:
     """The modes with other mount rates, and which they are of those with the vehicle's own.
 
-    Arguments and errors as `tuning.results.solve_modal`.
+    Arguments and errors as `analysis.results.solve_modal`.
     """
     base, now = (solve_modal(prepared, r, method) for r in ({}, rates))
     return Followed(base, now, follow(base, now))

@@ -64,7 +64,7 @@ class RideSensitivity:
 
 
 def ride_sensitivity(prepared: Prepared, rates: Rates, conditions: Conditions) -> RideSensitivity:
-    """The derivatives of a ride; arguments and errors as `tuning.results.solve`."""
+    """The derivatives of a ride; arguments and errors as `analysis.results.solve`."""
     stiffness = prepared.mount_stiffness(rates)
     on_road, band = drive(prepared, conditions), (0.0, prepared.vehicle.highest_frequency)
     f = on_road.lines(resonances_at(prepared.basis, stiffness))

@@ -1,4 +1,4 @@
-"""Where many tasks of the same kind are computed: here, or on other machines (`tuning.cluster`)."""
+"""Where many tasks of the same kind are computed: here, or on other machines (`compute.cluster`)."""
 
 import os
 from collections import deque

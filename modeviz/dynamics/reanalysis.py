@@ -11,7 +11,7 @@ of springs that change.
 
 Against a direct solve of all N coordinates at every frequency it is 260 times faster on the truck (27
 springs, N = 430) and at N = 220 45 times with 36 springs, 5 times with 84, twice with 156 and as fast
-with 204. Where more springs change than there are coordinates, `tuning.results` solves directly.
+with 204. Where more springs change than there are coordinates, `analysis.results` solves directly.
 """
 
 from collections.abc import Callable, Iterator

@@ -171,7 +171,7 @@ class App:
         return offline_page(self.server, solved, variant, self._dark, position, look_at)
 
     def report(self, pictures: Sequence[Picture]) -> bytes:
-        """The present rates against the set they are compared with, see `export.report`.
+        """The present rates against the set they are compared with, see `report.html`.
 
         Raises:
             ModevizError: nothing is shown yet.
