@@ -67,7 +67,7 @@ MOST_TABLES = 2_000
 COORDINATES, MOST_COORDINATES = "coordinates (6 of a rigid body, the modes of a flexible one)", 2_000
 """Five times the truck's; their time rises with the cube, their memory with the square."""
 
-MOST_BODIES = 200
+MOST_BODIES = 150
 """All that move freely have modes in the band, each of which takes time and is named."""
 
 CONNECTION_KINDS: dict[str, type[Connection]] = {

@@ -28,7 +28,7 @@ def check_workload(vehicle: Vehicle) -> None:
     Raises:
         VehicleError: there is too much that multiplies; the text says what.
     """
-    n = _count(vehicle)
+    n = counted(vehicle)
     where = f"at {n.lines:,} frequencies"
     among = f"{n.springs:,} mount springs, {n.outputs:,} directions of points and {n.inputs:,} of loads"
     check_size(f"responses among {among} {where}", n.receptances, MOST_NUMBERS)
@@ -37,7 +37,7 @@ def check_workload(vehicle: Vehicle) -> None:
 
 
 @dataclass(frozen=True)
-class _Counts:
+class Counts:
     """How many there are of what multiplies, see `dynamics.receptance`."""
 
     lines: int
@@ -79,13 +79,14 @@ class _Counts:
         return self.lines * self.loads * each
 
 
-def _count(vehicle: Vehicle) -> _Counts:
+def counted(vehicle: Vehicle) -> Counts:
+    """Return how many a vehicle has of what multiplies."""
     joints = 3 * len(vehicle.added_masses) + sum(map(_n_joined, vehicle.all_connections))
     turning = sum(int(np.count_nonzero(m.rotational_stiffness)) for m in vehicle.mounts)
     flexible = [body for body in vehicle.bodies if isinstance(body, FlexibleBody)]
     n_rigid = len(vehicle.bodies) - len(flexible)
     top = (2 * np.pi * vehicle.highest_frequency) ** 2
-    return _Counts(
+    return Counts(
         lines=len(vehicle.frequency_hz),
         springs=3 * len(vehicle.mounts) + turning,
         outputs=3 * len(vehicle.response_points),

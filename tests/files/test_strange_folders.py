@@ -3,6 +3,7 @@
 import os
 import resource
 import time
+import tracemalloc
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,12 +14,14 @@ import numpy as np
 import pytest
 from folders import one_of_everything
 
+from modeviz.analysis.preparation import prepare
 from modeviz.cli import main
 from modeviz.errors import VehicleError
 from modeviz.files import load_records, read_vehicle, write_vehicle
 from modeviz.files.limits import check_size
 from modeviz.files.modal import KINDS
 from modeviz.files.roads import read_road
+from modeviz.files.workload import counted
 
 FILES = ["vehicle.toml", "roads/road_1.csv", "bodies/cab.npz", "meshes/cab.glb"]
 
@@ -203,7 +206,7 @@ MOTION = '[[base_motion]]\nname = "m{}"\ndirection = "vertical"\ndisplacement = 
 TEXTS = {
     "2 000 free bodies": (
         HEAD + "".join(BODY.format(i, 1) for i in range(2_000)),
-        "found 2,000 bodies, expected at most 200; MODEVIZ_LIMIT=10 in the environment",
+        "found 2,000 bodies, expected at most 150; MODEVIZ_LIMIT=14 in the environment",
     ),
     "a thousand response points": (
         HEAD + BODY.format(0, 1) + "".join(POINT.format(i) for i in range(1_000)),
@@ -309,6 +312,20 @@ def test_a_table_without_line_ends_is_refused_in_a_sentence(complaint, folder):
     )
 
 
+@pytest.mark.parametrize(("n_mounts", "n_points", "n_forces"), [(40, 1, 1), (1, 100, 1), (1, 20, 60)])
+def test_a_preparation_takes_the_memory_that_was_estimated(tmp_path, n_mounts, n_points, n_forces):
+    text = HEAD + 'force = "N"\n' + BODY.format(0, 1) + GROUP
+    tables = ((MOUNT, n_mounts), (POINT, n_points), (FORCE, n_forces))
+    text += "".join(table.format(i) for table, n in tables for i in range(n))
+    vehicle = read_vehicle(written(tmp_path / "a", text))
+    estimated = 16 * counted(vehicle).receptances
+    tracemalloc.start()
+    prepare(vehicle)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert estimated / 10 < peak < 1.5 * estimated
+
+
 def road_tables(n_roads: int) -> str:
     table = '[[road]]\nname = "r{}"\nfile = "roads/road_1.csv"\nspeed = 20\n'
     return "".join(table.format(i) for i in range(n_roads))
@@ -353,11 +370,11 @@ def test_no_limit_is_proposed_that_would_be_refused():
 
 
 def test_limits_are_raised_by_the_environment(tmp_path, monkeypatch):
-    folder = written(tmp_path / "a", HEAD + "".join(BODY.format(i, 1) for i in range(334)))
+    folder = written(tmp_path / "a", HEAD + "".join(BODY.format(i, 1) for i in range(300)))
     with pytest.raises(VehicleError, match="MODEVIZ_LIMIT=2 in the environment"):
         read_vehicle(folder)
     monkeypatch.setenv("MODEVIZ_LIMIT", "2")
-    assert len(read_vehicle(folder).bodies) == 334
+    assert len(read_vehicle(folder).bodies) == 300
     monkeypatch.setenv("MODEVIZ_LIMIT", "many")
     with pytest.raises(VehicleError, match="MODEVIZ_LIMIT: found 'many', expected a number from 1 to"):
         read_vehicle(folder)
