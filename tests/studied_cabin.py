@@ -10,4 +10,4 @@ from modeviz.study.study import Study
 
 def cabin_study(**changes) -> Study:
     """The cabin with a problem of its own, as a vehicle that differs so."""
-    return Study(replace(mounted_cabin(), problems=(PROBLEM,), **changes))
+    return Study(replace(mounted_cabin(), **{"problems": (PROBLEM,), **changes}))

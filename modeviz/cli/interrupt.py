@@ -4,11 +4,12 @@ import os
 import signal
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from types import FrameType
 
 from modeviz.cli.terminal import announce, say
 from modeviz.compute.cancel import CancelToken
+from modeviz.compute.interrupt import cancelled_by
 
 INTERRUPTED = 130
 """The exit status that shells have for it: 128 and the number of the signal."""
@@ -38,27 +39,14 @@ def ended_by_interrupt() -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
 
 
-@contextmanager
-def cancelled_by_interrupt() -> Iterator[CancelToken]:
-    """A control that a signal to end cancels; a second one ends the program as ever.
+def cancelled_by_interrupt() -> AbstractContextManager[CancelToken]:
+    """What a signal to end cancels, which is said; a second one ends the program as ever.
 
-    That is said, and stays to be read if nothing is said of a computation once it is cancelled. A
-    signal that is ignored, as `nohup` has it, stays so.
+    What is said stays to be read if nothing is said of a computation once it is cancelled.
     """
-    control = CancelToken()
+    return cancelled_by(ENDINGS, _announce)
 
-    def cancel(number: int, _frame: FrameType | None) -> None:
-        for ending, handler in before.items():
-            signal.signal(ending, handler)
-        again = "Ctrl+C" if number == signal.SIGINT else signal.Signals(number).name
-        announce(f"ending; {again} again ends it at once")
-        control.cancel()
 
-    before = {n: h for n in ENDINGS if (h := signal.getsignal(n)) is not signal.SIG_IGN}
-    for number in before:
-        signal.signal(number, cancel)
-    try:
-        yield control
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+def _announce(ending: signal.Signals) -> None:
+    again = "Ctrl+C" if ending == signal.SIGINT else ending.name
+    announce(f"ending; {again} again ends it at once")

@@ -8,7 +8,6 @@ from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.results import solve, solve_wheels
 from modeviz.cli.options import (
     conditions,
-    need,
     prepare_telling,
     vehicle_and_rates,
 )
@@ -16,6 +15,7 @@ from modeviz.cli.results import check_printable, print_result
 from modeviz.errors import ModevizError
 from modeviz.report.records import modes_record, psd_record, wheels_record
 from modeviz.report.tables import modes_table, psd_table, wheels_table
+from modeviz.study.conditions import need
 
 
 def modes(options: Namespace) -> None:

@@ -1,36 +1,19 @@
 """What scattered mounts do, as plain values for JSON and as text tables."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from modeviz.analysis.results import AXIS, Conditions
+from modeviz.analysis.results import AXIS
 from modeviz.report.optimum import objective_words, tolerance_words
 from modeviz.report.records import Record
 from modeviz.report.tables import table
+from modeviz.scatter.driving import Scattered
 from modeviz.scatter.monte_carlo import Scatter, rating_of
-from modeviz.scatter.sobol import Spread
-from modeviz.scatter.worst_case import WorstCase
 from modeviz.text.wording import MINUS, percent_change, significant
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.problem import Problem
 
 PERCENT = (5, 50, 95)
 
 DIRECTIONS = ("lateral", "vertical")
-
-
-@dataclass(frozen=True, eq=False)
-class Scattered:
-    """What there is to tell of a scatter."""
-
-    problem: Problem
-    conditions: Conditions
-    seed: int
-    scatter: Scatter
-    worst: WorstCase
-    spread: Spread | None
-    """Of the goal; None of too few samples."""
 
 
 def scatter_record(told: Scattered) -> Record:

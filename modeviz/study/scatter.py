@@ -8,8 +8,9 @@ from modeviz.analysis.results import AXIS
 from modeviz.report.charts import BASE, NOW, Curve, line_chart
 from modeviz.report.optimum import objective_words, tolerance_words
 from modeviz.report.records import Record
-from modeviz.report.scatter import Scattered, scatter_record, scatter_table
+from modeviz.report.scatter import scatter_record, scatter_table
 from modeviz.ride.psd import power_decibels
+from modeviz.scatter.driving import Scattered
 from modeviz.scatter.monte_carlo import Scatter
 from modeviz.study.displayed import Displayed
 from modeviz.study.names import axis_of, number_of

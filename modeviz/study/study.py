@@ -22,6 +22,8 @@ from modeviz.optimise.search import prepare_search
 from modeviz.optimise.trade_off import prepare_trade_off, sides
 from modeviz.report.comparison import Comparison, RateSet, compare
 from modeviz.report.html import report
+from modeviz.scatter.driving import ScatterOptions, drive_many
+from modeviz.scatter.searching import SearchOptions, find_best
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.study.conditions import has_ride, need, on_even_road, road_conditions
 from modeviz.study.modes import ModesTable
@@ -40,8 +42,7 @@ from modeviz.study.pictures import (
 from modeviz.study.rates import StudyRates
 from modeviz.study.ride import Ride
 from modeviz.study.scatter import ScatterResult
-from modeviz.study.scattering import ScatterOptions, drive_many
-from modeviz.study.searching import Follower, SearchOptions, chosen_problem, find_best, find_designs
+from modeviz.study.searching import Follower, chosen_problem, find_designs
 from modeviz.study.sensitivity import RateSensitivity
 from modeviz.study.telling import Tell, cancelled_by_ctrl_c, say_nothing
 from modeviz.study.trade_off import FrontResult
@@ -211,6 +212,7 @@ class Study:
         search = prepare_search(self._vehicle, chosen, rates, self._speed)
         with cancelled_by_ctrl_c() as token:
             follower = Follower(self._tell, token)
+            self._tell("choosing where to start", 0.0)
             search, optimum = find_best(search, rates, options, token, follower)
         return OptimiseResult(chosen, search, optimum, follower.steps)
 
@@ -236,7 +238,7 @@ class Study:
         Raises:
             ModevizError: the problem has no such goals; else as `optimise`.
         """
-        options = SearchOptions(starts, seed, budget, False, None, None)
+        options = SearchOptions(starts, seed, budget)
         chosen, rates = chosen_problem(self._vehicle, problem), self.rates.by_group
         offers = sides(self._vehicle, chosen)
         if goals not in offers:
@@ -275,12 +277,20 @@ class Study:
         need(self._vehicle, "mount group", self._vehicle.mount_groups)
         options = ScatterOptions(samples, tolerance or Tolerance(), seed, point, scheduler)
         conditions = road_conditions(self._vehicle, road, self._speed)
-        chosen, prepared = chosen_problem(self._vehicle, problem), self._all_prepared()
-        rates = self.rates.by_group
+        chosen, rates = chosen_problem(self._vehicle, problem), self.rates.by_group
+        tell = partial(self._tell, "scattering")
         with cancelled_by_ctrl_c() as token:
-            return ScatterResult(
-                drive_many(prepared, rates, conditions, chosen, options, token, self._tell)
+            told = drive_many(
+                self._vehicle,
+                self._all_prepared,
+                rates,
+                conditions,
+                chosen,
+                options,
+                token,
+                tell,
             )
+        return ScatterResult(told)
 
     @one_thread
     def report(

@@ -278,6 +278,25 @@ def test_what_a_vehicle_lacks_is_said(ask, sentence, tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    ("ask", "sentence"),
+    [
+        (lambda study: study.optimise(starts=0), "starts: found 0, expected 1 to "),
+        (lambda study: study.optimise(budget=0), "budget: found 0, expected 1 or more"),
+        (lambda study: study.optimise(seed=-1), "seed: found -1, expected 0 or more"),
+        (lambda study: study.scatter(1), "samples: found 1, expected 2 to 1000000"),
+        (lambda study: study.scatter(9, point="roof"), "unknown response point 'roof'"),
+        (lambda study: study.ride("gravel"), "unknown random load 'gravel': there are flat, rough"),
+        (lambda study: study.ride().rms("roof", "lateral"), "unknown response point 'roof'"),
+        (lambda study: study.ride().rms("seat", "sideways"), "unknown direction 'sideways'"),
+    ],
+)
+def test_what_is_asked_for_wrongly_is_said(study, ask, sentence):
+    with pytest.raises(ModevizError) as refused:
+        ask(study)
+    assert sentence in str(refused.value)
+
+
 def test_a_report_compares_the_present_rates(study, tmp_path):
     written = study.report(tmp_path / "report.html", against="soft", pictures=False)
     html = written.path.read_text()

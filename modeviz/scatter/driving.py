@@ -1,6 +1,8 @@
-"""Vehicles whose mounts scatter, as a study asks for them."""
+"""Scatter from start to end: many vehicles, the worst corner, and which mounts make the spread."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import Conditions
@@ -8,14 +10,17 @@ from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.cluster import runner_at
 from modeviz.errors import ModevizError, SolveError
 from modeviz.optimise.goals import ResponseGoal, prepare_goal
-from modeviz.report.scatter import Scattered
-from modeviz.scatter.monte_carlo import Scatter, scatter
+from modeviz.scatter.monte_carlo import CHUNK, Scatter, scatter
+from modeviz.scatter.searching import check_whole
 from modeviz.scatter.sobol import Spread, spread
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
-from modeviz.scatter.worst_case import worst_corner
-from modeviz.study.telling import Tell
+from modeviz.scatter.worst_case import WorstCase, worst_corner
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+MOST_SAMPLES = 1_000_000
+"""Their results would not fit the memory of most machines."""
 
 
 @dataclass(frozen=True)
@@ -26,62 +31,73 @@ class ScatterOptions:
     """How many, two or more."""
     tolerance: Tolerance
     """Of their parts."""
-    seed: int
+    seed: int = 0
     """The same gives the same vehicles."""
-    point: str | None
+    point: str | None = None
     """The response point that is looked at; None: the vehicle's first."""
-    scheduler: str | None
+    scheduler: str | None = None
     """Address of the dask cluster where they are computed; None: here."""
+
+    def __post_init__(self) -> None:
+        check_whole("samples", self.samples, 2, MOST_SAMPLES)
+        check_whole("seed", self.seed, 0)
+
+
+@dataclass(frozen=True, eq=False)
+class Scattered:
+    """What there is to tell of a scatter."""
+
+    problem: Problem
+    conditions: Conditions
+    seed: int
+    scatter: Scatter
+    worst: WorstCase
+    spread: Spread | None
+    """Of the goal; None of too few samples."""
 
 
 def drive_many(
-    prepared: Prepared,
+    vehicle: Vehicle,
+    prepare: Callable[[], Prepared],
     rates: Rates,
     conditions: Conditions,
     problem: Problem,
     options: ScatterOptions,
     token: CancelToken,
-    tell: Tell,
+    tell: Callable[[float], None],
 ) -> Scattered:
-    """Return what vehicles do whose mounts scatter, or those that were driven until it is cancelled.
+    """Return what vehicles do whose mounts scatter, or those driven until it is cancelled.
 
     Args:
-        prepared: the vehicle.
+        vehicle: with its own rates.
+        prepare: makes it ready, which is asked for once nothing else can be wrong.
         rates: of every group, from which parts are off.
         conditions: road and speed.
         problem: whose goal is looked at.
         options: which vehicles.
-        token: ends it.
-        tell: told how far it is.
+        token: ends it; a few vehicles are driven nevertheless.
+        tell: told the fraction that is done.
 
     Raises:
-        ModevizError: the goal does not scatter.
-        KeyboardInterrupt: it was cancelled before two vehicles were driven.
+        ModevizError: the goal does not scatter, or nobody answers for the scheduler.
+        VehicleError: a road or point that the vehicle does not have.
+        SolveError: an undamped resonance on a frequency.
     """
-    goal = prepare_goal(prepared.vehicle, problem, rates, conditions.speed)
+    goal = prepare_goal(vehicle, problem, rates, conditions.speed)
     if not isinstance(goal, ResponseGoal):
         raise ModevizError(
             f"problem {problem.name!r}: its goal, {problem.goal}, does not scatter: only what is made "
             "of accelerations does; choose another problem"
         )
     points = () if options.point is None else (options.point,)
-    parts = scattered_parts(prepared, rates, options.tolerance)
     with runner_at(options.scheduler) as runner:
+        prepared = prepare()
+        parts = scattered_parts(prepared, rates, options.tolerance)
+        drive = partial(scatter, prepared, parts, conditions, goal, seed=options.seed, points=points)
         try:
-            result = scatter(
-                prepared,
-                parts,
-                conditions,
-                goal,
-                options.samples,
-                options.seed,
-                points,
-                runner,
-                token,
-                lambda done: tell("scattering", done),
-            )
+            result = drive(options.samples, runner=runner, control=token, tell=tell)
         except CancelledError:
-            raise KeyboardInterrupt from None
+            result = drive(min(options.samples, CHUNK))
     worst = worst_corner(goal, parts, result.deviations[result.goal.argmax()])
     return Scattered(problem, conditions, options.seed, result, worst, _spread(result))
 
