@@ -1,0 +1,95 @@
+"""The page of a study: in a notebook's cell without waiting, elsewhere until Ctrl+C."""
+
+import http.client
+import os
+import signal
+import sys
+import threading
+import time
+from types import SimpleNamespace
+from urllib.parse import urlsplit
+
+import pytest
+from html_documents import Document
+from studied_cabin import cabin_study
+
+
+@pytest.fixture
+def notebook(monkeypatch):
+    """As if this ran in a notebook's kernel."""
+    shell = SimpleNamespace(kernel=None)
+    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
+
+
+def status(link: str) -> int | None:
+    """What a link answers; None where nobody does."""
+    url = urlsplit(link)
+    connection = http.client.HTTPConnection(url.hostname or "", url.port, timeout=20)
+    try:
+        connection.request("GET", f"{url.path}?{url.query}")
+    except ConnectionRefusedError:
+        return None
+    return connection.getresponse().status
+
+
+def test_a_notebook_shows_the_page_in_its_cell_and_goes_on(notebook, capsys):
+    study = cabin_study()
+    study.rates["A.lateral"] = "200 N/mm"
+    page = study.show(height=500)
+    try:
+        assert status(page.link) == 303
+        assert status(page.link.partition("?")[0]) == 403
+        document = Document(f"<h1>cell</h1>{page._repr_html_()}")
+        assert document.addresses == [page.link, page.link]
+        assert 'height="500"' in page._repr_html_()
+        assert page.link in capsys.readouterr().out
+        assert page.rates == study.rates.by_group
+    finally:
+        page.close()
+    assert status(page.link) is None
+
+
+def test_rates_that_were_tuned_on_the_page_are_used(notebook):
+    study = cabin_study()
+    page = study.show()
+    try:
+        softer = {**page.rates, "B": study.vehicle.rate_sets["soft"]["A"]}
+        page.app.session.change(rates=softer)
+        study.rates.use(page.rates)
+    finally:
+        page.close()
+    assert study.rates["B.vertical"] == 2e5
+
+
+def test_a_page_that_is_shown_again_is_closed_first(notebook):
+    study = cabin_study()
+    first = study.show()
+    second = study.show()
+    try:
+        assert status(first.link) is None
+        assert status(second.link) == 303
+    finally:
+        second.close()
+
+
+def test_outside_of_notebooks_the_page_is_shown_until_ctrl_c(capsys):
+    def interrupt() -> None:
+        deadline = time.monotonic() + 60
+        while " is at http" not in (said := capsys.readouterr().out) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        told.append(said)
+        os.kill(os.getpid(), signal.SIGINT)  # to the main thread, which waits
+
+    told: list[str] = []
+    threading.Thread(target=interrupt, daemon=True).start()
+    page = cabin_study().show()
+    assert page.link in told[0]
+    assert status(page.link) is None
+
+
+def test_a_vehicle_without_a_road_is_shown_too(notebook):
+    page = cabin_study(roads=(), problems=()).show()
+    try:
+        assert status(page.link) == 303
+    finally:
+        page.close()
