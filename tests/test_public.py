@@ -2,6 +2,8 @@
 
 import ast
 import inspect
+from functools import cached_property
+from types import FunctionType
 
 import modeviz
 from modeviz import public
@@ -35,3 +37,36 @@ def test_functions_and_classes_are_documented():
         return bool(text) and not text.startswith(f"{name}(")
 
     assert [name for name in DEFINED if not is_documented(name)] == []
+
+
+def members(cls: type) -> dict[str, object]:
+    """What a class of ours offers under names that are public, by its full name."""
+    owners = [base for base in cls.__mro__ if base.__module__.startswith("modeviz.")]
+    return {
+        f"{cls.__name__}.{name}": member
+        for owner in owners
+        for name, member in vars(owner).items()
+        if not name.startswith("_")
+        and isinstance(member, property | cached_property | FunctionType | classmethod)
+    }
+
+
+MEMBERS = {
+    name: member
+    for cls in DEFINED.values()
+    if inspect.isclass(cls)
+    for name, member in members(cls).items()
+}
+
+
+def test_methods_and_properties_are_documented():
+    assert [name for name, member in MEMBERS.items() if not inspect.getdoc(member)] == []
+
+
+def test_methods_and_properties_say_what_they_return():
+    def function(member: object) -> FunctionType:
+        found = getattr(member, "fget", None) or getattr(member, "func", None)
+        return found or getattr(member, "__func__", member)
+
+    unsaid = [n for n, m in MEMBERS.items() if "return" not in function(m).__annotations__]
+    assert unsaid == []

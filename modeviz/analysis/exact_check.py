@@ -36,6 +36,7 @@ class Check:
 
     @property
     def is_complete(self) -> bool:
+        """Whether all is compared that can be."""
         return self.n_lines == self.n_freqs or bool(self.impossible)
 
     @property

@@ -175,6 +175,7 @@ class FlexibleBody:
 
     @property
     def n_modes(self) -> int:
+        """How many modes it keeps, its rigid ones and residual vectors among them."""
         return len(self.omega_n_squared)
 
     @property
@@ -209,6 +210,7 @@ class FlexibleBody:
 
     @property
     def natural_frequency_hz(self) -> Floats:
+        """(n_modes,)."""
         return np.sqrt(self.omega_n_squared) / (2 * np.pi)
 
     def attachment(self, name: str) -> Attachment:

@@ -104,6 +104,7 @@ class Force:
 
     @property
     def label(self) -> str:
+        """What a person calls it: its name."""
         return self.name
 
     def __post_init__(self) -> None:
@@ -133,6 +134,7 @@ class BaseMotion:
 
     @property
     def label(self) -> str:
+        """What a person calls it: its name."""
         return self.name
 
     def __post_init__(self) -> None:

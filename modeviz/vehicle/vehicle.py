@@ -121,6 +121,7 @@ class Vehicle:
 
     @cached_property
     def tyres(self) -> tuple[Tyre, ...]:
+        """Those of the connections that are tyres."""
         return tuple(c for c in self.connections if isinstance(c, Tyre))
 
     @property
