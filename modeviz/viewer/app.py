@@ -84,7 +84,11 @@ class App:
         self._failure: Exception | None = None
         self._title, self._dark = Title(server), dark
         self.session: Session = Session(
-            vehicle, first_state(vehicle, rates, conditions), self._show, self._tell_failure
+            vehicle,
+            first_state(vehicle, rates, conditions),
+            self._show,
+            self._tell_failure,
+            self._tell_check,
         )
         mistake = server.notices.mistake
         self.optimiser: Optimiser = Optimiser(self.session, lambda: self._optimise.follow(), mistake)
@@ -281,6 +285,12 @@ class App:
                 self._energy.show(solved)
         self.server.flush()
         self._scene.show(solved)
+
+    def _tell_check(self, solved: Solved) -> None:
+        """Says how far the check of the answer on the pages is."""
+        self._last = solved
+        self._status.show(solved)
+        self.server.flush()
 
     def _solved(self) -> Solved:
         if self._last is None:

@@ -37,6 +37,7 @@ class Session:
         state: State,
         show: Callable[[Solved], None],
         fail: Callable[[Exception], None],
+        tell: Callable[[Solved], None] | None = None,
     ) -> None:
         """Nothing is solved before `start`.
 
@@ -45,9 +46,11 @@ class Session:
             state: what to show first.
             show: draws an answer.
             fail: tells what went wrong; the last good answer stays.
+            tell: told how far the check of an answer is that is drawn already; None: as `show`.
         """
         self.vehicle = vehicle
-        self._show = show
+        self._show, self._tell = show, tell or show
+        self._is_to_be_drawn = True
         self._lock = threading.Lock()
         self._history = History(state)
         self._answers = Answers(vehicle)
@@ -286,13 +289,16 @@ class Session:
 
     def _submit(self) -> None:
         """Has the newest state answered, once the vehicle is prepared."""
+        self._is_to_be_drawn = True
         if self._is_prepared:
             self._worker.submit(self.state)
 
     def _answer(self, state: State) -> None:
+        with self._lock:
+            is_to_be_drawn, self._is_to_be_drawn = self._is_to_be_drawn, False
         solved = self._answers.answer(state, self._rest)
         self._last = solved
-        self._show(solved)
+        (self._show if is_to_be_drawn else self._tell)(solved)
         with self._lock:
             if self._rest is None or self._rest.now is not solved.now:
                 self._rest = solved.rest
@@ -317,14 +323,14 @@ class Session:
         """Shows what its rates do and how exact an answer is, as long as it is current."""
         near = self._answers.rebase(solved.state)
         self._show_again(solved.now, sensitivity=sensitivity(near, solved.now))
-        self._show_again(solved.now, components=solved.now.prepared.components)
+        self._learn(solved.now, components=solved.now.prepared.components)
         told = 0.0
         for check in check_exactly(solved.now):
             if not self._is_current(solved):
                 return
             if check.is_complete or time.perf_counter() - told > TELL_EVERY:
                 told = time.perf_counter()
-                self._show_again(solved.now, check=check)
+                self._learn(solved.now, check=check)
 
     def _knows_all_of(self, now: Results) -> bool:
         rest = self._rest
@@ -336,6 +342,12 @@ class Session:
 
     def _show_again(self, now: Results, **found: Any) -> None:
         """Has an answer shown again in detail, with what is now known of it."""
+        with self._lock:
+            self._is_to_be_drawn = True
+        self._learn(now, **found)
+
+    def _learn(self, now: Results, **found: Any) -> None:
+        """Has it told what is now known of an answer."""
         with self._lock:
             if self._rest is not None and self._rest.now is now:
                 self._rest = replace(self._rest, **found)

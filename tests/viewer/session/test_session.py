@@ -492,3 +492,23 @@ def test_an_answer_overtaken_before_its_check_is_checked_when_it_comes_back(sess
     session.undo()
     assert session.wait_checked(60)
     assert session.answers[-1].rest.check.is_complete
+
+
+def test_a_check_that_goes_on_is_told_and_nothing_is_drawn_for_it():
+    """Drawn are the answer and what ten percent of each rate do, whatever is checked meanwhile."""
+    vehicle = mounted_cabin()
+    said = []
+    session = Session(
+        vehicle,
+        first_state(vehicle, vehicle.rates, FLAT),
+        lambda solved: said.append(("drawn", solved)),
+        [].append,
+        lambda solved: said.append(("told", solved)),
+    )
+    try:
+        session.start()
+        assert session.wait_checked(20)
+    finally:
+        session.close()
+    assert said[-1][1].rest.check.is_complete
+    assert [how for how, _ in said].count("drawn") == 2
