@@ -67,9 +67,6 @@ class Study:
     Ctrl+C ends a search and keeps the best so far. Values are in SI units; accelerations are in g.
     """
 
-    rates: StudyRates
-    """The present mount rates."""
-
     def __init__(
         self,
         vehicle: "str | PathLike[str] | Vehicle | None" = None,
@@ -90,7 +87,12 @@ class Study:
         self._speed = vehicle.speed
         self._prepared: PreparedModes | None = None
         self._page: Page | None = None
-        self.rates = StudyRates(vehicle)
+        self._rates = StudyRates(vehicle)
+
+    @property
+    def rates(self) -> StudyRates:
+        """The present mount rates, which are read, set and reset through it."""
+        return self._rates
 
     @property
     def vehicle(self) -> Vehicle:

@@ -72,6 +72,16 @@ def test_a_page_that_is_shown_again_is_closed_first(notebook):
         second.close()
 
 
+def test_a_page_may_be_closed_twice(notebook):
+    study = cabin_study()
+    first = study.show()
+    first.close()
+    first.close()
+    second = study.show()
+    second.close()
+    assert status(second.link) is None
+
+
 def test_outside_of_notebooks_the_page_is_shown_until_ctrl_c(capsys):
     def interrupt() -> None:
         deadline = time.monotonic() + 60
