@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 
-from modeviz.analysis.exact_check import Check, check_exactly
+from modeviz.analysis.exact_check import Check, checked
 from modeviz.analysis.results import Conditions
 from modeviz.cli.interrupt import ended_by_interrupt
 from modeviz.cli.options import prepare_telling, ride, vehicle_and_rates
@@ -67,8 +67,7 @@ def _check(comparison: Comparison) -> Check | None:
     """The second set of rates against the full model, solved from scratch; None without a road."""
     if comparison.rides is None:
         return None
-    tell, found = progress("checking"), None
-    for found in check_exactly(comparison.rides[1]):
-        tell(found.n_lines / found.n_freqs)
+    tell = progress("checking")
+    found = checked(comparison.rides[1], tell)
     tell(1.0)
     return found

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from modeviz.analysis.deflection_shapes import road_shape
-from modeviz.analysis.exact_check import Check, check_exactly
+from modeviz.analysis.exact_check import Check, checked
 from modeviz.analysis.results import AXIS, Results
 from modeviz.report.coverage import band_text, coverage_note
 from modeviz.report.records import Record, psd_record
@@ -114,8 +114,7 @@ class Ride(Displayed):
 
     def check(self) -> Check:
         """Return how far the answer is from that of the full model, solved from scratch."""
-        *_, found = check_exactly(self.results)
-        return found
+        return checked(self.results)
 
     def table(self) -> str:
         """Return RMS values, the rating, and the peaks at the driver's point with their modes."""

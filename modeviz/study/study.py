@@ -6,7 +6,7 @@ from functools import partial
 from os import PathLike
 from pathlib import Path
 
-from modeviz.analysis.exact_check import Check, check_exactly
+from modeviz.analysis.exact_check import Check, checked
 from modeviz.analysis.following import solve_followed
 from modeviz.analysis.preparation import Prepared, PreparedModes, prepare, prepare_modes
 from modeviz.analysis.results import Conditions, Results, solve, solve_wheels
@@ -455,7 +455,4 @@ class Study:
         """The present rates against the full model, solved from scratch; None without a road."""
         if comparison.rides is None:
             return None
-        found = None
-        for found in check_exactly(comparison.rides[1]):
-            self._tell("checking", found.n_lines / found.n_freqs)
-        return found
+        return checked(comparison.rides[1], partial(self._tell, "checking"))

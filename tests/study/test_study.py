@@ -114,6 +114,7 @@ def test_a_ride_has_spectra_rms_values_peaks_and_a_rating(study):
     assert highest.parts[0].name in study.modes().names
     assert highest.parts[0].ratio == 1.0
     assert ride.check().error < 1e-8
+    assert ride.check().is_complete
     omega = 2 * np.pi * highest.frequency_hz
     shape = ride.shape(highest.frequency_hz, "seat", "lateral")
     seat = ride.results.prepared.outputs[1] @ shape
