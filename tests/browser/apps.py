@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
 from mounted_cabin import mounted_cabin
+from visitors import CAMERA, encoded
 from websockets.sync.connection import Connection
 
 from benchmarks.websocket import open_websocket
@@ -41,6 +42,7 @@ def open_solved_cabin(server: Server, cabin: Vehicle | None = None) -> Iterator[
 def listening(server: Server) -> Iterator[Connection]:
     """A websocket of a page that is open already, and has been told all there is."""
     with open_websocket(server.get_port()) as socket:
+        socket.send(encoded(CAMERA))  # who says nothing for half a minute is closed
         n_bytes(socket)
         yield socket
 

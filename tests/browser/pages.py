@@ -18,6 +18,33 @@ def wait_for(page: Page, expression: str, **arguments: Any) -> Any:
     return handle.json_value()
 
 
+def has_beside(page: Page, width: int) -> bool:
+    """Whether that much is left for the vehicle, but for the panels' borders."""
+    canvas = page.evaluate("window.__viserMutable.canvas.clientWidth")
+    return width - 20 < canvas <= width
+
+
+def wait_still(page: Page) -> None:
+    """Waits until nothing of the page's layout has moved for ten pictures."""
+    page.evaluate(STILL)
+
+
+STILL = """() => new Promise((done) => {
+  let last, since = 0;
+  const look = () => {
+    const boxes = [...document.querySelectorAll("[data-dock-root] *")].map((element) => {
+      const { left, top, width, height } = element.getBoundingClientRect();
+      return [left, top, width, height];
+    });
+    const now = JSON.stringify(boxes);
+    since = now === last ? since + 1 : 0;
+    last = now;
+    if (since < 10) requestAnimationFrame(look); else done();
+  };
+  look();
+})"""
+
+
 def wait_until(page: Page, reached: Callable[[], Any], seconds: float = 90.0) -> None:
     """Waits until something is true here, while the page goes on."""
     deadline = time.monotonic() + seconds

@@ -134,6 +134,7 @@ def app():
     server.scene.configure_environment_map(None)
     app.scene._stage._key.cast_shadow = False
     app.start()
+    app._animation._run(False)
     app.session.show_mode("cab yaw")
     app.session.change(ghost="none")  # outlines at rest fight with bodies for the same pixels
     assert app.session.wait(SOLVE_S)
@@ -204,6 +205,7 @@ def test_film_is_downloaded_and_plays_some_cycles(app, bench, monkeypatch):
 
 
 def test_cancel_stops_a_loop_saves_nothing_and_the_motion_goes_on(app, bench):
+    app._animation._run(True)
     downloads = []
     bench.on("download", lambda download: downloads.append(download))
     app._pictures._kind.value = "Loop, GIF"
@@ -214,13 +216,12 @@ def test_cancel_stops_a_loop_saves_nothing_and_the_motion_goes_on(app, bench):
     wait_for(bench, "!window.__viserSceneTree.getState()['/_held']")
     before = bench.evaluate("window.__modeviz.phase")
     wait_for(bench, "window.__modeviz.phase !== a.before", before=before)
+    app._animation._run(False)
     assert not downloads
 
 
 def test_whole_page_is_taken_by_a_browser_beside_with_the_same_view(app, bench):
-    app.scene.driver.drive(running=False)  # two pages that move are more than two cores draw
     name, content = saved(app, bench, "Whole page, PNG")
-    app.scene.driver.drive(running=True)
     image = Image.open(io.BytesIO(content)).convert("RGB")
     assert name == "pickup-cab-yaw-page.png"
     assert image.height == 640
@@ -255,17 +256,17 @@ def test_labels_of_a_page_beside_are_placed_for_its_camera_as_soon_as_it_stands(
             )
             return size, studio._page.evaluate(LABELS_OFF)
 
-    app.scene.driver.drive(running=False)
     with ThreadPoolExecutor(1) as beside:  # where Playwright has no other page
         size, off = beside.submit(photographed).result()
-    app.scene.driver.drive(running=True)
     assert size == [600, 400]
     assert len(off) > 3
     assert max(off) < 0.5
 
 
 def test_offline_page_is_downloaded_and_moves_with_the_network_off(app, bench, browser, tmp_path):
+    app._animation._run(True)
     name, content = saved(app, bench, "Offline page, HTML")
+    app._animation._run(False)
     assert name == "pickup-cab-yaw.html"
     file = tmp_path / name
     file.write_bytes(content)

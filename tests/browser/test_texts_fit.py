@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from apps import open_solved_cabin
 from mounted_cabin import mounted_cabin
-from pages import CLOSE_NOTICES, wait_for
+from pages import CLOSE_NOTICES, has_beside, wait_for, wait_still, wait_until
 
 from modeviz.viewer.page.access import open_server
 
@@ -16,6 +16,7 @@ SHOW = """(name) => {
   const enter = new KeyboardEvent("keydown", { key: "Enter", bubbles: true });
   document.querySelector(`[role="tab"][title="${name}"]`).dispatchEvent(enter);
 }"""
+TAB = '[role="tab"][title="${a.name}"]'
 MISPLACED = """() => {
   const isSeen = (element) => element.offsetParent && element.getBoundingClientRect().width > 0;
   const all = (selector) => [...document.querySelectorAll(selector)].filter(isSeen);
@@ -65,16 +66,19 @@ def app(request):
     server.stop()
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (1920, 1080)])
-def test_texts_stay_in_their_places(app, open_page, size):
+@pytest.mark.parametrize(
+    ("size", "beside"), [((1280, 720), 1280 - 300 - 380), ((1920, 1080), 1920 - 376 - 484)]
+)
+def test_texts_stay_in_their_places(app, open_page, size, beside):
     page = open_page(app.server, viewport=size)
     wait_for(page, "document.querySelector('.mv .title') && document.querySelector('.mv-rates')")
     page.evaluate(CLOSE_NOTICES)
-    page.wait_for_timeout(2000)  # the camera tells how wide the columns are to be
+    wait_until(page, lambda: has_beside(page, beside))
     found: dict[str, list] = {}
     for tab in TABS:
         page.evaluate(SHOW, tab)
-        page.wait_for_timeout(600)
+        wait_for(page, f"document.querySelector(`{TAB}`).ariaSelected === 'true'", name=tab)
+        wait_still(page)
         found[tab] = page.evaluate(MISPLACED)
         if app.session.vehicle.name != LONG:
             found[tab] += page.evaluate(CUT)
