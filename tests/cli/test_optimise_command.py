@@ -278,7 +278,8 @@ n = count()
 def tell(control, progress):
     if next(n) == 3:
         print("searching", file=sys.stderr, flush=True)
-        while not control.is_cancelled:
+        patience = time.monotonic() + 60
+        while not control.is_cancelled and time.monotonic() < patience:
             time.sleep(0.01)
 
 optimise._tell = tell
