@@ -5,7 +5,7 @@ from argparse import Namespace
 
 from modeviz.cli.interrupt import ended_by_interrupt
 from modeviz.cli.options import shown, vehicle_and_rates
-from modeviz.cli.terminal import say, tell
+from modeviz.cli.terminal import Teller, say
 from modeviz.errors import ModevizError
 from modeviz.files.disk import check_writable, write_bytes
 
@@ -41,7 +41,7 @@ def render_file(options: Namespace) -> None:
         options.frames,
     )
     try:
-        content = render(vehicle, rates, chosen, wish, shot, kind, tell)
+        content = render(vehicle, rates, chosen, wish, shot, kind, Teller())
     finally:
         say("")
     write_bytes(options.output, content)

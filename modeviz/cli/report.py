@@ -9,7 +9,7 @@ from modeviz.analysis.exact_check import Check, checked
 from modeviz.analysis.results import Conditions
 from modeviz.cli.interrupt import ended_by_interrupt
 from modeviz.cli.options import prepare_telling, ride, vehicle_and_rates
-from modeviz.cli.terminal import progress, say, tell
+from modeviz.cli.terminal import Teller, progress, say
 from modeviz.errors import ModevizError
 from modeviz.files.disk import check_writable, write_text
 from modeviz.files.rate_settings import resolve_rates
@@ -51,7 +51,7 @@ def _pictures(
     wish = RenderRequest("", ISO, "bodies", amplitude=1.0, phase=0.0, n_frames=1)
     shot = ImageSettings(*PICTURE_SIZE, "white", LIGHT, FIELD_OF_VIEW)
     try:
-        return photographs(vehicle, sets, conditions, wish, shot, tell)
+        return photographs(vehicle, sets, conditions, wish, shot, Teller())
     except ModevizError as error:
         raise ModevizError(f"{error}; or leave the pictures out with --no-pictures") from error
     finally:

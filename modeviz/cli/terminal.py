@@ -8,16 +8,27 @@ from functools import partial
 
 from modeviz.cli.streams import one_line, plain, printable
 from modeviz.errors import LONGEST, cut
+from modeviz.text.time_left import TimeLeft
 
 
 def progress(what: str) -> Callable[[float], None]:
     """What tells on a terminal how far something is, 0 to 1; nothing where errors go to a file."""
-    return partial(tell, what)
+    return partial(Teller(), what)
 
 
-def tell(what: str, done: float) -> None:
-    """Tells how far one of several things is, see `progress`."""
-    say(f"{what} {done:4.0%}" if done < 1 else "")
+class Teller:
+    """Tells how far one of several things after each other is, and how long it still takes."""
+
+    def __init__(self) -> None:
+        """Nothing has begun."""
+        self._what, self._left = "", TimeLeft()
+
+    def __call__(self, what: str, done: float) -> None:
+        """Tells the fraction of something that is done; see `progress`."""
+        if what != self._what:
+            self._what, self._left = what, TimeLeft()
+        told = (f"{what} {done:4.0%}", self._left.words(done))
+        say(", ".join(filter(None, told)) if done < 1 else "")
 
 
 def announce(text: str) -> None:

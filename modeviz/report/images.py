@@ -50,27 +50,29 @@ def png_bytes(image: Image.Image) -> bytes:
     return content.getvalue()
 
 
-def gif_bytes(frames: Iterable[Image.Image], seconds: float) -> bytes:
+def gif_bytes(pictures: Iterable[Image.Image], order: Sequence[int], seconds: float) -> bytes:
     """An endless GIF of one cycle that takes `seconds`.
 
     All frames have the colours of the first one's palette, which a pattern that stands still mixes:
     shades have no steps, and nothing flickers that does not move.
 
     Args:
-        frames: of one size, RGB, evenly spaced in time; two or more.
+        pictures: of one size, RGB; two or more.
+        order: which of them each frame shows; frames are evenly spaced in time.
         seconds: rounded so that each frame takes whole hundredths of a second, as GIF wants it.
     """
-    images = iter(frames)
+    images = iter(pictures)
     first = next(images)
     palette = first.quantize(N_COLORS, Image.Quantize.MEDIANCUT)
-    drawn = [_mixed(image, palette) for image in chain([first], images)]
-    hundredths = max(round(100 * seconds / len(drawn)), 2)  # browsers slow down what is faster
+    mixed = [_mixed(image, palette) for image in chain([first], images)]
+    start, *others = (mixed[i] for i in order)
+    hundredths = max(round(100 * seconds / len(order)), 2)  # browsers slow down what is faster
     content = BytesIO()
-    drawn[0].save(
+    start.save(
         content,
         "GIF",
         save_all=True,
-        append_images=drawn[1:],
+        append_images=others,
         duration=10 * hundredths,
         loop=0,
         optimize=False,
@@ -100,13 +102,16 @@ def _bayer(n: int) -> Floats:
     return np.block([[quarter, quarter + 2], [quarter + 3, quarter + 1]])
 
 
-def mp4_bytes(frames: Iterable[Image.Image], seconds: float, n_cycles: int) -> bytes:
+def mp4_bytes(
+    pictures: Iterable[Image.Image], order: Sequence[int], seconds: float, n_cycles: int
+) -> bytes:
     """An MP4 film (H.264, 4:2:0, index first) of a cycle that takes `seconds`, several times over.
 
     The cycle is compressed once and repeated: its first frame needs none before it.
 
     Args:
-        frames: of one even size, RGB, evenly spaced in time; two or more.
+        pictures: of one even size, RGB; two or more.
+        order: which of them each frame of a cycle shows; frames are evenly spaced in time.
         seconds: of one cycle.
         n_cycles: how often it is shown.
 
@@ -116,7 +121,8 @@ def mp4_bytes(frames: Iterable[Image.Image], seconds: float, n_cycles: int) -> b
     check_films()
     from av import VideoFrame
 
-    images = [VideoFrame.from_image(frame).reformat(**YUV) for frame in frames]
+    converted = [VideoFrame.from_image(picture).reformat(**YUV) for picture in pictures]
+    images = [converted[i] for i in order]
     with TemporaryDirectory() as folder:  # where the index goes first, the file is opened twice
         film = Path(folder, "film.mp4")
         _write_film(film, images, Fraction(len(images) / seconds).limit_denominator(1000), n_cycles)

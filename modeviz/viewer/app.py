@@ -224,6 +224,7 @@ class App:
                 self.server,
                 theme,
                 self._subject,
+                lambda: self._scene.driver.is_real,
                 lambda: self.pictured(self._solved()),
                 self.offline,
                 self._illustrated_report,

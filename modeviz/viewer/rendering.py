@@ -5,9 +5,9 @@ import secrets
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal, get_args
 
-from PIL import Image
 from threadpoolctl import threadpool_limits
 
 from modeviz.analysis.results import Conditions
@@ -21,7 +21,14 @@ from modeviz.viewer.app import App
 from modeviz.viewer.page.access import open_server
 from modeviz.viewer.panels.modes import listed
 from modeviz.viewer.pictures.headless import HeadlessPage
-from modeviz.viewer.pictures.pictures import CYCLE_S, N_CYCLES, ImageSettings, cycle, picture
+from modeviz.viewer.pictures.pictures import (
+    CYCLE_S,
+    N_CYCLES,
+    Cycle,
+    ImageSettings,
+    cycle_pictures,
+    picture,
+)
 from modeviz.viewer.scene.stage import box, camera
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.state import Coloring
@@ -95,11 +102,19 @@ def render(
             studio.stand(wish.phase)
             if kind == "png":
                 return png_bytes(picture(studio.client, shot, pose, PATIENCE))
-            frames = cycle(studio.client, studio.hold, shot.moving(kind), pose, wish.n_frames, PATIENCE)
-            frames = _told(frames, wish.n_frames, tell)
+            cycle = Cycle(wish.n_frames, app.scene.driver.is_real)
+            frames = cycle_pictures(
+                studio.client,
+                studio.hold,
+                shot.moving(kind),
+                pose,
+                cycle,
+                partial(tell, "drawing"),
+                PATIENCE,
+            )
             if kind == "gif":
-                return gif_bytes(frames, CYCLE_S)
-            return mp4_bytes(frames, CYCLE_S, N_CYCLES)
+                return gif_bytes(frames, cycle.order, CYCLE_S)
+            return mp4_bytes(frames, cycle.order, CYCLE_S, N_CYCLES)
 
 
 def photographs(
@@ -175,12 +190,3 @@ def _show(app: App, wish: RenderRequest) -> Solved:
         names = ", ".join(name.name for name, _ in listed(now).values())
         raise ModevizError(f"--mode: unknown mode {quoted(wish.mode)}: there are {names}")
     return shown
-
-
-def _told(
-    frames: Iterator[Image.Image], n_frames: int, tell: Callable[[str, float], None]
-) -> Iterator[Image.Image]:
-    """The frames, and word of how many there are."""
-    for done, frame in enumerate(frames, 1):
-        tell("drawing", done / n_frames)
-        yield frame

@@ -23,7 +23,14 @@ from modeviz.vehicle.bodies import Material, MeshPart
 from modeviz.viewer.app import App
 from modeviz.viewer.page.access import open_server
 from modeviz.viewer.pictures.headless import HeadlessPage
-from modeviz.viewer.pictures.pictures import N_CYCLES, ImageSettings, Pose, cycle, picture
+from modeviz.viewer.pictures.pictures import (
+    N_CYCLES,
+    Cycle,
+    ImageSettings,
+    Pose,
+    cycle_pictures,
+    picture,
+)
 from modeviz.viewer.scene.driver import ShapeDriver, held
 from modeviz.viewer.scene.stage import LIGHT, box, camera
 
@@ -35,6 +42,8 @@ POSE = Pose(np.array([0.5, -0.5, 0.5, -0.5]), np.array([-10.0, 0, 0]))
 SOLVE_S = 120
 RISE, DRIFT = 0.6, 0.3j
 """Of the panel up the picture and, a quarter of a cycle apart, across it, m."""
+ELLIPSE = np.array([[0, DRIFT, RISE]] * 4)
+"""(4, 3), m: the panel's shape."""
 
 
 @pytest.fixture(scope="module")
@@ -43,9 +52,7 @@ def driver(server):
     driver = ShapeDriver(server.scene)
     dark = MeshPart("panel", PANEL, FACES, Material((20, 20, 20)))
     driver.add("/panel", glb(surface((dark,))), 4)
-    shape = np.zeros((4, 3), complex)
-    shape[:, 1], shape[:, 2] = DRIFT, RISE
-    driver.show({"/panel": shape})
+    driver.show({"/panel": ELLIPSE})
     driver.drive(amplitude=1.0, frequency_hz=0.5, running=True)
     server.scene.world_axes.visible = False
     return driver
@@ -69,11 +76,28 @@ def test_frames_of_a_cycle_are_where_their_phases_put_them(client):
     n = 8
     with held(client) as hold:
         shot = ImageSettings(SIDE, SIDE, "white", LIGHT, 0.5)
-        frames = list(cycle(client, hold, shot, POSE, n))
+        frames = list(cycle_pictures(client, hold, shot, POSE, Cycle(n, False), [].append))
     angles = 2 * np.pi * np.arange(n) / n
     expected = np.stack([-(DRIFT * np.exp(1j * angles)).real, (RISE * np.exp(1j * angles)).real])
     pixel = 2 * 10 * np.tan(0.25) / SIDE
     assert np.transpose([center(f) for f in frames]) == pytest.approx(expected, abs=pixel)
+
+
+def test_frames_that_are_not_drawn_of_a_real_shape_are_those_that_are(client, driver):
+    n = 6
+    shot = ImageSettings(SIDE, SIDE, "white", LIGHT, 0.5)
+    driver.show({"/panel": np.array([[0, DRIFT.imag, RISE]] * 4)})
+    assert driver.is_real
+    with held(client) as hold:
+        half, whole = (
+            list(cycle_pictures(client, hold, shot, POSE, Cycle(n, is_real), [].append))
+            for is_real in (True, False)
+        )
+    driver.show({"/panel": ELLIPSE})
+    assert not driver.is_real
+    for mirrored, frame in zip(Cycle(n, True).order, whole, strict=True):
+        np.testing.assert_array_equal(np.asarray(half[mirrored]), np.asarray(frame))
+    assert (np.asarray(half[0]) != np.asarray(half[3])).any()
 
 
 def test_a_whole_turn_later_is_the_same_picture(client):

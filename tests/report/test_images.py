@@ -12,12 +12,13 @@ from modeviz.report import images
 from modeviz.report.images import SPREAD, gif_bytes, mp4_bytes, on_color, png_bytes
 
 N, SECONDS = 12, 0.96
+ORDER = range(N)
 
 
 @pytest.fixture(scope="module")
 def frames():
     """A red bar that runs back and forth once on a light gradient."""
-    return [bar(int(60 + 40 * np.cos(2 * np.pi * k / N))) for k in range(N)]
+    return [bar(round(60 + 40 * np.cos(2 * np.pi * k / N))) for k in range(N)]
 
 
 def bar(x):
@@ -42,7 +43,7 @@ def test_transparency_lets_the_colour_behind_shine_through():
 
 
 def test_gif_loops_for_ever_over_all_frames_in_the_time_of_a_cycle(frames):
-    with Image.open(io.BytesIO(gif_bytes(frames, SECONDS))) as gif:
+    with Image.open(io.BytesIO(gif_bytes(frames, ORDER, SECONDS))) as gif:
         assert (gif.format, gif.size, gif.n_frames, gif.info["loop"]) == ("GIF", (160, 96), N, 0)
         milliseconds = 0
         for k in range(N):
@@ -55,7 +56,7 @@ def test_gif_loops_for_ever_over_all_frames_in_the_time_of_a_cycle(frames):
 
 
 def test_gif_does_not_flicker_where_nothing_moves(frames):
-    read = iio.imread(gif_bytes(frames, SECONDS), extension=".gif")
+    read = iio.imread(gif_bytes(frames, ORDER, SECONDS), extension=".gif")
     assert (read[:, :30] == read[0, :30]).all()
 
 
@@ -63,7 +64,7 @@ def test_gif_mixes_shades_that_its_colours_do_not_have(monkeypatch):
     monkeypatch.setattr(images, "N_COLORS", 8)  # of 60 shades: steps of 7.5 without a mixture
     shades = np.broadcast_to(np.linspace(100, 160, 256)[None, :, None], (64, 256, 3))
     frame = Image.fromarray(shades.round().astype(np.uint8))
-    read = iio.imread(gif_bytes([frame, frame], SECONDS), extension=".gif")[0].astype(float)
+    read = iio.imread(gif_bytes([frame, frame], [0, 1], SECONDS), extension=".gif")[0].astype(float)
 
     def seen(picture):
         """What an eye makes of eight by eight pixels."""
@@ -73,8 +74,24 @@ def test_gif_mixes_shades_that_its_colours_do_not_have(monkeypatch):
     assert steps.max() < 7.5 / 2
 
 
+MIRRORED = [*range(N // 2 + 1), *range(N // 2 - 1, 0, -1)]
+
+
+def test_gif_of_half_the_pictures_is_that_of_all_of_a_cycle_that_is_its_own_mirror(frames):
+    assert gif_bytes(frames[: N // 2 + 1], MIRRORED, SECONDS) == gif_bytes(frames, ORDER, SECONDS)
+
+
+def test_mp4_of_half_the_pictures_shows_them_forth_and_back(frames):
+    content = mp4_bytes(frames[: N // 2 + 1], MIRRORED, SECONDS, n_cycles=2)
+    with av.open(io.BytesIO(content)) as film:
+        read = [frame.to_ndarray(format="rgb24").astype(int) for frame in film.decode(video=0)]
+    assert len(read) == 2 * N
+    for k, frame in enumerate(read):
+        assert np.abs(frame - np.asarray(frames[k % N])).mean() < 2
+
+
 def test_mp4_has_every_cycle_and_its_index_first(frames):
-    content = mp4_bytes(frames, SECONDS, n_cycles=3)
+    content = mp4_bytes(frames, ORDER, SECONDS, n_cycles=3)
     assert content.find(b"moov") < content.find(b"mdat")
     with av.open(io.BytesIO(content)) as film:
         stream = film.streams.video[0]
@@ -91,4 +108,4 @@ def test_mp4_has_every_cycle_and_its_index_first(frames):
 def test_missing_pyav_is_told_with_what_to_install(frames, monkeypatch):
     monkeypatch.setattr(images, "find_spec", lambda name: None)
     with pytest.raises(images.ModevizError, match=r"pip install \"modeviz\[pictures\]\""):
-        mp4_bytes(frames, SECONDS, 1)
+        mp4_bytes(frames, ORDER, SECONDS, 1)

@@ -4,11 +4,13 @@ import math
 import threading
 from collections.abc import Callable, Iterator
 from itertools import count
+from typing import Literal
 
 import viser
 from PIL import Image
 
 from modeviz.report.images import check_films, gif_bytes, mp4_bytes, png_bytes
+from modeviz.text.time_left import TimeLeft
 from modeviz.text.wording import file_name
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page.access import Server
@@ -21,9 +23,10 @@ from modeviz.viewer.pictures.pictures import (
     N_FRAMES,
     SIZES,
     Backdrop,
+    Cycle,
     ImageSettings,
     Pose,
-    cycle,
+    cycle_pictures,
     picture,
     same_field_of_view,
 )
@@ -58,6 +61,7 @@ class PicturePanel:
         server: Server,
         theme: Theme,
         subject: Callable[[], str],
+        is_real: Callable[[], bool],
         scale: Callable[[], ColorScale | None],
         offline: Callable[[Floats, Floats], bytes],
         report: Callable[[bytes], bytes],
@@ -69,12 +73,14 @@ class PicturePanel:
             server: whose pages are photographed.
             theme: of the scene.
             subject: what is to be seen, after which files are named.
+            is_real: tells whether the shape that is shown is real.
             scale: gives what the colours of bodies mean; raises ModevizError if nothing is drawn.
             offline: makes the file that needs no server, for a camera's place and what it looks at.
             report: makes the report of the comparison, for a picture of the scene as a PNG file.
         """
         self._server, self._theme = server, theme
-        self._subject, self._scale, self._offline, self._report = subject, scale, offline, report
+        self._subject, self._is_real, self._scale = subject, is_real, scale
+        self._offline, self._report = offline, report
         self._pages = Places(MOST_PAGES, 1)
         self._jobs, self._browsers = threading.Semaphore(N_JOBS), threading.Semaphore(N_BROWSERS)
         self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Progress], bytes]]] = {
@@ -147,16 +153,35 @@ class PicturePanel:
 
     def _gif(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """One cycle that repeats without a seam."""
-        shot, pose = self._shot(client).moving("gif"), Pose.of(client.camera)
-        with held(client) as hold:
-            return gif_bytes(_told(cycle(client, hold, shot, pose, N_FRAMES), tell), CYCLE_S)
+        cycle = self._cycle()
+        return gif_bytes(self._frames(client, "gif", cycle, tell), cycle.order, CYCLE_S)
 
     def _mp4(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """Some cycles as a film."""
         check_films()
-        shot, pose = self._shot(client).moving("mp4"), Pose.of(client.camera)
+        cycle = self._cycle()
+        frames = self._frames(client, "mp4", cycle, tell)
+        return mp4_bytes(frames, cycle.order, CYCLE_S, N_CYCLES)
+
+    def _cycle(self) -> Cycle:
+        return Cycle(N_FRAMES, self._is_real())
+
+    def _frames(
+        self,
+        client: viser.ClientHandle,
+        ending: Literal["gif", "mp4"],
+        cycle: Cycle,
+        tell: Progress,
+    ) -> Iterator[Image.Image]:
+        """The pictures of what moves, while the page stands still."""
+        shot, pose = self._shot(client).moving(ending), Pose.of(client.camera)
+        left = TimeLeft()
+
+        def tell_drawn(fraction: float) -> None:
+            tell(fraction, left.words(fraction))
+
         with held(client) as hold:
-            return mp4_bytes(_told(cycle(client, hold, shot, pose, N_FRAMES), tell), CYCLE_S, N_CYCLES)
+            yield from cycle_pictures(client, hold, shot, pose, cycle, tell_drawn)
 
     def _page(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """The page with its panels, from a browser beside: no page can photograph itself."""
@@ -178,11 +203,3 @@ class PicturePanel:
         png = self._picture(client, tell)
         tell(0.5)
         return self._report(png)
-
-
-def _told(frames: Iterator[Image.Image], tell: Progress) -> Iterator[Image.Image]:
-    """The frames of a cycle, and word of how many there are."""
-    for done in range(N_FRAMES):
-        # Before each: viser's page complains of news for a bar that goes in the same breath.
-        tell(done / N_FRAMES)
-        yield next(frames)

@@ -72,6 +72,27 @@ class ImageSettings:
         return replace(self, width=width, height=height, backdrop=backdrop)
 
 
+@dataclass(frozen=True)
+class Cycle:
+    """One cycle of a motion in pictures, at phases 2πk/n."""
+
+    n_frames: int
+    """n."""
+    is_real: bool
+    """Whether the shape is real: Re(φ e^{iθ}) is then the same at θ and 2π - θ, and drawn once."""
+
+    @property
+    def n_drawn(self) -> int:
+        """How many pictures differ."""
+        return self.n_frames // 2 + 1 if self.is_real else self.n_frames
+
+    @property
+    def order(self) -> list[int]:
+        """Which of them each frame shows."""
+        n = self.n_frames
+        return [min(k, n - k) if self.is_real else k for k in range(n)]
+
+
 @dataclass(frozen=True, eq=False)
 class Pose:
     """Where a camera stands and looks, whatever its page says of it later."""
@@ -146,29 +167,32 @@ def _explained(image: Image.Image, shot: ImageSettings) -> Image.Image:
     return with_scale(image, bar)
 
 
-def cycle(
+def cycle_pictures(
     client: viser.ClientHandle,
     hold: Callable[[float], None],
     shot: ImageSettings,
     pose: Pose,
-    n_frames: int,
+    cycle: Cycle,
+    tell: Callable[[float], None],
     timeout: float = TIMEOUT,
 ) -> Iterator[Image.Image]:
-    """Pictures of one cycle of the shown motion, at phases 2πk/n.
+    """The pictures of one cycle of the shown motion that differ.
 
     Args:
         client: the page.
         hold: lets it stand at a phase, from `driver.held`.
         shot: how they are taken.
         pose: from where.
-        n_frames: n.
+        cycle: how many.
+        tell: told the fraction of them that is drawn, before each.
         timeout: how long the page may take for each, s.
 
     Raises:
         ModevizError: as `picture` does.
     """
-    for k in range(n_frames):
-        hold(2 * math.pi * k / n_frames)
+    for k in range(cycle.n_drawn):
+        tell(k / cycle.n_drawn)
+        hold(2 * math.pi * k / cycle.n_frames)
         yield picture(client, shot, pose, timeout)
 
 

@@ -127,6 +127,11 @@ class ShapeDriver:
             if content != self._sent:
                 self._send_shapes(content)
 
+    @property
+    def is_real(self) -> bool:
+        """Whether all shapes are real: their motion is then its own mirror in time."""
+        return not any(np.iscomplexobj(shape) for shape in self._shapes.values())
+
     def shade(self, shades: Mapping[str, Shade]) -> None:
         """Colours the skins of meshes by how they move; a mesh without a shade has its own colours."""
         for name, node in self._nodes.items():

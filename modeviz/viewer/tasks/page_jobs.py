@@ -3,14 +3,24 @@
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Protocol
 
 import viser
 
 from modeviz.errors import ModevizError
 from modeviz.viewer.tasks.background_task import OUR_MISTAKE
 
-Progress = Callable[[float], None]
-"""Told the fraction that is done; raises `CancelledError` once that is wanted."""
+
+class Progress(Protocol):
+    """Told how far work is."""
+
+    def __call__(self, fraction: float, words: str = "") -> None:
+        """Shows the fraction that is done, and words beneath it.
+
+        Raises:
+            CancelledError: nobody wants the result any more.
+        """
+        ...
 
 
 class CancelledError(Exception):
@@ -36,6 +46,7 @@ def run(
     window = client.gui.add_modal(title)
     with window:
         bar = client.gui.add_progress_bar(0.0, animated=True)
+        beneath = client.gui.add_markdown("")
         cancel = client.gui.add_button("Cancel", hint="Stops at once; nothing is saved")
     is_cancelled = threading.Event()
 
@@ -44,11 +55,13 @@ def run(
         is_cancelled.set()
         cancel.disabled = True
 
-    def tell(fraction: float) -> None:
+    def tell(fraction: float, words: str = "") -> None:
         if is_cancelled.is_set() or not is_there():
             raise CancelledError
         if fraction < 1:  # else the bar goes in the same breath, and viser's page would complain
             bar.value = 100 * fraction
+            if words != beneath.content:
+                beneath.content = words
 
     try:
         work(tell)

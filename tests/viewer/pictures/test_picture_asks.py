@@ -47,6 +47,7 @@ def pressed(server):
         server,
         LIGHT,
         subject=lambda: "cabin",
+        is_real=lambda: True,
         scale=lambda: None,
         offline=lambda *_: b"html",
         report=lambda png: b"report",
