@@ -5,6 +5,7 @@ A page cannot photograph itself with its panels, and on the command line nobody 
 
 import math
 import shutil
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -27,8 +28,12 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserType, ConsoleMessage, Page
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+DRAWN_BY = "gl-egl" if sys.platform == "linux" else "swiftshader"
+"""Mesa draws with the graphics card if there is one, else in software twice as fast as what Chromium
+has of its own, SwiftShader, which it takes itself where there is no Mesa."""
+
 FLAGS = (
-    "--use-angle=swiftshader",  # WebGL in software: there may be no graphics card
+    f"--use-angle={DRAWN_BY}",
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
     "--disable-quic",
@@ -60,6 +65,9 @@ BARE = """
 """
 """Leaves only the 3-D view of a page."""
 
+UNSEEN = "window.__modevizUnseen = true"
+"""Has the scene draw only what it is asked for; see driver.js."""
+
 NO_NOTICES = """() => {
   const buttons = document.querySelectorAll(".mantine-Notification-closeButton");
   buttons.forEach((button) => button.click());
@@ -68,8 +76,11 @@ NO_NOTICES = """() => {
 STANDS_AT = """async (phase) => {
   const isHeld = window.__viserSceneTree.getState()["/_held"];
   if (!isHeld || window.__viserMutable.nodePoseData["/_held"]?.position[0] !== phase) return false;
-  // Labels look for another camera once in a frame.
-  for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
+  // Labels look for another camera once in a frame, and shadows follow it two frames later.
+  for (let i = 0; i < 3; i++) {
+    window.__viserMutable.requestRender();
+    await new Promise(requestAnimationFrame);
+  }
   return window.__modevizLabels.areDrawn;
 }"""
 
@@ -96,7 +107,7 @@ class HeadlessPage:
             server: an open one.
             width: of the window, pixels.
             height: of the window, pixels.
-            bare: whether the 3-D view has the window for itself.
+            bare: whether the 3-D view has the window for itself, and is drawn in no frame but pictures.
             tick: called ten times a second while the page is waited for; what it raises ends that.
         """
         self._server, self._size, self._tick = server, (width, height), tick
@@ -118,6 +129,8 @@ class HeadlessPage:
             self._page.set_default_timeout(1000 * PATIENCE)
             self._page.on("pageerror", lambda error: self._reported.append(str(error)))
             self._page.on("console", self._note)
+            if self._is_bare:
+                self._page.add_init_script(UNSEEN)
             self._page.goto(f"{self._server.local_link}&fixedDpr=1")
             self.client = self._find_client()
             if self._is_bare:

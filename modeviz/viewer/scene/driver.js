@@ -7,6 +7,7 @@
 // shade (modeviz/shapes/colors.py) and whether it has one. Amplitude, frequency and phase are the position of
 // another.
 // A page that has a hidden node of its own for it stands at the phase in that node's position.
+// A page with window.__modevizUnseen, which nobody looks at, draws nothing but the pictures it is asked for.
 // State and failure are in window.__modeviz, where the browser tests read them.
 (prefix, carrierName, driverName, heldName, stops) => {
   const PATIENCE = 30; // s: how long a mesh or viser itself may take to appear
@@ -266,6 +267,7 @@
       const viewer = window.__viserMutable;
       update(viewer, window.__viserSceneTree.getState(), 0);
       const isPicture = viewer.getRenderRequestState === "capture";
+      viewer.scene.visible = isPicture || !window.__modevizUnseen;
       viewer.backgroundMaterial.visible = !isPicture;
       if (isPicture) {
         ratio ??= renderer.getPixelRatio();
