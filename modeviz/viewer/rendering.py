@@ -2,11 +2,13 @@
 
 import math
 import secrets
+import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Literal, get_args
+from typing import Literal, TypeVar, get_args
 
 from threadpoolctl import threadpool_limits
 
@@ -31,8 +33,10 @@ from modeviz.viewer.pictures.pictures import (
 )
 from modeviz.viewer.scene.stage import box, camera
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.coloring import ColorScale
 from modeviz.viewer.session.state import Coloring
 
+T = TypeVar("T")
 Kind = Literal["png", "gif", "mp4", "html"]
 KINDS: Mapping[str, Kind] = {f".{kind}": kind for kind in get_args(Kind)}
 """By the ending of a file."""
@@ -89,15 +93,19 @@ def render(
     """
     if kind == "mp4":
         check_films()
-    with _app(vehicle, rates, conditions, shot.theme.is_dark, tell) as app:
-        shot = replace(shot, scale=app.pictured(_show(app, wish)))
+    with _app(vehicle, rates, conditions, shot.theme.is_dark) as app:
         size = OFFLINE_SIZE if kind == "html" else (shot.width, shot.height)
         seen = camera(box(vehicle), wish.view, *(100 * side for side in size))  # the card hides nothing
         if kind == "html":
+            _first_answer(app, wish, tell)
             return app.offline(*seen)
-        tell("opening", 0.0)
-        with HeadlessPage(app.server, *_window(shot), bare=True) as studio:
+        with (
+            _beside(lambda: _first_answer(app, wish, tell)) as scale,
+            HeadlessPage(app.server, *_window(shot), bare=True) as studio,
+        ):
+            shot = replace(shot, scale=scale())
             tell("drawing", 0.0)
+            studio.follow(app.scene.driver)
             pose = studio.look(*seen)
             studio.stand(wish.phase)
             if kind == "png":
@@ -127,26 +135,26 @@ def photographs(
 ) -> list[Picture]:
     """A still of a mode with each of several sets of rates; arguments and errors as `render`."""
     first = vehicle.all_rates(sets[0].rates)
-    with _app(vehicle, first, conditions, shot.theme.is_dark, tell) as app:
+    with (
+        _app(vehicle, first, conditions, shot.theme.is_dark) as app,
+        _beside(lambda: _first_answer(app, wish, tell)) as scale,
+        HeadlessPage(app.server, *_window(shot), bare=True) as studio,
+    ):
         with located(sets[0].name):
-            shot = replace(shot, scale=app.pictured(_show(app, wish)))
-        tell("opening", 0.0)
-        with HeadlessPage(app.server, *_window(shot), bare=True) as studio:
-            seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)
-            pose = studio.look(*seen)
-            pictures = []
-            for done, rate_set in enumerate(sets):
-                tell("drawing", done / len(sets))
-                app.session.change(rates=vehicle.all_rates(rate_set.rates))
-                with located(rate_set.name):
-                    movement = _show(app, wish).movement
-                studio.follow(app.scene.driver)
-                studio.stand(wish.phase)
-                caption = f"{movement.title}, {movement.frequency_hz:.2f} Hz, {rate_set.name}"
-                pictures.append(
-                    Picture(caption, png_bytes(picture(studio.client, shot, pose, PATIENCE)))
-                )
-            return pictures
+            shot = replace(shot, scale=scale())
+        seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)
+        pose = studio.look(*seen)
+        pictures = []
+        for done, rate_set in enumerate(sets):
+            tell("drawing", done / len(sets))
+            app.session.change(rates=vehicle.all_rates(rate_set.rates))
+            with located(rate_set.name):
+                movement = _show(app, wish).movement
+            studio.follow(app.scene.driver)
+            studio.stand(wish.phase)
+            caption = f"{movement.title}, {movement.frequency_hz:.2f} Hz, {rate_set.name}"
+            pictures.append(Picture(caption, png_bytes(picture(studio.client, shot, pose, PATIENCE))))
+        return pictures
 
 
 @contextmanager
@@ -155,9 +163,8 @@ def _app(
     rates: Rates,
     conditions: Conditions,
     dark: bool,
-    tell: Callable[[str, float], None],
 ) -> Iterator[App]:
-    """The app on a port that nobody knows, with a token; prepared."""
+    """The app on a port that nobody knows, with a token."""
     with threadpool_limits(limits=1, user_api="blas"):
         server = open_server(port=0, token=secrets.token_urlsafe())
         try:
@@ -166,10 +173,41 @@ def _app(
             server.stop()
             raise
         try:
-            app.start(lambda fraction: tell("preparing", fraction))
             yield app
         finally:
             app.close()
+
+
+def _first_answer(
+    app: App, wish: RenderRequest, tell: Callable[[str, float], None]
+) -> ColorScale | None:
+    """Prepares the app and shows what is wished; gives the scale of its colours, see `App.pictured`."""
+    app.start(lambda fraction: tell("preparing", fraction))
+    scale = app.pictured(_show(app, wish))
+    tell("opening", 0.0)
+    return scale
+
+
+@contextmanager
+def _beside(work: Callable[[], T]) -> Iterator[Callable[[], T]]:
+    """Does work in a thread; what this gives waits for its result.
+
+    An error of ours in the meantime waits for its end, an interrupt does not.
+    """
+    future: Future[T] = Future()
+
+    def run() -> None:
+        try:
+            future.set_result(work())
+        except Exception as error:
+            future.set_exception(error)
+
+    threading.Thread(target=run, name="preparing", daemon=True).start()
+    try:
+        yield future.result
+    except Exception:
+        wait([future])
+        raise
 
 
 def _window(shot: ImageSettings) -> tuple[int, int]:
