@@ -32,7 +32,7 @@ from modeviz.viewer.pictures.pictures import (
     picture,
 )
 from modeviz.viewer.scene.driver import ShapeDriver, held
-from modeviz.viewer.scene.stage import LIGHT, box, camera
+from modeviz.viewer.scene.stage import FIELD_OF_VIEW, LIGHT, box, camera
 
 PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
@@ -269,6 +269,15 @@ LABELS_OFF = """() => {
 """How far labels are from where they have been placed for the camera, pixels."""
 
 
+DRAWN_NEXT = """async () => {
+  const { scene, requestRender } = window.__viserMutable;
+  requestRender();
+  for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
+  return scene.visible;
+}"""
+"""Whether a frame that is no picture shows the scene."""
+
+
 def test_labels_of_a_page_beside_are_placed_for_its_camera_as_soon_as_it_stands(app):
     def photographed():
         with HeadlessPage(app.server, 600, 400, bare=True) as studio:
@@ -285,6 +294,32 @@ def test_labels_of_a_page_beside_are_placed_for_its_camera_as_soon_as_it_stands(
     assert size == [600, 400]
     assert len(off) > 3
     assert max(off) < 0.5
+
+
+def test_a_page_that_nobody_sees_draws_only_pictures_and_the_first_as_well_as_any(app):
+    shot = ImageSettings(300, 200, "white", LIGHT, FIELD_OF_VIEW)
+    side, iso = (camera(box(app.session.vehicle), view, 600, 400) for view in ("Side", "Iso"))
+
+    def photographed():
+        with HeadlessPage(app.server, 600, 400, bare=True) as studio:
+            drawn = []
+            for seen in (side, iso, iso, iso):  # shadows follow the camera, some frames later
+                pose = studio.look(*seen)
+                studio.stand(1.0)
+                drawn.append(np.asarray(picture(studio.client, shot, pose), int))
+                is_drawn = studio._page.evaluate(DRAWN_NEXT)
+            return is_drawn, drawn
+
+    app.scene.driver.drive(running=False)  # two pages that move are more than two cores draw
+    app.scene._stage._key.cast_shadow = True
+    with ThreadPoolExecutor(1) as beside:  # where Playwright has no other page
+        is_drawn, (_, first, *later) = beside.submit(photographed).result()
+    app.scene._stage._key.cast_shadow = False
+    app.scene.driver.drive(running=True)
+    assert not is_drawn
+    assert (first < 250).mean() > 0.1
+    for other in later:
+        assert np.abs(other - first).mean() < 0.01
 
 
 def test_offline_page_is_downloaded_and_moves_with_the_network_off(app, bench, browser, tmp_path):
