@@ -46,7 +46,7 @@ def on_color(image: Image.Image, top: Color, bottom: Color | None = None) -> Ima
 def png_bytes(image: Image.Image) -> bytes:
     """The picture as a PNG file."""
     content = BytesIO()
-    image.save(content, "PNG", optimize=True)
+    image.save(content, "PNG")
     return content.getvalue()
 
 
