@@ -111,7 +111,7 @@ class HeadlessPage:
             tick: called ten times a second while the page is waited for; what it raises ends that.
         """
         self._server, self._size, self._tick = server, (width, height), tick
-        self._is_bare = bare
+        self._is_bare, self._n_stands = bare, 0
         self._reported: list[str] = []
         self._page: Page
         self._open = ExitStack()
@@ -184,8 +184,10 @@ class HeadlessPage:
 
     def stand(self, phase: float) -> None:
         """Waits until the page stands at a phase, rad, and has the camera it was given before."""
-        self.hold(phase)  # goes the same way as the camera, after it
-        self._wait(STANDS_AT, phase)
+        self._n_stands += 1  # viser sends only what is new
+        turned = phase + 2 * math.pi * self._n_stands
+        self.hold(turned)  # goes the same way as the camera, after it
+        self._wait(STANDS_AT, turned)
 
     def follow(self, driver: ShapeDriver) -> None:
         """Waits until the page, with all others, has the newest shapes."""
