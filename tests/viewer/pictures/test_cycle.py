@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from modeviz.viewer.page.access import open_server
 from modeviz.viewer.pictures import pictures
 from modeviz.viewer.pictures.pictures import Cycle, ImageSettings, Pose, cycle_pictures
+from modeviz.viewer.scene.driver import ShapeDriver
 from modeviz.viewer.scene.stage import LIGHT
 
 POSE = Pose(np.array([1.0, 0, 0, 0]), np.zeros(3))
@@ -38,3 +40,20 @@ def test_of_a_real_shape_half_the_frames_are_drawn_and_progress_goes_by_these(
     assert len(asked) == len(phases) == n_asked
     assert told == pytest.approx(np.arange(n_asked) / n_asked)
     assert [b - a for a, b in pairwise(phases)] == pytest.approx([np.pi / 18] * (n_asked - 1))
+
+
+def test_shapes_are_real_while_none_is_complex():
+    server = open_server(port=0)
+    try:
+        driver = ShapeDriver(server.scene)
+        for name in ("/cab", "/bed"):
+            driver.add(name, b"", 4)
+        assert driver.is_real
+        driver.show({"/cab": np.ones((4, 3))})
+        assert driver.is_real
+        driver.show({"/bed": np.full((2, 3), 1j)})
+        assert not driver.is_real
+        driver.remove("/bed")
+        assert driver.is_real
+    finally:
+        server.stop()
