@@ -83,11 +83,22 @@ def test_frames_of_a_cycle_are_where_their_phases_put_them(client):
     assert np.transpose([center(f) for f in frames]) == pytest.approx(expected, abs=pixel)
 
 
-def test_frames_that_are_not_drawn_of_a_real_shape_are_those_that_are(client, driver):
+def differing(one, other):
+    """Which part of two pictures is not the same."""
+    return (np.asarray(one) != np.asarray(other)).any(axis=-1).mean()
+
+
+BORDERS = 0.006
+"""The part of a picture that two borders of the panel take, which a rounded cosine may move."""
+
+
+def test_frames_that_are_not_drawn_of_a_real_shape_are_those_that_are(client, driver, page):
     n = 6
     shot = ImageSettings(SIDE, SIDE, "white", LIGHT, 0.5)
     driver.show({"/panel": np.array([[0, DRIFT.imag, RISE]] * 4)})
     assert driver.is_real
+    driver.seek(0.0)
+    wait_for(page, "window.__modeviz.sought === a.sought", sought=driver.sought)
     with held(client) as hold:
         half, whole = (
             list(cycle_pictures(client, hold, shot, POSE, Cycle(n, is_real), [].append))
@@ -96,8 +107,8 @@ def test_frames_that_are_not_drawn_of_a_real_shape_are_those_that_are(client, dr
     driver.show({"/panel": ELLIPSE})
     assert not driver.is_real
     for mirrored, frame in zip(Cycle(n, True).order, whole, strict=True):
-        np.testing.assert_array_equal(np.asarray(half[mirrored]), np.asarray(frame))
-    assert (np.asarray(half[0]) != np.asarray(half[3])).any()
+        assert differing(half[mirrored], frame) < BORDERS
+    assert differing(half[0], half[3]) > 5 * BORDERS
 
 
 def test_a_whole_turn_later_is_the_same_picture(client):
