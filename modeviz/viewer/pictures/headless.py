@@ -76,10 +76,20 @@ NO_NOTICES = """() => {
 STANDS_AT = """async (phase) => {
   const isHeld = window.__viserSceneTree.getState()["/_held"];
   if (!isHeld || window.__viserMutable.nodePoseData["/_held"]?.position[0] !== phase) return false;
-  // Labels look for another camera once in a frame, and shadows follow it two frames later.
-  for (let i = 0; i < 3; i++) {
-    window.__viserMutable.requestRender();
+  // Labels look for another camera once in a frame, and shadows follow it some frames later.
+  const { scene, camera, requestRender } = window.__viserMutable;
+  const places = () => {
+    const matrices = [camera.matrixWorld.elements, camera.projectionMatrix.elements];
+    scene.traverse(({ isLight, castShadow, matrixWorld }) => {
+      if (isLight && castShadow) matrices.push(matrixWorld.elements);
+    });
+    return matrices.join();
+  };
+  for (let n = 0, before = ""; n < 6; n++) {
+    requestRender();
     await new Promise(requestAnimationFrame);
+    if (places() !== before) n = 0;
+    before = places();
   }
   return window.__modevizLabels.areDrawn;
 }"""
