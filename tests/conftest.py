@@ -1,4 +1,5 @@
 import json
+import signal
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,12 @@ from modeviz.files import write_vehicle
 
 LONG = {"builtin_truck", "prepared_truck", "truck_modes", "subprocess"}
 """What a module of tests has imported when its tests take seconds rather than milliseconds."""
+
+
+def pytest_configure():
+    """Ctrl+C works as on a terminal, also where tests run behind a script that has it ignored."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_modifyitems(items):
