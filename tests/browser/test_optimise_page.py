@@ -141,6 +141,7 @@ def test_bounds_and_ratios_of_a_group_are_changed_on_the_page(app, page):
     boxes(page, "Lateral, N/mm").nth(1).fill("5")
     wait_for(page, f"{TEXT}.includes('lateral: found 20 to 5 N/mm, expected the lower one first')")
     boxes(page, "Lateral, N/mm").nth(1).fill("5000")
+    wait_until(page, lambda: app.session.state.plan.group.stiffest.lateral == 5e6)
     page.get_by_label("Ratios", exact=True).click()
     page.get_by_role("option", name="Within limits", exact=True).click()
     boxes(page, "Limits").nth(0).fill("0.5")
