@@ -75,7 +75,7 @@ class App:
             vehicle: with the rates that all is compared with.
             rates: to start with.
             conditions: to start with.
-            server: an open one, see `doors.open_server`.
+            server: an open one, see `access.open_server`.
             dark: whether the page is dark.
         """
         self.server: Server = server
