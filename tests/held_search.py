@@ -11,14 +11,14 @@ def hold_searches(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
     """Holds every search that begins from now on until the event is set, or it is cancelled."""
     may_go, optimise = threading.Event(), optimiser.optimise
 
-    def held(search, starts, control, tell):
+    def held(search, starts, token, tell):
         def hold(progress):
             tell(progress)
-            while not (may_go.is_set() or control.is_cancelled):
-                control.check()
+            while not (may_go.is_set() or token.is_cancelled):
+                token.check()
                 may_go.wait(0.01)
 
-        return optimise(search, starts, control=control, tell=hold)
+        return optimise(search, starts, token=token, tell=hold)
 
     monkeypatch.setattr(optimiser, "optimise", held)
     return may_go

@@ -36,8 +36,8 @@ def optimise_front(
     if options.front not in offers:
         raise ModevizError("--front: " + unknown("trade-off", options.front, offers))
     trade_off = prepare_trade_off(vehicle, problem, offers[options.front], rates, speed)
-    with cancelled_by_interrupt() as control:
-        front = _found(options, trade_off, rates, control)
+    with cancelled_by_interrupt() as token:
+        front = _found(options, trade_off, rates, token)
         record = front_record(problem, trade_off, front)
         keep(
             lambda: _write(options.output, problem, front, record) if options.output else None,
@@ -50,7 +50,7 @@ def _write(path: Path, problem: Problem, front: Front, record: Record) -> None:
     write_text(path, front_csv(problem, front) if is_csv else json_text(record) + "\n")
 
 
-def _found(options: Namespace, trade_off: TradeOff, rates: Rates, control: CancelToken) -> Front:
+def _found(options: Namespace, trade_off: TradeOff, rates: Rates, token: CancelToken) -> Front:
     """The front as far as it is found until its end, or until it is cancelled."""
     try:
         return find_front(
@@ -59,15 +59,15 @@ def _found(options: Namespace, trade_off: TradeOff, rates: Rates, control: Cance
             n_starts=options.starts or N_STARTS,
             seed=options.seed,
             budget=options.budget,
-            control=control,
-            tell=partial(_tell, control),
+            token=token,
+            tell=partial(_tell, token),
         )
     finally:
         say("")
 
 
-def _tell(control: CancelToken, where: FrontProgress) -> None:
-    if control.is_cancelled:
+def _tell(token: CancelToken, where: FrontProgress) -> None:
+    if token.is_cancelled:
         return
     n = len(where.designs)
     if where.done < 1:

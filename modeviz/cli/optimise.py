@@ -50,9 +50,9 @@ def optimise_rates(options: Namespace) -> None:
         optimise_front(options, vehicle, problem, rates, speed)
         return
     search = prepare_search(vehicle, problem, rates, speed)
-    with cancelled_by_interrupt() as control:
+    with cancelled_by_interrupt() as token:
         try:
-            search, optimum = find_best(search, rates, how, control, partial(_tell, control))
+            search, optimum = find_best(search, rates, how, token, partial(_tell, token))
         finally:
             say("")
         keep(
@@ -84,8 +84,8 @@ def _how(options: Namespace) -> SearchOptions:
         )
 
 
-def _tell(control: CancelToken, where: Progress) -> None:
-    if control.is_cancelled:
+def _tell(token: CancelToken, where: Progress) -> None:
+    if token.is_cancelled:
         return
     if where.is_checking:
         say("checking with the full model")

@@ -31,7 +31,7 @@ def scatter_mounts(options: Namespace) -> None:
     need(vehicle, "mount group", vehicle.mount_groups)
     chosen = conditions(options, vehicle)
     problem = chosen_problem(options, vehicle)
-    with cancelled_by_interrupt() as control:
+    with cancelled_by_interrupt() as token:
         try:
             told = drive_many(
                 vehicle,
@@ -40,7 +40,7 @@ def scatter_mounts(options: Namespace) -> None:
                 chosen,
                 problem,
                 chosen_vehicles,
-                control,
+                token,
                 progress("scattering"),
             )
         finally:

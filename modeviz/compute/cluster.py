@@ -98,7 +98,7 @@ class _Cluster:
         self._client = client
 
     def map(
-        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: CancelToken
+        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], token: CancelToken
     ) -> Iterator[T]:
         kept = self._sent(shared)
         n_ahead = AHEAD * max(1, self._n_threads())
@@ -107,9 +107,9 @@ class _Cluster:
             for item in items:
                 waiting.append(self._client.submit(_solved, function, kept, item, pure=False))
                 if len(waiting) >= n_ahead:
-                    yield self._result(waiting.popleft(), control)
+                    yield self._result(waiting.popleft(), token)
             while waiting:
-                yield self._result(waiting.popleft(), control)
+                yield self._result(waiting.popleft(), token)
         finally:
             self._client.cancel([*waiting, kept], force=True)
 
@@ -120,13 +120,13 @@ class _Cluster:
         with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1GB"}):
             return self._client.submit(_kept, shared, pure=False)
 
-    def _result(self, future: "Future", control: CancelToken):
+    def _result(self, future: "Future", token: CancelToken):
         """Waits for a task while there is hope."""
         from distributed import KilledWorker
 
         last_seen = time.monotonic()
         while True:
-            control.check()
+            token.check()
             try:
                 return future.result(POLL_S)
             except TimeoutError:

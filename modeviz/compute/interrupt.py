@@ -22,21 +22,21 @@ def cancelled_by(
         signals: which cancel.
         tell: told the one that came.
     """
-    control = CancelToken()
+    token = CancelToken()
     before = {}
 
     def cancel(number: int, _frame: FrameType | None) -> None:
         for ending, handler in before.items():
             signal.signal(ending, handler)
         tell(signal.Signals(number))
-        control.cancel()
+        token.cancel()
 
     if threading.current_thread() is threading.main_thread():
         before = {s: h for s in signals if (h := signal.getsignal(s)) is not signal.SIG_IGN}
     for ending in before:
         signal.signal(ending, cancel)
     try:
-        yield control
+        yield token
     finally:
         for ending, handler in before.items():
             signal.signal(ending, handler)

@@ -25,7 +25,7 @@ class Runner(Protocol):
     """Something that computes tasks."""
 
     def map(
-        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: CancelToken
+        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], token: CancelToken
     ) -> Iterator[T]:
         """What a function of a module or class gives for each item, in their order.
 
@@ -33,7 +33,7 @@ class Runner(Protocol):
             function: of what is shared and an item; the same numbers whoever calls it.
             shared: sent once.
             items: small.
-            control: lets somebody hold or end it.
+            token: lets somebody hold or end it.
 
         Raises:
             CancelledError: it was told to end.
@@ -45,29 +45,29 @@ class Here:
     """Computes in threads of this process, a few tasks ahead of who takes the results."""
 
     def map(
-        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], control: CancelToken
+        self, function: Callable[[S, A], T], shared: S, items: Sequence[A], token: CancelToken
     ) -> Iterator[T]:
         pool, waiting = ThreadPoolExecutor(N_THREADS), deque()
         with threadpool_limits(1, user_api="blas"):
             try:
                 for item in items:
-                    control.check()
+                    token.check()
                     waiting.append(pool.submit(function, shared, item))
                     if len(waiting) > N_THREADS:
-                        yield _result(waiting.popleft(), control)
+                        yield _result(waiting.popleft(), token)
                 while waiting:
-                    yield _result(waiting.popleft(), control)
+                    yield _result(waiting.popleft(), token)
             finally:
                 # Tasks in hand are left to themselves: who ends it does not wait for them.
                 pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _result(future: Future[T], control: CancelToken) -> T:
+def _result(future: Future[T], token: CancelToken) -> T:
     """Waits for a task as long as it may."""
-    control.check()
+    token.check()
     while not future.done():
         wait([future], POLL_S)
-        control.check()
+        token.check()
     return future.result()
 
 

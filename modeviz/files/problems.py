@@ -9,7 +9,7 @@ from msgspec import Meta, field
 from modeviz.errors import VehicleError
 from modeviz.files.record import Name, NonNegative, Positive, RatesRecord, Record, built
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.problem import (
     UNLIMITED,
     DesignGroup,
@@ -87,7 +87,7 @@ class PerformanceRecord(Record, kw_only=True):
     wheel_loads: tuple[str, ...] = ()
     frequency_hz: SpacedRecord | tuple[float, ...]
     points: tuple[str, ...] = ()
-    directions: tuple[str, ...] = ("lateral", "vertical")
+    directions: tuple[str, ...] = RIDE_DIRECTIONS
     target: NonNegative = 0.0
     weight: NonNegative = 1.0
 

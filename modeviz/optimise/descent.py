@@ -34,7 +34,7 @@ def descend(
     search: Search,
     start: Floats,
     budget: int,
-    control: CancelToken | None = None,
+    token: CancelToken | None = None,
     tell: Callable[[Step], None] = lambda _: None,
 ) -> Descent:
     """The best design down from a start.
@@ -48,13 +48,13 @@ def descend(
         search: what is sought.
         start: (n_variables,), put within the limits.
         budget: the most evaluations it may take.
-        control: lets somebody hold or end it.
+        token: lets somebody hold or end it.
         tell: told every evaluation.
 
     Raises:
         SolveError: a design that cannot be solved, with its rates.
     """
-    evaluator = Evaluator(search, budget, control or CancelToken(), tell)
+    evaluator = Evaluator(search, budget, token or CancelToken(), tell)
     return evaluator.run(lambda: _past_windows(search, evaluator, search.space.admitted(start)))
 
 

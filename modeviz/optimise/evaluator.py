@@ -55,9 +55,9 @@ class Evaluator:
     """Evaluates designs for a solver, counts, and remembers the best feasible one."""
 
     def __init__(
-        self, search: Search, budget: int, control: CancelToken, tell: Callable[[Step], None]
+        self, search: Search, budget: int, token: CancelToken, tell: Callable[[Step], None]
     ) -> None:
-        self._search, self._budget, self._control, self._tell = search, budget, control, tell
+        self._search, self._budget, self._token, self._tell = search, budget, token, tell
         self._n_evaluations = 0
         self.x: Floats | None = None
         self._value = np.inf
@@ -116,7 +116,7 @@ class Evaluator:
     def _count(self) -> None:
         # The first design is always evaluated, so that whoever ends a search has one to keep.
         if self._n_evaluations:
-            self._control.check()
+            self._token.check()
         if self._n_evaluations >= self._budget:
             raise OutOfBudgetError
         self._n_evaluations += 1

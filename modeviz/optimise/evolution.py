@@ -15,7 +15,7 @@ def evolve(
     search: Search,
     seed: int,
     budget: int,
-    control: CancelToken | None = None,
+    token: CancelToken | None = None,
     tell: Callable[[Step], None] = lambda _: None,
 ) -> Descent:
     """The best design that a population comes to.
@@ -27,13 +27,13 @@ def evolve(
         search: what is sought.
         seed: of the population; the same finds the same.
         budget: the most evaluations it may take.
-        control: lets somebody hold or end it.
+        token: lets somebody hold or end it.
         tell: told every evaluation.
 
     Raises:
         SolveError: a design that cannot be solved, with its rates.
     """
-    evaluator = Evaluator(search, budget, control or CancelToken(), tell)
+    evaluator = Evaluator(search, budget, token or CancelToken(), tell)
     return evaluator.run(
         lambda: differential_evolution(
             lambda fractions: evaluator.value(search.space.sampled(fractions)),

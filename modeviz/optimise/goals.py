@@ -17,7 +17,7 @@ from modeviz.ride.psd import RIDE_BAND
 from modeviz.ride.rating import COMFORT_FACTORS
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.problem import VARIABLES, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -164,7 +164,7 @@ def _cases(vehicle: Vehicle, performance: Performance, speed: float) -> list[Loa
 def _selected(
     vehicle: Vehicle,
     points: Sequence[str] = (),
-    directions: Sequence[str] = ("lateral", "vertical"),
+    directions: Sequence[str] = RIDE_DIRECTIONS,
 ) -> Floats:
     """(n_points, 3): one for the points, none is all, and directions of performance variables."""
     names = [point.name for point in vehicle.response_points]

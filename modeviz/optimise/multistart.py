@@ -16,7 +16,7 @@ def optimise_on(
     search: Search,
     starts: Sequence[Floats],
     budget: int = BUDGET,
-    control: CancelToken | None = None,
+    token: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The same as `optimise` finds while no search runs out of its budget.
@@ -26,7 +26,7 @@ def optimise_on(
         search: what is sought.
         starts: (n_variables,) each, see `start_points`.
         budget: the most evaluations; every search may take an equal part of them.
-        control: lets somebody end it; the best design of the searches that have ended is kept.
+        token: lets somebody end it; the best design of the searches that have ended is kept.
         tell: told at the end of every search, once there is a feasible design, and as by `optimise`.
 
     Raises:
@@ -35,7 +35,7 @@ def optimise_on(
     descents: list[Descent] = []
     shared = search, max(1, budget // len(starts))
     try:
-        for descent in runner.map(_descend, shared, starts, control or CancelToken()):
+        for descent in runner.map(_descend, shared, starts, token or CancelToken()):
             descents.append(descent)
             best = min(descents, key=lambda d: d.value)
             if best.x is not None:
@@ -43,7 +43,7 @@ def optimise_on(
                 rates = search.space.rates(best.x)
                 tell(Progress(used, rates, best.value, len(descents), len(starts)))
     except CancelledError:
-        descents += [descend(search, start, 1, control) for start in starts[:FIRST]]
+        descents += [descend(search, start, 1, token) for start in starts[:FIRST]]
         return best_of(search, descents, CANCELLED, len(starts), tell)
     return best_of(search, descents, why_ended(descents, len(starts)), len(starts), tell)
 

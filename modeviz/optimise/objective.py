@@ -18,11 +18,9 @@ from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.excitation import Excitation, Load, excitation, input_spectrum, together
 from modeviz.ride.psd import averaged_acceleration_psd
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.loads import HarmonicLoad, Road
 from modeviz.vehicle.vehicle import Vehicle
-
-DIRECTIONS = ("lateral", "vertical")
 
 SAME_HZ = 1e-9
 """Frequencies this close are the same."""
@@ -293,7 +291,7 @@ def pattern_of(vehicle: Vehicle, case: LoadCase) -> Floats:
     if case.pattern is not None:
         return np.broadcast_to(case.pattern, shape)
     pattern = np.zeros(shape)
-    pattern[..., [AXIS[d] for d in DIRECTIONS]] = 1.0
+    pattern[..., [AXIS[d] for d in RIDE_DIRECTIONS]] = 1.0
     return pattern
 
 

@@ -68,7 +68,7 @@ def find_front(
     n_starts: int = 5,
     seed: int = 0,
     budget: int = BUDGET,
-    control: CancelToken | None = None,
+    token: CancelToken | None = None,
     tell: Callable[[FrontProgress], None] = lambda _: None,
 ) -> Front:
     """Designs along the front of two goals.
@@ -91,14 +91,14 @@ def find_front(
         n_starts: of the designs spread evenly, for each.
         seed: of these; the same finds the same.
         budget: the most evaluations, besides those that choose where to start.
-        control: lets somebody hold or end it; what is found by then is kept.
+        token: lets somebody hold or end it; what is found by then is kept.
         tell: told each design, and once more when it is held against the full model; designs that
             leave a window there are left out.
 
     Raises:
         SolveError: a design that cannot be solved.
     """
-    walk = _Walk(trade_off, n_designs, n_starts, budget, control or CancelToken(), tell)
+    walk = _Walk(trade_off, n_designs, n_starts, budget, token or CancelToken(), tell)
     space = trade_off.searches[0].space
     walk.spread([*map(space.to_x, known), *space.samples(SCREENED * n_starts, seed)])
     for search, weights in zip(trade_off.searches, np.eye(2), strict=True):
@@ -124,11 +124,11 @@ class _Walk:
         n_designs: int,
         n_starts: int,
         budget: int,
-        control: CancelToken,
+        token: CancelToken,
         tell: Callable[[FrontProgress], None],
     ) -> None:
         self._trade_off, self._n_designs, self._n_starts = trade_off, n_designs, n_starts
-        self._budget, self._control, self._tell = budget, control, tell
+        self._budget, self._token, self._tell = budget, token, tell
         self._spread: list[ParetoPoint] = []
         self._found: list[ParetoPoint] = []
         self._n_done = 0
@@ -139,7 +139,7 @@ class _Walk:
         """Evaluates designs to start from."""
         try:
             for x in designs:
-                self._control.check()
+                self._token.check()
                 self._spread.append(self._trade_off.compromise(x))
         except CancelledError:
             self.reason = CANCELLED
@@ -153,7 +153,7 @@ class _Walk:
         """
         for start in self._starts(weights):
             if self.reason == CONVERGED:
-                self._keep(descend(search, start, self._budget - self.evaluations, self._control))
+                self._keep(descend(search, start, self._budget - self.evaluations, self._token))
         self._n_done += 1
         done = self._n_done / self._n_designs
         self._tell(FrontProgress(self.evaluations, self.front(), done))

@@ -74,7 +74,7 @@ def optimise(
     search: Search,
     starts: Sequence[Floats],
     budget: int = BUDGET,
-    control: CancelToken | None = None,
+    token: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The best of the designs down from each start.
@@ -83,7 +83,7 @@ def optimise(
         search: what is sought.
         starts: (n_variables,) each, see `start_points`.
         budget: the most evaluations, all starts together.
-        control: lets somebody hold or end it; the best design so far is kept.
+        token: lets somebody hold or end it; the best design so far is kept.
         tell: told every evaluation, once there is a feasible design, and before the full model is
             solved.
 
@@ -97,7 +97,7 @@ def optimise(
         if used >= budget or is_cancelled:
             break
         teller = _teller(search, descents, used, i, len(starts), tell)
-        descents.append(descend(search, start, budget - used, control, teller))
+        descents.append(descend(search, start, budget - used, token, teller))
     return best_of(search, descents, why_ended(descents, len(starts)), len(starts), tell)
 
 
@@ -105,7 +105,7 @@ def search_globally(
     search: Search,
     seed: int = 0,
     budget: int = BUDGET,
-    control: CancelToken | None = None,
+    token: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The best design of an evolution, and down from there.
@@ -114,19 +114,19 @@ def search_globally(
         search: what is sought.
         seed: of the evolution; the same finds the same.
         budget: the most evaluations.
-        control: lets somebody hold or end it; the best design so far is kept.
+        token: lets somebody hold or end it; the best design so far is kept.
         tell: as of `optimise`.
 
     Raises:
         SolveError: as `optimise`.
     """
     teller = _teller(search, [], 0, 1, 2, tell)
-    evolved = evolve(search, seed, max(1, int(EVOLVING * budget)), control, teller)
+    evolved = evolve(search, seed, max(1, int(EVOLVING * budget)), token, teller)
     rest = budget - evolved.evaluations
     if evolved.x is None or evolved.reason == CANCELLED or not rest:
         return best_of(search, [evolved], evolved.reason, 2, tell)
     teller = _teller(search, [evolved], evolved.evaluations, 2, 2, tell)
-    descent = descend(search, evolved.x, rest, control, teller)
+    descent = descend(search, evolved.x, rest, token, teller)
     return best_of(search, [evolved, descent], descent.reason, 2, tell)
 
 

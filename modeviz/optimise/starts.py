@@ -24,7 +24,7 @@ best of these that take some more."""
 
 @one_thread
 def start_points(
-    search: Search, rates: Rates, n_starts: int, seed: int = 0, control: CancelToken | None = None
+    search: Search, rates: Rates, n_starts: int, seed: int = 0, token: CancelToken | None = None
 ) -> list[Floats]:
     """Where to search from: some rates, and the best of many spread designs after some steps down.
 
@@ -44,34 +44,34 @@ def start_points(
         rates: the first start.
         n_starts: how many in all.
         seed: of the others; the same gives the same.
-        control: lets somebody hold it, or end it with those that it has.
+        token: lets somebody hold it, or end it with those that it has.
 
     Raises:
         SolveError: a design that cannot be solved, with its rates.
     """
-    n_others, control = n_starts - 1, control or CancelToken()
+    n_others, token = n_starts - 1, token or CancelToken()
     spread = search.space.samples(SCREENED * n_others, seed)
     values: list[float] = []
     try:
         for x in spread:
-            control.check()
+            token.check()
             values.append(search.value(x))
     except CancelledError:
         pass
     designs = _best(spread[: len(values)], values)
-    return [search.space.to_x(rates), *_gone_on_with(search, designs, n_others, control)[:n_others]]
+    return [search.space.to_x(rates), *_gone_on_with(search, designs, n_others, token)[:n_others]]
 
 
-def _gone_on_with(search: Search, designs: list[Floats], n: int, control: CancelToken) -> list[Floats]:
+def _gone_on_with(search: Search, designs: list[Floats], n: int, token: CancelToken) -> list[Floats]:
     """Of designs, the best first, those that some steps show to be the best, or as far as that came."""
     for n_each, n_evaluations in ROUNDS:
         ends = []
         for x in designs[: n_each * n]:
             try:
-                control.check()
+                token.check()
             except CancelledError:
                 return designs
-            ends.append(_stepped(search, x, n_evaluations, control))
+            ends.append(_stepped(search, x, n_evaluations, token))
         designs = _best([x for x, _ in ends], [value for _, value in ends])
     return designs
 
@@ -81,9 +81,7 @@ def _best(designs: Sequence[Floats] | Floats, values: list[float]) -> list[Float
     return [designs[i] for i in np.argsort(values, kind="stable")]
 
 
-def _stepped(
-    search: Search, x: Floats, n_evaluations: int, control: CancelToken
-) -> tuple[Floats, float]:
+def _stepped(search: Search, x: Floats, n_evaluations: int, token: CancelToken) -> tuple[Floats, float]:
     """A design after some steps, and its goal; where windows allow none on the way, the same."""
-    end = descend(search, x, n_evaluations, control)
+    end = descend(search, x, n_evaluations, token)
     return x if end.x is None else end.x, end.value

@@ -10,10 +10,9 @@ from modeviz.scatter.driving import Scattered
 from modeviz.scatter.monte_carlo import Scatter, rating_of
 from modeviz.text.wording import MINUS, percent_change, significant
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 
 PERCENT = (5, 50, 95)
-
-DIRECTIONS = ("lateral", "vertical")
 
 
 def scatter_record(told: Scattered) -> Record:
@@ -75,7 +74,7 @@ def _quantities(result: Scatter) -> dict[str, tuple[float, Floats]]:
     """What parts as drawn do, and what the samples do, at the first point."""
     rms = {
         f"rms_{d}_g": (float(result.nominal_rms[0, AXIS[d]]), result.rms[:, 0, AXIS[d]])
-        for d in DIRECTIONS
+        for d in RIDE_DIRECTIONS
     }
     rating = float(rating_of(result.nominal_rms)[0]), result.mean_personal_rating
     return {**rms, "mean_personal_rating": rating, "goal": (result.nominal_goal, result.goal)}
@@ -90,7 +89,7 @@ def _bands(result: Scatter) -> Record:
     bands = result.psd_percentiles(PERCENT)[:, :, 0]
     return {
         d: {f"p{p}": band[:, AXIS[d]].tolist() for p, band in zip(PERCENT, bands, strict=True)}
-        for d in DIRECTIONS
+        for d in RIDE_DIRECTIONS
     }
 
 

@@ -14,6 +14,7 @@ from modeviz.ride.participation import Peak
 from modeviz.ride.psd import amplitude_decibels, power_decibels
 from modeviz.text.wording import scientific
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 WHEEL_BAND = (11.0, 16.0)
@@ -101,7 +102,7 @@ def psd_table(results: Results) -> str:
                 f"{power_decibels(np.array(peak.level)):.1f}",
                 _modes_in(results, peak),
             ]
-            for direction in ("lateral", "vertical")
+            for direction in RIDE_DIRECTIONS
             for peak in results.peaks(0, direction)
         ],
     )

@@ -95,7 +95,7 @@ def drive_many(
         parts = scattered_parts(prepared, rates, options.tolerance)
         drive = partial(scatter, prepared, parts, conditions, goal, seed=options.seed, points=points)
         try:
-            result = drive(options.samples, runner=runner, control=token, tell=tell)
+            result = drive(options.samples, runner=runner, token=token, tell=tell)
         except CancelledError:
             result = drive(min(options.samples, CHUNK))
     worst = worst_corner(goal, parts, result.deviations[result.goal.argmax()])

@@ -84,7 +84,7 @@ def scatter(
     seed: int = 0,
     points: Sequence[str] = (),
     runner: Runner = HERE,
-    control: CancelToken | None = None,
+    token: CancelToken | None = None,
     tell: Callable[[float], None] = lambda _: None,
 ) -> Scatter:
     """Rides and goals of vehicles whose mounts are evenly spread within their tolerance.
@@ -103,7 +103,7 @@ def scatter(
         seed: the same gives the same vehicles.
         points: names of the response points to look at, the first is rated; none: the vehicle's first.
         runner: where it is computed.
-        control: lets somebody end it; the result is then of the vehicles driven so far.
+        token: lets somebody end it; the result is then of the vehicles driven so far.
         tell: told the fraction that is done.
 
     Raises:
@@ -114,7 +114,7 @@ def scatter(
     if n_samples < 2:
         raise SolveError(f"samples: found {n_samples}, expected 2 or more")
     numbers = _points(prepared, points)
-    control = control or CancelToken()
+    token = token or CancelToken()
     deviations = parts.samples(n_samples, seed)
     loads = [(prepared.vehicle.random_load(conditions.road), conditions.speed)]
     if isinstance(objective, Integral):
@@ -126,14 +126,14 @@ def scatter(
     elif isinstance(objective, PeakGoal):
         own = objective.prepared
         objective = objective.on(_lines(own, parts, seed, own.frequency_hz))
-    given = prepared, conditions, objective, parts, numbers, control
-    ((study, nominal, errors),) = HERE.map(_study, given, [seed], control)  # where it can be left
+    given = prepared, conditions, objective, parts, numbers, token
+    ((study, nominal, errors),) = HERE.map(_study, given, [seed], token)  # where it can be left
     chunks = [deviations[i : i + CHUNK] for i in range(0, n_samples, CHUNK)]
     psd = np.empty((n_samples, len(study.kept), len(numbers), 3), np.float32)
     roots, goal = np.empty((n_samples, len(numbers), 3)), np.empty(n_samples)
     done = 0
     try:
-        for sampled in runner.map(_Study.sample, study, chunks, control):
+        for sampled in runner.map(_Study.sample, study, chunks, token):
             own = slice(done, done + len(sampled.goal))
             psd[own], roots[own], goal[own] = sampled.psd, sampled.rms, sampled.goal
             done = own.stop
@@ -209,7 +209,7 @@ def _study(
     given: tuple[Prepared, Conditions, Objective, Parts, NDArray[np.intp], CancelToken], seed: int
 ) -> tuple[_Study, _Sampled, tuple[float, float]]:
     """What vehicles are solved with, what the one as drawn does, and how far PSDs and goals are off."""
-    prepared, conditions, objective, parts, points, control = given
+    prepared, conditions, objective, parts, points, token = given
     on_road = drive(prepared, conditions)
     outputs = (3 * points[:, None] + np.arange(3)).ravel()
     ride = on_road.receptances.with_outputs(outputs)
@@ -218,9 +218,9 @@ def _study(
     checks = others[N_TAUGHT:]
     taught = parts.stiffness(np.vstack([drawn, others[:N_TAUGHT]]))
     few = few_lines(ride, taught)
-    control.check()
+    token.check()
     few_goal = few_lines(objective.driven, taught)
-    control.check()
+    token.check()
     study = _Study(
         parts,
         on_road.frequency_hz,
@@ -231,7 +231,7 @@ def _study(
         objective.criterion,
         (0.0, prepared.vehicle.highest_frequency),
     )
-    control.check()
+    token.check()
     exact = replace(study, ride=ride, goal=objective.driven)
     found, expected = study.sample(checks), exact.sample(checks)
     if _error(found.rms**2, expected.rms**2) > TOO_FAR or _error(found.goal, expected.goal) > TOO_FAR:

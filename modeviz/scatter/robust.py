@@ -131,7 +131,7 @@ def optimise_robustly(
     robustly: Search,
     before: Optimum,
     budget: int = BUDGET,
-    control: CancelToken | None = None,
+    token: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The optimum for parts that scatter, from that for parts as drawn on.
@@ -140,10 +140,10 @@ def optimise_robustly(
         robustly: see `robust_search`.
         before: what was found as drawn; its evaluations and its end count, too.
         budget: the most evaluations of both searches; the second has one at least.
-        control: as of `optimise`, as are `tell` and what it raises.
+        token: as of `optimise`, as are `tell` and what it raises.
         tell: told of the second search alone.
     """
-    after = optimise(robustly, [before.x], max(1, budget - before.evaluations), control, tell)
+    after = optimise(robustly, [before.x], max(1, budget - before.evaluations), token, tell)
     was_cut_short = before.reason in (CANCELLED, OUT_OF_BUDGET)
     return replace(
         after,

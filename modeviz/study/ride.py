@@ -17,8 +17,7 @@ from modeviz.study.notebook import block, charts, paragraphs, spectrum
 from modeviz.study.peaks import ResponsePeak, named_peaks, peaks_table
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Complexes, Floats
-
-DRAWN = ("lateral", "vertical")
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -140,7 +139,7 @@ class Ride(Displayed):
                 "dB re 1 g²/Hz",
                 f"{direction.capitalize()} acceleration at {driver}",
             )
-            for direction in DRAWN
+            for direction in RIDE_DIRECTIONS
         )
         rating = self.rating
         about = (
@@ -153,7 +152,9 @@ class Ride(Displayed):
             paragraphs(*about, rating.note, coverage_note(results)),
             table(header, rows),
             charts(drawn),
-            peaks_table({d: self.peaks(driver, d) for d in DRAWN}, power_decibels, "dB re 1 g²/Hz"),
+            peaks_table(
+                {d: self.peaks(driver, d) for d in RIDE_DIRECTIONS}, power_decibels, "dB re 1 g²/Hz"
+            ),
         )
 
     def _place(self, point: str, direction: str) -> tuple[int, int]:

@@ -19,8 +19,7 @@ from modeviz.text.axes import Axis, decibel_axis, shown_hz
 from modeviz.text.markup import table, title
 from modeviz.text.wording import percent_change, significant
 from modeviz.vehicle.arrays import Floats
-
-DRAWN = ("lateral", "vertical")
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -136,7 +135,7 @@ class ScatterResult(Displayed):
             ),
             table(header, rows),
             self._shares_table(),
-            charts(self._band(direction) for direction in DRAWN),
+            charts(self._band(direction) for direction in RIDE_DIRECTIONS),
         )
 
     def _shares_table(self) -> str:

@@ -94,6 +94,6 @@ def find_designs(
         n_starts=options.starts,
         seed=options.seed,
         budget=options.budget,
-        control=token,
+        token=token,
         tell=follow,
     )

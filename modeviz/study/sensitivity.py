@@ -15,11 +15,10 @@ from modeviz.study.notebook import block, paragraphs
 from modeviz.text.markup import table
 from modeviz.text.wording import signed
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 
 TENTH = 0.1
 """The part by which every rate rises."""
-
-SPOKEN = ("lateral", "vertical")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -111,7 +110,7 @@ class RateSensitivity(Displayed):
     @property
     def _header(self) -> list[str]:
         driver = self.results.vehicle.response_points[0].name
-        return ["+10 % of", "moves most", "Hz", *(f"{driver} {d} RMS" for d in SPOKEN)]
+        return ["+10 % of", "moves most", "Hz", *(f"{driver} {d} RMS" for d in RIDE_DIRECTIONS)]
 
     @property
     def _rows(self) -> list[list[str]]:
@@ -120,7 +119,7 @@ class RateSensitivity(Displayed):
             shifts = self.frequency_hz[:, i]
             most = int(np.abs(shifts).argmax()) if len(shifts) else None
             moved = ["-", "-"] if most is None else [self.modes[most], signed(float(shifts[most]), 3)]
-            changes = (float(self.rms[0, AXIS[d], i]) for d in SPOKEN)
+            changes = (float(self.rms[0, AXIS[d], i]) for d in RIDE_DIRECTIONS)
             rows.append([rate, *moved, *(signed(100 * change, 2, " %") for change in changes)])
         return rows
 

@@ -16,9 +16,8 @@ from modeviz.study.notebook import block, charts, paragraphs, spectrum
 from modeviz.study.peaks import ResponsePeak, named_peaks
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
-
-DRAWN = ("lateral", "vertical")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -127,7 +126,7 @@ class WheelRide(Displayed):
             f"{self.vehicle.name} under its wheel loads",
             paragraphs(f"Mean peak acceleration from {low:g} to {high:g} Hz, 0.001 g"),
             table(header, rows, groups),
-            charts(self._chart(direction) for direction in DRAWN),
+            charts(self._chart(direction) for direction in RIDE_DIRECTIONS),
         )
 
     def _chart(self, direction: str) -> str:

@@ -21,6 +21,9 @@ GROUND = "ground"
 DIRECTIONS = ("vertical", "lateral", "fore-aft")
 """The directions of a mount's rates: local z, y and x."""
 
+RIDE_DIRECTIONS = ("lateral", "vertical")
+"""Those in which the paper judges the ride, in the order of its figures."""
+
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 """The relative motions of a connection's ends: along its local axes, then about them."""
 

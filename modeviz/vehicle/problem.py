@@ -7,7 +7,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
-from modeviz.vehicle.connections import DIRECTIONS, MountRates, check_bounds
+from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS, MountRates, check_bounds
 
 GoalKind = Literal["accelerations", "peak", "rms", "rating", "iso 2631", "change"]
 """What is to become small.
@@ -74,7 +74,7 @@ class Performance:
     wheel_loads: tuple[str, ...] = ()
     points: tuple[str, ...] = ()
     """Names of response points; none is all."""
-    directions: tuple[str, ...] = ("lateral", "vertical")
+    directions: tuple[str, ...] = RIDE_DIRECTIONS
     target: float = 0.0
     """The desired value of each."""
     weight: float = 1.0

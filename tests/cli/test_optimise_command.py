@@ -275,11 +275,11 @@ from modeviz.cli import optimise
 
 n = count()
 
-def tell(control, progress):
+def tell(token, progress):
     if next(n) == 3:
         print("searching", file=sys.stderr, flush=True)
         patience = time.monotonic() + 60
-        while not control.is_cancelled and time.monotonic() < patience:
+        while not token.is_cancelled and time.monotonic() < patience:
             time.sleep(0.01)
 
 optimise._tell = tell
@@ -382,9 +382,9 @@ def test_a_terminal_is_told_of_the_search_and_of_the_check(monkeypatch, cabin):
 def test_word_of_an_interrupt_stays_on_a_terminal(monkeypatch, cabin, module, options, before):
     tell = module._tell
 
-    def interrupt(control, progress):
-        tell(control, progress)
-        if not control.is_cancelled:
+    def interrupt(token, progress):
+        tell(token, progress)
+        if not token.is_cancelled:
             signal.raise_signal(signal.SIGINT)
 
     monkeypatch.setattr(module, "_tell", interrupt)

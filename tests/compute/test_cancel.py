@@ -6,27 +6,27 @@ from modeviz.compute.cancel import CancelledError, CancelToken
 
 
 def test_it_lets_a_computation_run():
-    control = CancelToken()
-    control.check()
-    assert not control.is_cancelled
+    token = CancelToken()
+    token.check()
+    assert not token.is_cancelled
 
 
 def test_cancelled_it_ends_it():
-    control = CancelToken()
-    control.cancel()
-    assert control.is_cancelled
+    token = CancelToken()
+    token.cancel()
+    assert token.is_cancelled
     with pytest.raises(CancelledError):
-        control.check()
+        token.check()
 
 
 @pytest.mark.parametrize("release", ["resume", "cancel"])
 def test_held_it_waits_until_it_may_go_on_or_has_to_end(release):
-    control, ends = CancelToken(), []
-    control.pause()
+    token, ends = CancelToken(), []
+    token.pause()
 
     def compute():
         try:
-            control.check()
+            token.check()
             ends.append("resume")
         except CancelledError:
             ends.append("cancel")
@@ -35,6 +35,6 @@ def test_held_it_waits_until_it_may_go_on_or_has_to_end(release):
     thread.start()
     thread.join(0.1)
     assert not ends
-    getattr(control, release)()
+    getattr(token, release)()
     thread.join(60)
     assert ends == [release]

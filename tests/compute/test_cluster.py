@@ -104,12 +104,12 @@ def test_a_lost_worker_is_survived(address):
 
 
 def test_cancel_answers_at_once(address):
-    control = CancelToken()
+    token = CancelToken()
     with runner_at(address) as runner:
-        control.cancel()
+        token.cancel()
         start = time.monotonic()
         with pytest.raises(CancelledError):
-            next(runner.map(slowly_squared, 1, range(3), control))
+            next(runner.map(slowly_squared, 1, range(3), token))
         assert time.monotonic() - start < 0.5
 
 

@@ -52,11 +52,11 @@ def test_what_a_task_raises_is_raised():
 
 def test_cancelled_it_ends_and_its_threads_soon():
     before = set(threading.enumerate())
-    control = CancelToken()
+    token = CancelToken()
     taken = []
-    results = HERE.map(times, 1, counted(taken), control)
+    results = HERE.map(times, 1, counted(taken), token)
     next(results)
-    control.cancel()
+    token.cancel()
     with pytest.raises(CancelledError):
         list(results)
     assert len(taken) <= N_THREADS + 2
@@ -65,7 +65,7 @@ def test_cancelled_it_ends_and_its_threads_soon():
 
 def test_cancelled_it_does_not_wait_for_what_is_being_computed():
     before = set(threading.enumerate())
-    control, has_begun, may_end, ended = CancelToken(), threading.Event(), threading.Event(), []
+    token, has_begun, may_end, ended = CancelToken(), threading.Event(), threading.Event(), []
 
     def held(_shared, item):
         has_begun.set()
@@ -74,11 +74,11 @@ def test_cancelled_it_does_not_wait_for_what_is_being_computed():
 
     def cancel():
         has_begun.wait(SOON)
-        control.cancel()
+        token.cancel()
 
     threading.Thread(target=cancel).start()
     with pytest.raises(CancelledError):
-        list(HERE.map(held, None, range(50), control))
+        list(HERE.map(held, None, range(50), token))
     assert not ended
     may_end.set()
     join_all_but(before)

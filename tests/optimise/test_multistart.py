@@ -36,17 +36,17 @@ def test_every_end_of_a_search_is_told(search, starts):
 
 
 def test_cancelled_it_keeps_the_best_so_far(search, starts):
-    control = CancelToken()
-    found = optimise_on(HERE, search, starts, control=control, tell=lambda _: control.cancel())
+    token = CancelToken()
+    found = optimise_on(HERE, search, starts, token=token, tell=lambda _: token.cancel())
     assert found.reason == "cancelled"
     assert not found.converged
     assert found.value == pytest.approx(optimise(search, starts[:1]).value, rel=SEARCHED)
 
 
 def test_cancelled_before_anything_was_found_it_gives_the_better_of_the_first_starts(search, starts):
-    control = CancelToken()
-    control.cancel()
-    found = optimise_on(HERE, search, starts, control=control)
+    token = CancelToken()
+    token.cancel()
+    found = optimise_on(HERE, search, starts, token=token)
     assert found.reason == "cancelled"
     assert found.x.tolist() == starts[1].tolist()
     assert found.value == pytest.approx(search.value(starts[1]), rel=CABIN)

@@ -94,14 +94,14 @@ def test_every_design_keeps_all_limits_and_none_dominates_another(cabin):
 @pytest.mark.parametrize("is_cancelled", [False, True])
 def test_designs_are_checked_one_after_the_other_also_after_a_cancel(cabin, is_cancelled):
     trade_off, _ = cabin
-    control, told = CancelToken(), []
+    token, told = CancelToken(), []
 
     def tell(progress):
         told.append(progress)
         if is_cancelled:
-            control.cancel()
+            token.cancel()
 
-    front = find_front(trade_off, [{}], 4, n_starts=1, control=control, tell=tell)
+    front = find_front(trade_off, [{}], 4, n_starts=1, token=token, tell=tell)
     n = len(front.designs)
     checks = [[d.verification is not None for d in p.designs] for p in told[-n:]]
     assert checks == [[True] * i + [False] * (n - i) for i in range(1, n + 1)]
@@ -159,14 +159,14 @@ def test_windows_hold_on_the_whole_front():
 
 def test_it_tells_each_design_and_can_be_cancelled(cabin):
     trade_off, _ = cabin
-    control, told = CancelToken(), []
+    token, told = CancelToken(), []
 
     def tell(progress):
         told.append(progress)
         if len(told) == 2:
-            control.cancel()
+            token.cancel()
 
-    front = find_front(trade_off, [{}], control=control, tell=tell)
+    front = find_front(trade_off, [{}], token=token, tell=tell)
     assert front.reason == CANCELLED
     found = [p for p in told if not any(d.verification for d in p.designs)]
     assert [round(p.done * 11) for p in found] == list(range(1, len(found) + 1))
@@ -176,9 +176,9 @@ def test_it_tells_each_design_and_can_be_cancelled(cabin):
 
 
 def test_cancelled_before_it_begins_it_has_no_designs(cabin):
-    control = CancelToken()
-    control.cancel()
-    front = find_front(cabin[0], [{}], control=control)
+    token = CancelToken()
+    token.cancel()
+    front = find_front(cabin[0], [{}], token=token)
     assert (front.reason, front.designs, front.evaluations) == (CANCELLED, (), 0)
 
 

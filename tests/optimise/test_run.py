@@ -79,9 +79,9 @@ def test_starts_are_the_given_rates_and_the_best_of_many_designs():
 
 
 def test_starts_are_chosen_from_what_there_is_when_it_is_cancelled():
-    control = CancelToken()
-    control.cancel()
-    assert len(start_points(cabin_search(), {}, 4, control=control)) == 1
+    token = CancelToken()
+    token.cancel()
+    assert len(start_points(cabin_search(), {}, 4, token=token)) == 1
 
 
 class Patience(CancelToken):
@@ -101,7 +101,7 @@ class Patience(CancelToken):
 @pytest.mark.parametrize("n_looked_at", [2, 3 * SCREENED - 1, 3 * SCREENED + 4, 3 * SCREENED + 40])
 def test_cancelled_on_the_way_the_best_so_far_are_the_starts(n_looked_at):
     search = cabin_search()
-    starts = start_points(search, {}, 4, control=Patience(n_looked_at))
+    starts = start_points(search, {}, 4, token=Patience(n_looked_at))
     assert len(starts) == 1 + min(3, n_looked_at)
     values = [search.value(x) for x in starts[1:]]
     np.testing.assert_allclose(values, sorted(values), rtol=CABIN)
@@ -138,10 +138,10 @@ def test_the_same_seed_evolves_the_same():
 
 
 def test_a_global_search_ends_with_its_budget_or_when_it_is_cancelled():
-    search, control = cabin_search(), CancelToken()
+    search, token = cabin_search(), CancelToken()
     spent = search_globally(search, budget=50)
     assert (spent.reason, spent.evaluations) == (OUT_OF_BUDGET, 50)
-    optimum = search_globally(search, control=control, tell=lambda _: control.cancel())
+    optimum = search_globally(search, token=token, tell=lambda _: token.cancel())
     assert (optimum.reason, optimum.evaluations) == (CANCELLED, 1)
 
 
@@ -186,29 +186,27 @@ def test_it_is_told_before_the_full_model_is_solved(monkeypatch, find):
     assert (last.start, last.n_starts, last.evaluations) == (2, 2, optimum.evaluations)
 
 
-def in_thread(search, control, tell):
+def in_thread(search, token, tell):
     """An optimisation in a thread of its own, and where its result will be."""
     found = []
     starts = start_points(search, {}, 20)
-    thread = threading.Thread(
-        target=lambda: found.append(optimise(search, starts, 5000, control, tell))
-    )
+    thread = threading.Thread(target=lambda: found.append(optimise(search, starts, 5000, token, tell)))
     thread.start()
     return thread, found
 
 
 def test_cancelled_from_outside_it_answers_at_once_with_the_best():
-    control, told, has_begun = CancelToken(), [], threading.Event()
+    token, told, has_begun = CancelToken(), [], threading.Event()
 
     def tell(progress):
         told.append(progress)
         if len(told) == 10:
             has_begun.set()
 
-    thread, found = in_thread(cabin_search(), control, tell)
+    thread, found = in_thread(cabin_search(), token, tell)
     assert has_begun.wait(60)
     begin = time.perf_counter()
-    control.cancel()
+    token.cancel()
     thread.join(60)
     assert time.perf_counter() - begin < 0.5
     (optimum,) = found
@@ -219,21 +217,21 @@ def test_cancelled_from_outside_it_answers_at_once_with_the_best():
 
 
 def test_held_it_waits_and_then_finds_the_same():
-    control, told, is_held = CancelToken(), [], threading.Event()
+    token, told, is_held = CancelToken(), [], threading.Event()
 
     def tell(progress):
         told.append(progress)
         if len(told) == 10:
-            control.pause()
+            token.pause()
             is_held.set()
 
     search = cabin_search()
-    thread, found = in_thread(search, control, tell)
+    thread, found = in_thread(search, token, tell)
     assert is_held.wait(60)
     thread.join(0.2)
     assert thread.is_alive()
     assert len(told) == 10
-    control.resume()
+    token.resume()
     thread.join(60)
     (optimum,) = found
     assert optimum.reason == CONVERGED
@@ -249,18 +247,18 @@ def test_without_a_design_that_keeps_the_windows_there_is_an_error():
         match=r"no design was found that keeps the frequency windows \(cab yaw: at most 1 Hz\): widen",
     ):
         optimise(search, starts, budget=40)
-    control = CancelToken()
-    control.cancel()
+    token = CancelToken()
+    token.cancel()
     with pytest.raises(SolveError, match="cancelled: no design was found"):
-        optimise(search, starts, control=control)
+        optimise(search, starts, token=token)
 
 
 def test_cancelled_while_starts_are_chosen_the_best_of_these_is_kept():
     search = cabin_search()
-    control = CancelToken()
+    token = CancelToken()
     starts = start_points(search, {}, 3)
-    control.cancel()
-    optimum = optimise(search, starts, control=control)
+    token.cancel()
+    optimum = optimise(search, starts, token=token)
     assert optimum.reason == CANCELLED
     assert optimum.evaluations == 2
     assert optimum.x.tolist() == starts[1].tolist()

@@ -76,22 +76,22 @@ def test_it_stops_when_its_budget_is_spent_and_keeps_the_best():
 
 
 def test_it_stops_when_it_is_cancelled_and_keeps_the_best():
-    control = CancelToken()
+    token = CancelToken()
 
     def cancel(step):
         if step.evaluations == 3:
-            control.cancel()
+            token.cancel()
 
     search = cabin_search()
-    descent = descend(search, np.zeros(4), 100, control, cancel)
+    descent = descend(search, np.zeros(4), 100, token, cancel)
     assert (descent.reason, descent.evaluations) == (CANCELLED, 3)
     assert search.value(descent.x) == pytest.approx(descent.value, rel=1e-12)
 
 
 def test_cancelled_before_it_starts_it_keeps_the_start():
-    control = CancelToken()
-    control.cancel()
-    descent = descend(cabin_search(), np.zeros(4), 100, control)
+    token = CancelToken()
+    token.cancel()
+    descent = descend(cabin_search(), np.zeros(4), 100, token)
     assert (descent.reason, descent.evaluations) == (CANCELLED, 1)
     np.testing.assert_array_equal(descent.x, np.zeros(4))
 

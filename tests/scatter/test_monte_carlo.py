@@ -107,14 +107,14 @@ def test_progress_ends_with_one(prepared, parts, objective):
 
 
 def test_it_ends_when_told_to_with_the_vehicles_so_far(prepared, parts, objective):
-    control = CancelToken()
+    token = CancelToken()
     told = []
 
     def tell(done):
         told.append(done)
-        control.cancel()
+        token.cancel()
 
-    found = scatter(prepared, parts, FLAT, objective, 10_000, control=control, tell=tell)
+    found = scatter(prepared, parts, FLAT, objective, 10_000, token=token, tell=tell)
     assert len(told) == 1
     whole = scatter(prepared, parts, FLAT, objective, 10_000 // 50)
     assert len(found.goal) == len(found.deviations) == len(found.rms) == len(found.psd) == CHUNK
@@ -122,16 +122,16 @@ def test_it_ends_when_told_to_with_the_vehicles_so_far(prepared, parts, objectiv
 
 
 def test_it_ends_also_before_it_has_a_sample(monkeypatch, prepared, parts, objective):
-    control, may_end, ended = CancelToken(), threading.Event(), []
+    token, may_end, ended = CancelToken(), threading.Event(), []
 
     def held(*_):
-        control.cancel()
+        token.cancel()
         may_end.wait(20)
         ended.append(True)
 
     monkeypatch.setattr("modeviz.scatter.monte_carlo.few_lines", held)
     with pytest.raises(CancelledError):
-        scatter(prepared, parts, FLAT, objective, 250, control=control)
+        scatter(prepared, parts, FLAT, objective, 250, token=token)
     assert not ended
     may_end.set()
 

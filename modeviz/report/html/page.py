@@ -18,6 +18,7 @@ from modeviz.report.html.wheels import wheels
 from modeviz.text.markup import change, section, span
 from modeviz.text.wording import number, signed
 from modeviz.units import factor
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -98,7 +99,7 @@ def _counting(comparison: Comparison) -> Iterator[tuple[str, str, str, str]]:
     base, now = comparison.rides
     before, after = base.rating.mean_personal_rating, now.rating.mean_personal_rating
     yield "Rating (MPR), of 10", number(after, 2), number(before, 2), _gain(after - before)
-    for direction in ("lateral", "vertical"):
+    for direction in RIDE_DIRECTIONS:
         old, new = (float(r.rms[0, AXIS[direction]]) for r in (base, now))
         yield f"{direction.capitalize()} RMS, g", f"{new:.4f}", f"{old:.4f}", change(new, old)
     old, new = base.rating.weighted_total, now.rating.weighted_total

@@ -5,10 +5,11 @@ from html import escape
 from modeviz.analysis.results import Results
 from modeviz.report.comparison import Comparison
 from modeviz.report.coverage import band_text, coverage_note
-from modeviz.report.html.sides import DIRECTIONS, by_direction, chart, compared
+from modeviz.report.html.sides import by_direction, chart, compared
 from modeviz.ride.psd import power_decibels
 from modeviz.text.markup import note, section, table
 from modeviz.text.wording import number, signed
+from modeviz.vehicle.connections import DIRECTIONS
 
 
 def spectra(comparison: Comparison) -> str:

@@ -10,12 +10,10 @@ from modeviz.text.axes import USUAL_SHOWN_HZ, Axis, decibel_axis, shown_hz
 from modeviz.text.markup import change, table, title
 from modeviz.text.wording import number
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS
 
 SHOWN_HZ = USUAL_SHOWN_HZ
 """What is drawn of the usual band."""
-
-DIRECTIONS = ("lateral", "vertical", "fore-aft")
-"""In the order of the paper's figures."""
 
 
 def chart(

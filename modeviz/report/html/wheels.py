@@ -7,19 +7,18 @@ import numpy as np
 from modeviz.analysis.results import AXIS
 from modeviz.analysis.wheel_peaks import wheel_peak_lines
 from modeviz.report.comparison import Comparison
-from modeviz.report.html.sides import DIRECTIONS, by_direction, chart
+from modeviz.report.html.sides import by_direction, chart
 from modeviz.report.tables import wheel_band
 from modeviz.ride.psd import amplitude_decibels
 from modeviz.text.markup import note, section, title
 from modeviz.text.wording import number, within_sentence
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.loads import WheelLoad
 from modeviz.vehicle.vehicle import Vehicle
 
 DRIVER = 0
 """The response point that is drawn."""
-
-DRAWN = ("lateral", "vertical")
 
 
 def wheels(comparison: Comparison) -> str:
@@ -37,7 +36,7 @@ def wheels(comparison: Comparison) -> str:
     )
     return section(
         "Unbalance and tyre force variation",
-        *(_harmonic(comparison, direction) for direction in DRAWN),
+        *(_harmonic(comparison, direction) for direction in RIDE_DIRECTIONS),
         note(
             f"Mean peak acceleration from {low:g} to {high:g} Hz, 0.001 g. A change is relative to the "
             f"mean itself and, so that changes compare, to {_largest(comparison, base)}."

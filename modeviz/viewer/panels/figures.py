@@ -10,7 +10,7 @@ from modeviz.report.tables import wheel_band
 from modeviz.ride.psd import rms
 from modeviz.text.wording import number, sentence_case, signed
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, change, heading, named, row, span, table
 from modeviz.viewer.session.answers import Solved
@@ -76,7 +76,7 @@ def _road_figures(solved: Solved, responses: Responses) -> str:
     before, after = base.rating.mean_personal_rating, now.rating.mean_personal_rating
     gain = span(f"{signed(after - before, 2)} points", _kind(after - before))
     figures = [_figure("Ride rating", number(after, 2), "MPR", gain, _about_rating(now))]
-    for direction in ("lateral", "vertical"):
+    for direction in RIDE_DIRECTIONS:
         curve = ResponseCurve(DRIVER, direction)
         value, old = responses.figure(NOW, curve), responses.figure(solved.state.against, curve)
         about = f"RMS acceleration, {_point(now)}, {direction}, {band_text(now)}"
@@ -94,7 +94,7 @@ def _wheel_figures(solved: Solved, responses: Responses) -> str:
     """The means over the paper's band, and the highest lateral value in it."""
     against, now = solved.state.against, solved.now
     figures = []
-    for direction in ("lateral", "vertical", "fore-aft"):
+    for direction in DIRECTIONS:
         curve = ResponseCurve(DRIVER, direction)
         value, old = responses.figure(NOW, curve), responses.figure(against, curve)
         about = f"Mean peak acceleration, {_point(now)}, {direction}, {_band_text(solved)}"

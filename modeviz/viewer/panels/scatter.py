@@ -13,6 +13,7 @@ from modeviz.scatter.monte_carlo import Scatter, rating_of
 from modeviz.scatter.sobol import spread
 from modeviz.text.wording import number, significant
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, row, span, table, title
@@ -97,7 +98,7 @@ def _figures(problem: Problem, found: Scatter) -> str:
     driver = found.rms[:, 0]
     goal = hinted("Goal", escape(objective_words(problem)))
     rows = [_row(goal, found.goal, found.nominal_goal)]
-    for direction in ("lateral", "vertical"):
+    for direction in RIDE_DIRECTIONS:
         axis = AXIS[direction]
         values, nominal = driver[:, axis], float(found.nominal_rms[0, axis])
         rows.append(_row(f"RMS {direction}, g", values, nominal))

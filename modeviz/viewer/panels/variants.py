@@ -7,6 +7,7 @@ import viser
 from modeviz.analysis.pairing import same_mode
 from modeviz.analysis.results import AXIS, Results
 from modeviz.text.wording import sentence_case, signed
+from modeviz.vehicle.connections import RIDE_DIRECTIONS
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
@@ -195,7 +196,7 @@ def _figures(results: Results, solved: Solved) -> list[str]:
     gain = results.rating.mean_personal_rating - base.rating.mean_personal_rating
     kind = "dim" if abs(gain) < 0.005 else "good" if gain > 0 else "bad"
     rating = span("–", "dim") if results is base else span(signed(gain, 2), kind)
-    lateral, vertical = (results.rms[DRIVER, AXIS[d]] for d in ("lateral", "vertical"))
+    lateral, vertical = (results.rms[DRIVER, AXIS[d]] for d in RIDE_DIRECTIONS)
     return [f"{lateral:.3f}", f"{vertical:.3f}", f, rating]
 
 

@@ -8,7 +8,7 @@ from typing import Literal
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
 from modeviz.text.wording import sentence_case
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.connections import RATE_FIELDS, RIDE_DIRECTIONS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.plan import Plan, first_plan
 
@@ -169,7 +169,7 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
     cabin = unit_of_role(vehicle, "cabin")
     mode = f"{cabin.word} yaw" if cabin else ""
     every = vehicle.all_rates(rates)
-    felt = tuple(ResponseCurve(0, direction) for direction in ("lateral", "vertical"))
+    felt = tuple(ResponseCurve(0, direction) for direction in RIDE_DIRECTIONS)
     curves = felt if vehicle.response_points else ()
     return State(
         every,

@@ -59,14 +59,14 @@ class BackgroundTask(Generic[Asked, Found]):
 
         Args:
             what: it is: "scatter".
-            work: does it, asks the control often and tells how far it is.
+            work: does it, asks its token often and tells how far it is.
             changed: told that there is something new to look at.
             report: told what is our mistake.
         """
         self._report = report
         self._what, self._work, self._changed = what, work, changed
         self._lock = threading.Lock()
-        self._control = CancelToken()
+        self._token = CancelToken()
         self._told = 0.0
         self.job: Job[Asked, Found] | None = None
         """The newest; None before the first."""
@@ -80,39 +80,39 @@ class BackgroundTask(Generic[Asked, Found]):
         with self._lock:
             if self.job and self.job.is_running:
                 raise ModevizError(f"a {self._what} is running: cancel it first")
-            self.job, self._control = Job(asked), CancelToken()
-        arguments = asked, self._control
+            self.job, self._token = Job(asked), CancelToken()
+        arguments = asked, self._token
         threading.Thread(target=self._run, args=arguments, name=self._what, daemon=True).start()
         self._changed()
 
     def cancel(self) -> None:
         """Ends what is running; here it is over at once, and its thread soon."""
-        self._control.cancel()
-        self._put(self._control, phase="cancelled")
+        self._token.cancel()
+        self._put(self._token, phase="cancelled")
 
-    def _run(self, asked: Asked, control: CancelToken) -> None:
+    def _run(self, asked: Asked, token: CancelToken) -> None:
         def tell(done: float, found: Found | None = None) -> None:
-            control.check()
+            token.check()
             if found is not None or time.monotonic() - self._told > TELL_EVERY:
                 self._told = time.monotonic()
-                self._put(control, done=done, found=found)
+                self._put(token, done=done, found=found)
 
         try:
-            found = self._work(asked, control, tell)
+            found = self._work(asked, token, tell)
         except CancelledError:
             return
         except ModevizError as error:
-            self._put(control, phase="failed", failure=str(error))
+            self._put(token, phase="failed", failure=str(error))
         except Exception as error:
             self._report(error)
-            self._put(control, phase="failed", failure=OUR_MISTAKE)
+            self._put(token, phase="failed", failure=OUR_MISTAKE)
         else:
-            self._put(control, phase="ended", done=1.0, found=found)
+            self._put(token, phase="ended", done=1.0, found=found)
 
-    def _put(self, control: CancelToken, **news) -> None:
+    def _put(self, token: CancelToken, **news) -> None:
         """Keeps news of the newest as long as it runs; those of one that was cancelled are nobody's."""
         with self._lock:
-            if control is not self._control or self.job is None or not self.job.is_running:
+            if token is not self._token or self.job is None or not self.job.is_running:
                 return
             self.job = replace(self.job, **news)
         self._changed()

@@ -90,16 +90,16 @@ class FrontTask:
         assert state.plan is not None
         return planned(self._session.vehicle, state.plan)
 
-    def _find(self, trade: Trade, control: CancelToken, tell: Progress[Designs]) -> Designs:
+    def _find(self, trade: Trade, token: CancelToken, tell: Progress[Designs]) -> Designs:
         state, vehicle = trade.state, self._session.vehicle
         trade_off = prepare_trade_off(
             vehicle, trade.problem, trade.sides, state.rates, state.conditions.speed, state.locked
         )
-        control.check()
+        token.check()
 
         def told(progress: FrontProgress) -> None:
             tell(progress.done, progress.designs or None)
 
         known = trade.known
-        front = find_front(trade_off, known, n_starts=N_STARTS, control=control, tell=told)
+        front = find_front(trade_off, known, n_starts=N_STARTS, token=token, tell=told)
         return front.designs

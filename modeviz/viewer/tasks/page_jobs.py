@@ -7,6 +7,7 @@ from typing import Protocol
 
 import viser
 
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.errors import ModevizError
 from modeviz.viewer.tasks.background_task import OUR_MISTAKE
 
@@ -21,10 +22,6 @@ class Progress(Protocol):
             CancelledError: nobody wants the result any more.
         """
         ...
-
-
-class CancelledError(Exception):
-    """Nobody wants the result any more."""
 
 
 def run(
@@ -48,16 +45,17 @@ def run(
         bar = client.gui.add_progress_bar(0.0, animated=True)
         beneath = client.gui.add_markdown("")
         cancel = client.gui.add_button("Cancel", hint="Stops at once; nothing is saved")
-    is_cancelled = threading.Event()
+    token = CancelToken()
 
     @cancel.on_click
     def _(_: viser.GuiEvent) -> None:
-        is_cancelled.set()
+        token.cancel()
         cancel.disabled = True
 
     def tell(fraction: float, words: str = "") -> None:
-        if is_cancelled.is_set() or not is_there():
-            raise CancelledError
+        if not is_there():
+            token.cancel()
+        token.check()
         if fraction < 1:  # else the bar goes in the same breath, and viser's page would complain
             bar.value = 100 * fraction
             if words != beneath.content:

@@ -102,12 +102,12 @@ class ScatterTask:
         return job.found.scatter.frequency_hz, job.found.percentiles[:, :, curve.point, axis]
 
     def _scatter(
-        self, build: Build, control: CancelToken, tell: Progress[ScatterOutcome]
+        self, build: Build, token: CancelToken, tell: Progress[ScatterOutcome]
     ) -> ScatterOutcome:
         vehicle, prepared = self._session.vehicle, self._session.prepared
         goal = prepare_goal(vehicle, build.problem, build.rates, build.conditions.speed)
         assert isinstance(goal, ResponseGoal)
-        control.check()
+        token.check()
         found = scatter(
             prepared,
             scattered_parts(prepared, build.rates, Tolerance()),
@@ -115,10 +115,10 @@ class ScatterTask:
             goal,
             build.n_samples,
             points=[point.name for point in vehicle.response_points],
-            control=control,
+            token=token,
             tell=tell,
         )
-        control.check()
+        token.check()
         return ScatterOutcome(found)
 
     def _tell(self) -> None:

@@ -85,7 +85,7 @@ class SearchTask:
         self.look: SearchStatus = SearchStatus(planned(vehicle, state.plan), state.rates)
         self._session, self._changed, self._report = session, changed, report
         self._state, self._plan = state, state.plan
-        self._control, self._lock = CancelToken(), threading.Lock()
+        self._token, self._lock = CancelToken(), threading.Lock()
         self._followed: Rates = state.rates
         self._told = 0.0
         self._thread = threading.Thread(target=self._run, name="optimiser", daemon=True)
@@ -94,17 +94,17 @@ class SearchTask:
     def pause(self) -> None:
         """Holds it, with the session at the best design so far."""
         if self._turn("paused", "preparing", "searching"):
-            self._control.pause()
+            self._token.pause()
             self._follow()
 
     def resume(self) -> None:
         """Lets it go on."""
         if self._turn("searching", "paused"):
-            self._control.resume()
+            self._token.resume()
 
     def cancel(self) -> None:
         """Ends it with the session at the best design so far; while it prepares it is over at once."""
-        self._control.cancel()
+        self._token.cancel()
         self._turn("ended", "preparing")
         if self._turn("checking", "searching", "paused"):
             self._follow()
@@ -132,20 +132,20 @@ class SearchTask:
 
     def _search(self) -> Optimum:
         """What is found as drawn or, from there, for parts that scatter."""
-        vehicle, state, control = self._session.vehicle, self._state, self._control
+        vehicle, state, token = self._session.vehicle, self._state, self._token
         speed = state.conditions.speed
         search = prepare_search(vehicle, self.look.problem, state.rates, speed, state.locked)
         robustly = robust_search(search, Tolerance()) if self._plan.is_robust else None
         self._begin(search)
-        starts = start_points(search, self.look.before, self._plan.n_starts, control=control)
-        optimum = optimise(search, starts, control=control, tell=self._note)
-        if robustly is None or control.is_cancelled:
+        starts = start_points(search, self.look.before, self._plan.n_starts, token=token)
+        optimum = optimise(search, starts, token=token, tell=self._note)
+        if robustly is None or token.is_cancelled:
             return optimum
         try:
             self._begin(robustly, is_robust=True, progress=None, history=())
         except CancelledError:
             return optimum
-        return optimise_robustly(robustly, optimum, control=control, tell=self._note)
+        return optimise_robustly(robustly, optimum, token=token, tell=self._note)
 
     def _begin(self, search: Search, **news) -> None:
         """Says what its goal is with the rates compared with; raises CancelledError if it is over."""
@@ -153,7 +153,7 @@ class SearchTask:
         rates = self._session.vehicle.rate_sets[reference] if reference else None
         compared = np.nan if rates is None else search.goal.value(rates)
         original = search.goal.value({})
-        self._control.check()
+        self._token.check()
         outside = compared_outside(self.look.problem, search)
         self._put(phase="searching", original=original, reference=compared, outside=outside, **news)
 
@@ -178,7 +178,7 @@ class SearchTask:
 
     def _fail(self, failure: str) -> None:
         """Says why there is no result; the session goes back to the rates before."""
-        if self._control.is_cancelled:
+        if self._token.is_cancelled:
             self._put(phase="ended")
             return
         self._go_to(self.look.before)

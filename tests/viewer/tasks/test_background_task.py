@@ -22,7 +22,7 @@ class Works:
         with self._told:
             self._told.notify_all()
 
-    def _work(self, name, control, tell):
+    def _work(self, name, token, tell):
         assert self.may_end[name].wait(SOON)
         return name.upper()
 
@@ -84,7 +84,7 @@ def test_what_was_cancelled_tells_nothing_of_the_next(works):
     ("error", "said"), [(SolveError("too stiff"), "too stiff"), (RuntimeError("a bug"), "our mistake")]
 )
 def test_a_failure_is_told(error, said):
-    def fails(asked, control, tell):
+    def fails(asked, token, tell):
         raise error
 
     failed, reported = threading.Event(), []

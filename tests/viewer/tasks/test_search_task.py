@@ -305,7 +305,7 @@ def test_a_failing_evaluation_is_told_and_leaves_the_rates_before(session, optim
     before, can_undo = session.state, session.can_undo
     better = {"A": MountRates(5e5, 2e5, 2e5), "B": MountRates(5e5, 2e5, 2e5)}
 
-    def fails(search, starts, control, tell):
+    def fails(search, starts, token, tell):
         tell(Progress(1, better, 0.5, 1, 1))
         assert session.state.rates == better
         raise SolveError("no answer with A vertical 500 N/mm")
@@ -319,7 +319,7 @@ def test_a_failing_evaluation_is_told_and_leaves_the_rates_before(session, optim
 
 
 def test_a_mistake_of_ours_is_said_once_however_often_it_happens(optimiser, said, monkeypatch, capsys):
-    def fails(search, starts, control, tell):
+    def fails(search, starts, token, tell):
         raise RuntimeError("a bug")
 
     monkeypatch.setattr(module, "optimise", fails)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from modeviz.errors import VehicleError
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.problem import Performance
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.frequencies import parse_frequencies, spoken_frequencies
@@ -49,7 +49,7 @@ def spare_load(vehicle: Vehicle) -> LoadPlan:
         frozenset(),
         "6 to 14 by 1/3",
         frozenset(point.name for point in vehicle.response_points),
-        frozenset({"lateral", "vertical"}),
+        frozenset(RIDE_DIRECTIONS),
         target=0.0,
         weight=1.0,
     )
