@@ -23,7 +23,7 @@ from modeviz.fem.free import center_of_gravity, free_modes
 from modeviz.fem.matrices import assemble
 from modeviz.files import builtin_vehicle, write_vehicle
 from modeviz.files.meshes import read_mesh
-from modeviz.files.problems import ProblemRecord
+from modeviz.files.records.problems import ProblemRecord
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 

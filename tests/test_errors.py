@@ -26,7 +26,7 @@ from modeviz.errors import (
     unknown,
 )
 from modeviz.files import write_vehicle
-from modeviz.files.decoding import decode
+from modeviz.files.schema.decoding import decode
 from modeviz.units import parse
 from modeviz.vehicle.arrays import frozen
 from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Spring

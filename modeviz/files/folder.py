@@ -13,22 +13,19 @@ from pathlib import Path
 import msgspec
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.axes import axes_of
-from modeviz.files.conventions import Conventions
 from modeviz.files.disk import file_stems, replace_folder, write_text
 from modeviz.files.limits import check_size
-from modeviz.files.load_records import (
+from modeviz.files.meshes import write_mesh
+from modeviz.files.modal import write_flexible_body
+from modeviz.files.records.loads import (
     BaseMotionRecord,
     ForceRecord,
     RoadRecord,
     WheelLoadRecord,
 )
-from modeviz.files.meshes import write_mesh
-from modeviz.files.modal import write_flexible_body
-from modeviz.files.problems import ProblemRecord
-from modeviz.files.quantities import turned
-from modeviz.files.record import built
-from modeviz.files.records import (
+from modeviz.files.records.problems import ProblemRecord
+from modeviz.files.records.record import built
+from modeviz.files.records.vehicle import (
     AddedMassRecord,
     ConnectionRecord,
     FlexibleBodyRecord,
@@ -43,11 +40,14 @@ from modeviz.files.records import (
     VehicleRecord,
 )
 from modeviz.files.roads import write_road
-from modeviz.files.scaling import WRITTEN_UNITS, from_si
+from modeviz.files.schema.axes import axes_of
+from modeviz.files.schema.conventions import Conventions
+from modeviz.files.schema.quantities import turned
+from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si
 from modeviz.files.source import Source
 from modeviz.files.spectra import write_spectrum
-from modeviz.files.toml import to_toml
-from modeviz.files.toml_file import read_toml
+from modeviz.files.toml_reader import read_toml
+from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring, Tyre

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from modeviz.errors import VehicleError, listed, located, reason
-from modeviz.files.conventions import Conventions
 from modeviz.files.disk import opened
+from modeviz.files.schema.conventions import Conventions
 from modeviz.files.source import LARGEST_ARRAYS, Source
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody

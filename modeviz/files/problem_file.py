@@ -7,11 +7,11 @@ import msgspec
 from msgspec import Meta
 
 from modeviz.errors import located
-from modeviz.files.problems import ProblemRecord
-from modeviz.files.record import FileRecord
-from modeviz.files.scaling import WRITTEN_UNITS, from_si
-from modeviz.files.toml import to_toml
-from modeviz.files.toml_file import read_toml
+from modeviz.files.records.problems import ProblemRecord
+from modeviz.files.records.record import FileRecord
+from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si
+from modeviz.files.toml_reader import read_toml
+from modeviz.files.toml_writer import to_toml
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

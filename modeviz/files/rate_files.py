@@ -9,10 +9,10 @@ from typing import Literal, get_args
 import msgspec
 
 from modeviz.errors import VehicleError, check_unique, located
-from modeviz.files.decoding import decode, unreadable
 from modeviz.files.disk import LARGEST_TEXT, WESTERN, read_text, write_text
-from modeviz.files.records import RateSetRecord
-from modeviz.files.scaling import written
+from modeviz.files.records.vehicle import RateSetRecord
+from modeviz.files.schema.decoding import decode, unreadable
+from modeviz.files.schema.scaling import written
 from modeviz.files.tables import Row, Table, read_table
 from modeviz.units import factor
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates

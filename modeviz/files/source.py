@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from modeviz.files.conventions import Conventions
 from modeviz.files.disk import inside
 from modeviz.files.limits import check_size, most_allowed
+from modeviz.files.schema.conventions import Conventions
 
 LARGEST_ARRAYS = 256_000_000
 """Bytes of the modes of all bodies, which take some times as much while they are read."""

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.errors import located
-from modeviz.files.conventions import Conventions
 from modeviz.files.disk import write_text
+from modeviz.files.schema.conventions import Conventions
 from modeviz.files.spectrum_tables import read_spectrum_table
 from modeviz.vehicle.loads import Spectrum
 

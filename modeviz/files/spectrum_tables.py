@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.conventions import Conventions
 from modeviz.files.disk import LARGEST_TABLE, WESTERN, read_text
+from modeviz.files.schema.conventions import Conventions
 from modeviz.files.tables import Row, read_table
 from modeviz.units import psd_factor
 from modeviz.vehicle.arrays import Floats

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from modeviz.errors import VehicleError, located, unknown
-from modeviz.files.decoding import LARGEST
 from modeviz.files.limits import check_size
+from modeviz.files.schema.decoding import LARGEST
 
 MOST_LINES = 100_000
 """A spectrum every 0.001 Hz up to 100 Hz."""

@@ -11,7 +11,7 @@ from turned_vehicles import LEFT_HANDED, RIGHT_HANDED, text, turned, turned_fold
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
-from modeviz.files.axes import axes_of
+from modeviz.files.schema.axes import axes_of
 from modeviz.ride.roads import track_amplitudes, tyre_directions
 from modeviz.ride.wheels import wheel_directions
 from modeviz.vehicle.bodies import FlexibleBody

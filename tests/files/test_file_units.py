@@ -8,8 +8,8 @@ from folders import one_of_everything
 
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
-from modeviz.files.axes import axes_of
-from modeviz.files.conventions import Conventions
+from modeviz.files.schema.axes import axes_of
+from modeviz.files.schema.conventions import Conventions
 from modeviz.vehicle.bodies import FlexibleBody
 
 MASSES = {"kg": 1.0, "t": 1000.0, "lbf s²/in": 0.45359237 * 9.80665 / 0.0254}

@@ -18,7 +18,7 @@ from folders import flexible_body, one_of_everything, part
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.meshes import read_mesh, write_mesh
-from modeviz.files.scaling import written
+from modeviz.files.schema.scaling import written
 from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
 from modeviz.vehicle.connections import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle

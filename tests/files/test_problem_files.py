@@ -10,7 +10,7 @@ from mounted_cabin import SOFT, mounted_cabin
 
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
-from modeviz.files.problems import MOST_FREQUENCIES, ProblemRecord, SpacedRecord
+from modeviz.files.records.problems import MOST_FREQUENCIES, ProblemRecord, SpacedRecord
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance, Problem
 

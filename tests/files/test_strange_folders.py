@@ -17,9 +17,10 @@ from folders import one_of_everything
 from modeviz.analysis.preparation import prepare
 from modeviz.cli import main
 from modeviz.errors import VehicleError
-from modeviz.files import load_records, read_vehicle, write_vehicle
+from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.limits import check_size
 from modeviz.files.modal import KINDS
+from modeviz.files.records import loads
 from modeviz.files.roads import read_road
 from modeviz.files.workload import counted
 
@@ -347,7 +348,7 @@ def test_a_table_that_many_roads_name_is_read_once_and_counts_for_each(complaint
         read.append(path)
         return read_road(path, *others)
 
-    monkeypatch.setattr(load_records, "read_road", counted)
+    monkeypatch.setattr(loads, "read_road", counted)
     roads = read_vehicle(folder).roads
     assert len(roads) == len({road.name for road in roads}) > 200
     assert read.count(table) == 1

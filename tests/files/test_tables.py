@@ -9,9 +9,9 @@ from folders import one_of_everything
 from modeviz.cli import main
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
-from modeviz.files.conventions import Conventions
 from modeviz.files.rate_files import parse_rates, read_rates
 from modeviz.files.roads import read_road
+from modeviz.files.schema.conventions import Conventions
 from modeviz.files.tables import read_table
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import Road

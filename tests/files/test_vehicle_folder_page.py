@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 from modeviz.cli import main
-from modeviz.files.hints import annotation, fields_of
 from modeviz.files.modal import KINDS
-from modeviz.files.quantities import Quantity
-from modeviz.files.records import VehicleRecord
+from modeviz.files.records.vehicle import VehicleRecord
 from modeviz.files.roads import COLUMNS
-from modeviz.files.scaling import WRITTEN_UNITS
+from modeviz.files.schema.hints import annotation, fields_of
+from modeviz.files.schema.quantities import Quantity
+from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.units import UNITS
 
 PAGE = Path(__file__).parents[2].joinpath("docs/vehicle-folder.md").read_text("utf-8")

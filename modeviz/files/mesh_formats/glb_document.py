@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from modeviz.errors import VehicleError, quoted, reason
-from modeviz.files.decoding import decode, unreadable
 from modeviz.files.mesh_formats.glb_records import Buffer, Document
 from modeviz.files.mesh_formats.limits import LARGEST_DOCUMENT, check_size
+from modeviz.files.schema.decoding import decode, unreadable
 
 READ_EXTENSIONS = frozenset(
     {

@@ -5,7 +5,7 @@ import math
 import viser
 
 from modeviz.errors import ModevizError
-from modeviz.files.scaling import written
+from modeviz.files.schema.scaling import written
 from modeviz.text.wording import MINUS, sentence_case, signed
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, Rates

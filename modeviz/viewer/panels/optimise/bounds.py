@@ -6,7 +6,7 @@ from typing import Any
 
 import viser
 
-from modeviz.files.scaling import written
+from modeviz.files.schema.scaling import written
 from modeviz.text.wording import sentence_case
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS

@@ -8,10 +8,10 @@ from typing import TypeVar
 import msgspec
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.decoding import decode, unreadable
 from modeviz.files.disk import read_text
-from modeviz.files.record import FileRecord
-from modeviz.files.scaling import to_si
+from modeviz.files.records.record import FileRecord
+from modeviz.files.schema.decoding import decode, unreadable
+from modeviz.files.schema.scaling import to_si
 
 R = TypeVar("R", bound=FileRecord)
 

@@ -6,7 +6,9 @@ from typing import Self
 import numpy as np
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.quantities import (
+from modeviz.files.records.record import Name, Record
+from modeviz.files.roads import read_road
+from modeviz.files.schema.quantities import (
     Acceleration,
     Amplitude,
     Direction,
@@ -16,8 +18,6 @@ from modeviz.files.quantities import (
     Speed,
     Vector,
 )
-from modeviz.files.record import Name, Record
-from modeviz.files.roads import read_road
 from modeviz.files.source import Source
 from modeviz.files.spectra import read_spectrum
 from modeviz.vehicle.arrays import Floats

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from msgspec import Meta
 
-from modeviz.files.axes import (
+from modeviz.files.schema.axes import (
     turn_direction,
     turn_frame,
     turn_inertia,
@@ -14,8 +14,8 @@ from modeviz.files.axes import (
     turn_rates,
     turn_vectors,
 )
-from modeviz.files.decoding import joined
-from modeviz.files.hints import annotation, fields_of, plain
+from modeviz.files.schema.decoding import joined
+from modeviz.files.schema.hints import annotation, fields_of, plain
 from modeviz.vehicle.arrays import Floats
 
 Vector = tuple[float, float, float]

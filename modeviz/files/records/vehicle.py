@@ -13,17 +13,18 @@ import numpy as np
 from msgspec import Meta
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.axes import OURS
-from modeviz.files.load_records import (
+from modeviz.files.meshes import DEFAULT_COLOR, read_mesh
+from modeviz.files.modal import read_flexible_body
+from modeviz.files.records.loads import (
     BaseMotionRecord,
     ForceRecord,
     RoadRecord,
     WheelLoadRecord,
 )
-from modeviz.files.meshes import DEFAULT_COLOR, read_mesh
-from modeviz.files.modal import read_flexible_body
-from modeviz.files.problems import ProblemRecord
-from modeviz.files.quantities import (
+from modeviz.files.records.problems import ProblemRecord
+from modeviz.files.records.record import FileRecord, Name, NonNegative, Positive, RatesRecord, Record
+from modeviz.files.schema.axes import OURS
+from modeviz.files.schema.quantities import (
     Damping,
     DampingRate,
     Ends,
@@ -40,7 +41,6 @@ from modeviz.files.quantities import (
     Speed,
     Stiffness,
 )
-from modeviz.files.record import FileRecord, Name, NonNegative, Positive, RatesRecord, Record
 from modeviz.files.source import Source
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role

@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 import msgspec
 
 from modeviz.errors import VehicleError, unknown
-from modeviz.files.hints import fields_of, plain
+from modeviz.files.schema.hints import fields_of, plain
 
 T = TypeVar("T")
 

@@ -7,7 +7,7 @@ import msgspec
 from msgspec import Meta
 
 from modeviz.errors import ModevizError, VehicleError
-from modeviz.files.quantities import Rate
+from modeviz.files.schema.quantities import Rate
 from modeviz.vehicle.connections import MountRates
 
 Name = Annotated[str, Meta(min_length=1)]

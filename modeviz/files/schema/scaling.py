@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from modeviz.errors import VehicleError, located, unknown
-from modeviz.files.quantities import Quantity, each_quantity
+from modeviz.files.schema.quantities import Quantity, each_quantity
 from modeviz.units import UNITS, factor
 
 WRITTEN_UNITS = {

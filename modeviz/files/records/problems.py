@@ -7,7 +7,7 @@ import numpy as np
 from msgspec import Meta, field
 
 from modeviz.errors import VehicleError
-from modeviz.files.record import Name, NonNegative, Positive, RatesRecord, Record, built
+from modeviz.files.records.record import Name, NonNegative, Positive, RatesRecord, Record, built
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.problem import (

@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 
 from modeviz.errors import located
-from modeviz.files.scaling import unit_in_si
+from modeviz.files.schema.scaling import unit_in_si
 from modeviz.vehicle.arrays import Floats
 
 
