@@ -385,7 +385,7 @@ class ResponsePointRecord(Record, kw_only=True):
 class ModeDampingRecord(Record, kw_only=True):
     """[[mode_damping]]."""
 
-    mode: Name | int | None = None
+    mode: int | Name | None = None
     """What it is called or its number, as `modeviz modes` has them; all others, if not given."""
     damping_ratio: NonNegative
 

@@ -14,12 +14,26 @@ def fields_of(record: type) -> dict[str, Any]:
     return {field.encode_name: hints[field.name] for field in msgspec.structs.fields(record)}
 
 
+def is_record(kind: Any) -> bool:
+    """Whether a type is a table with keys of its own."""
+    return hasattr(kind, "__struct_fields__")
+
+
+def alternatives(hint: Any) -> list[Any]:
+    """What a value that is there may be, each with its annotations."""
+    if get_origin(hint) in (Union, UnionType):
+        return [inner for kind in get_args(hint) for inner in alternatives(kind)]
+    if get_origin(hint) is Annotated and len(inner := alternatives(get_args(hint)[0])) > 1:
+        return inner
+    return [] if hint is NoneType else [hint]
+
+
 def plain(hint: Any) -> Any:
     """The type itself, without annotations and without being optional."""
     if get_origin(hint) is Annotated:
         return plain(get_args(hint)[0])
     if get_origin(hint) in (Union, UnionType):
-        return plain(next(k for k in get_args(hint) if k is not NoneType))
+        return plain(alternatives(hint)[0])
     return hint
 
 
@@ -31,3 +45,10 @@ def annotation(hint: Any, kind: type) -> Any:
     if get_origin(hint) in (Union, UnionType):
         return next((found for k in get_args(hint) if (found := annotation(k, kind))), None)
     return None
+
+
+def joined(where: str, key: str | int) -> str:
+    """The key path one step further in."""
+    if isinstance(key, int):
+        return f"{where}[{key}]"
+    return f"{where}.{key}" if where else key

@@ -14,8 +14,7 @@ from modeviz.files.schema.axes import (
     turn_rates,
     turn_vectors,
 )
-from modeviz.files.schema.decoding import joined
-from modeviz.files.schema.hints import annotation, fields_of, plain
+from modeviz.files.schema.hints import annotation, fields_of, joined, plain
 from modeviz.vehicle.arrays import Floats
 
 Vector = tuple[float, float, float]
