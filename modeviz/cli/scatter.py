@@ -25,7 +25,7 @@ def scatter_mounts(options: Namespace) -> None:
     tolerance = chosen_tolerance(options)
     with of_options():
         chosen_vehicles = ScatterOptions(
-            options.samples, tolerance, options.seed, options.point, options.scheduler
+            options.samples, tolerance, options.seed, _points(options), options.scheduler
         )
     vehicle, rates = vehicle_and_rates(options)
     need(vehicle, "mount group", vehicle.mount_groups)
@@ -49,3 +49,8 @@ def scatter_mounts(options: Namespace) -> None:
         if n_driven < options.samples:
             remark(f"ended after {n_driven} of {options.samples} vehicles")
         print_result(scatter_record(told) if options.json else scatter_table(told))
+
+
+def _points(options: Namespace) -> tuple[str, ...]:
+    """The response point that is looked at, if one was named."""
+    return () if options.point is None else (options.point,)

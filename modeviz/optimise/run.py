@@ -3,7 +3,8 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from modeviz.compute.cancel import CancelToken
+from modeviz.compute.cancel import CancelledError, CancelToken
+from modeviz.compute.runner import Runner
 from modeviz.compute.threads import one_thread
 from modeviz.errors import SolveError
 from modeviz.optimise.active_limits import ActiveConstraint, active_constraints
@@ -29,6 +30,10 @@ EVOLVING = 0.8
 """The part of them that a global search has before its best design is improved."""
 
 
+History = tuple[tuple[int, float], ...]
+"""Every better design: after how many evaluations it was found, and its goal."""
+
+
 @dataclass(frozen=True)
 class Progress:
     """Where an optimisation is."""
@@ -41,6 +46,8 @@ class Progress:
     start: int
     """The number of the start that is searched from, from one; of a global search the part, of two."""
     n_starts: int
+    history: History = ()
+    """How the best goal fell."""
     is_checking: bool = False
     """Whether the search is over and its best design now held against the full model."""
 
@@ -63,6 +70,8 @@ class Optimum:
     """What the full model says of it."""
     descents: tuple[Descent, ...]
     """The end of the search from each start that was come to."""
+    history: History = ()
+    """How the best goal fell; of a robust search that of its own goal."""
 
     @property
     def converged(self) -> bool:
@@ -90,15 +99,48 @@ def optimise(
     Raises:
         SolveError: a design that cannot be solved, or none that keeps a mode where it has to be.
     """
-    descents: list[Descent] = []
+    account = _Account(search, len(starts), tell)
     for i, start in enumerate(starts, 1):
-        used = sum(d.evaluations for d in descents)
-        is_cancelled = i > FIRST and CANCELLED in (d.reason for d in descents)
-        if used >= budget or is_cancelled:
+        is_cancelled = i > FIRST and CANCELLED in (d.reason for d in account.descents)
+        left = budget - account.evaluations
+        if left <= 0 or is_cancelled:
             break
-        teller = _teller(search, descents, used, i, len(starts), tell)
-        descents.append(descend(search, start, budget - used, token, teller))
-    return best_of(search, descents, why_ended(descents, len(starts)), len(starts), tell)
+        account.end(descend(search, start, left, token, account.follow))
+    return account.optimum()
+
+
+def optimise_on(
+    runner: Runner,
+    search: Search,
+    starts: Sequence[Floats],
+    budget: int = BUDGET,
+    token: CancelToken | None = None,
+    tell: Callable[[Progress], None] = lambda _: None,
+) -> Optimum:
+    """The same as `optimise` finds while no search runs out of its budget, side by side.
+
+    Args:
+        runner: where searches are computed, each from its start.
+        search: what is sought.
+        starts: (n_variables,) each, see `start_points`.
+        budget: the most evaluations; every search may take an equal part of them.
+        token: lets somebody end it; the best design of the searches that have ended is kept.
+        tell: told at the end of every search, once there is a feasible design, and as by `optimise`.
+
+    Raises:
+        SolveError: as `optimise`.
+    """
+    account = _Account(search, len(starts), tell)
+    shared = search, max(1, budget // len(starts))
+    try:
+        for descent in runner.map(_descend, shared, starts, token or CancelToken()):
+            account.end(descent)
+            account.tell()
+    except CancelledError:
+        for start in starts[:FIRST]:
+            account.end(descend(search, start, 1, token))
+        return account.optimum(CANCELLED)
+    return account.optimum()
 
 
 def search_globally(
@@ -120,14 +162,15 @@ def search_globally(
     Raises:
         SolveError: as `optimise`.
     """
-    teller = _teller(search, [], 0, 1, 2, tell)
-    evolved = evolve(search, seed, max(1, int(EVOLVING * budget)), token, teller)
-    rest = budget - evolved.evaluations
-    if evolved.x is None or evolved.reason == CANCELLED or not rest:
-        return best_of(search, [evolved], evolved.reason, 2, tell)
-    teller = _teller(search, [evolved], evolved.evaluations, 2, 2, tell)
-    descent = descend(search, evolved.x, rest, token, teller)
-    return best_of(search, [evolved, descent], descent.reason, 2, tell)
+    account = _Account(search, 2, tell)
+    evolved = evolve(search, seed, max(1, int(EVOLVING * budget)), token, account.follow)
+    account.end(evolved)
+    left = budget - evolved.evaluations
+    if evolved.x is None or evolved.reason == CANCELLED or not left:
+        return account.optimum(evolved.reason)
+    descent = descend(search, evolved.x, left, token, account.follow)
+    account.end(descent)
+    return account.optimum(descent.reason)
 
 
 def why_ended(descents: Sequence[Descent], n_starts: int) -> str:
@@ -146,6 +189,7 @@ def best_of(
     descents: Sequence[Descent],
     reason: str,
     n_starts: int,
+    history: History = (),
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
     """The optimum of several searches, held against the full model.
@@ -155,6 +199,7 @@ def best_of(
         descents: the end of each search.
         reason: why there are no more of them, see `why_ended`.
         n_starts: how many of them there might have been.
+        history: how the best goal fell.
         tell: told before the full model is solved, which may take seconds.
 
     Raises:
@@ -169,7 +214,7 @@ def best_of(
         raise SolveError(f"{kept}: widen them, free more rates or take more starts")
     rates = search.space.rates(best.x)
     n_evaluations = sum(d.evaluations for d in descents)
-    tell(Progress(n_evaluations, rates, best.value, len(descents), n_starts, is_checking=True))
+    tell(Progress(n_evaluations, rates, best.value, len(descents), n_starts, history, is_checking=True))
     verification = verify(search, best.x, best.value)
     return Optimum(
         x=best.x,
@@ -180,26 +225,55 @@ def best_of(
         active=active_constraints(search, best.x),
         verification=verification,
         descents=tuple(descents),
+        history=history,
     )
 
 
-def _teller(
-    search: Search,
-    before: Sequence[Descent],
-    used: int,
-    number: int,
-    n_starts: int,
-    tell: Callable[[Progress], None],
-) -> Callable[[Step], None]:
-    """What tells the best so far, of this search and those before."""
-    best = min(before, key=lambda d: d.value, default=None)
+class _Account:
+    """Keeps what several searches for the same find, and tells of it."""
 
-    def told(step: Step) -> None:
-        x, value = step.x, step.value
-        if best is not None and best.value <= value:
-            x, value = best.x, best.value
-        if x is not None:
-            rates = search.space.rates(x)
-            tell(Progress(used + step.evaluations, rates, value, number, n_starts))
+    def __init__(self, search: Search, n_starts: int, tell: Callable[[Progress], None]) -> None:
+        self._search, self._n_starts, self._tell = search, n_starts, tell
+        self._best: Floats | None = None
+        self._history: History = ()
+        self.descents: list[Descent] = []
 
-    return told
+    @property
+    def evaluations(self) -> int:
+        """Of the searches that have ended."""
+        return sum(descent.evaluations for descent in self.descents)
+
+    def follow(self, step: Step) -> None:
+        """Keeps and tells an evaluation of the search that runs."""
+        evaluations = self.evaluations + step.evaluations
+        self._keep(step.x, step.value, evaluations)
+        self._tell_best(evaluations, len(self.descents) + 1)
+
+    def end(self, descent: Descent) -> None:
+        """Keeps the end of a search."""
+        self.descents.append(descent)
+        self._keep(descent.x, descent.value, self.evaluations)
+
+    def tell(self) -> None:
+        """Tells where things are after the end of a search."""
+        self._tell_best(self.evaluations, len(self.descents))
+
+    def optimum(self, reason: str = "") -> Optimum:
+        """The best that was found, and why the searches ended if it is not said."""
+        reason = reason or why_ended(self.descents, self._n_starts)
+        return best_of(self._search, self.descents, reason, self._n_starts, self._history, self._tell)
+
+    def _keep(self, x: Floats | None, value: float, evaluations: int) -> None:
+        if x is not None and (self._best is None or value < self._history[-1][1]):
+            self._best = x
+            self._history = (*self._history, (evaluations, value))
+
+    def _tell_best(self, evaluations: int, number: int) -> None:
+        if self._best is not None:
+            rates, value = self._search.space.rates(self._best), self._history[-1][1]
+            self._tell(Progress(evaluations, rates, value, number, self._n_starts, self._history))
+
+
+def _descend(shared: tuple[Search, int], start: Floats) -> Descent:
+    search, budget = shared
+    return descend(search, start, budget)

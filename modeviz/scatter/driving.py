@@ -33,8 +33,8 @@ class ScatterOptions:
     """Of their parts."""
     seed: int = 0
     """The same gives the same vehicles."""
-    point: str | None = None
-    """The response point that is looked at; None: the vehicle's first."""
+    points: tuple[str, ...] = ()
+    """The response points that are looked at, the first is rated; none: the vehicle's first."""
     scheduler: str | None = None
     """Address of the dask cluster where they are computed; None: here."""
 
@@ -65,6 +65,7 @@ def drive_many(
     options: ScatterOptions,
     token: CancelToken,
     tell: Callable[[float], None],
+    at_least: int = CHUNK,
 ) -> Scattered:
     """Return what vehicles do whose mounts scatter, or those driven until it is cancelled.
 
@@ -75,10 +76,12 @@ def drive_many(
         conditions: road and speed.
         problem: whose goal is looked at.
         options: which vehicles.
-        token: ends it; a few vehicles are driven nevertheless.
+        token: lets somebody end it.
         tell: told the fraction that is done.
+        at_least: so many vehicles are driven even if it is cancelled; of none nothing is kept.
 
     Raises:
+        CancelledError: it was told to end, and nothing is to be kept.
         ModevizError: the goal does not scatter, or nobody answers for the scheduler.
         VehicleError: a road or point that the vehicle does not have.
         SolveError: an undamped resonance on a frequency.
@@ -89,15 +92,19 @@ def drive_many(
             f"problem {problem.name!r}: its goal, {problem.goal}, does not scatter: only what is made "
             "of accelerations does; choose another problem"
         )
-    points = () if options.point is None else (options.point,)
     with runner_at(options.scheduler) as runner:
         prepared = prepare()
         parts = scattered_parts(prepared, rates, options.tolerance)
-        drive = partial(scatter, prepared, parts, conditions, goal, seed=options.seed, points=points)
+        given = prepared, parts, conditions, goal
+        drive = partial(scatter, *given, seed=options.seed, points=options.points)
         try:
             result = drive(options.samples, runner=runner, token=token, tell=tell)
         except CancelledError:
-            result = drive(min(options.samples, CHUNK))
+            if not at_least:
+                raise
+            result = drive(min(options.samples, at_least))
+    if not at_least:
+        token.check()
     worst = worst_corner(goal, parts, result.deviations[result.goal.argmax()])
     return Scattered(problem, conditions, options.seed, result, worst, _spread(result))
 

@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
+from typing import Protocol
 
-from modeviz.compute.cancel import CancelToken
+from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.cluster import runner_at
 from modeviz.compute.runner import Runner
 from modeviz.errors import ModevizError
-from modeviz.optimise.multistart import optimise_on
-from modeviz.optimise.run import BUDGET, Optimum, Progress, optimise, search_globally
+from modeviz.optimise.run import BUDGET, Optimum, Progress, optimise, optimise_on, search_globally
 from modeviz.optimise.search import Search
 from modeviz.optimise.starts import MOST_STARTS, start_points
 from modeviz.scatter.robust import optimise_robustly, robust_search
@@ -47,12 +47,29 @@ def check_whole(name: str, value: int, low: int, high: float = inf) -> None:
         raise ModevizError(f"{name}: found {value}, expected {expected}")
 
 
+class Begin(Protocol):
+    """Told that a search begins."""
+
+    def __call__(self, search: Search, is_robust: bool) -> None:
+        """Says which, and whether its goal is a percentile over parts that scatter.
+
+        Raises:
+            CancelledError: it is not to begin.
+        """
+        ...
+
+
+def begin_quietly(search: Search, is_robust: bool) -> None:
+    """Says nothing."""
+
+
 def find_best(
     search: Search,
     rates: Rates,
     options: SearchOptions,
     token: CancelToken,
     tell: Callable[[Progress], None],
+    begin: Begin = begin_quietly,
 ) -> tuple[Search, Optimum]:
     """Return the last search and the best that it found until its end, or until it is cancelled.
 
@@ -60,19 +77,26 @@ def find_best(
         search: what is sought.
         rates: the first start, of every group.
         options: how.
-        token: ends it.
+        token: lets somebody hold or end it.
         tell: told every evaluation, of a robust search from one again.
+        begin: told of the search, before where to start is chosen, and of the robust one after it.
 
     Raises:
+        CancelledError: `begin` wants no search at all.
         ModevizError: nobody answers for the scheduler.
         SolveError: as `optimise`, and where a robust search is asked for and the goal does not scatter.
     """
     robustly = robust_search(search, options.tolerance) if options.tolerance else None
+    begin(search, is_robust=False)
     with runner_at(options.scheduler) as runner:
         found = _find_as_drawn(search, rates, options, runner, token, tell)
-        if robustly is None or token.is_cancelled:
-            return search, found
-        return robustly, optimise_robustly(robustly, found, options.budget, token, tell)
+    if robustly is None or token.is_cancelled:
+        return search, found
+    try:
+        begin(robustly, is_robust=True)
+    except CancelledError:
+        return search, found
+    return robustly, optimise_robustly(robustly, found, options.budget, token, tell)
 
 
 def _find_as_drawn(
@@ -83,6 +107,7 @@ def _find_as_drawn(
     token: CancelToken,
     tell: Callable[[Progress], None],
 ) -> Optimum:
+    """The best for parts as drawn: everywhere, or from starts here or side by side on a cluster."""
     if options.everywhere:
         return search_globally(search, options.seed, options.budget, token, tell)
     starts = start_points(search, rates, options.starts, options.seed, token)

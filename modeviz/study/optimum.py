@@ -36,8 +36,11 @@ class OptimiseResult(Displayed):
     """What was sought, the last time."""
     optimum: Optimum
     """As the functions of `optimise` give it."""
-    history: Floats
-    """(n, 2): after how many evaluations a better design was found, and its objective."""
+
+    @property
+    def history(self) -> Floats:
+        """(n, 2): after how many evaluations a better design was found, and its objective."""
+        return np.array(self.optimum.history, np.float64).reshape(-1, 2)
 
     @property
     def rates(self) -> dict[str, MountRates]:

@@ -1,9 +1,7 @@
 """The searches of a study: for which problem, and who follows them."""
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from pathlib import Path
-
-import numpy as np
 
 from modeviz.compute.cancel import CancelToken
 from modeviz.files.problem_file import ENDING, read_problem
@@ -13,40 +11,25 @@ from modeviz.optimise.trade_off import TradeOff
 from modeviz.scatter.searching import SearchOptions
 from modeviz.study.telling import Tell
 from modeviz.text.wording import significant
-from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.default_problem import problems
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 
-@dataclass
-class Follower:
-    """Follows a search: keeps how the best objective fell, and tells how far the search is."""
+def telling(tell: Tell, token: CancelToken) -> Callable[[Progress], None]:
+    """Return what tells how far a search is, until it is cancelled."""
 
-    tell: Tell
-    token: CancelToken
-    history: list[tuple[int, float]] = field(default_factory=list)
-    """After how many evaluations a better design was found, and its objective."""
-
-    def __call__(self, where: Progress) -> None:
-        """Keeps and tells where a search is."""
-        if self.history and where.evaluations < self.history[-1][0]:
-            self.history.clear()  # another search, for another objective
-        if not self.history or where.value < self.history[-1][1]:
-            self.history.append((where.evaluations, where.value))
-        if self.token.is_cancelled:
+    def follow(where: Progress) -> None:
+        if token.is_cancelled:
             return
         if where.is_checking:
-            self.tell("checking with the full model", 1.0)
+            tell("checking with the full model", 1.0)
             return
         what = f"search {where.start} of {where.n_starts}, objective {significant(where.value)}"
-        self.tell(what, (where.start - 1) / where.n_starts)
+        tell(what, (where.start - 1) / where.n_starts)
 
-    @property
-    def steps(self) -> Floats:
-        """(n, 2): the history as an array."""
-        return np.array(self.history, np.float64).reshape(-1, 2)
+    return follow
 
 
 def chosen_problem(vehicle: Vehicle, problem: "str | Path | Problem | None") -> Problem:

@@ -42,7 +42,7 @@ from modeviz.study.pictures import (
 from modeviz.study.rates import StudyRates
 from modeviz.study.ride import Ride
 from modeviz.study.scatter import ScatterResult
-from modeviz.study.searching import Follower, chosen_problem, find_designs
+from modeviz.study.searching import chosen_problem, find_designs, telling
 from modeviz.study.sensitivity import RateSensitivity
 from modeviz.study.telling import Tell, cancelled_by_ctrl_c, say_nothing
 from modeviz.study.trade_off import FrontResult
@@ -213,10 +213,9 @@ class Study:
         chosen, rates = chosen_problem(self._vehicle, problem), self.rates.by_group
         search = prepare_search(self._vehicle, chosen, rates, self._speed)
         with cancelled_by_ctrl_c() as token:
-            follower = Follower(self._tell, token)
             self._tell("choosing where to start", 0.0)
-            search, optimum = find_best(search, rates, options, token, follower)
-        return OptimiseResult(chosen, search, optimum, follower.steps)
+            search, optimum = find_best(search, rates, options, token, telling(self._tell, token))
+        return OptimiseResult(chosen, search, optimum)
 
     @one_thread
     def front(
@@ -277,7 +276,8 @@ class Study:
             ModevizError: there is no such problem, road or point, or its goal does not scatter.
         """
         need(self._vehicle, "mount group", self._vehicle.mount_groups)
-        options = ScatterOptions(samples, tolerance or Tolerance(), seed, point, scheduler)
+        points = () if point is None else (point,)
+        options = ScatterOptions(samples, tolerance or Tolerance(), seed, points, scheduler)
         conditions = road_conditions(self._vehicle, road, self._speed)
         chosen, rates = chosen_problem(self._vehicle, problem), self.rates.by_group
         tell = partial(self._tell, "scattering")

@@ -47,7 +47,7 @@ from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State, first_state, variant_name
 from modeviz.viewer.tasks.front_task import FrontTask
 from modeviz.viewer.tasks.scatter_task import ScatterTask
-from modeviz.viewer.tasks.search_task import Optimiser
+from modeviz.viewer.tasks.search_task import SearchTask
 
 LEFT = {WIDE: 376, NARROW: 300}
 RIGHT = {WIDE: 484, NARROW: 380}
@@ -91,7 +91,7 @@ class App:
             self._tell_check,
         )
         mistake = server.notices.mistake
-        self.optimiser: Optimiser = Optimiser(self.session, lambda: self._optimise.follow(), mistake)
+        self.optimiser: SearchTask = SearchTask(self.session, lambda: self._optimise.follow(), mistake)
         self.trader: FrontTask = FrontTask(self.session, lambda: self._trade_off.follow(), mistake)
         self.scatterer: ScatterTask = ScatterTask(self.session, lambda: self._scatter.follow(), mistake)
         scripts.run(self._gui, "page/style.js", style_sheet())

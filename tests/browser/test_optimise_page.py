@@ -63,9 +63,9 @@ def press(page, name):
 def search(app, page):
     """Searches to the end; gives what was found."""
     press(page, "Start")
-    wait_until(page, lambda: app.optimiser.look and app.optimiser.look.optimum)
+    wait_until(page, lambda: app.optimiser.job and app.optimiser.job.found)
     wait_for(page, f"{TEXT}.includes('Converged')")
-    return app.optimiser.look.optimum
+    return app.optimiser.job.found
 
 
 def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page):
@@ -84,22 +84,22 @@ def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page
 
 def test_it_is_paused_goes_on_and_is_cancelled_with_the_best_design(app, page, held):
     press(page, "Start")
-    wait_until(page, lambda: app.optimiser.look and app.optimiser.look.history)
+    wait_until(page, lambda: app.optimiser.job and app.optimiser.job.history)
     press(page, "Pause")
     wait_for(page, f"{TEXT}.includes('Paused')")
     held.set()
-    at = app.optimiser.look.progress.evaluations
+    at = app.optimiser.job.progress.evaluations
     press(page, "Resume")
-    wait_until(page, lambda: app.optimiser.look.progress.evaluations > at)
+    wait_until(page, lambda: app.optimiser.job.progress.evaluations > at)
 
 
 def test_cancel_keeps_the_best_design(app, page, held):
     press(page, "Start")
-    wait_until(page, lambda: app.optimiser.look and app.optimiser.look.history)
+    wait_until(page, lambda: app.optimiser.job and app.optimiser.job.history)
     press(page, "Cancel")
     wait_for(page, f"{TEXT}.includes('Cancelled')")
-    look = app.optimiser.look
-    assert app.session.state.rates == look.optimum.rates == look.progress.rates
+    look = app.optimiser.job
+    assert app.session.state.rates == look.found.rates == look.progress.rates
 
 
 def test_the_result_is_accepted_under_a_name_of_its_own(app, page):

@@ -15,8 +15,7 @@ from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.cluster import runner_at
 from modeviz.errors import ModevizError
 from modeviz.files import write_vehicle
-from modeviz.optimise.multistart import optimise_on
-from modeviz.optimise.run import optimise
+from modeviz.optimise.run import optimise, optimise_on
 from modeviz.optimise.starts import start_points
 from modeviz.scatter.monte_carlo import CHUNK, scatter
 from modeviz.scatter.tolerance import Tolerance, scattered_parts

@@ -19,8 +19,7 @@ from modeviz.compute.runner import HERE
 from modeviz.errors import SolveError
 from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.optimise.evolution import evolve
-from modeviz.optimise.multistart import optimise_on
-from modeviz.optimise.run import LEFT, best_of, optimise, search_globally, why_ended
+from modeviz.optimise.run import LEFT, best_of, optimise, optimise_on, search_globally, why_ended
 from modeviz.optimise.search import prepare_search
 from modeviz.optimise.starts import SCREENED, start_points
 from modeviz.optimise.verification import verify

@@ -9,8 +9,8 @@ import viser
 from modeviz.analysis.results import AXIS
 from modeviz.errors import ModevizError
 from modeviz.report.optimum import objective_words
+from modeviz.scatter.driving import Scattered
 from modeviz.scatter.monte_carlo import Scatter, rating_of
-from modeviz.scatter.sobol import spread
 from modeviz.text.wording import number, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import RIDE_DIRECTIONS
@@ -90,7 +90,7 @@ def _text(job: Job[Build, ScatterOutcome], is_current: bool) -> list[str]:
     found = job.found.scatter
     n = f"{len(found.goal)} vehicles"
     quiet = n if is_current else f"{n}, other rates or road"
-    return [heading("Scatter", quiet), _figures(job.asked.problem, found), _parts(found)]
+    return [heading("Scatter", quiet), _figures(job.asked.problem, found), _parts(job.found.told)]
 
 
 def _figures(problem: Problem, found: Scatter) -> str:
@@ -113,10 +113,12 @@ def _row(label: str, values: Floats, nominal: float) -> str:
     return row([label, significant(low), span(significant(nominal), "dim"), significant(high)])
 
 
-def _parts(found: Scatter) -> str:
-    """The parts that make most of the goal's spread."""
-    shares = spread(found.deviations, found.goal).shares
-    names = [f"{name} {what}" for what in ("hardness", "damping") for name in found.parts.names]
+def _parts(told: Scattered) -> str:
+    """The parts that make most of the goal's spread, where there are vehicles enough to tell."""
+    if told.spread is None:
+        return ""
+    shares, parts = told.spread.shares, told.scatter.parts
+    names = [f"{name} {what}" for what in ("hardness", "damping") for name in parts.names]
     most = np.argsort(-shares)[:N_PARTS]
     rows = [row([title(names[i]), f"{100 * shares[i]:.0f} %"]) for i in most]
     return table(("Most of the goal's spread", ""), rows)

@@ -1,10 +1,10 @@
-"""A long computation beside a tuning session: one at a time, told of, cancelled at once."""
+"""A long computation beside a tuning session: one at a time, told of, held, cancelled at once."""
 
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Generic, Literal, Protocol, TypeVar
+from typing import Any, Generic, Literal, Protocol, TypeVar
 
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.errors import ModevizError
@@ -14,17 +14,14 @@ OUR_MISTAKE = "This is our mistake: the terminal says more."
 TELL_EVERY = 0.25
 """s between two words on how far it is."""
 
+PATIENCE = 3.0
+"""s that a session waits for the end of what it cancelled: the full model may take longer."""
+
+Phase = Literal["running", "paused", "ending", "ended", "cancelled", "failed"]
+RUNNING: tuple[Phase, ...] = ("running", "paused", "ending")
+
 Asked = TypeVar("Asked")
 Found = TypeVar("Found")
-Found_contra = TypeVar("Found_contra", contravariant=True)
-
-
-class Progress(Protocol[Found_contra]):
-    """Told how far a computation is."""
-
-    def __call__(self, done: float, found: Found_contra | None = None) -> None:
-        """Told the fraction that is done and, if there is any, what is found so far."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +29,8 @@ class Job(Generic[Asked, Found]):
     """What there is to know of a computation at some moment."""
 
     asked: Asked
-    phase: Literal["running", "ended", "cancelled", "failed"] = "running"
+    phase: Phase = "running"
+    """Of what was cancelled and is still waited for, see `is_awaited`, it is "ending"."""
     done: float = 0.0
     """The fraction that is done."""
     found: Found | None = None
@@ -42,16 +40,32 @@ class Job(Generic[Asked, Found]):
 
     @property
     def is_running(self) -> bool:
-        return self.phase == "running"
+        return self.phase in RUNNING
+
+    @property
+    def is_awaited(self) -> bool:
+        """Whether it gives something worth waiting for when it is cancelled now."""
+        return False
 
 
-class BackgroundTask(Generic[Asked, Found]):
+AnyJob = TypeVar("AnyJob", bound=Job[Any, Any])
+
+
+class Tell(Protocol):
+    """Told what is new of a computation."""
+
+    def __call__(self, at_once: bool = False, **news: Any) -> None:
+        """Keeps fields of the `Job`, and has them looked at: at once, or when it is time again."""
+        ...
+
+
+class BackgroundTask(Generic[AnyJob]):
     """Runs a computation in a thread of its own."""
 
     def __init__(
         self,
         what: str,
-        work: Callable[[Asked, CancelToken, Progress[Found]], Found],
+        work: Callable[[AnyJob, CancelToken, Tell], Any],
         changed: Callable[[], None],
         report: Callable[[Exception], None],
     ) -> None:
@@ -59,60 +73,93 @@ class BackgroundTask(Generic[Asked, Found]):
 
         Args:
             what: it is: "scatter".
-            work: does it, asks its token often and tells how far it is.
+            work: does a job and returns what it found, asks its token often and tells what is new.
             changed: told that there is something new to look at.
             report: told what is our mistake.
         """
-        self._report = report
-        self._what, self._work, self._changed = what, work, changed
+        self._what, self._work, self._changed, self._report = what, work, changed, report
         self._lock = threading.Lock()
         self._token = CancelToken()
+        self._thread: threading.Thread | None = None
         self._told = 0.0
-        self.job: Job[Asked, Found] | None = None
+        self.job: AnyJob | None = None
         """The newest; None before the first."""
 
-    def start(self, asked: Asked) -> None:
+    def start(self, job: AnyJob) -> None:
         """Begins.
 
         Raises:
             ModevizError: another one is running.
         """
+        token = CancelToken()
+        thread = threading.Thread(target=self._run, args=(job, token), name=self._what, daemon=True)
         with self._lock:
             if self.job and self.job.is_running:
                 raise ModevizError(f"a {self._what} is running: cancel it first")
-            self.job, self._token = Job(asked), CancelToken()
-        arguments = asked, self._token
-        threading.Thread(target=self._run, args=arguments, name=self._what, daemon=True).start()
+            self.job, self._token, self._thread = job, token, thread
+        thread.start()
         self._changed()
 
-    def cancel(self) -> None:
-        """Ends what is running; here it is over at once, and its thread soon."""
-        self._token.cancel()
-        self._put(self._token, phase="cancelled")
+    def pause(self) -> None:
+        """Holds what is running."""
+        self._turn("running", "paused", CancelToken.pause)
 
-    def _run(self, asked: Asked, token: CancelToken) -> None:
-        def tell(done: float, found: Found | None = None) -> None:
-            token.check()
-            if found is not None or time.monotonic() - self._told > TELL_EVERY:
+    def resume(self) -> None:
+        """Lets it go on."""
+        self._turn("paused", "running", CancelToken.resume)
+
+    def cancel(self) -> None:
+        """Ends what is running; if it is not awaited, it is over at once, and its thread soon."""
+        self._token.cancel()
+        with self._lock:
+            job = self.job
+            if job is None or not job.is_running:
+                return
+            self.job = replace(job, phase="ending" if job.is_awaited else "cancelled")
+        self._changed()
+
+    def close(self) -> None:
+        """Ends what is running and waits for its thread, but not longer than anybody would."""
+        self.cancel()
+        if self._thread is not None:
+            self._thread.join(PATIENCE)
+
+    def _run(self, job: AnyJob, token: CancelToken) -> None:
+        def tell(at_once: bool = False, **news: Any) -> None:
+            is_due = at_once or time.monotonic() - self._told > TELL_EVERY
+            if self._keep(token, **news) and is_due:
                 self._told = time.monotonic()
-                self._put(token, done=done, found=found)
+                self._changed()
 
         try:
-            found = self._work(asked, token, tell)
-        except CancelledError:
-            return
-        except ModevizError as error:
-            self._put(token, phase="failed", failure=str(error))
+            found = self._work(job, token, tell)
         except Exception as error:
-            self._report(error)
-            self._put(token, phase="failed", failure=OUR_MISTAKE)
+            tell(at_once=True, **self._ending(error, token))
         else:
-            self._put(token, phase="ended", done=1.0, found=found)
+            tell(at_once=True, phase="ended", done=1.0, found=found)
 
-    def _put(self, token: CancelToken, **news) -> None:
+    def _ending(self, error: Exception, token: CancelToken) -> dict[str, str]:
+        """What there is to say of a job that an error ended."""
+        if not isinstance(error, ModevizError | CancelledError):
+            self._report(error)
+            return {"phase": "failed", "failure": OUR_MISTAKE}
+        if token.is_cancelled:
+            return {"phase": "cancelled"}
+        return {"phase": "failed", "failure": str(error)}
+
+    def _turn(self, before: Phase, after: Phase, turn: Callable[[CancelToken], None]) -> None:
+        """Goes on to a phase from another one, if it is in that."""
+        with self._lock:
+            if self.job is None or self.job.phase != before:
+                return
+            turn(self._token)
+            self.job = replace(self.job, phase=after)
+        self._changed()
+
+    def _keep(self, token: CancelToken, **news: Any) -> bool:
         """Keeps news of the newest as long as it runs; those of one that was cancelled are nobody's."""
         with self._lock:
             if token is not self._token or self.job is None or not self.job.is_running:
-                return
+                return False
             self.job = replace(self.job, **news)
-        self._changed()
+        return True

@@ -12,7 +12,7 @@ from modeviz.vehicle.problem import Problem
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State, rate_sets
-from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Progress
+from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Tell
 
 N_STARTS = 3
 """For each design, besides those found before: a front is to be there while one waits."""
@@ -46,12 +46,14 @@ class FrontTask:
             report: told what is our mistake.
         """
         self._session = session
-        self._beside = BackgroundTask[Trade, Designs]("search for a front", self._find, changed, report)
+        self._task = BackgroundTask[Job[Trade, Designs]](
+            "search for a front", self._find, changed, report
+        )
 
     @property
     def job(self) -> Job[Trade, Designs] | None:
         """The newest search; None before the first."""
-        return self._beside.job
+        return self._task.job
 
     def offers(self) -> tuple[str, ...]:
         """What can be traded, as in "lateral against vertical".
@@ -74,11 +76,11 @@ class FrontTask:
         if name not in offers:
             raise ModevizError(unknown("trade-off", name, offers))
         known = (state.rates, *rate_sets(vehicle, state).values())
-        self._beside.start(Trade(problem, offers[name], state, known))
+        self._task.start(Job(Trade(problem, offers[name], state, known)))
 
     def cancel(self) -> None:
         """Ends what is running; the designs found by then are kept."""
-        self._beside.cancel()
+        self._task.cancel()
 
     def load(self, number: int) -> None:
         """Takes over the rates of a design of the front, if there is one of that number."""
@@ -90,15 +92,16 @@ class FrontTask:
         assert state.plan is not None
         return planned(self._session.vehicle, state.plan)
 
-    def _find(self, trade: Trade, token: CancelToken, tell: Progress[Designs]) -> Designs:
-        state, vehicle = trade.state, self._session.vehicle
+    def _find(self, job: Job[Trade, Designs], token: CancelToken, tell: Tell) -> Designs:
+        trade, state, vehicle = job.asked, job.asked.state, self._session.vehicle
         trade_off = prepare_trade_off(
             vehicle, trade.problem, trade.sides, state.rates, state.conditions.speed, state.locked
         )
         token.check()
 
         def told(progress: FrontProgress) -> None:
-            tell(progress.done, progress.designs or None)
+            token.check()
+            tell(at_once=True, done=progress.done, found=progress.designs or None)
 
         known = trade.known
         front = find_front(trade_off, known, n_starts=N_STARTS, token=token, tell=told)

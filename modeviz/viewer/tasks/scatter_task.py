@@ -6,16 +6,16 @@ from functools import cached_property
 
 from modeviz.analysis.results import AXIS, Conditions
 from modeviz.compute.cancel import CancelToken
-from modeviz.optimise.goals import ResponseGoal, prepare_goal
-from modeviz.scatter.monte_carlo import Scatter, scatter
-from modeviz.scatter.tolerance import Tolerance, scattered_parts
+from modeviz.scatter.driving import Scattered, ScatterOptions, drive_many
+from modeviz.scatter.monte_carlo import Scatter
+from modeviz.scatter.tolerance import Tolerance
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import ResponseCurve, State
-from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Progress
+from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Tell
 
 PERCENT = (5.0, 95.0)
 """Between these percentiles a band is drawn."""
@@ -29,7 +29,7 @@ class Build:
     conditions: Conditions
     problem: Problem
     """Whose goal is looked at."""
-    n_samples: int
+    options: ScatterOptions
 
     def is_of(self, state: State) -> bool:
         """Whether they have the rates of a state, on its road at its speed."""
@@ -40,7 +40,11 @@ class Build:
 class ScatterOutcome:
     """What these vehicles do."""
 
-    scatter: Scatter
+    told: Scattered
+
+    @property
+    def scatter(self) -> Scatter:
+        return self.told.scatter
 
     @cached_property
     def percentiles(self) -> Floats:
@@ -62,14 +66,14 @@ class ScatterTask:
             report: told what is our mistake.
         """
         self._session, self._changed = session, changed
-        self._beside = BackgroundTask[Build, ScatterOutcome](
+        self._task = BackgroundTask[Job[Build, ScatterOutcome]](
             "scatter", self._scatter, self._tell, report
         )
 
     @property
     def job(self) -> Job[Build, ScatterOutcome] | None:
         """The newest scatter; None before the first."""
-        return self._beside.job
+        return self._task.job
 
     def start(self, n_samples: int) -> None:
         """Begins with so many vehicles.
@@ -82,11 +86,13 @@ class ScatterTask:
         problem = planned(self._session.vehicle, state.plan)
         if problem.goal == "change":  # which no part scatters
             problem = replace(problem, goal="accelerations")
-        self._beside.start(Build(state.rates, state.conditions, problem, n_samples))
+        points = tuple(point.name for point in self._session.vehicle.response_points)
+        options = ScatterOptions(n_samples, Tolerance(), points=points)
+        self._task.start(Job(Build(state.rates, state.conditions, problem, options)))
 
     def cancel(self) -> None:
         """Ends what is running; nothing of it is kept."""
-        self._beside.cancel()
+        self._task.cancel()
 
     def band(self, state: State, curve: ResponseCurve) -> Floats | None:
         """Between what a curve scatters, (2, n_freqs), g²/Hz, if that is known for a state."""
@@ -102,24 +108,21 @@ class ScatterTask:
         return job.found.scatter.frequency_hz, job.found.percentiles[:, :, curve.point, axis]
 
     def _scatter(
-        self, build: Build, token: CancelToken, tell: Progress[ScatterOutcome]
+        self, job: Job[Build, ScatterOutcome], token: CancelToken, tell: Tell
     ) -> ScatterOutcome:
-        vehicle, prepared = self._session.vehicle, self._session.prepared
-        goal = prepare_goal(vehicle, build.problem, build.rates, build.conditions.speed)
-        assert isinstance(goal, ResponseGoal)
-        token.check()
-        found = scatter(
-            prepared,
-            scattered_parts(prepared, build.rates, Tolerance()),
+        build, session = job.asked, self._session
+        told = drive_many(
+            session.vehicle,
+            lambda: session.prepared,
+            build.rates,
             build.conditions,
-            goal,
-            build.n_samples,
-            points=[point.name for point in vehicle.response_points],
-            token=token,
-            tell=tell,
+            build.problem,
+            build.options,
+            token,
+            lambda done: tell(done=done),
+            at_least=0,
         )
-        token.check()
-        return ScatterOutcome(found)
+        return ScatterOutcome(told)
 
     def _tell(self) -> None:
         """Has the charts drawn again once there is a band."""

@@ -12,6 +12,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.optimise.active_limits import ActiveConstraint
 from modeviz.optimise.run import Optimum, Progress, optimise
 from modeviz.optimise.verification import Verification
+from modeviz.scatter.searching import SearchOptions
 from modeviz.vehicle.problem import FrequencyWindow
 from modeviz.viewer.panels.optimise.fall import steps
 from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, where
@@ -19,11 +20,12 @@ from modeviz.viewer.panels.optimise.panel import OptimisePanel, offered
 from modeviz.viewer.panels.optimise.summary import summary
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
-from modeviz.viewer.tasks.search_task import Optimiser, SearchStatus
+from modeviz.viewer.tasks.search_task import SearchStatus, SearchTask, Sought
 
 RATES = mounted_cabin().rates
 BETTER = mounted_cabin().all_rates(mounted_cabin().rate_sets["soft"])
-LOOK = SearchStatus(PROBLEM, RATES, phase="searching", original=1.0, reference=0.8)
+SOUGHT = Sought(PROBLEM, RATES, 20.0, frozenset(), SearchOptions(starts=20))
+LOOK = SearchStatus(SOUGHT, has_begun=True, original=1.0, reference=0.8)
 FLAT = Conditions("flat", 20.0)
 
 
@@ -123,8 +125,8 @@ def test_what_the_full_model_says_is_bad_where_it_does_not_agree(optimum):
 
 
 def test_the_fall_is_a_staircase_to_the_last_evaluation():
-    progress = Progress(9, BETTER, 0.3, 1, 1)
-    x, best = steps(replace(LOOK, history=((1, 1.0), (4, 0.5), (6, 0.3)), progress=progress))
+    progress = Progress(9, BETTER, 0.3, 1, 1, history=((1, 1.0), (4, 0.5), (6, 0.3)))
+    x, best = steps(replace(LOOK, progress=progress))
     np.testing.assert_array_equal(x, [1, 4, 4, 6, 6, 9])
     np.testing.assert_array_equal(best, [1, 1, 0.5, 0.5, 0.3, 0.3])
 
@@ -135,7 +137,7 @@ def test_only_what_can_be_done_is_offered(optimum):
     assert offered(None, state) == ("Start",)
     assert offered(LOOK, state) == ("Pause", "Cancel")
     assert offered(replace(LOOK, phase="paused"), state) == ("Resume", "Cancel")
-    ended = replace(LOOK, phase="ended", optimum=optimum)
+    ended = replace(LOOK, phase="ended", found=optimum)
     assert offered(ended, state) == ("Start", "Accept")
     there = replace(state, rates=optimum.rates)
     assert offered(ended, there) == ("Start", "Accept", "Go back")
@@ -149,7 +151,7 @@ def test_a_vehicle_without_response_points_says_what_it_lacks():
     texts = []
     add, server.gui.add_html = server.gui.add_html, texts.append
     try:
-        OptimisePanel(server.gui, session, Optimiser(session, print, print), dark=False)
+        OptimisePanel(server.gui, session, SearchTask(session, print, print), dark=False)
     finally:
         server.gui.add_html = add
         session.close()

@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from modeviz.errors import ModevizError, SolveError
-from modeviz.viewer.tasks.background_task import BackgroundTask
+from modeviz.viewer.tasks.background_task import BackgroundTask, Job
 
 SOON = 20
 
@@ -16,15 +16,15 @@ class Works:
     def __init__(self):
         self._told = threading.Condition()
         self.may_end = {name: threading.Event() for name in ("first", "second")}
-        self.beside = BackgroundTask("work", self._work, self._tell, print)
+        self.task = BackgroundTask("work", self._work, self._tell, print)
 
     def _tell(self):
         with self._told:
             self._told.notify_all()
 
-    def _work(self, name, token, tell):
-        assert self.may_end[name].wait(SOON)
-        return name.upper()
+    def _work(self, job, token, tell):
+        assert self.may_end[job.asked].wait(SOON)
+        return job.asked.upper()
 
     def wait(self, reached):
         with self._told:
@@ -36,61 +36,95 @@ def works():
     return Works()
 
 
-def started(beside, asked):
+def started(task, asked):
     """Starts a computation; gives its thread."""
     before = set(threading.enumerate())
-    beside.start(asked)
+    task.start(Job(asked))
     (thread,) = (t for t in set(threading.enumerate()) - before if t.name == "work")
     return thread
 
 
 def test_what_was_found_is_there_at_the_end(works):
-    works.beside.start("first")
-    assert works.beside.job.is_running
+    works.task.start(Job("first"))
+    assert works.task.job.is_running
     works.may_end["first"].set()
-    works.wait(lambda: not works.beside.job.is_running)
-    job = works.beside.job
+    works.wait(lambda: not works.task.job.is_running)
+    job = works.task.job
     assert (job.phase, job.done, job.found) == ("ended", 1.0, "FIRST")
 
 
 def test_only_one_runs_at_a_time(works):
-    works.beside.start("first")
+    works.task.start(Job("first"))
     with pytest.raises(ModevizError, match="a work is running: cancel it first"):
-        works.beside.start("second")
+        works.task.start(Job("second"))
     works.may_end["first"].set()
 
 
 def test_what_was_cancelled_stays_so_whatever_it_still_finds(works):
-    thread = started(works.beside, "first")
-    works.beside.cancel()
+    thread = started(works.task, "first")
+    works.task.cancel()
     works.may_end["first"].set()
     thread.join(SOON)
-    assert (works.beside.job.phase, works.beside.job.found) == ("cancelled", None)
+    assert (works.task.job.phase, works.task.job.found) == ("cancelled", None)
 
 
 def test_what_was_cancelled_tells_nothing_of_the_next(works):
-    thread = started(works.beside, "first")
-    works.beside.cancel()
-    works.beside.start("second")
+    thread = started(works.task, "first")
+    works.task.cancel()
+    works.task.start(Job("second"))
     works.may_end["first"].set()
     thread.join(SOON)
-    job = works.beside.job
+    job = works.task.job
     assert (job.asked, job.phase, job.found) == ("second", "running", None)
     works.may_end["second"].set()
-    works.wait(lambda: works.beside.job.found == "SECOND")
+    works.wait(lambda: works.task.job.found == "SECOND")
 
 
 @pytest.mark.parametrize(
     ("error", "said"), [(SolveError("too stiff"), "too stiff"), (RuntimeError("a bug"), "our mistake")]
 )
 def test_a_failure_is_told(error, said):
-    def fails(asked, token, tell):
+    def fails(job, token, tell):
         raise error
 
     failed, reported = threading.Event(), []
-    beside = BackgroundTask("work", fails, lambda: beside.job.failure and failed.set(), reported.append)
-    beside.start(None)
+    task = BackgroundTask("work", fails, lambda: task.job.failure and failed.set(), reported.append)
+    task.start(Job(None))
     assert failed.wait(SOON)
-    assert beside.job.phase == "failed"
-    assert said in beside.job.failure
+    assert task.job.phase == "failed"
+    assert said in task.job.failure
     assert reported == [error] * isinstance(error, RuntimeError)
+
+
+def test_what_is_held_waits_at_its_next_check_and_is_cancelled_too():
+    held, seen = threading.Event(), []
+
+    def work(job, token, tell):
+        assert held.wait(SOON)
+        token.check()
+        seen.append("went on")
+
+    task = BackgroundTask("work", work, print, print)
+    thread = started(task, None)
+    task.pause()
+    assert (task.job.phase, task.job.is_running) == ("paused", True)
+    held.set()
+    thread.join(0.1)
+    assert not seen
+    task.close()
+    assert not thread.is_alive()
+    assert (task.job.phase, seen) == ("cancelled", [])
+
+
+def test_what_is_awaited_ends_after_it_was_cancelled_with_what_it_found():
+    class Awaited(Job):
+        is_awaited = True
+
+    may_end = threading.Event()
+    task = BackgroundTask("work", lambda *_: may_end.wait(SOON) and "best", lambda: None, print)
+    task.start(Awaited(None))
+    task.cancel()
+    assert task.job.phase == "ending"
+    may_end.set()
+    task.close()
+    assert (task.job.phase, task.job.found) == ("ended", "best")

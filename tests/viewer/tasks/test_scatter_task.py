@@ -9,8 +9,8 @@ from cabin_session import SOON, Watcher, open_session
 
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError, SolveError
+from modeviz.scatter import driving
 from modeviz.viewer.session.state import ResponseCurve
-from modeviz.viewer.tasks import scatter_task as module
 from modeviz.viewer.tasks.scatter_task import ScatterTask
 
 CURVE = ResponseCurve(0, "lateral")
@@ -41,13 +41,13 @@ def scatterer(session):
 @pytest.fixture
 def gate(monkeypatch):
     """Holds every scatter before its first vehicle until it is set."""
-    may_go, scatter = threading.Event(), module.scatter
+    may_go, scatter = threading.Event(), driving.scatter
 
     def held(*arguments, **keywords):
         may_go.wait(SOON)
         return scatter(*arguments, **keywords)
 
-    monkeypatch.setattr(module, "scatter", held)
+    monkeypatch.setattr(driving, "scatter", held)
     return may_go
 
 
@@ -105,7 +105,7 @@ def test_a_failure_is_told(scatterer, monkeypatch):
     def fails(*arguments, **keywords):
         raise SolveError("an undamped resonance")
 
-    monkeypatch.setattr(module, "scatter", fails)
+    monkeypatch.setattr(driving, "scatter", fails)
     scatterer.start(400)
     assert scatterer.finish().failure == "an undamped resonance"
 

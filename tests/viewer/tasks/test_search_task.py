@@ -13,13 +13,15 @@ from modeviz.errors import ModevizError, SolveError
 from modeviz.optimise.goals import prepare_goal
 from modeviz.optimise.run import Progress
 from modeviz.optimise.verification import verify
+from modeviz.scatter import searching
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.scatter.worst_case import goals
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.session.planning.plan import planned
+from modeviz.viewer.tasks import background_task
 from modeviz.viewer.tasks import search_task as module
-from modeviz.viewer.tasks.search_task import Optimiser
+from modeviz.viewer.tasks.search_task import SearchTask
 
 ANSWERS_WITHIN = 0.5
 """s, of the issue."""
@@ -39,7 +41,7 @@ def said():
 @pytest.fixture
 def optimiser(session, said):
     watcher, notices = Watcher(), Notices(said.append)
-    optimiser = Optimiser(session, watcher.tell, notices.mistake)
+    optimiser = SearchTask(session, watcher.tell, notices.mistake)
     optimiser.wait = watcher.wait
     yield optimiser
     optimiser.close()
@@ -57,8 +59,8 @@ def plan(session, **fields):
 
 def run(optimiser):
     optimiser.start()
-    optimiser.wait(lambda: not optimiser.look.is_running)
-    return optimiser.look
+    optimiser.wait(lambda: not optimiser.job.is_running)
+    return optimiser.job
 
 
 def goal(session):
@@ -71,16 +73,16 @@ def test_it_ends_with_the_session_at_the_best_design(session, optimiser):
     plan(session, n_starts=3)
     before, of = session.state.rates, goal(session)
     look = run(optimiser)
-    assert look.phase == "ended"
-    assert look.optimum.converged
-    assert session.state.rates == look.optimum.rates != before
-    assert of.value(session.state.rates) == pytest.approx(look.optimum.value, rel=1e-9)
+    assert look.stage == "ended"
+    assert look.found.converged
+    assert session.state.rates == look.found.rates != before
+    assert of.value(session.state.rates) == pytest.approx(look.found.value, rel=1e-9)
     assert look.original == pytest.approx(of.value({}), rel=1e-12) == 1.0
     soft = session.vehicle.rate_sets["soft"]
     assert look.reference == pytest.approx(of.value(soft), rel=1e-12)
     values = [value for _, value in look.history]
     assert values == sorted(values, reverse=True)
-    assert values[-1] == look.optimum.value < 1
+    assert values[-1] == look.found.value < 1
 
 
 def percentile(session, rates, seed):
@@ -92,34 +94,34 @@ def percentile(session, rates, seed):
 
 def test_a_robust_search_is_better_for_parts_that_were_not_in_it(session, optimiser):
     plan(session, n_starts=2)
-    as_drawn = run(optimiser).optimum
+    as_drawn = run(optimiser).found
     optimiser.go_back()
     plan(session, is_robust=True)
     look = run(optimiser)
     assert look.is_robust
-    assert look.optimum.converged
-    assert look.optimum.value == pytest.approx(percentile(session, look.optimum.rates, 7), rel=0.02)
+    assert look.found.converged
+    assert look.found.value == pytest.approx(percentile(session, look.found.rates, 7), rel=0.02)
     assert look.original == pytest.approx(percentile(session, {}, 7), rel=0.02)
-    assert look.history[-1][1] == look.optimum.value > as_drawn.value
-    assert percentile(session, look.optimum.rates, 7) < percentile(session, as_drawn.rates, 7)
-    assert session.state.rates == look.optimum.rates
+    assert look.history[-1][1] == look.found.value > as_drawn.value
+    assert percentile(session, look.found.rates, 7) < percentile(session, as_drawn.rates, 7)
+    assert session.state.rates == look.found.rates
 
 
 def test_a_robust_search_of_what_does_not_scatter_is_refused(session, optimiser):
     plan(session, goal="change", is_robust=True)
     look = run(optimiser)
-    assert look.phase == "failed"
+    assert look.stage == "failed"
     assert "does not scatter" in look.failure
 
 
 def test_a_robust_search_that_is_cancelled_before_it_is_robust_keeps_the_best(session, optimiser, gate):
     plan(session, n_starts=2, is_robust=True)
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.progress)
+    optimiser.wait(lambda: optimiser.job.progress)
     optimiser.cancel()
-    optimiser.wait(lambda: optimiser.look.phase == "ended")
-    assert not optimiser.look.is_robust
-    assert session.state.rates == optimiser.look.optimum.rates
+    optimiser.wait(lambda: optimiser.job.stage == "ended")
+    assert not optimiser.job.is_robust
+    assert session.state.rates == optimiser.job.found.rates
 
 
 def test_the_search_is_one_step_to_undo_and_redo(session, optimiser):
@@ -129,13 +131,13 @@ def test_the_search_is_one_step_to_undo_and_redo(session, optimiser):
     session.undo()
     assert session.state == before
     session.redo()
-    assert session.state.rates == look.optimum.rates
+    assert session.state.rates == look.found.rates
 
 
 def test_what_is_accepted_is_pinned_kept_and_undone_with_the_search(session, optimiser):
     plan(session, n_starts=1)
     before = session.state
-    found = run(optimiser).optimum.rates
+    found = run(optimiser).found.rates
     optimiser.accept()
     assert session.state.variants["Optimised 1"].rates == session.state.rates == found
     session.undo()
@@ -155,7 +157,7 @@ def test_to_go_back_brings_the_rates_before_and_can_be_undone(session, optimiser
     session.set_rate("A", "lateral", 2e5)
     plan(session, n_starts=1)
     before = session.state.rates
-    found = run(optimiser).optimum.rates
+    found = run(optimiser).found.rates
     optimiser.go_back()
     assert session.state.rates == before
     session.undo()
@@ -164,15 +166,15 @@ def test_to_go_back_brings_the_rates_before_and_can_be_undone(session, optimiser
 
 def test_cancel_answers_at_once_and_keeps_the_best(session, optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.history)
+    optimiser.wait(lambda: optimiser.job.history)
     begin = time.perf_counter()
     optimiser.cancel()
-    optimiser.wait(lambda: not optimiser.look.is_running)
+    optimiser.wait(lambda: not optimiser.job.is_running)
     assert time.perf_counter() - begin < ANSWERS_WITHIN
-    look = optimiser.look
-    assert look.optimum.reason == "cancelled"
-    assert look.optimum.value == look.history[-1][1]
-    assert session.state.rates == look.optimum.rates
+    look = optimiser.job
+    assert look.found.reason == "cancelled"
+    assert look.found.value == look.history[-1][1]
+    assert session.state.rates == look.found.rates
 
 
 @pytest.fixture
@@ -185,7 +187,9 @@ def full_model(monkeypatch):
         return verify(*arguments)
 
     monkeypatch.setattr("modeviz.optimise.run.verify", held)
-    monkeypatch.setattr(module, "TELL_EVERY", np.inf)  # the session follows no better design before
+    monkeypatch.setattr(
+        background_task, "TELL_EVERY", np.inf
+    )  # the session follows no better design before
     yield may_solve
     may_solve.set()
 
@@ -194,13 +198,13 @@ def test_it_says_when_the_full_model_is_solved_with_the_session_at_the_best(
     session, optimiser, full_model
 ):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.phase == "checking")
-    assert optimiser.look.is_running
-    assert optimiser.look.history[-1][1] == optimiser.look.progress.value
-    best = optimiser.look.progress.rates
+    optimiser.wait(lambda: optimiser.job.stage == "checking")
+    assert optimiser.job.is_running
+    assert optimiser.job.history[-1][1] == optimiser.job.progress.value
+    best = optimiser.job.progress.rates
     assert session.state.rates == best
     full_model.set()
-    optimiser.wait(lambda: optimiser.look.phase == "ended")
+    optimiser.wait(lambda: optimiser.job.stage == "ended")
     assert session.state.rates == best
 
 
@@ -210,16 +214,16 @@ def test_cancel_brings_the_session_to_the_best_before_the_full_model_is_solved(
     plan(session, n_starts=50)
     optimiser.start()
     deadline = time.monotonic() + SOON
-    while len(optimiser.look.history) < 3 and time.monotonic() < deadline:
+    while len(optimiser.job.history) < 3 and time.monotonic() < deadline:
         time.sleep(0.01)  # nothing is told
-    assert session.state.rates == optimiser.look.before
+    assert session.state.rates == optimiser.job.asked.before
     optimiser.cancel()
-    assert optimiser.look.phase == "checking"
-    assert session.state.rates != optimiser.look.before
+    assert optimiser.job.stage == "checking"
+    assert session.state.rates != optimiser.job.asked.before
 
 
 def test_cancel_between_a_search_and_its_robust_one_keeps_the_best(session, optimiser, monkeypatch):
-    robustly = module.robust_search
+    robustly = searching.robust_search
 
     def cancelled(*arguments):
         search = robustly(*arguments)
@@ -232,12 +236,12 @@ def test_cancel_between_a_search_and_its_robust_one_keeps_the_best(session, opti
         object.__setattr__(search.goal, "value", ended)
         return search
 
-    monkeypatch.setattr(module, "robust_search", cancelled)
+    monkeypatch.setattr(searching, "robust_search", cancelled)
     plan(session, n_starts=2, is_robust=True)
     look = run(optimiser)
-    assert look.phase == "ended"
+    assert look.stage == "ended"
     assert not look.is_robust
-    assert session.state.rates == look.optimum.rates
+    assert session.state.rates == look.found.rates
 
 
 def test_cancel_while_it_prepares_is_over_at_once_and_changes_nothing(session, optimiser, monkeypatch):
@@ -251,10 +255,10 @@ def test_cancel_while_it_prepares_is_over_at_once_and_changes_nothing(session, o
     monkeypatch.setattr(module, "prepare_search", slow)
     optimiser.start()
     optimiser.cancel()
-    assert not optimiser.look.is_running
+    assert not optimiser.job.is_running
     may_prepare.set()
     optimiser.close()
-    assert optimiser.look.phase == "ended"
+    assert optimiser.job.stage == "cancelled"
     assert session.state == before
 
 
@@ -269,60 +273,60 @@ def test_a_search_is_paused_before_it_began(optimiser, gate, monkeypatch):
     optimiser.start()
     optimiser.pause()
     may_prepare.set()
-    assert optimiser.look.phase == "paused"
+    assert optimiser.job.stage == "paused"
     optimiser.resume()
-    optimiser.wait(lambda: optimiser.look.history)
+    optimiser.wait(lambda: optimiser.job.history)
     optimiser.cancel()
-    optimiser.wait(lambda: not optimiser.look.is_running)
-    assert optimiser.look.optimum.reason == "cancelled"
+    optimiser.wait(lambda: not optimiser.job.is_running)
+    assert optimiser.job.found.reason == "cancelled"
 
 
 def test_a_paused_search_evaluates_nothing_until_it_goes_on(session, optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.history)
+    optimiser.wait(lambda: optimiser.job.history)
     optimiser.pause()
-    paused = optimiser.look.progress.evaluations
+    paused = optimiser.job.progress.evaluations
     gate.set()
-    optimiser._pursuit._thread.join(0.5)
-    assert optimiser.look.phase == "paused"
-    assert optimiser.look.progress.evaluations == paused
-    assert session.state.rates == optimiser.look.progress.rates
+    optimiser._task._thread.join(0.5)
+    assert optimiser.job.stage == "paused"
+    assert optimiser.job.progress.evaluations == paused
+    assert session.state.rates == optimiser.job.progress.rates
     optimiser.resume()
-    optimiser.wait(lambda: not optimiser.look.is_running)
-    assert optimiser.look.optimum.evaluations > paused
+    optimiser.wait(lambda: not optimiser.job.is_running)
+    assert optimiser.job.found.evaluations > paused
 
 
 def test_a_paused_search_is_cancelled_too(optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.history)
+    optimiser.wait(lambda: optimiser.job.history)
     optimiser.pause()
     optimiser.cancel()
-    optimiser.wait(lambda: not optimiser.look.is_running)
-    assert optimiser.look.optimum.reason == "cancelled"
+    optimiser.wait(lambda: not optimiser.job.is_running)
+    assert optimiser.job.found.reason == "cancelled"
 
 
 def test_a_failing_evaluation_is_told_and_leaves_the_rates_before(session, optimiser, monkeypatch):
     before, can_undo = session.state, session.can_undo
     better = {"A": MountRates(5e5, 2e5, 2e5), "B": MountRates(5e5, 2e5, 2e5)}
 
-    def fails(search, starts, token, tell):
+    def fails(search, starts, budget, token, tell):
         tell(Progress(1, better, 0.5, 1, 1))
         assert session.state.rates == better
         raise SolveError("no answer with A vertical 500 N/mm")
 
-    monkeypatch.setattr(module, "optimise", fails)
+    monkeypatch.setattr(searching, "optimise", fails)
     look = run(optimiser)
-    assert look.phase == "failed"
+    assert look.stage == "failed"
     assert look.failure == "no answer with A vertical 500 N/mm"
     assert session.state == before
     assert session.can_undo == can_undo
 
 
 def test_a_mistake_of_ours_is_said_once_however_often_it_happens(optimiser, said, monkeypatch, capsys):
-    def fails(search, starts, token, tell):
+    def fails(search, starts, budget, token, tell):
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr(module, "optimise", fails)
+    monkeypatch.setattr(searching, "optimise", fails)
     for _ in range(3):
         assert "our mistake" in run(optimiser).failure
     (traceback,) = said
@@ -334,17 +338,17 @@ def test_a_plan_that_cannot_be_is_refused_and_the_next_one_is_searched(session, 
     plan(session, free=frozenset())
     with pytest.raises(ModevizError, match="no group of mounts may change"):
         optimiser.start()
-    assert optimiser.look is None
+    assert optimiser.job is None
     plan(session, free=frozenset({"A"}), n_starts=1)
     before = session.state.rates
-    found = run(optimiser).optimum.rates
+    found = run(optimiser).found.rates
     assert found["B"] == before["B"]
     assert found["A"] != before["A"]
 
 
 def test_a_second_search_is_refused_while_one_runs(optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.history)
+    optimiser.wait(lambda: optimiser.job.history)
     with pytest.raises(ModevizError, match="cancel it first"):
         optimiser.start()
 
@@ -353,29 +357,29 @@ def test_locked_rates_stay(session, optimiser):
     session.change(locked=frozenset({("A", "lateral")}))
     plan(session, n_starts=1)
     before = session.state.rates["A"]
-    found = run(optimiser).optimum.rates["A"]
+    found = run(optimiser).found.rates["A"]
     assert found.lateral == before.lateral
     assert found.vertical != before.vertical
 
 
 def test_rates_that_somebody_moves_meanwhile_are_not_taken_from_them(session, optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.history)
+    optimiser.wait(lambda: optimiser.job.history)
     session.set_rate("A", "vertical", 3.21e5)
     mine = session.state.rates
     gate.set()
-    optimiser.wait(lambda: not optimiser.look.is_running)
+    optimiser.wait(lambda: not optimiser.job.is_running)
     assert session.state.rates == mine
     optimiser.accept()
-    assert session.state.rates == optimiser.look.optimum.rates
+    assert session.state.rates == optimiser.job.found.rates
 
 
 def test_closing_ends_a_search(session, optimiser, gate):
     optimiser.start()
-    optimiser.wait(lambda: optimiser.look.history)
+    optimiser.wait(lambda: optimiser.job.history)
     optimiser.close()
-    assert not optimiser.look.is_running
-    assert not any(thread.name == "optimiser" for thread in threading.enumerate())
+    assert not optimiser.job.is_running
+    assert not any(thread.name == "search" for thread in threading.enumerate())
 
 
 def test_a_mode_is_held_where_the_plan_wants_it(session, optimiser):
@@ -387,4 +391,4 @@ def test_a_mode_is_held_where_the_plan_wants_it(session, optimiser):
     solved = session._last
     f = solved.now.modes.frequency_hz[solved.now.mode_index("cab yaw")]
     assert 0.79 * now_hz < f <= 0.8 * now_hz
-    assert look.optimum.verification.are_kept
+    assert look.found.verification.are_kept

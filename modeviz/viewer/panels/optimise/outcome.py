@@ -28,9 +28,9 @@ ENDINGS = {
 
 def where(look: SearchStatus) -> str:
     """A line on how far it is."""
-    if look.phase == "preparing":
+    if look.stage == "preparing":
         return heading("Preparing")
-    if look.phase == "failed":
+    if look.stage == "failed":
         return heading("Failed") + span(escape(look.failure), "bad")
     progress = look.progress
     if progress is None:
@@ -83,10 +83,10 @@ def limits(optimum: Optimum) -> str:
 
 
 def _word(look: SearchStatus) -> str:
-    if look.optimum is not None:
-        reason = look.optimum.reason
+    if look.found is not None:
+        reason = look.found.reason
         return ENDINGS.get(reason, escape(sentence_case(reason)))
-    return RUNNING.get(look.phase, "Cancelled")
+    return RUNNING.get(look.stage, "Cancelled")
 
 
 def _gain(constraint: ActiveConstraint) -> str:

@@ -16,7 +16,7 @@ from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, w
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
-from modeviz.viewer.tasks.search_task import Optimiser, SearchStatus
+from modeviz.viewer.tasks.search_task import SearchStatus, SearchTask
 
 START, PAUSE, RESUME, CANCEL = "Start", "Pause", "Resume", "Cancel"
 ACCEPT, GO_BACK = "Accept", "Go back"
@@ -31,7 +31,7 @@ OFFERED: dict[str, tuple[str, ...]] = {
 class OptimisePanel:
     """The problem, the search for better rates, and what came of it."""
 
-    def __init__(self, gui: viser.GuiApi, session: Session, optimiser: Optimiser, dark: bool) -> None:
+    def __init__(self, gui: viser.GuiApi, session: Session, optimiser: SearchTask, dark: bool) -> None:
         """Builds the controls; of a vehicle without a problem it says what is missing.
 
         Args:
@@ -77,7 +77,7 @@ class OptimisePanel:
     def follow(self) -> None:
         """Draws where the search is; may be called in any thread."""
         with self._lock:  # else an older look could be drawn over a newer one
-            look = self._optimiser.look
+            look = self._optimiser.job
             if look is None:
                 return
             self._offer()
@@ -89,13 +89,13 @@ class OptimisePanel:
             assign(self._result, content=self._outcome(look))
 
     def _outcome(self, look: SearchStatus) -> str:
-        if look.optimum is None:
+        if look.found is None:
             return ""
-        return block(limits(look.optimum), f"<div>{exactness(look.optimum)}</div>")
+        return block(limits(look.found), f"<div>{exactness(look.found)}</div>")
 
     def _offer(self) -> None:
         """Offers what can be done now."""
-        assign(self._buttons, options=offered(self._optimiser.look, self._session.state))
+        assign(self._buttons, options=offered(self._optimiser.job, self._session.state))
 
     def _press(self, button: str, event: viser.GuiEvent) -> None:
         try:
@@ -107,9 +107,9 @@ class OptimisePanel:
 
 def offered(look: SearchStatus | None, state: State) -> tuple[str, ...]:
     """The buttons that have something to do."""
-    if look is None or look.optimum is None:
-        return OFFERED.get(look.phase, (START,)) if look else (START,)
-    found = look.optimum.rates
+    if look is None or look.found is None:
+        return OFFERED.get(look.stage, (START,)) if look else (START,)
+    found = look.found.rates
     is_pinned = any(variant.rates == found for variant in state.variants.values())
     is_present = state.rates == found
     accept = () if is_pinned and is_present else (ACCEPT,)

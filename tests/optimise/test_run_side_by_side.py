@@ -5,8 +5,7 @@ from rounding import CABIN, SEARCHED, SEARCHED_X
 
 from modeviz.compute.cancel import CancelToken
 from modeviz.compute.runner import HERE
-from modeviz.optimise.multistart import optimise_on
-from modeviz.optimise.run import optimise
+from modeviz.optimise.run import optimise, optimise_on
 from modeviz.optimise.starts import start_points
 
 
