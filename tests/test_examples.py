@@ -162,3 +162,19 @@ def test_the_best_of_twenty_starts_is_another_design(optimised):
     rating = optimised.rating
     for name in ("downhill", "best of 20"):
         assert rating[name] > rating["paper"] > rating["original"] + 2.5
+
+
+def test_a_reduced_frame_has_the_frequencies_of_the_full_one_as_it_says_itself():
+    guyan = example("06_guyan_reduction")
+    for hz, reduction in guyan.reductions.items():
+        found = guyan.reduced_hz[hz]
+        assert len(reduction.retained) < 0.1 * guyan.frame.n_dofs  # the paper's 5 to 10 %
+        assert (reduction.at_least_hz(found) <= guyan.full_hz).all()
+        error = found / guyan.full_hz - 1
+        np.testing.assert_allclose(reduction.too_high(guyan.modes[hz])[6:], error, rtol=0.1)
+        assert (error > 0).all()
+        assert error[0] < 0.003
+    # A lump slows the torsion down, and the reduction's part of error is what it was.
+    full, reduced = guyan.torsion_hz["full"], guyan.torsion_hz["reduced"]
+    assert full < 0.8 * guyan.full_hz[0]
+    assert full < reduced < full * 1.003

@@ -1,7 +1,6 @@
-"""From a mesh to a component of a vehicle: free modes, residual vectors, attachment points."""
+"""From a mesh or matrices to a component of a vehicle: free modes, residual vectors, attachments."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,7 +8,6 @@ from modeviz.fem.attachments import AttachmentPoint, unit_loads
 from modeviz.fem.free import free_modes, residual_vectors
 from modeviz.fem.matrices import Matrices, assemble
 from modeviz.fem.mesh import FiniteElementMesh
-from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Mesh, Role
 
 
@@ -48,9 +46,43 @@ def flexible_body(
         VehicleError: an attachment cannot hang where it says.
     """
     matrices = assemble(mesh).scaled(stiffness_factor, mass_factor)
+    return body_from_matrices(name, role, label, matrices, attachments, n_modes, damping_ratio, display)
+
+
+def body_from_matrices(
+    name: str,
+    role: Role,
+    label: str,
+    matrices: Matrices,
+    attachments: Sequence[AttachmentPoint],
+    n_modes: int,
+    damping_ratio: float,
+    display: Mesh = (),
+) -> FlexibleBody:
+    """A free component of given mass and stiffness, as `flexible_body` makes it of a mesh.
+
+    A large model may be condensed first, as A. E. Duncan does: `reduction.guyan_reduction`, whose
+    `matrices` are given here. Balanced forces then deflect attachments as they do the whole model,
+    where all their nodes are retained.
+
+    Args:
+        name: of the body.
+        role: what it is in the vehicle.
+        label: what a person calls it.
+        matrices: of the whole free body, in one piece.
+        attachments: where things hang; each of their directions gets a residual vector.
+        n_modes: how many free modes to keep, the six rigid ones included.
+        damping_ratio: viscous, of every mode.
+        display: what is drawn.
+
+    Raises:
+        SolveError: the body is not in one piece or too small for so many modes.
+        VehicleError: an attachment cannot hang where it says.
+    """
+    nodes = matrices.nodes
     modes = free_modes(matrices, n_modes)
-    residuals = residual_vectors(matrices, modes, unit_loads(attachments, mesh.nodes))
-    shapes = np.hstack([modes.shapes, residuals.shapes])
+    residuals = residual_vectors(matrices, modes, matrices.motion.T @ unit_loads(attachments, nodes))
+    shapes = matrices.motion @ np.hstack([modes.shapes, residuals.shapes])
     return FlexibleBody(
         name=name,
         role=role,
@@ -59,34 +91,9 @@ def flexible_body(
         n_residuals=len(residuals.omega_n_squared),
         damping_ratio=damping_ratio,
         attachments=tuple(
-            Attachment(a.name, a.position, a.motion(mesh.nodes) @ shapes) for a in attachments
+            Attachment(a.name, a.position, a.motion(nodes) @ shapes) for a in attachments
         ),
-        nodes=mesh.nodes,
-        shapes=shapes.reshape(len(mesh.nodes), 6, -1).astype(np.float32),
+        nodes=nodes,
+        shapes=shapes.reshape(len(nodes), 6, -1).astype(np.float32),
         mesh=display,
     )
-
-
-@dataclass(frozen=True, eq=False)
-class ModalProperties:
-    """The diagonals of a component's matrices in its modes, each (n_modes,)."""
-
-    mass: Floats
-    damping: Floats
-    stiffness: Floats
-
-
-def modal_properties(matrices: Matrices, shapes: Floats, damping_ratio: float) -> ModalProperties:
-    """Modal mass, viscous damping and stiffness of modes, however they are scaled.
-
-    m = φᵀ M φ, k = φᵀ K φ, c = 2 ζ √(k m): A. E. Duncan, equation 7.
-
-    Args:
-        matrices: of the component.
-        shapes: (n_dofs, n_modes), its modes.
-        damping_ratio: ζ, fraction of critical.
-    """
-    mass = np.einsum("ij,ij->j", shapes, matrices.mass @ shapes)
-    # Rounding may leave a rigid mode a stiffness just below zero.
-    stiffness = np.maximum(np.einsum("ij,ij->j", shapes, matrices.stiffness @ shapes), 0.0)
-    return ModalProperties(mass, 2 * damping_ratio * np.sqrt(stiffness * mass), stiffness)

@@ -40,7 +40,7 @@ def rigid_modes(matrices: Matrices) -> Floats:
     R G^(-1/2) with G = Rᵀ M R: of all orthonormal sets the nearest to motions along the axes, so
     they depend smoothly on the body and have no arbitrary sign.
     """
-    R = rigid_motions(matrices.nodes - center_of_gravity(matrices)).reshape(-1, N_RIGID)
+    R = matrices.rigid @ rigid_motions(-center_of_gravity(matrices))
     G = R.T @ (matrices.mass @ R)
     inertia, axes = np.linalg.eigh((G + G.T) / 2)
     if inertia[0] <= 1e-12 * inertia[-1]:
@@ -50,7 +50,7 @@ def rigid_modes(matrices: Matrices) -> Floats:
 
 def center_of_gravity(matrices: Matrices) -> Floats:
     """Where the mass is balanced, (3,), m."""
-    R = rigid_motions(matrices.nodes).reshape(-1, N_RIGID)
+    R = matrices.rigid
     M = R.T @ (matrices.mass @ R)
     return np.array([M[1, 5], M[2, 3], M[0, 4]]) / M[0, 0]
 
@@ -118,9 +118,9 @@ def static_response(matrices: Matrices, loads: Floats) -> Floats:
     """
     R = rigid_modes(matrices)
     balanced = loads - matrices.mass @ (R @ (R.T @ loads))
-    # Balanced loads leave a determinate support without reaction: holding one node changes nothing.
-    anchor = int(np.argmin(np.linalg.norm(matrices.nodes - center_of_gravity(matrices), axis=1)))
-    free = np.r_[0 : 6 * anchor, 6 * anchor + 6 : matrices.n_dofs]
+    # Balanced loads leave a determinate support without reaction: holding six changes nothing.
+    support = most_independent(np.sqrt(matrices.stiffness.diagonal())[:, None] * R)
+    free = np.setdiff1d(np.arange(matrices.n_dofs), support)
     u = np.zeros(loads.shape)
     u[free] = factorised(matrices.stiffness[free][:, free]).solve(balanced[free])
     return _without(R, u, matrices.mass)
@@ -167,6 +167,15 @@ def residual_compliance(matrices: Matrices, modes: ModalBasis, loads: Floats) ->
     compliance, after McClelland, to be put in series with a connection.
     """
     return loads.T @ residual_response(matrices, modes, loads)
+
+
+def most_independent(rows: Floats) -> np.ndarray:
+    """Which rows, as many as there are columns, tell the columns apart best: (n_columns,), best first.
+
+    By QR with pivoting: each is the one that is largest beyond what the rows before it show.
+    """
+    _, by_choice = sl.qr(rows.T, mode="r", pivoting=True)
+    return by_choice[: rows.shape[1]]
 
 
 def factorised(A: sp.csc_array) -> spl.SuperLU:

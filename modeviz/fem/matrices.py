@@ -13,7 +13,7 @@ from modeviz.vehicle.rigid import rigid_motions
 
 @dataclass(frozen=True, eq=False)
 class Matrices:
-    """A free body in the motions x, y, z, rx, ry, rz of its nodes, node after node."""
+    """A free body in degrees of freedom that move its nodes: `nodal_matrices` has the usual ones."""
 
     nodes: Floats
     """(n_nodes, 3), m."""
@@ -21,14 +21,37 @@ class Matrices:
     """(n_dofs, n_dofs), kg and kg m², symmetric."""
     stiffness: sp.csc_array
     """(n_dofs, n_dofs), N/m and N m/rad, symmetric, without force in rigid motion."""
+    motion: sp.csr_array | Floats
+    """(6 n_nodes, n_dofs): how each moves the nodes along x, y, z, rx, ry, rz, node after node."""
+    rigid: Floats
+    """(n_dofs, 6): what they are when the whole moves along x, y, z, rx, ry, rz about the origin."""
 
     @property
     def n_dofs(self) -> int:
-        return 6 * len(self.nodes)
+        """The number of degrees of freedom."""
+        return self.mass.shape[0]
 
     def scaled(self, stiffness_factor: float, mass_factor: float) -> "Matrices":
         """The same body of a material so many times as stiff and as heavy."""
         return replace(self, mass=self.mass * mass_factor, stiffness=self.stiffness * stiffness_factor)
+
+
+def nodal_matrices(
+    nodes: Floats, mass: sp.csc_array, stiffness: sp.csc_array, dofs: np.ndarray | None = None
+) -> Matrices:
+    """Matrices whose degrees of freedom are motions of nodes themselves.
+
+    Args:
+        nodes: (n_nodes, 3), m.
+        mass: (n_dofs, n_dofs), kg and kg m².
+        stiffness: (n_dofs, n_dofs), N/m and N m/rad.
+        dofs: (n_dofs,), which they are, 6 node + (0 to 5 for x to rz); all of them, if not given.
+    """
+    motion = sp.eye_array(6 * len(nodes), format="csc")
+    rigid = rigid_motions(nodes).reshape(-1, 6)
+    if dofs is None:
+        return Matrices(nodes, mass, stiffness, motion.tocsr(), rigid)
+    return Matrices(nodes, mass, stiffness, motion[:, dofs].tocsr(), rigid[dofs])
 
 
 def assemble(mesh: FiniteElementMesh) -> Matrices:
@@ -49,10 +72,10 @@ def assemble(mesh: FiniteElementMesh) -> Matrices:
     lumps = np.array([[p.node] for p in mesh.point_masses], int).reshape(-1, 1)
     M_lumps = np.array([_point_mass_matrix(p) for p in mesh.point_masses]).reshape(-1, 6, 6)
     n_dofs = mesh.nodes.size * 2
-    return Matrices(
-        nodes=mesh.nodes,
-        mass=_scatter(n_dofs, (mesh.quads, M_quads), (mesh.beams, M_beams), (lumps, M_lumps)),
-        stiffness=_scatter(
+    return nodal_matrices(
+        mesh.nodes,
+        _scatter(n_dofs, (mesh.quads, M_quads), (mesh.beams, M_beams), (lumps, M_lumps)),
+        _scatter(
             n_dofs, (mesh.quads, without_rotation_strain(corners, K_quads)), (mesh.beams, K_beams)
         ),
     )

@@ -1,12 +1,17 @@
+from itertools import combinations
+
 import numpy as np
 import pytest
+import scipy.linalg
+import scipy.sparse as sp
 from small_meshes import bar, twisted_plate
 
 from modeviz.errors import SolveError
 from modeviz.fem.attachments import OnFootprint, OnNearestNodes, OnNode, unit_loads
-from modeviz.fem.component import flexible_body, modal_properties
+from modeviz.fem.component import body_from_matrices, flexible_body
 from modeviz.fem.free import free_modes, residual_compliance, static_response
-from modeviz.fem.matrices import assemble
+from modeviz.fem.matrices import assemble, nodal_matrices
+from modeviz.fem.reduction import guyan_reduction, retained_up_to
 from modeviz.vehicle.rigid import rigid_motions
 
 MESH = twisted_plate()
@@ -88,13 +93,64 @@ def test_too_many_modes_are_refused():
         flexible_body("bar", "frame", "Bar", bar(n=2), (), 40, 0.0)
 
 
-def test_modal_properties_do_not_need_normalised_shapes():
+@pytest.fixture(scope="module")
+def reduction():
     matrices = assemble(MESH)
-    modes = free_modes(matrices, 12)
-    sizes = np.linspace(1, 7, 12)
-    found = modal_properties(matrices, modes.shapes * sizes, damping_ratio=0.03)
-    omega = np.sqrt(modes.omega_n_squared)
-    np.testing.assert_allclose(found.mass, sizes**2, rtol=1e-9)
-    np.testing.assert_allclose(found.stiffness[6:], (sizes * omega)[6:] ** 2, rtol=1e-8)
-    np.testing.assert_allclose(found.damping[6:], (2 * 0.03 * omega * sizes**2)[6:], rtol=1e-8)
-    np.testing.assert_allclose(found.stiffness[:6], 0, atol=1e-8 * found.stiffness[6])
+    held = [6 * n + i for n in (0, 48, 16, 18, 30, 32) for i in range(6)]
+    return guyan_reduction(matrices, retained_up_to(matrices, 400.0, held))
+
+
+@pytest.fixture(scope="module")
+def condensed(reduction):
+    return body_from_matrices(
+        "panel", "cabin", "Panel", reduction.matrices, ATTACHMENTS, 20, damping_ratio=0.03
+    )
+
+
+def test_condensed_body_deflects_under_balanced_forces_as_the_whole(body, condensed):
+    """Where nodes are retained; whatever balances other forces is the inertia of all that moves."""
+    loaded = [("xyz".index(d), a.name) for a in ATTACHMENTS for d in a.directions]
+    balanced = scipy.linalg.null_space(
+        np.array([body.attachment(name).shapes[axis, :6] for axis, name in loaded]).T
+    )
+    assert balanced.size
+    exact, found = (
+        balanced.T @ (phi / b.omega_n_squared[6:]) @ phi.T @ balanced
+        for b in (body, condensed)
+        for phi in [np.array([b.attachment(name).shapes[axis, 6:] for axis, name in loaded])]
+    )
+    np.testing.assert_allclose(found, exact, rtol=1e-7)
+
+
+def test_condensed_body_has_the_modes_of_the_whole_as_far_as_the_reduction_says(
+    body, condensed, reduction
+):
+    np.testing.assert_array_equal(condensed.omega_n_squared[:6], 0)
+    error = condensed.natural_frequency_hz[6:12] / body.natural_frequency_hz[6:12] - 1
+    said = reduction.too_high(free_modes(reduction.matrices, 12))[6:]
+    np.testing.assert_allclose(error, said, rtol=0.2)
+    assert (error > 0).all()
+    assert error[0] < 0.002
+    assert condensed.mass == pytest.approx(body.mass, rel=1e-6)
+    for a, b in zip(condensed.shapes[..., 6:8].T, body.shapes[..., 6:8].T, strict=True):
+        a, b = a[:3].ravel().astype(float), b[:3].ravel().astype(float)
+        assert (a @ b) ** 2 / (a @ a) / (b @ b) > 0.999
+
+
+def test_body_of_translations_alone_is_made_of_its_matrices():
+    """As of a model of solid elements: a truss, whose nodes do not turn."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], float)
+    K = np.zeros((15, 15))
+    for i, j in combinations(range(5), 2):
+        along = (corners[j] - corners[i]) / np.linalg.norm(corners[j] - corners[i])
+        pull = np.zeros(15)
+        pull[3 * i : 3 * i + 3], pull[3 * j : 3 * j + 3] = -along, along
+        K += 1e6 * np.outer(pull, pull)
+    dofs = np.array([6 * node + i for node in range(5) for i in range(3)])
+    matrices = nodal_matrices(corners, 2.0 * sp.eye_array(15).tocsc(), sp.csc_array(K), dofs)
+    truss = body_from_matrices(
+        "truss", "frame", "Truss", matrices, (OnNode("tip", corners[4], 4),), 10, 0.01
+    )
+    expected = np.sqrt(np.linalg.eigvalsh(K / 2.0)[6:10])
+    np.testing.assert_allclose(truss.natural_frequency_hz[6:10] * 2 * np.pi, expected, rtol=1e-9)
+    assert truss.mass == pytest.approx(10.0)

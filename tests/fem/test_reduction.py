@@ -1,16 +1,22 @@
+"""Guyan reduction against a theory of beams, a dense solution, and the full model."""
+
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import scipy.linalg
-from small_meshes import bar, plate, twisted_plate
+import scipy.sparse as sp
+from small_meshes import BAR, bar, plate, twisted_plate
 
 from modeviz.errors import SolveError
 from modeviz.fem.free import free_modes
-from modeviz.fem.matrices import assemble
+from modeviz.fem.matrices import assemble, nodal_matrices
 from modeviz.fem.mesh import PointMass
-from modeviz.fem.reduction import guyan_reduction, lowest_ratio_masters
+from modeviz.fem.reduction import guyan_reduction, retained_up_to
 from modeviz.vehicle.rigid import rigid_motions
+
+FREE_BEAM = np.array([4.7300407, 7.8532046, 10.9956078])
+"""βL of its bending modes."""
 
 
 @pytest.fixture(scope="module")
@@ -18,68 +24,206 @@ def body():
     return assemble(twisted_plate())
 
 
-def elastic_omega_squared(reduced):
-    return scipy.linalg.eigh(reduced.stiffness, reduced.mass, eigvals_only=True)[6:]
+def hertz(modes):
+    return np.sqrt(modes.omega_n_squared) / (2 * np.pi)
 
 
-def test_reduced_frequencies_converge_from_above(body):
-    full = free_modes(body, 10).omega_n_squared[6:]
-    errors = [
-        elastic_omega_squared(guyan_reduction(body, lowest_ratio_masters(body, n)))[:4] / full - 1
-        for n in (30, 60, 120)
+def hertz_of(mass, stiffness):
+    """Elastic natural frequencies of a free body, by a dense solution."""
+    return np.sqrt(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)[6:]) / (2 * np.pi)
+
+
+def euler_bernoulli_bar(n):
+    """A free steel bar of 1 m from the textbook's element, without shear or rotary inertia."""
+    L, E, rho = 1 / n, 2.1e11, 7850.0
+    K, M = np.zeros((2, 12, 12))
+    rotation = BAR.torsion_constant / BAR.area
+    stretch, twist = BAR.area * E / L, BAR.torsion_constant * E / (2.6 * L)
+    for dofs, k, m in ([0, 6], stretch, 1.0), ([3, 9], twist, rotation):
+        K[np.ix_(dofs, dofs)] += k * np.array([[1, -1], [-1, 1]])
+        M[np.ix_(dofs, dofs)] += m * rho * BAR.area * L / 6 * np.array([[2, 1], [1, 2]])
+    for dofs, inertia, sign in (
+        ([2, 4, 8, 10], BAR.bending_inertia_up, -1),
+        ([1, 5, 7, 11], BAR.bending_inertia_across, 1),
+    ):
+        turn = np.diag([1, sign, 1, sign])
+        bend = np.array([
+            [12, 6 * L, -12, 6 * L], [6 * L, 4 * L**2, -6 * L, 2 * L**2],
+            [-12, -6 * L, 12, -6 * L], [6 * L, 2 * L**2, -6 * L, 4 * L**2],
+        ])  # fmt: skip
+        carry = np.array([
+            [156, 22 * L, 54, -13 * L], [22 * L, 4 * L**2, 13 * L, -3 * L**2],
+            [54, 13 * L, 156, -22 * L], [-13 * L, -3 * L**2, -22 * L, 4 * L**2],
+        ])  # fmt: skip
+        K[np.ix_(dofs, dofs)] += E * inertia / L**3 * turn @ bend @ turn
+        M[np.ix_(dofs, dofs)] += rho * BAR.area * L / 420 * turn @ carry @ turn
+    whole = np.zeros((2, 6 * n + 6, 6 * n + 6))
+    for i in range(n):
+        whole[:, 6 * i : 6 * i + 12, 6 * i : 6 * i + 12] += M, K
+    nodes = np.outer(np.linspace(0, 1, n + 1), [1, 0, 0])
+    return nodal_matrices(nodes, *map(sp.csc_array, whole))
+
+
+def test_bar_in_a_tenth_of_its_freedoms_bends_as_theory_says():
+    bar = euler_bernoulli_bar(100)
+    reduction = guyan_reduction(bar, [6 * node + i for node in range(0, 101, 10) for i in range(6)])
+    found = hertz(free_modes(reduction.matrices, 20))[6:]
+    bending = [
+        b**2 * np.sqrt(2.1e11 * inertia / (7850 * BAR.area)) / (2 * np.pi)
+        for b in FREE_BEAM
+        for inertia in (BAR.bending_inertia_across, BAR.bending_inertia_up)
     ]
-    assert (np.array(errors) > 0).all()
+    # What follows in statics between retained nodes is an element, a tenth of the length: of its
+    # frequencies the error is (βL/10)⁴ / 1440.
+    errors = np.array([found[np.argmin(abs(found - f))] / f - 1 for f in bending])
+    expected = np.repeat((FREE_BEAM / 10) ** 4 / 1440, 2)
+    np.testing.assert_allclose(errors, expected, rtol=0.1)
+
+
+def test_reduction_is_a_dense_static_condensation(body):
+    retained = retained_up_to(body, 200.0)
+    reduction = guyan_reduction(body, retained)
+    rest = np.setdiff1d(np.arange(body.n_dofs), retained)
+    order = np.ix_(np.r_[retained, rest], np.r_[retained, rest])
+    K, M = body.stiffness.toarray()[order], body.mass.toarray()[order]
+    n = len(retained)
+    T = np.vstack([np.eye(n), -np.linalg.solve(K[n:, n:], K[n:, :n])])
+    modes = free_modes(reduction.matrices, n - 1)
+    np.testing.assert_allclose(hertz(modes)[6:], hertz_of(T.T @ M @ T, T.T @ K @ T)[:-1], rtol=1e-7)
+    flexibility = scipy.linalg.eigh(M[n:, n:], K[n:, n:], eigvals_only=True)[-1]
+    assert reduction.omitted_hz == pytest.approx(flexibility**-0.5 / (2 * np.pi), rel=1e-9)
+
+
+@pytest.fixture(scope="module")
+def reductions(body):
+    """With all else above 100, 200 and 400 Hz: the reduction, its modes and the full model's."""
+    found = []
+    for hz in (100.0, 200.0, 400.0):
+        reduction = guyan_reduction(body, retained_up_to(body, hz))
+        modes = free_modes(reduction.matrices, len(reduction.retained) - 1)
+        found.append((reduction, modes, hertz(free_modes(body, len(reduction.retained) - 1))))
+    return found
+
+
+def test_reduced_frequencies_converge_from_above(reductions):
+    errors = np.array([(hertz(modes) - full)[6:9] / full[6:9] for _, modes, full in reductions])
+    assert (errors > 0).all()
     assert (np.diff(errors, axis=0) < 0).all()
-    assert errors[-1][0] < 2e-3
+    assert (errors[2] < errors[0] / 4).all()
+    assert errors[2][0] < 2e-3
 
 
-def test_static_deflection_of_the_masters_is_exact(body):
-    masters = lowest_ratio_masters(body, 30)
-    reduced = guyan_reduction(body, masters)
-    T, K = reduced.transformation, body.stiffness
-    force = K @ T
-    slaves = np.setdiff1d(np.arange(body.n_dofs), masters)
-    np.testing.assert_allclose(force[slaves], 0, atol=1e-9 * abs(force).max())
-    np.testing.assert_allclose(force[masters], reduced.stiffness, atol=1e-9 * abs(force).max())
-    np.testing.assert_array_equal(T[masters], np.eye(30))
+def test_full_frequencies_are_within_what_the_reduction_says(reductions):
+    for reduction, modes, full in reductions:
+        found = hertz(modes)[6:]
+        assert (reduction.at_least_hz(found) <= full[6:]).all()
+        assert (full[6:] <= found * (1 + 1e-9)).all()
+
+
+def test_errors_are_what_the_reduction_says(reductions):
+    for reduction, modes, full in reductions:
+        error = (hertz(modes) / np.where(full, full, 1.0) - 1)[6:]
+        said = reduction.too_high(modes)[6:]
+        small = hertz(modes)[6:] < 0.4 * reduction.omitted_hz
+        assert small.any()
+        np.testing.assert_allclose(said[small], error[small], rtol=0.1)
+
+
+def test_what_is_left_out_is_above_the_frequency_asked_for(body):
+    few, many = (retained_up_to(body, hz) for hz in (100.0, 400.0))
+    assert guyan_reduction(body, few).omitted_hz > 100
+    assert guyan_reduction(body, many).omitted_hz > 400
+    assert len(few) < len(many) < 0.2 * body.n_dofs
+    with_corner = retained_up_to(body, 100.0, always=range(6))
+    assert {*range(6)} <= set(with_corner)
+    assert len(set(with_corner)) == len(with_corner) <= len(few) + 6
+
+
+def test_static_deflection_of_the_retained_is_exact(body):
+    retained = retained_up_to(body, 200.0)
+    reduction = guyan_reduction(body, retained)
+    T = reduction.static_modes
+    force = body.stiffness @ T
+    omitted = np.setdiff1d(np.arange(body.n_dofs), retained)
+    np.testing.assert_allclose(force[omitted], 0, atol=1e-9 * abs(force).max())
+    reduced = reduction.matrices.stiffness.toarray()
+    np.testing.assert_allclose(force[retained], reduced, atol=1e-9 * abs(force).max())
+    np.testing.assert_array_equal(T[retained], np.eye(len(retained)))
 
 
 def test_reduced_body_weighs_what_the_full_one_does(body):
-    reduced = guyan_reduction(body, lowest_ratio_masters(body, 30))
-    R = rigid_motions(body.nodes).reshape(-1, 6)
-    R_m = R[reduced.masters]
-    np.testing.assert_allclose(R_m.T @ reduced.mass @ R_m, R.T @ (body.mass @ R), atol=1e-8)
+    reduced = guyan_reduction(body, retained_up_to(body, 200.0)).matrices
+    R, R_m = rigid_motions(body.nodes).reshape(-1, 6), reduced.rigid
+    np.testing.assert_allclose(R_m.T @ (reduced.mass @ R_m), R.T @ (body.mass @ R), atol=1e-8)
     np.testing.assert_allclose(reduced.stiffness @ R_m, 0, atol=1e-8 * abs(reduced.stiffness).max())
+    np.testing.assert_allclose(reduced.motion @ R_m, R, atol=1e-8)
 
 
-def test_all_masters_leave_the_body_as_it_is():
+def test_retaining_all_leaves_the_body_as_it_is():
     body = assemble(bar(n=2))
-    reduced = guyan_reduction(body, np.arange(18))
-    np.testing.assert_allclose(reduced.stiffness, body.stiffness.toarray())
-    np.testing.assert_allclose(reduced.mass, body.mass.toarray())
+    reduction = guyan_reduction(body, range(18))
+    np.testing.assert_allclose(reduction.matrices.stiffness.toarray(), body.stiffness.toarray())
+    np.testing.assert_allclose(reduction.matrices.mass.toarray(), body.mass.toarray())
+    assert reduction.omitted_hz == np.inf
+    assert (reduction.too_high(free_modes(reduction.matrices, 8)) == 0).all()
 
 
-def test_heavy_node_becomes_a_master():
-    mesh = replace(bar(n=4), point_masses=(PointMass(3, 50.0),))
-    assert {19, 20} <= set(lowest_ratio_masters(assemble(mesh), 6))
+def massless_middle():
+    """A bar of which only the outer nodes have mass."""
+    body = assemble(bar(n=4))
+    mass = sp.diags_array(np.where(np.isin(np.arange(30) // 6, [1, 2, 3]), 0.0, 1.0)).tocsc()
+    return nodal_matrices(body.nodes, mass, body.stiffness)
 
 
-def test_masters_chosen_on_a_sheet_hold_it_in_its_plane():
-    # Every motion across a flat sheet has a smaller ratio than any in its plane.
+def test_leaving_out_what_has_no_mass_costs_nothing():
+    body = massless_middle()
+    reduction = guyan_reduction(body, [*range(6), *range(24, 30)])
+    assert reduction.omitted_hz == np.inf
+    modes = free_modes(reduction.matrices, 11)
+    assert (reduction.too_high(modes) == 0).all()
+    np.testing.assert_array_equal(reduction.at_least_hz(hertz(modes)), hertz(modes))
+    assert set(retained_up_to(body, 1e9)) <= set(reduction.retained)
+
+
+def test_heavy_node_is_retained():
+    mesh = replace(bar(n=40), point_masses=(PointMass(27, 50.0, inertia=(1.0, 1.0, 1.0)),))
+    assert 27 in retained_up_to(assemble(mesh), 20.0) // 6
+
+
+def test_what_is_retained_of_a_sheet_holds_it_in_its_plane():
+    # Every motion across a flat sheet has a smaller ratio of stiffness to mass than any in its plane.
     body = assemble(plate(4))
-    masters = lowest_ratio_masters(body, 12)
-    assert len(set(masters)) == 12
-    assert np.isin(masters % 6, [0, 1, 5]).sum() == 3
-    guyan_reduction(body, masters)
+    retained = retained_up_to(body, 50.0)
+    assert len(set(retained)) == len(retained)
+    assert np.isin(retained % 6, [0, 1, 5]).sum() == 3
+    guyan_reduction(body, retained)
 
 
-@pytest.mark.parametrize("masters", [[], [0, 1, 2], [1, 2, 3, 4, 5, 7]])
-def test_masters_that_do_not_hold_the_body_are_refused(masters):
-    with pytest.raises(SolveError, match=f"the {len(masters)} found don't hold the body"):
-        guyan_reduction(assemble(bar(n=2)), np.array(masters))
+@pytest.mark.parametrize("retained", [[], [0, 1, 2], [1, 2, 3, 4, 5, 7]])
+def test_retained_that_do_not_hold_the_body_are_refused(retained):
+    with pytest.raises(SolveError, match=f"the {len(retained)} found don't hold the body"):
+        guyan_reduction(assemble(bar(n=2)), retained)
 
 
-@pytest.mark.parametrize("masters", [[0, 0, 1], [-1, 2], [10**6]])
-def test_wrong_masters_are_refused(body, masters):
+@pytest.mark.parametrize("retained", [[0, 0, 1], [-1, 2], [10**6]])
+def test_wrong_indices_are_refused(body, retained):
     with pytest.raises(SolveError, match="expected different indices from 0 to 293"):
-        guyan_reduction(body, np.array(masters))
+        guyan_reduction(body, retained)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3], ids=["exactly", "but for rounding"])
+def test_loose_part_that_is_left_out_is_refused(turn):
+    along = (np.cos(turn), np.sin(turn), 0.0)
+    two = [assemble(bar(n=2, along=along)) for _ in range(2)]
+    nodes = np.vstack(
+        [body.nodes + np.array([0.0, y, 0.0]) for body, y in zip(two, (0.0, 0.5), strict=True)]
+    )
+    M, K = (
+        sp.csc_array(sp.block_diag([getattr(body, name) for body in two]))
+        for name in ("mass", "stiffness")
+    )
+    loose = nodal_matrices(nodes, M, K)
+    with pytest.raises(SolveError, match="a part of the body is loose"):
+        guyan_reduction(loose, range(18))
+    with pytest.raises(SolveError, match="a part of the body is loose"):
+        retained_up_to(loose, 1.0)
