@@ -1,6 +1,6 @@
 """Finding and moving the controls of mount rates on a page."""
 
-from pages import wait_until
+from pages import wait_still, wait_until
 from playwright.sync_api import Locator, Page
 
 DIRECTIONS = ("vertical", "lateral", "fore-aft")
@@ -32,13 +32,12 @@ def open_folder(page: Page, group: str) -> None:
     def opened() -> bool:
         if not is_open(page, group):
             page.evaluate(TOGGLE, group)
-            page.wait_for_timeout(UNFOLDING_MS)  # the page's own script may have clicked as well
+            wait_still(page)  # the page's own script may have clicked as well
         return is_open(page, group)
 
     wait_until(page, opened)
 
 
-UNFOLDING_MS = 500
 TOGGLE = """(group) => document.querySelector(`.mv-rates[data-group="${group}"]`)
   .closest(".mantine-Paper-root").firstElementChild.click()"""
 IS_OPEN = """(group) => {

@@ -45,6 +45,17 @@ STILL = """() => new Promise((done) => {
 })"""
 
 
+def draw_on(page: Page, n_pictures: int = 20) -> None:
+    """Waits while a page draws on, for what it would do by itself to be done by then."""
+    page.evaluate(DRAW_ON, n_pictures)
+
+
+DRAW_ON = """(left) => new Promise((done) => {
+  const draw = () => (left-- > 0 ? requestAnimationFrame(draw) : done());
+  draw();
+})"""
+
+
 def wait_until(page: Page, reached: Callable[[], Any], seconds: float = 90.0) -> None:
     """Waits until something is true here, while the page goes on."""
     deadline = time.monotonic() + seconds

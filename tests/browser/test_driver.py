@@ -3,7 +3,7 @@ import time
 import numpy as np
 import pytest
 from apps import listening, n_bytes
-from pages import wait_for
+from pages import draw_on, wait_for
 
 from modeviz.shapes.colors import Shade
 from modeviz.shapes.gltf import glb
@@ -265,7 +265,7 @@ def test_phase_advances_while_running_and_is_held_while_paused(driver, page):
     driver.drive(running=False)
     wait_for(page, "window.__viserMutable.nodePoseData['/_driver'].position[1] === 0")
     held = page.evaluate("window.__modeviz.phase")
-    page.wait_for_timeout(500)
+    draw_on(page)
     assert page.evaluate("window.__modeviz.phase") == held
     started = time.monotonic()
     driver.drive(frequency_hz=0.01, running=True)

@@ -3,7 +3,7 @@
 import pytest
 from apps import open_app
 from mounted_cabin import mounted_cabin
-from pages import wait_for, wait_until
+from pages import draw_on, wait_for, wait_until
 
 from modeviz.analysis.results import Conditions
 
@@ -55,7 +55,7 @@ def test_keys_do_nothing_behind_the_guide(app, page):
     page.locator(".mv .keys").click()  # the focus goes from the button to nothing at all
     page.keyboard.press("n")
     page.keyboard.press("Space")
-    page.wait_for_timeout(500)
+    draw_on(page)
     assert app.session.state == before
     assert page.evaluate(CAMERA) == camera
     assert not app._scene.driver._running
@@ -106,7 +106,7 @@ def test_the_space_bar_plays_and_stops_once_even_on_the_button_that_was_clicked(
     wait_until(page, lambda: driver._running)
     page.keyboard.press("Space")
     wait_until(page, lambda: not driver._running)
-    page.wait_for_timeout(500)  # a second press would come by now
+    draw_on(page)  # a second press would come by now
     assert not driver._running
 
 

@@ -60,20 +60,26 @@ def press(page, name):
     page.get_by_role("button", name=name, exact=True).click()
 
 
+def start(app, page, reached):
+    """Starts a search and waits until something is true of how it stands."""
+    before = app.optimiser.job  # of one that has ended: nothing of it changes any more
+    press(page, "Start")
+    wait_until(page, lambda: app.optimiser.job is not before and reached(app.optimiser.job))
+
+
 def search(app, page):
     """Searches to the end; gives what was found."""
-    press(page, "Start")
-    wait_until(page, lambda: app.optimiser.job and app.optimiser.job.found)
-    wait_for(page, f"{TEXT}.includes('Converged')")
-    return app.optimiser.job.found
+    start(app, page, lambda job: job.found)
+    found = app.optimiser.job.found
+    wait_for(page, f"{BEST} === a.best && {TEXT}.includes('Converged')", best=significant(found.value))
+    return found
 
 
 def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page):
     charts = page.evaluate(CHART)
     before = app.shown.now.psd
     found = search(app, page)
-    wait_for(page, f"{BEST} === a.best", best=significant(found.value))
-    assert page.evaluate(CHART) == charts + 1
+    wait_for(page, f"{CHART} === a.n", n=charts + 1)
     wait_until(page, lambda: app.shown.now.rates == found.rates)
     assert not np.array_equal(app.shown.now.psd, before)
     wait_for(page, f"{TEXT}.includes('The full model has the same goal within')")
@@ -83,8 +89,7 @@ def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page
 
 
 def test_it_is_paused_goes_on_and_is_cancelled_with_the_best_design(app, page, held):
-    press(page, "Start")
-    wait_until(page, lambda: app.optimiser.job and app.optimiser.job.history)
+    start(app, page, lambda job: job.history)
     press(page, "Pause")
     wait_for(page, f"{TEXT}.includes('Paused')")
     held.set()
@@ -94,8 +99,7 @@ def test_it_is_paused_goes_on_and_is_cancelled_with_the_best_design(app, page, h
 
 
 def test_cancel_keeps_the_best_design(app, page, held):
-    press(page, "Start")
-    wait_until(page, lambda: app.optimiser.job and app.optimiser.job.history)
+    start(app, page, lambda job: job.history)
     press(page, "Cancel")
     wait_for(page, f"{TEXT}.includes('Cancelled')")
     look = app.optimiser.job

@@ -7,7 +7,7 @@ import pytest
 from apps import open_app
 from charts import at_lines, has_lines
 from mounted_cabin import mounted_cabin
-from pages import wait_for, wait_until
+from pages import draw_on, wait_for, wait_until
 
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
@@ -101,7 +101,7 @@ def test_a_chart_keeps_its_zoom_when_another_response_is_chosen(app, page):
     app.session.change(curves=CURVES)
     assert app.session.wait(SOLVE_S)
     assert_drawn(page, 0, "now", decibels_of(app, CURVES[0]))
-    page.wait_for_timeout(300)  # a zoom that came back would be there by now
+    draw_on(page)  # a zoom that came back would be there by now
     assert page.evaluate(range_of(0)) == [LOW, HIGH]
 
 

@@ -3,7 +3,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from pages import wait_for, wait_until
+from pages import draw_on, wait_for, wait_until
 
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.results import Conditions, solve_modal
@@ -310,6 +310,25 @@ def test_markers_stand_at_the_mounts_and_points(scene, page):
     assert np.array(positions) == pytest.approx(np.array(expected), abs=1e-6)
 
 
+COME_TO_REST = """() => new Promise((done) => {
+  const { camera, requestRender } = window.__viserMutable;
+  let last, since = 0;
+  const look = () => {
+    requestRender();
+    const now = camera.matrixWorld.elements.join();
+    since = now === last ? since + 1 : 0;
+    last = now;
+    if (since < 20) requestAnimationFrame(look); else done();
+  };
+  look();
+})"""
+
+DISTANCE = """(() => {
+  const { camera, cameraControl } = window.__viserMutable;
+  return camera.position.distanceTo(cameraControl.getTarget(camera.position.clone()));
+})()"""
+
+
 def test_view_stays_framed_when_the_page_narrows_until_somebody_moves_the_camera(server, scene, page):
     client = next(iter(server.get_clients().values()))
 
@@ -330,10 +349,12 @@ def test_view_stays_framed_when_the_page_narrows_until_somebody_moves_the_camera
         page.mouse.move(450, 200)
         page.mouse.wheel(0, 300)
         wait_until(page, lambda: distance() > 1.02 * wide)
-        page.wait_for_timeout(1000)  # the wheel's motion runs out
+        page.evaluate(COME_TO_REST)  # the wheel's motion runs out
+        own = page.evaluate(DISTANCE)
+        wait_until(page, lambda: distance() == pytest.approx(own, rel=1e-6))
         moved = distance()
         resize(200)
-        page.wait_for_timeout(1000)  # nothing is to happen
+        draw_on(page)  # nothing is to happen
         assert distance() == pytest.approx(moved, rel=1e-3)
     finally:
         resize(900)
