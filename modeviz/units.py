@@ -4,6 +4,7 @@ import math
 import re
 import unicodedata
 from collections import Counter
+from typing import Literal
 
 from modeviz.errors import ModevizError, quoted, unknown
 
@@ -16,7 +17,22 @@ INCH = 0.0254
 POUND = 0.45359237
 """kg."""
 
-UNITS: dict[str, dict[str, float]] = {
+QuantityName = Literal[
+    "length",
+    "mass",
+    "inertia",
+    "stiffness",
+    "rotational_stiffness",
+    "damping",
+    "rotational_damping",
+    "force",
+    "acceleration",
+    "unbalance",
+    "speed",
+]
+"""As the `units` tables of files have them."""
+
+UNITS: dict[QuantityName, dict[str, float]] = {
     "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": INCH, "ft": 12 * INCH},
     "mass": {
         "kg": 1.0,
@@ -45,7 +61,7 @@ UNITS: dict[str, dict[str, float]] = {
         "kN/mm": 1e6,
         "lbf/in": POUND * STANDARD_GRAVITY / INCH,
     },
-    "rotational stiffness": {
+    "rotational_stiffness": {
         "N m/rad": 1.0,
         "N m/deg": 180 / math.pi,
         "N mm/rad": 1e-3,
@@ -57,7 +73,7 @@ UNITS: dict[str, dict[str, float]] = {
         "kN s/m": 1e3,
         "lbf s/in": POUND * STANDARD_GRAVITY / INCH,
     },
-    "rotational damping": {"N m s/rad": 1.0, "N m s/deg": 180 / math.pi, "N mm s/rad": 1e-3},
+    "rotational_damping": {"N m s/rad": 1.0, "N m s/deg": 180 / math.pi, "N mm s/rad": 1e-3},
     "force": {"N": 1.0, "kN": 1e3, "lbf": POUND * STANDARD_GRAVITY},
     "acceleration": {"m/s²": 1.0, "m/s^2": 1.0, "mm/s²": 1e-3, "mm/s^2": 1e-3, "g": STANDARD_GRAVITY},
     "unbalance": {"kg m": 1.0, "g m": 1e-3, "g mm": 1e-6, "oz in": POUND / 16 * INCH},
@@ -68,7 +84,12 @@ UNITS: dict[str, dict[str, float]] = {
 NUMBER_AND_UNIT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re.ASCII)
 
 
-def factor(unit: str, quantity: str) -> float:
+def spoken(quantity: QuantityName) -> str:
+    """Return what a person calls a quantity."""
+    return quantity.replace("_", " ")
+
+
+def factor(unit: str, quantity: QuantityName) -> float:
     """What one `unit` of `quantity` is in SI.
 
     Raises:
@@ -76,11 +97,11 @@ def factor(unit: str, quantity: str) -> float:
     """
     units = UNITS[quantity]
     if unit not in units:
-        raise ModevizError(unknown(f"unit of {quantity}", unit, units))
+        raise ModevizError(unknown(f"unit of {spoken(quantity)}", unit, units))
     return units[unit]
 
 
-def psd_factor(unit: str, quantity: str) -> float:
+def psd_factor(unit: str, quantity: QuantityName) -> float:
     """What one unit of the PSD of a quantity is in SI: of mm²/Hz, or (m/s²)²/Hz, or m²/s⁴/Hz.
 
     Raises:
@@ -125,7 +146,7 @@ def _level(unit: str) -> str:
     return re.sub("hz", "Hz", level, flags=re.IGNORECASE)
 
 
-def parse(text: str, quantity: str) -> float:
+def parse(text: str, quantity: QuantityName) -> float:
     """The SI value of a text such as "131 N/mm".
 
     Raises:
@@ -133,7 +154,7 @@ def parse(text: str, quantity: str) -> float:
     """
     parts = NUMBER_AND_UNIT.fullmatch(text.strip())
     if parts is None:
-        raise ModevizError(f"found {quoted(text)}, expected a number and a unit of {quantity}")
+        raise ModevizError(f"found {quoted(text)}, expected a number and a unit of {spoken(quantity)}")
     number, unit = parts.groups()
     if not unit:
         units = ", ".join(UNITS[quantity])

@@ -123,7 +123,7 @@ def test_a_component_rings_as_in_the_study(name):
 
 def test_the_bare_frame_is_as_stiff_as_in_the_study():
     frame = static_stiffness(STUDY)["frame"]
-    per_degree = frame.torsion / factor("N m/deg", "rotational stiffness")
+    per_degree = frame.torsion / factor("N m/deg", "rotational_stiffness")
     assert per_degree == pytest.approx(936, abs=0.5)
     assert frame.beaming == pytest.approx(2860e3, abs=5e3)
 

@@ -14,7 +14,7 @@ from modeviz.units import UNITS, factor, parse, parse_number, psd_factor
         ("N/cm", "stiffness", 100.0),
         ("kN/mm", "stiffness", 1e6),
         ("lbf/in", "stiffness", 175.12683524647636),  # NIST SP 811 rounds it to 175.1268
-        ("N m/deg", "rotational stiffness", 180 / math.pi),
+        ("N m/deg", "rotational_stiffness", 180 / math.pi),
         ("lb", "mass", 0.45359237),
         ("lbf", "force", 4.4482216152605),
         ("oz in", "unbalance", 0.45359237 / 16 * 0.0254),

@@ -30,7 +30,7 @@ class StaticStiffness:
     """N/m at the middle station on supports at the end ones."""
 
     def __str__(self) -> str:
-        per_degree = self.torsion / factor("N m/deg", "rotational stiffness")
+        per_degree = self.torsion / factor("N m/deg", "rotational_stiffness")
         per_mm = self.beaming / factor("N/mm", "stiffness")
         return f"torsion {per_degree:.0f} N m/deg, beaming {per_mm:.0f} N/mm"
 

@@ -40,9 +40,8 @@ from modeviz.files.records.vehicle import (
     VehicleRecord,
 )
 from modeviz.files.roads import write_road
-from modeviz.files.schema.axes import axes_of
+from modeviz.files.schema.axes import axes_of, turned
 from modeviz.files.schema.conventions import Conventions
-from modeviz.files.schema.quantities import turned
 from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si
 from modeviz.files.source import Source
 from modeviz.files.spectra import write_spectrum
@@ -208,7 +207,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
     flexible = [b for b in vehicle.bodies if isinstance(b, FlexibleBody)]
     rigid = [b for b in vehicle.bodies if isinstance(b, RigidBody)]
     return VehicleRecord(
-        units=WRITTEN_UNITS,
+        units=dict(WRITTEN_UNITS.items()),
         name=vehicle.name,
         speed=vehicle.speed,
         highest_frequency=vehicle.highest_frequency,

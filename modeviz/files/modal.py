@@ -2,7 +2,7 @@
 
 import zipfile
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -16,19 +16,38 @@ from modeviz.files.source import LARGEST_ARRAYS, Source
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
 
-KINDS = {
-    "omega_n_squared": ("f", 1),
-    "n_residuals": ("i", 0),
-    "attachment_names": ("U", 1),
-    "attachment_positions": ("f", 2),
-    "attachment_shapes": ("f", 3),
-    "nodes": ("f", 2),
-    "shapes": ("f", 3),
-}
-"""The arrays of a body: what is in each, as `dtype.kind` has it, and how many dimensions it has."""
 
-PLACES, SHAPES = ("attachment_positions", "nodes"), ("attachment_shapes", "shapes")
-"""What of the arrays depends on units and axes."""
+def _places(array: np.ndarray, conventions: Conventions) -> np.ndarray:
+    """Places in SI and our axes; those of a wrong shape as they are, since no body has them."""
+    return conventions.positions(array) if array.shape[-1] == 3 else array
+
+
+def _shapes(array: np.ndarray, conventions: Conventions) -> np.ndarray:
+    """Shapes in SI and our axes; those of a wrong shape as they are."""
+    return conventions.shapes(array) if array.shape[-2] in (3, 6) else array
+
+
+@dataclass(frozen=True)
+class ArrayKind:
+    """What an array of the file is."""
+
+    kind: str
+    """As `dtype.kind` has it."""
+    n_dimensions: int
+    converted: Callable[[np.ndarray, Conventions], np.ndarray] | None = None
+    """Into SI and our axes; None for what is the same in all."""
+
+
+ARRAYS = {
+    "omega_n_squared": ArrayKind("f", 1),  # rad²/s²
+    "n_residuals": ArrayKind("i", 0),
+    "attachment_names": ArrayKind("U", 1),
+    "attachment_positions": ArrayKind("f", 2, _places),
+    "attachment_shapes": ArrayKind("f", 3, _shapes),
+    "nodes": ArrayKind("f", 2, _places),
+    "shapes": ArrayKind("f", 3, _shapes),
+}
+"""The arrays of a body."""
 
 NEAR_ZERO_HZ, NEAR_ZERO = 0.05, 0.01
 """Of a free body's first modes, what is below this, or this part of the first elastic one, is rigid."""
@@ -56,7 +75,10 @@ def read_flexible_body(
     Raises:
         VehicleError: no such file, a damaged one, or arrays that are missing, pickled or not a body's.
     """
-    arrays = _converted(_read_arrays(path, source), source.conventions)
+    arrays = {
+        name: convert(array, source.conventions) if (convert := ARRAYS[name].converted) else array
+        for name, array in _read_arrays(path, source).items()
+    }
     names, positions, shapes = (
         arrays[f"attachment_{what}"] for what in ("names", "positions", "shapes")
     )
@@ -92,17 +114,6 @@ def write_flexible_body(path: Path, body: FlexibleBody) -> None:
             "nodes": body.nodes,
             "shapes": body.shapes,
         },
-    )
-
-
-def _converted(arrays: dict[str, np.ndarray], conventions: Conventions) -> dict[str, np.ndarray]:
-    """The arrays in SI and our axes; those of a wrong shape as they are, since no body has them."""
-    places = {name: arrays[name] for name in PLACES if arrays[name].shape[-1] == 3}
-    shapes = {name: arrays[name] for name in SHAPES if arrays[name].shape[-2] in (3, 6)}
-    return (
-        arrays
-        | {name: conventions.positions(array) for name, array in places.items()}
-        | {name: conventions.shapes(array) for name, array in shapes.items()}
     )
 
 
@@ -151,9 +162,9 @@ def _read_arrays(path: Path, source: Source) -> dict[str, np.ndarray]:
     with opened(path, LARGEST_ARRAYS) as file:
         try:
             with zipfile.ZipFile(file) as archive:
-                members = [_member(archive, name) for name in KINDS]
+                members = [_member(archive, name) for name in ARRAYS]
                 source.reserve(sum(member.file_size for member in members))
-                arrays = {name: _read_array(archive, name) for name in KINDS}
+                arrays = {name: _read_array(archive, name) for name in ARRAYS}
         except VehicleError as error:
             raise VehicleError(f"{path}: {error}") from None
         except Exception as error:  # damaged archives make zipfile and NumPy raise almost anything
@@ -179,11 +190,11 @@ def _read_array(archive: zipfile.ZipFile, name: str) -> np.ndarray:
             array = np.lib.format.read_array(file, allow_pickle=False)
     except ValueError as error:
         raise VehicleError(f"{name}: {error}") from None
-    if (array.dtype.kind, array.ndim) != KINDS[name]:
-        kind, n_dimensions = KINDS[name]
+    expected = ARRAYS[name]
+    if (array.dtype.kind, array.ndim) != (expected.kind, expected.n_dimensions):
         raise VehicleError(
-            f"{name}: found {array.dtype} in {array.ndim} dimensions, expected {KIND_NAMES[kind]} in "
-            f"{n_dimensions}"
+            f"{name}: found {array.dtype} in {array.ndim} dimensions, expected "
+            f"{KIND_NAMES[expected.kind]} in {expected.n_dimensions}"
         )
     return array
 

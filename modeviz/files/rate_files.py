@@ -10,15 +10,17 @@ import msgspec
 
 from modeviz.errors import VehicleError, check_unique, located
 from modeviz.files.disk import LARGEST_TEXT, WESTERN, read_text, write_text
+from modeviz.files.records.record import Record
 from modeviz.files.records.vehicle import RateSetRecord
 from modeviz.files.schema.decoding import decode, unreadable
-from modeviz.files.schema.scaling import written
+from modeviz.files.schema.quantities import quantity_of
+from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si, to_si
 from modeviz.files.tables import Row, Table, read_table
 from modeviz.units import factor
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
-WRITTEN_UNIT = "N/mm"
+WRITTEN_UNIT = WRITTEN_UNITS["stiffness"]
 
 CSV_COLUMNS = ("group", "units", *RATE_FIELDS)
 LOSS_COLUMN = "loss_factor"
@@ -27,7 +29,7 @@ LOSS_COLUMN = "loss_factor"
 RatesFormat = Literal["csv", "json"]
 
 
-class RatesFile(msgspec.Struct, forbid_unknown_fields=True):
+class RatesFile(Record):
     """The content of a JSON file of rates."""
 
     rates: dict[str, RateSetRecord]
@@ -93,7 +95,10 @@ def _from_json(text: str) -> Rates:
     except (ValueError, RecursionError) as error:
         raise VehicleError(f"not JSON: {unreadable(error)}") from None
     file = decode(data, RatesFile)
-    return {group: _in_si(record, file.units) for group, record in file.rates.items()}
+    with located("units"):
+        factor(file.units, "stiffness")
+    in_si = msgspec.convert(to_si(data, RatesFile, {"stiffness": file.units}), RatesFile)
+    return {group: record.build() for group, record in in_si.rates.items()}
 
 
 def _from_csv(text: str) -> Rates:
@@ -104,43 +109,35 @@ def _from_csv(text: str) -> Rates:
 
 
 def _from_row(row: Row, table: Table) -> MountRates:
-    in_si = []
-    for column in RATE_FIELDS:
-        unit = table.units[column] or row.cells.get("units", "")
-        with located(row.where(column if table.units[column] else "units")):
-            newton_per_metre = factor(unit, "stiffness")
-        in_si.append(row.number(column, at_least=0) * newton_per_metre)
-    loss_factor = row.number(LOSS_COLUMN, at_least=0) if row.cells.get(LOSS_COLUMN) else None
-    return MountRates(*in_si, loss_factor=loss_factor)
+    fields = [*RATE_FIELDS, *([LOSS_COLUMN] if row.cells.get(LOSS_COLUMN) else [])]
+    return MountRates(**{field: _in_si(field, row, table) for field in fields})
 
 
-def _in_si(record: RateSetRecord, unit: str) -> MountRates:
-    with located("units"):
-        newton_per_metre = factor(unit, "stiffness")
-    rates = record.build()
-    in_si = (rate * newton_per_metre for rate in rates.as_tuple())
-    return MountRates(*in_si, loss_factor=rates.loss_factor)
+def _in_si(field: str, row: Row, table: Table) -> float:
+    """The number in a column that is a field of rates."""
+    quantity, unit = quantity_of(RateSetRecord, field), 1.0
+    if quantity:
+        own = table.units[field]
+        with located(row.where(field if own else "units")):
+            unit = factor(own or row.cells.get("units", ""), quantity)
+    return row.number(field, at_least=0) * unit
 
 
-def _in_written_unit(rates: MountRates) -> dict[str, float]:
-    """The rates, and the loss factor if there is one, by field."""
-    unit = factor(WRITTEN_UNIT, "stiffness")
-    values = {name: written(getattr(rates, name), unit) for name in RATE_FIELDS}
-    return values if rates.loss_factor is None else {**values, LOSS_COLUMN: rates.loss_factor}
+def _written(rates: MountRates) -> dict[str, float]:
+    """The rates, in the unit we write, and the loss factor if there is one, by field."""
+    return from_si(msgspec.to_builtins(RateSetRecord.of(rates)), RateSetRecord)
 
 
 def _to_json(rates: Rates) -> str:
     content = {
         "units": WRITTEN_UNIT,
-        "rates": {group: _in_written_unit(r) for group, r in rates.items()},
+        "rates": {group: _written(r) for group, r in rates.items()},
     }
     return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
 
 
 def _to_csv(rates: Rates) -> str:
-    rows = [
-        {"group": group, "units": WRITTEN_UNIT, **_in_written_unit(r)} for group, r in rates.items()
-    ]
+    rows = [{"group": group, "units": WRITTEN_UNIT, **_written(r)} for group, r in rates.items()]
     has_loss = any(LOSS_COLUMN in row for row in rows)
     columns = [*CSV_COLUMNS, LOSS_COLUMN] if has_loss else [*CSV_COLUMNS]
     text = StringIO()

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from modeviz.errors import VehicleError, listed, located, quoted, unknown
 from modeviz.files.rate_files import read_rates
+from modeviz.files.records.vehicle import RateSetRecord
+from modeviz.files.schema.quantities import quantity_of
 from modeviz.units import parse, parse_number
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -35,7 +37,8 @@ def parse_setting(text: str, rates: Rates) -> Rates:
                 "GROUP.loss_factor=NUMBER"
             )
         group, field = rate_field(name, rates)
-        number = parse_number(value) if field == LOSS_FACTOR else parse(value, "stiffness")
+        quantity = quantity_of(RateSetRecord, field)
+        number = parse(value, quantity) if quantity else parse_number(value)
         return {group: replace(rates[group], **{field: number})}
 
 

@@ -9,6 +9,7 @@ from modeviz.errors import located
 from modeviz.files.disk import write_text
 from modeviz.files.schema.conventions import Conventions
 from modeviz.files.spectrum_tables import read_spectrum_table
+from modeviz.units import QuantityName
 from modeviz.vehicle.loads import Spectrum
 
 COLUMNS = ("frequency_hz", "psd")
@@ -16,7 +17,7 @@ COLUMNS = ("frequency_hz", "psd")
 
 
 def read_spectrum(
-    path: Path, quantity: str, conventions: Conventions, note: Callable[[str], None]
+    path: Path, quantity: QuantityName, conventions: Conventions, note: Callable[[str], None]
 ) -> Spectrum:
     """The spectrum in a file, SI.
 

@@ -10,7 +10,7 @@ from modeviz.errors import VehicleError, located
 from modeviz.files.disk import LARGEST_TABLE, WESTERN, read_text
 from modeviz.files.schema.conventions import Conventions
 from modeviz.files.tables import Row, read_table
-from modeviz.units import psd_factor
+from modeviz.units import QuantityName, psd_factor
 from modeviz.vehicle.arrays import Floats
 
 FREQUENCY = "frequency_hz"
@@ -32,7 +32,7 @@ def read_spectrum_table(
     path: Path,
     columns: Sequence[str],
     powers: Sequence[str],
-    quantity: str,
+    quantity: QuantityName,
     conventions: Conventions,
     note: Callable[[str], None],
 ) -> SpectrumTable:
@@ -72,7 +72,7 @@ def _above_zero(rows: tuple[Row, ...], where: str, note: Callable[[str], None]) 
     return rows[1:]
 
 
-def _unit(column: str, unit: str, quantity: str, conventions: Conventions) -> float:
+def _unit(column: str, unit: str, quantity: QuantityName, conventions: Conventions) -> float:
     """What one unit of a column is in SI."""
     if not unit:
         return conventions.unit(quantity) ** 2

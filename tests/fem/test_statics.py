@@ -97,7 +97,7 @@ def test_station_is_the_nearest_node_and_its_mirror_image():
 def test_stiffness_is_in_si_units():
     matrices = assemble(shaft_with_arms())
     in_degrees = torsional_stiffness(matrices, (11, 12), (13, 14)) / factor(
-        "N m/deg", "rotational stiffness"
+        "N m/deg", "rotational_stiffness"
     )
     np.testing.assert_allclose(in_degrees, np.radians(G * BAR.torsion_constant / 1.5), rtol=1e-5)
 

@@ -19,7 +19,7 @@ from modeviz.cli import main
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.limits import check_size
-from modeviz.files.modal import KINDS
+from modeviz.files.modal import ARRAYS
 from modeviz.files.records import loads
 from modeviz.files.roads import read_road
 from modeviz.files.workload import counted
@@ -134,7 +134,7 @@ def bomb(path: Path, name: str) -> None:
     with np.load(path) as archive:
         arrays = dict(archive)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        for key in KINDS:
+        for key in ARRAYS:
             content = BytesIO()
             np.lib.format.write_array(content, arrays[key], allow_pickle=False)
             with archive.open(f"{key}.npy", "w", force_zip64=True) as file:

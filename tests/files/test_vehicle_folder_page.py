@@ -12,12 +12,11 @@ import numpy as np
 import pytest
 
 from modeviz.cli import main
-from modeviz.files.modal import KINDS
+from modeviz.files.modal import ARRAYS
 from modeviz.files.records.vehicle import VehicleRecord
 from modeviz.files.roads import COLUMNS
 from modeviz.files.schema.hints import annotation, fields_of
-from modeviz.files.schema.quantities import Quantity
-from modeviz.files.schema.scaling import WRITTEN_UNITS
+from modeviz.files.schema.quantities import FixedUnit, Quantity
 from modeviz.units import UNITS
 
 PAGE = Path(__file__).parents[2].joinpath("docs/vehicle-folder.md").read_text("utf-8")
@@ -30,6 +29,7 @@ THE_FILE = "The file itself"
 class Row:
     """What the page says of a key."""
 
+    meaning: str
     quantity: str
     default: str
 
@@ -45,7 +45,7 @@ def rows_of_page() -> dict[str, dict[str, Row]]:
             places = PLACE.findall(line)
         elif row := ROW.match(line):
             for place in places:
-                rows.setdefault(place, {})[row[1]] = Row(row[3], row[4])
+                rows.setdefault(place, {})[row[1]] = Row(row[2], row[3], row[4])
     return rows
 
 
@@ -80,9 +80,17 @@ def test_the_page_has_every_key_and_no_other(place):
 @pytest.mark.parametrize("place", RECORDS)
 def test_the_page_names_the_quantity_of_every_key(place):
     for key, hint in fields_of(RECORDS[place]).items():
-        quantity = annotation(hint, Quantity) or Quantity()
-        known = {quantity.name, *quantity.by_kind.values()} - {""}
+        quantity = annotation(hint, Quantity)
+        known = set(quantity.names) if quantity else set()
         assert set(re.findall(r"`(\w+)`", PAGE_ROWS[place][key].quantity)) == known, key
+
+
+@pytest.mark.parametrize("place", RECORDS)
+def test_the_page_names_every_unit_that_a_file_cannot_choose(place):
+    for key, hint in fields_of(RECORDS[place]).items():
+        fixed = annotation(hint, FixedUnit)
+        if fixed and fixed.name:
+            assert re.search(rf"\b{fixed.name}\b", PAGE_ROWS[place][key].meaning), key
 
 
 def default_of(field: msgspec.structs.FieldInfo) -> Any:
@@ -119,7 +127,7 @@ def test_the_page_has_every_unit():
     table = table_after("Units")
     assert table.pop("quantity")
     assert {quantity: cells[0].split(", ") for quantity, cells in table.items()} == {
-        quantity: list(UNITS[quantity.replace("_", " ")]) for quantity in WRITTEN_UNITS
+        quantity: list(UNITS[quantity]) for quantity in UNITS
     }
 
 
@@ -128,7 +136,7 @@ def test_the_page_has_every_array_with_its_dimensions():
     assert table.pop("array")
     shapes = {name: re.findall(r"\w+", cells[0]) for name, cells in table.items()}
     assert {name: len(shape) for name, shape in shapes.items()} == {
-        name: n_dimensions for name, (_, n_dimensions) in KINDS.items()
+        name: array.n_dimensions for name, array in ARRAYS.items()
     }
 
 

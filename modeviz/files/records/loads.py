@@ -6,18 +6,22 @@ from typing import Self
 import numpy as np
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.records.record import Name, Record
-from modeviz.files.roads import read_road
-from modeviz.files.schema.quantities import (
+from modeviz.files.records.fields import (
     Acceleration,
-    Amplitude,
+    AccelerationPsd,
     Direction,
     Displacement,
+    DisplacementPsd,
     ForceAmplitude,
+    ForcePsd,
+    Name,
     Position,
     Speed,
-    Vector,
+    WheelLoadAmplitude,
 )
+from modeviz.files.records.record import Record
+from modeviz.files.roads import read_road
+from modeviz.files.schema.quantities import Vector, quantity_of
 from modeviz.files.source import Source
 from modeviz.files.spectra import read_spectrum
 from modeviz.vehicle.arrays import Floats
@@ -58,7 +62,7 @@ class WheelLoadRecord(Record, kw_only=True):
     name: Name
     kind: WheelLoadKind
     tyre: str
-    amplitude: Amplitude
+    amplitude: WheelLoadAmplitude
 
     @classmethod
     def of(cls, load: WheelLoad) -> Self:
@@ -76,8 +80,7 @@ class ForceRecord(Record, kw_only=True):
     at: Position
     direction: Direction
     amplitude: ForceAmplitude | None = None
-    psd: str | None = None
-    """A file of the folder, .csv."""
+    psd: ForcePsd | None = None
 
     @classmethod
     def of(cls, force: Force, file: str) -> Self:
@@ -93,7 +96,7 @@ class ForceRecord(Record, kw_only=True):
 
     def build(self, source: Source) -> Force:
         key = _the_one({"amplitude": self.amplitude, "psd": self.psd})
-        amplitude = _amplitude(source, key, getattr(self, key), "force")
+        amplitude = _amplitude(source, self, key)
         position, direction = np.array(self.at), _unit_vector(self.direction)
         return Force(self.name, self.body, position, direction, amplitude)
 
@@ -107,9 +110,8 @@ class BaseMotionRecord(Record, kw_only=True):
     direction: Direction
     displacement: Displacement | None = None
     acceleration: Acceleration | None = None
-    displacement_psd: str | None = None
-    acceleration_psd: str | None = None
-    """Files of the folder, .csv."""
+    displacement_psd: DisplacementPsd | None = None
+    acceleration_psd: AccelerationPsd | None = None
 
     @classmethod
     def of(cls, motion: BaseMotion, file: str) -> Self:
@@ -128,9 +130,8 @@ class BaseMotionRecord(Record, kw_only=True):
     def build(self, source: Source) -> BaseMotion:
         keys = ("displacement", "acceleration", "displacement_psd", "acceleration_psd")
         key = _the_one({key: getattr(self, key) for key in keys})
-        quantity = "displacement" if key.startswith("displacement") else "acceleration"
-        unit = "length" if quantity == "displacement" else "acceleration"
-        amplitude = _amplitude(source, key, getattr(self, key), unit)
+        quantity = "displacement" if quantity_of(type(self), key) == "length" else "acceleration"
+        amplitude = _amplitude(source, self, key)
         direction = _unit_vector(self.direction)
         return BaseMotion(self.name, direction, quantity, amplitude, self.connections)
 
@@ -148,10 +149,13 @@ def _the_one(amplitudes: dict[str, float | str | None]) -> str:
     return given[0]
 
 
-def _amplitude(source: Source, key: str, given: float | str, quantity: str) -> float | Spectrum:
+def _amplitude(source: Source, record: Record, key: str) -> float | Spectrum:
     """A peak as it is, the spectrum in a file that is named."""
+    given = getattr(record, key)
     if not isinstance(given, str):
         return given
+    quantity = quantity_of(type(record), key)
+    assert quantity is not None
     with located(key):
         path = source.path(given)
     spectrum = source.once(

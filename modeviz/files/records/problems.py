@@ -7,7 +7,9 @@ import numpy as np
 from msgspec import Meta, field
 
 from modeviz.errors import VehicleError
-from modeviz.files.records.record import Name, NonNegative, Positive, RatesRecord, Record, built
+from modeviz.files.records.fields import Frequency, LowestFrequency, Name, Ratio, RatioLimits
+from modeviz.files.records.record import RatesRecord, Record, built
+from modeviz.files.schema.quantities import UNITLESS, FixedUnit
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.problem import (
@@ -30,7 +32,7 @@ class DesignGroupRecord(Record, kw_only=True):
     directions: tuple[str, ...] = DIRECTIONS
     softest: RatesRecord | None = None
     stiffest: RatesRecord | None = None
-    ratio_limits: tuple[float, float] | Literal["none"] | None = None
+    ratio_limits: RatioLimits | Literal["none"] | None = None
     fixed_ratios: bool = False
 
     @classmethod
@@ -62,9 +64,9 @@ MOST_FREQUENCIES = 10_000
 class SpacedRecord(Record, kw_only=True):
     """Evenly spaced frequencies, both ends included."""
 
-    first: Positive
-    last: Positive
-    count: Annotated[int, Meta(ge=2, le=MOST_FREQUENCIES)]
+    first: Frequency
+    last: Frequency
+    count: Annotated[int, Meta(ge=2, le=MOST_FREQUENCIES), UNITLESS]
 
     @classmethod
     def of(cls, frequency_hz: Floats) -> Self | None:
@@ -85,11 +87,12 @@ class PerformanceRecord(Record, kw_only=True):
 
     roads: tuple[str, ...] = ()
     wheel_loads: tuple[str, ...] = ()
-    frequency_hz: SpacedRecord | tuple[float, ...]
+    frequency_hz: SpacedRecord | Annotated[tuple[float, ...], FixedUnit("Hz")]
     points: tuple[str, ...] = ()
     directions: tuple[str, ...] = RIDE_DIRECTIONS
-    target: NonNegative = 0.0
-    weight: NonNegative = 1.0
+    target: Annotated[float, Meta(ge=0), FixedUnit("g")] = 0.0
+    """Under roads g/√Hz."""
+    weight: Ratio = 1.0
 
     @classmethod
     def of(cls, performance: Performance) -> Self:
@@ -121,8 +124,8 @@ class WindowRecord(Record, kw_only=True):
     """[[problem.window]]."""
 
     mode: Name
-    low_hz: NonNegative = 0.0
-    high_hz: Positive | None = None
+    low_hz: LowestFrequency = 0.0
+    high_hz: Frequency | None = None
     inside: bool = True
 
     @classmethod

@@ -1,18 +1,14 @@
 """What all records of `vehicle.toml` are made of."""
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Annotated, Self, TypeVar
+from typing import Any, Self, TypeVar
 
 import msgspec
-from msgspec import Meta
 
 from modeviz.errors import ModevizError, VehicleError
-from modeviz.files.schema.quantities import Rate
+from modeviz.files.records.fields import Rate
+from modeviz.files.schema.quantities import check_annotations
 from modeviz.vehicle.connections import MountRates
-
-Name = Annotated[str, Meta(min_length=1)]
-Positive = Annotated[float, Meta(gt=0)]
-NonNegative = Annotated[float, Meta(ge=0)]
 
 R = TypeVar("R")
 P = TypeVar("P")
@@ -23,7 +19,12 @@ MOST_ERRORS = 5
 
 
 class Record(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
-    """A table of the file."""
+    """A table of a file, whose numbers have their quantities at its fields."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        """Raises TypeError for a field of which nothing is said, see `check_annotations`."""
+        super().__init_subclass__(**options)
+        check_annotations(cls)
 
 
 class FileRecord(Record, kw_only=True):

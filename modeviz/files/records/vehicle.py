@@ -15,6 +15,27 @@ from msgspec import Meta
 from modeviz.errors import VehicleError, located
 from modeviz.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.files.modal import read_flexible_body
+from modeviz.files.records.fields import (
+    Damping,
+    DampingRate,
+    Ends,
+    Frame,
+    Frequency,
+    Inertia,
+    Length,
+    Mass,
+    Motions,
+    Name,
+    Place,
+    Position,
+    Rate,
+    Ratio,
+    RatioLimits,
+    RotationalDamping,
+    RotationalStiffness,
+    Speed,
+    Stiffness,
+)
 from modeviz.files.records.loads import (
     BaseMotionRecord,
     ForceRecord,
@@ -22,25 +43,9 @@ from modeviz.files.records.loads import (
     WheelLoadRecord,
 )
 from modeviz.files.records.problems import ProblemRecord
-from modeviz.files.records.record import FileRecord, Name, NonNegative, Positive, RatesRecord, Record
+from modeviz.files.records.record import FileRecord, RatesRecord, Record
 from modeviz.files.schema.axes import OURS
-from modeviz.files.schema.quantities import (
-    Damping,
-    DampingRate,
-    Ends,
-    Frame,
-    Inertia,
-    Length,
-    Mass,
-    Motions,
-    Place,
-    Position,
-    Rate,
-    RotationalDamping,
-    RotationalStiffness,
-    Speed,
-    Stiffness,
-)
+from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role
@@ -73,7 +78,7 @@ class BodyRecord(Record, kw_only=True):
     """A file of the folder: .glb, .stl, .obj or .ply."""
     mesh_unit: str = "m"
     """Of the mesh's coordinates."""
-    color: tuple[int, int, int] = DEFAULT_COLOR
+    color: Annotated[tuple[int, int, int], UNITLESS] = DEFAULT_COLOR
     """sRGB, of the mesh parts that have no material."""
 
     @property
@@ -100,12 +105,12 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
     """A file of the folder, .npz."""
     units: dict[str, str] = msgspec.field(default_factory=dict)
     """Length and mass of that file, where they are not the vehicle's."""
-    damping_ratio: float | tuple[float, ...]
+    damping_ratio: Annotated[float | tuple[float, ...], UNITLESS]
     """Of all modes, or of the elastic ones in turn; the last holds for all above it too."""
-    loss_factor: NonNegative = 0.0
+    loss_factor: Ratio = 0.0
     mass: Mass | None = None
     """What it is known to weigh: its modes are held against it."""
-    keep_modes: Annotated[int, Meta(ge=FlexibleBody.N_RIGID - 1)] | None = None
+    keep_modes: Annotated[int, Meta(ge=FlexibleBody.N_RIGID - 1), UNITLESS] | None = None
     """How many of the lowest normal modes, rigid ones included; all, if not given."""
     residual_vectors: bool = True
     """Whether to keep them."""
@@ -201,7 +206,7 @@ class AddedMassRecord(Record, kw_only=True):
 class RateSetRecord(RatesRecord, kw_only=True):
     """The rates of a mount, and its loss factor if that is not the group's own."""
 
-    loss_factor: NonNegative | None = None
+    loss_factor: Ratio | None = None
 
     @classmethod
     def of(cls, rates: MountRates) -> Self:
@@ -221,7 +226,7 @@ class MountRecord(Record, kw_only=True):
     damping: Damping = NO_RATES
     rotational_damping: RotationalDamping = NO_RATES
     axes: Frame = VEHICLE_AXES
-    elastic_center: float = 0.5
+    elastic_center: Annotated[float, UNITLESS] = 0.5
     """Where between its ends it acts: 0 at the first, 1 at the second."""
 
     @classmethod
@@ -250,10 +255,10 @@ class MountGroupRecord(Record, kw_only=True):
     label: str = ""
     """The name, if not given."""
     rates: RatesRecord
-    loss_factor: NonNegative
+    loss_factor: Ratio
     softest: RatesRecord | None = None
     stiffest: RatesRecord | None = None
-    ratio_limits: tuple[float, float] | None = None
+    ratio_limits: RatioLimits | None = None
     """The least and the most that lateral and fore-aft rates may be of the vertical one."""
     rotational_stiffness: RotationalStiffness = NO_RATES
     """Of each mount that has none of its own, as what follows."""
@@ -299,7 +304,7 @@ class ConnectionRecord(MountRecord, kw_only=True):
     group: Name | None = None
     """After the kind of connection, "springs", if not given."""
     stiffness: Stiffness = NO_RATES
-    loss_factor: NonNegative = 0.0
+    loss_factor: Ratio = 0.0
 
     def build(self, kind: type[Connection]) -> Connection:
         arguments: dict[str, Any] = {
@@ -334,7 +339,7 @@ class RodRecord(Record, kw_only=True):
     at: Ends
     stiffness: Rate = 0.0
     damping: DampingRate = 0.0
-    loss_factor: NonNegative = 0.0
+    loss_factor: Ratio = 0.0
     rigid: bool = False
     """Whether its length does not change."""
 
@@ -359,7 +364,7 @@ class RodRecord(Record, kw_only=True):
 class TyreRecord(ConnectionRecord, kw_only=True):
     """[[tyre]]."""
 
-    elastic_center: float = 1.0
+    elastic_center: Annotated[float, UNITLESS] = 1.0
     """As any connection's, but at the patch, its second end, unless told otherwise."""
     wheel_center: Position
     trail: Length = 0.0
@@ -385,9 +390,9 @@ class ResponsePointRecord(Record, kw_only=True):
 class ModeDampingRecord(Record, kw_only=True):
     """[[mode_damping]]."""
 
-    mode: int | Name | None = None
+    mode: Annotated[int, UNITLESS] | Name | None = None
     """What it is called or its number, as `modeviz modes` has them; all others, if not given."""
-    damping_ratio: NonNegative
+    damping_ratio: Ratio
 
     @classmethod
     def of(cls, damping: ModeDamping) -> Self:
@@ -405,9 +410,9 @@ class VehicleRecord(FileRecord, kw_only=True):
     """See `axes_of`."""
     speed: Speed | None = None
     """`USUAL_SPEED`, if not given."""
-    highest_frequency: Positive = 40.0
+    highest_frequency: Frequency = 40.0
     """Hz: up to where modes and responses are looked at."""
-    frequency_step: Positive = 0.1
+    frequency_step: Frequency = 0.1
     """Hz: between the lines at which responses are given."""
     flexible_body: list[FlexibleBodyRecord] = msgspec.field(default_factory=list)
     rigid_body: list[RigidBodyRecord] = msgspec.field(default_factory=list)

@@ -5,11 +5,14 @@ that a turn only exchanges and reverses axes; the origin stays where it is.
 """
 
 import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from modeviz.errors import VehicleError, unknown
+from modeviz.files.schema.hints import each_annotated
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
 
@@ -27,6 +30,14 @@ _WAYS = {
 
 _WORDS = {"rear": "rearward", "back": "rearward", "for": "forward", "front": "forward"}
 """Words for them, without "ward" and "wards"."""
+
+
+@dataclass(frozen=True, eq=False)
+class Turns:
+    """The annotation of a field that is something else in other axes."""
+
+    turn: Callable[[Any, Floats], Any]
+    """The value in other axes."""
 
 
 def axes_of(text: str) -> Floats:
@@ -54,6 +65,15 @@ def axes_of(text: str) -> Floats:
         what = "two axes along the same line" if determinant == 0 else "left-handed axes"
         raise VehicleError(f"axes: found {text!r}, which are {what}; expected right-handed ones")
     return T
+
+
+def turned(data: Any, kind: type, T: Floats) -> Any:
+    """The content of a file of that kind, with everything that depends on the axes in others."""
+
+    def change(value: Any, turns: Turns, _table: Mapping[str, Any], _where: str) -> Any:
+        return None if value is None else turns.turn(value, T)
+
+    return each_annotated(data, kind, Turns, change)
 
 
 def turn_vectors(value: Any, T: Floats) -> Any:

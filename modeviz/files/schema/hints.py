@@ -1,10 +1,13 @@
-"""What the type hints of records say of a key."""
+"""What the type hints of records say of a key, and data changed by what they say."""
 
+from collections.abc import Callable, Mapping
 from functools import cache
 from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import msgspec
+
+N = TypeVar("N")
 
 
 @cache
@@ -37,7 +40,7 @@ def plain(hint: Any) -> Any:
     return hint
 
 
-def annotation(hint: Any, kind: type) -> Any:
+def annotation(hint: Any, kind: type[N]) -> N | None:
     """The annotation of that kind, of the hint or of what it may also be; None if there is none."""
     if get_origin(hint) is Annotated:
         inner, *notes = get_args(hint)
@@ -47,8 +50,53 @@ def annotation(hint: Any, kind: type) -> Any:
     return None
 
 
+@cache
+def annotations_of(record: type, kind: type[N]) -> dict[str, N | None]:
+    """The annotation of that kind of each of a record's keys."""
+    return {key: annotation(hint, kind) for key, hint in fields_of(record).items()}
+
+
 def joined(where: str, key: str | int) -> str:
     """The key path one step further in."""
     if isinstance(key, int):
         return f"{where}[{key}]"
     return f"{where}.{key}" if where else key
+
+
+def each_annotated(
+    data: Any,
+    hint: Any,
+    kind: type[N],
+    change: Callable[[Any, N, Mapping[str, Any], str], Any],
+    where: str = "",
+) -> Any:
+    """The data with what `change` makes of each value with an annotation of a kind in its place.
+
+    Args:
+        data: plain data that `decode` accepts as what the hint says.
+        hint: a record, or a container of records.
+        kind: of annotation.
+        change: given the value, its annotation, the table that it is in, and its key path.
+        where: the key path of the data.
+    """
+    hint = plain(hint)
+    inner = get_args(hint) or (Any,)
+    if isinstance(data, dict) and is_record(hint):
+        hints, notes = fields_of(hint), annotations_of(hint, kind)
+        return {
+            key: change(value, note, data, joined(where, key))
+            if (note := notes[key]) and not isinstance(value, dict)
+            else each_annotated(value, hints[key], kind, change, joined(where, key))
+            for key, value in data.items()
+        }
+    if isinstance(data, dict):
+        return {
+            key: each_annotated(value, inner[-1], kind, change, joined(where, key))
+            for key, value in data.items()
+        }
+    if isinstance(data, list | tuple):
+        return [
+            each_annotated(value, inner[0], kind, change, joined(where, index))
+            for index, value in enumerate(data)
+        ]
+    return data

@@ -4,10 +4,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from modeviz.errors import VehicleError, located, unknown
-from modeviz.files.schema.quantities import Quantity, each_quantity
-from modeviz.units import UNITS, factor
+from modeviz.files.schema.hints import each_annotated
+from modeviz.files.schema.quantities import Quantity
+from modeviz.units import UNITS, QuantityName, factor
 
-WRITTEN_UNITS = {
+WRITTEN_UNITS: Mapping[QuantityName, str] = {
     "length": "m",
     "mass": "kg",
     "inertia": "kg m²",
@@ -25,7 +26,7 @@ WRITTEN_UNITS = {
 BEYOND_ANY_VEHICLE = 1e15
 """In SI: of any quantity."""
 
-_BOUNDS = {
+_BOUNDS: Mapping[QuantityName, tuple[float, float]] = {
     "length": (0.0, 1e6),
     "mass": (1e-9, 1e9),
     "inertia": (1e-15, BEYOND_ANY_VEHICLE),
@@ -48,7 +49,7 @@ def to_si(data: Any, kind: type, units: Mapping[str, str]) -> Any:
     """
     factors = {quantity: _factor(quantity, unit) for quantity, unit in units.items()}
 
-    def convert(value: float, quantity: str, where: str) -> float:
+    def convert(value: float, quantity: QuantityName, where: str) -> float:
         unit = factors.get(quantity) or unit_in_si(quantity, units)
         least, most = _BOUNDS.get(quantity, (0.0, BEYOND_ANY_VEHICLE))
         if value and not least <= abs(value) * unit <= most:
@@ -67,29 +68,20 @@ def unit_in_si(quantity: str, units: Mapping[str, str]) -> float:
         units: such a table, quantity to unit.
 
     Raises:
-        VehicleError: no such unit, or none for that quantity.
+        VehicleError: no such quantity or unit, or none for that quantity.
     """
-    if quantity not in units:
-        known = ", ".join(UNITS[_spoken(quantity)])
-        raise VehicleError(f"units.{quantity}: missing, expected one of {known}")
+    if quantity in UNITS and quantity not in units:
+        raise VehicleError(f"units.{quantity}: missing, expected one of {', '.join(UNITS[quantity])}")
     return _factor(quantity, units[quantity])
 
 
 def from_si(data: Any, kind: type) -> Any:
     """The content of a file of that kind, given in SI, in `WRITTEN_UNITS`."""
-    return _converted(data, kind, lambda value, quantity, _: written(value, _factor(quantity)))
 
+    def convert(value: float, quantity: QuantityName, _where: str) -> float:
+        return written(value, factor(WRITTEN_UNITS[quantity], quantity))
 
-def _factor(quantity: str, unit: str | None = None) -> float:
-    """What one unit is in SI; the unit we write, if none is given."""
-    if quantity not in WRITTEN_UNITS:
-        raise VehicleError("units: " + unknown("quantity", quantity, WRITTEN_UNITS))
-    with located(f"units.{quantity}"):
-        return factor(unit or WRITTEN_UNITS[quantity], _spoken(quantity))
-
-
-def _spoken(quantity: str) -> str:
-    return quantity.replace("_", " ")
+    return _converted(data, kind, convert)
 
 
 def written(value: float, unit: float) -> float:
@@ -99,13 +91,21 @@ def written(value: float, unit: float) -> float:
     return short if short * unit == value else number
 
 
-def _converted(data: Any, kind: type, convert: Callable[[float, str, str], float]) -> Any:
+def _factor(quantity: str, unit: str) -> float:
+    """What one unit is in SI."""
+    if quantity not in UNITS:
+        raise VehicleError("units: " + unknown("quantity", quantity, UNITS))
+    with located(f"units.{quantity}"):
+        return factor(unit, quantity)
+
+
+def _converted(data: Any, kind: type, convert: Callable[[float, QuantityName, str], float]) -> Any:
     """The data with `convert(value, quantity, where)` in place of each number that has a unit."""
 
     def change(value: Any, quantity: Quantity, table: Mapping[str, Any], where: str) -> Any:
         if isinstance(value, list | tuple):
             return [change(inner, quantity, table, where) for inner in value]
-        name = quantity.named(table)
-        return convert(value, name, where) if name and value is not None else value
+        is_number = isinstance(value, int | float) and not isinstance(value, bool)
+        return convert(value, quantity.named(table), where) if is_number else value
 
-    return each_quantity(data, kind, change)
+    return each_annotated(data, kind, Quantity, change)
