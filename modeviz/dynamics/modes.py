@@ -30,25 +30,6 @@ class Modes:
         return (2 * np.pi * self.frequency_hz) ** 2
 
 
-@dataclass(frozen=True, eq=False)
-class ComplexModes:
-    """Damped modes, in rising order of |λ|."""
-
-    eigenvalue: Complexes
-    """(n_modes,), rad/s: motion goes as e^{λt}, Im λ > 0."""
-    shapes: Complexes
-    """(n_dofs, n_modes), the largest coordinate real and one."""
-
-    @property
-    def frequency_hz(self) -> Floats:
-        """Natural frequency |λ|/2π."""
-        return np.abs(self.eigenvalue) / (2 * np.pi)
-
-    @property
-    def damping_ratio(self) -> Floats:
-        return -self.eigenvalue.real / np.abs(self.eigenvalue)
-
-
 def solve_modes(system: System, n_modes: int | None = None, below_hz: float | None = None) -> Modes:
     """The lowest undamped modes, K φ = ω² M φ.
 
@@ -109,21 +90,6 @@ def damping_ratio(omega: Floats, viscous: Floats, structural: Floats) -> Floats:
     """
     free = omega < 1e-3
     return np.where(free, 0.0, (viscous * omega + structural) / np.where(free, 1.0, 2 * omega**2))
-
-
-def solve_complex_modes(system: System, modes: Modes) -> ComplexModes:
-    """The damped modes within the space of `modes`, with the full, coupled damping.
-
-    Solves (λ²M + λC + K + jK_g) φ = 0 in state space. Structural damping holds for motion that
-    goes forward in phase, so of each pair the root with Im λ > 0 is kept; overdamped roots, which
-    do not vibrate, are left out. Exact when `modes` are all of the system's.
-    """
-    phi = modes.shapes
-    K = np.diag(modes.omega_n_squared) + 1j * (phi.T @ system.structural_damping @ phi)
-    roots, vectors = vibrating_roots(phi.T @ system.damping @ phi, K)
-    shapes = phi @ vectors
-    largest = np.abs(shapes).argmax(axis=0)
-    return ComplexModes(roots, shapes / shapes[largest, np.arange(len(roots))])
 
 
 def vibrating_roots(damping: Floats, stiffness: Complexes) -> tuple[Complexes, Complexes]:

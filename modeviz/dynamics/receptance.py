@@ -44,18 +44,18 @@ ACCURACY = 1e-9
 """What is promised of receptances, relative to the largest of their row; less is an error."""
 
 
-def receptances(
+def receptance_lines(
     system: System,
     frequency_hz: Floats,
     rows: Floats,
     progress: Callable[[float], None] | None = None,
-) -> Complexes:
-    """G (n_freqs, n_rows, n_rows): displacement along each of `rows` per unit force along each.
+) -> Iterator[Complexes]:
+    """G (n_rows, n_rows) at each frequency in turn: displacement along each row per force along each.
 
     Of a row that is a motion given to rigid joints, the unit is that motion, and their force is read.
 
-    Memory beside the result: for each thread a few complex matrices of the size of all joined
-    directions, kept coordinates and rows together, whatever the number of modes and frequencies.
+    Memory: for each thread a few complex matrices of the size of all joined directions, kept
+    coordinates and rows together, whatever the number of modes and frequencies.
 
     Args:
         system: what vibrates.
@@ -66,19 +66,6 @@ def receptances(
     Raises:
         SolveError: the frequencies are not such, or one lies on an undamped resonance.
     """
-    G = np.empty((len(frequency_hz), len(rows), len(rows)), complex)
-    for i, G_i in enumerate(receptance_lines(system, frequency_hz, rows, progress)):
-        G[i] = G_i
-    return G
-
-
-def receptance_lines(
-    system: System,
-    frequency_hz: Floats,
-    rows: Floats,
-    progress: Callable[[float], None] | None = None,
-) -> Iterator[Complexes]:
-    """G (n_rows, n_rows) at each frequency in turn; memory, arguments and errors as `receptances`."""
     check_frequencies(frequency_hz)
     parts = _disassemble(system, rows)
     with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(N_THREADS) as pool:
@@ -93,7 +80,7 @@ def receptances_along(system: System, rows: Floats) -> Callable[[Complexes, Comp
 
     Args:
         system: what vibrates.
-        rows: P, (n_rows, n_dofs), as of `receptances`.
+        rows: P, (n_rows, n_dofs), as of `receptance_lines`.
     """
     parts = _disassemble(system, rows)
 

@@ -160,15 +160,6 @@ def residual_vectors(matrices: Matrices, modes: ModalBasis, loads: Floats) -> Mo
     return ModalBasis(omega_n_squared, _signed(u @ rotation))
 
 
-def residual_compliance(matrices: Matrices, modes: ModalBasis, loads: Floats) -> Floats:
-    """The flexibility that modes alone lack where loads act, (n_loads, n_loads), m/N.
-
-    R = fᵀ K⁺ f - fᵀ Φ Ω⁻² Φᵀ f, with K⁺ the inertia-relief flexibility: A. E. Duncan's residual
-    compliance, after McClelland, to be put in series with a connection.
-    """
-    return loads.T @ residual_response(matrices, modes, loads)
-
-
 def most_independent(rows: Floats) -> np.ndarray:
     """Which rows, as many as there are columns, tell the columns apart best: (n_columns,), best first.
 

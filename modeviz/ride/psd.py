@@ -13,20 +13,6 @@ FLOOR = 1e-20
 """Power that is drawn where there is none: -200 dB."""
 
 
-def response_psd(frequency_response: Complexes, input_psd: Complexes) -> Complexes:
-    """One-sided spectra of the outputs, S_xx = H S_ff Hᴴ.
-
-    Args:
-        frequency_response: H, (n_freqs, n_outputs, n_inputs).
-        input_psd: S_ff, (n_freqs, n_inputs, n_inputs).
-
-    Returns:
-        (n_freqs, n_outputs, n_outputs), Hermitian, S_ij = E[X_i X_j*].
-    """
-    H = frequency_response
-    return H @ input_psd @ H.conj().transpose(0, 2, 1)
-
-
 def acceleration_psd(
     frequency_hz: Floats, frequency_response: Complexes, input_psd: Complexes
 ) -> Floats:

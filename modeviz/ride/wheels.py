@@ -15,17 +15,6 @@ VERTICAL, FORE_AFT, LATERAL = 0, 1, 2
 """The directions of each wheel's loads, see `wheel_directions`."""
 
 
-def wheel_forces(system: System, loads: Sequence[WheelLoad], frequency_hz: Floats) -> Complexes:
-    """Generalised peak forces of harmonic wheel loads, a column for each, (n_freqs, n_dofs, n_loads).
-
-    Args:
-        system: what the wheels belong to.
-        loads: each at its own amplitude.
-        frequency_hz: (n_freqs,), of the force: the wheel's revolutions per second.
-    """
-    return wheel_directions(system).T @ wheel_amplitudes(system.vehicle, loads, frequency_hz)
-
-
 def wheel_directions(system: System) -> Floats:
     """Rows (3 n_tyres, n_dofs) along which wheel loads act.
 

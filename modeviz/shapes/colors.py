@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.shapes.motion import mean_square, peak_displacement
+from modeviz.shapes.motion import mean_square
 from modeviz.vehicle.arrays import Array, Floats
 
 Color = tuple[int, int, int]
@@ -37,17 +37,6 @@ def color_map(values: Floats) -> NDArray[np.uint8]:
     places = np.linspace(0, 1, len(stops))
     channels = [np.interp(values, places, channel) for channel in stops.T]
     return np.stack(channels, axis=-1).round().astype(np.uint8)
-
-
-def shaded(shape: Array, shade: Shade) -> NDArray[np.uint8]:
-    """The sRGB colours of vertices, (n_vertices, 3): what the page's shader computes.
-
-    Args:
-        shape: (n_vertices, 3), real or complex.
-        shade: of their body.
-    """
-    measures = {0: lambda u: np.ones(len(u)), 1: peak_displacement, 2: mean_square}
-    return color_map(shade.gain * measures[shade.power](shape))
 
 
 def displacement_shade(largest: float) -> Shade:

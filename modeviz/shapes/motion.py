@@ -61,20 +61,6 @@ def displacement(shapes: NDArray[np.float32], coordinates: ArrayLike) -> Array:
     return (q.astype(np.float32) @ shapes.reshape(len(q), -1)).reshape(shapes.shape[1:])
 
 
-def animated(vertices: Floats, shape: Array, amplitude: float, phase: float) -> Floats:
-    """The drawn positions x + amplitude Re(φ e^{iθ}), (n_vertices, 3), m.
-
-    This is what the page's shader computes.
-
-    Args:
-        vertices: (n_vertices, 3), the undeformed positions x.
-        shape: (n_vertices, 3), real or complex, φ.
-        amplitude: the factor on the shape.
-        phase: θ, rad.
-    """
-    return vertices + amplitude * (np.asarray(shape) * np.exp(1j * phase)).real
-
-
 def peak_displacement(shape: Array) -> Floats:
     """The largest distance of every vertex from its place during a cycle, (n_vertices,).
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from builtin_truck import builtin_truck
+from full_solutions import wheel_forces
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
@@ -13,7 +14,6 @@ from modeviz.analysis.results import AXIS, Conditions, Results, solve, solve_whe
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError, VehicleError
 from modeviz.ride.roads import road_spectrum, track_forces
-from modeviz.ride.wheels import wheel_forces
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import ResponsePoint, Road

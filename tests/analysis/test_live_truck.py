@@ -8,6 +8,7 @@ import pytest
 import scipy.linalg
 from builtin_truck import prepared_truck
 from differences import central_difference, relative_to_largest
+from full_solutions import wheel_forces
 from rounding import TRUCK, assert_near
 
 from modeviz.analysis.batch import solve_many
@@ -24,7 +25,6 @@ from modeviz.optimise.goals import load_cases
 from modeviz.optimise.objective import prepare_objective
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
-from modeviz.ride.wheels import wheel_forces
 from modeviz.vehicle.connections import MountRates
 
 N_RANDOM = 50

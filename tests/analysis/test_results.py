@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from full_solutions import wheel_forces
 from mounted_cabin import mounted_cabin, twisted_cabin
 
 from modeviz.analysis.preparation import FREQUENCY_HZ, prepare, prepare_modes
@@ -12,7 +13,6 @@ from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
-from modeviz.ride.wheels import wheel_forces
 from modeviz.vehicle.connections import MountRates
 
 FLAT = Conditions("flat", 20.0)

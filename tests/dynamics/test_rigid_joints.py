@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from differences import row_error
+from full_solutions import receptances
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 from small_systems import block, joined_beams
@@ -11,7 +12,6 @@ from modeviz.dynamics.assembly import assemble, mount_stiffness
 from modeviz.dynamics.band import band_modes
 from modeviz.dynamics.basis import prepare_basis
 from modeviz.dynamics.modes import solve_modes
-from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from full_solutions import receptances
 from oracles import Beam
 from shaken_blocks import (
     FLAT,
@@ -31,7 +32,6 @@ from modeviz.analysis.results import AXIS, Conditions, solve, solve_wheels
 from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
-from modeviz.dynamics.receptance import receptances
 from modeviz.dynamics.response import direct_response, modal_response
 from modeviz.errors import VehicleError
 from modeviz.optimise.goals import prepare_goal

@@ -9,7 +9,7 @@ from modeviz.errors import SolveError
 from modeviz.fem.free import (
     center_of_gravity,
     free_modes,
-    residual_compliance,
+    residual_response,
     residual_vectors,
     rigid_modes,
     static_response,
@@ -173,11 +173,12 @@ def test_residual_compliance_is_what_the_modes_left_out_would_add():
     f[2, 0] = f[13, 1] = 1.0
     left_out = f.T @ phi[:, 10:]
     exact = (left_out / omega_n_squared[10:]) @ left_out.T
-    found = residual_compliance(body, free_modes(body, 10), f)
+    found = f.T @ residual_response(body, free_modes(body, 10), f)
     np.testing.assert_allclose(found, exact, atol=1e-8 * abs(exact).max())
 
 
 def test_residual_compliance_vanishes_as_modes_are_added(body, loads):
-    traces = [np.trace(residual_compliance(body, free_modes(body, n), loads)) for n in (8, 16, 32, 64)]
+    bases = (free_modes(body, n) for n in (8, 16, 32, 64))
+    traces = [np.trace(loads.T @ residual_response(body, modes, loads)) for modes in bases]
     assert (np.diff(traces) < 0).all()
     assert traces[-1] > 0

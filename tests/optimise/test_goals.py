@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from cabin_problem import PROBLEM
 from differences import central_difference, relative_to_largest
+from full_solutions import wheel_forces
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.preparation import prepare
@@ -13,7 +14,6 @@ from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.optimise.goals import prepare_goal
 from modeviz.ride.roads import road_spectrum, track_forces
-from modeviz.ride.wheels import wheel_forces
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import Performance

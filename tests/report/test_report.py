@@ -18,9 +18,8 @@ from modeviz.optimise.goals import prepare_goal
 from modeviz.report.charts import BOTTOM, LEFT, RIGHT, TOP
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import Picture, report
-from modeviz.report.html.sides import SHOWN_HZ
 from modeviz.ride.psd import power_decibels
-from modeviz.text.axes import decibel_axis
+from modeviz.text.axes import USUAL_SHOWN_HZ, decibel_axis
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
 from modeviz.vehicle.loads import WheelLoad
 from modeviz.vehicle.problem import DesignGroup, Problem
@@ -190,13 +189,13 @@ def lines(text, number):
 def assert_drawn(text, number, f, levels):
     """The curves of a chart are these levels, as far as they are within it."""
     width, height, curves = lines(text, number)
-    inside = [(own >= SHOWN_HZ[0]) & (own <= SHOWN_HZ[1]) for own in f]
+    inside = [(own >= USUAL_SHOWN_HZ[0]) & (own <= USUAL_SHOWN_HZ[1]) for own in f]
     seen = [level[its] for level, its in zip(levels, inside, strict=True)]
     axis = decibel_axis("", seen)
     for points, own, level, its in zip(curves, f, seen, inside, strict=True):
         x, y = points[its].T
         shown = level > axis.low
-        hertz = SHOWN_HZ[0] + x / width * (SHOWN_HZ[1] - SHOWN_HZ[0])
+        hertz = USUAL_SHOWN_HZ[0] + x / width * (USUAL_SHOWN_HZ[1] - USUAL_SHOWN_HZ[0])
         decibels = axis.high - y / height * (axis.high - axis.low)
         np.testing.assert_allclose(hertz, own[its], atol=0.06 * 24 / width)
         np.testing.assert_allclose(decibels[shown], level[shown], atol=0.06 * 60 / 190)
@@ -234,11 +233,13 @@ def test_curves_are_full_lines_whose_peaks_are_marked(comparison, text):
     charts = re.findall(r"<svg xmlns.*?</figure>", text)
     for chart, direction in zip(charts[:3], DIRECTIONS, strict=True):
         found = [line for r in comparison.rides for line in r.peak_lines(0, direction)]
-        shown = [line for line in found if SHOWN_HZ[0] <= f[line] <= SHOWN_HZ[1]]
+        shown = [line for line in found if USUAL_SHOWN_HZ[0] <= f[line] <= USUAL_SHOWN_HZ[1]]
         assert 1 <= chart.count("<circle") <= len(shown)
     for chart, direction in zip(charts[3:], ("lateral", "vertical"), strict=True):
         found = [line for w in comparison.wheels for line in wheel_peak_lines(w, 0, 0, direction)]
-        assert chart.count("<circle") == len([n for n in found if SHOWN_HZ[0] <= f[n] <= SHOWN_HZ[1]])
+        assert chart.count("<circle") == len(
+            [n for n in found if USUAL_SHOWN_HZ[0] <= f[n] <= USUAL_SHOWN_HZ[1]]
+        )
 
 
 def test_it_says_how_exact_it_is(comparison, document):

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
+from full_solutions import response_psd
 from scipy import signal
 from small_vehicles import on_tyres, quarter_car, wheel
 
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.response import modal_coordinates, modal_response
 from modeviz.ride.participation import contributors, participation, peak_lines, peaks
-from modeviz.ride.psd import response_psd
 from modeviz.ride.roads import RIGHT, track_forces
 
 F = np.linspace(0.4, 20.0, 2000)

@@ -3,10 +3,11 @@ import pytest
 from scipy import signal
 from scipy.integrate import trapezoid
 from small_vehicles import on_tyres, wheel
+from two_tracks import two_track_profile
 
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import ModevizError, VehicleError
-from modeviz.ride.roads import LEFT, RIGHT, road_spectrum, track_forces, two_track_profile
+from modeviz.ride.roads import LEFT, RIGHT, road_spectrum, track_forces
 from modeviz.vehicle.loads import Road
 
 F = np.array([0.5, 2.0, 7.0, 15.0, 40.0])

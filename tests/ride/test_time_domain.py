@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from builtin_truck import builtin_truck
+from full_solutions import response_psd
 from scipy import signal, stats
+from two_tracks import two_track_profile
 
 from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.response import modal_response
-from modeviz.ride.psd import response_psd
-from modeviz.ride.roads import lag, road_spectrum, track_forces, track_shares, two_track_profile
+from modeviz.ride.roads import lag, road_spectrum, track_forces, track_shares
 from modeviz.vehicle.connections import Connection, Tyre
 from modeviz.vehicle.vehicle import Vehicle
 

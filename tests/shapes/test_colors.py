@@ -6,9 +6,15 @@ from modeviz.shapes.colors import (
     color_map,
     displacement_shade,
     motion_shades,
-    shaded,
     share_shade,
 )
+from modeviz.shapes.motion import mean_square, peak_displacement
+
+
+def shaded(shape, shade):
+    """The colours of vertices (n_vertices, 3) as the page's shader computes them."""
+    measures = {0: lambda u: np.ones(len(u)), 1: peak_displacement, 2: mean_square}
+    return color_map(shade.gain * measures[shade.power](shape))
 
 
 def test_color_map_passes_through_its_stops_and_stays_within_its_ends():

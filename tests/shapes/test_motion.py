@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from modeviz.shapes.motion import (
-    animated,
     default_amplitude,
     displacement,
     mean_square,
@@ -84,14 +83,6 @@ def test_displacement_is_the_superposition_of_the_shapes(body):
     assert both == pytest.approx(exact, abs=10 * SINGLE)
     assert displacement(shapes, real) == pytest.approx(both.real, abs=SINGLE)
     assert not np.iscomplexobj(displacement(shapes, real))
-
-
-def test_animated_vertex_with_quadrature_parts_runs_round_a_circle():
-    start = np.array([[1.0, 1, 1]])
-    shape = np.array([[1.0, -1j, 0]])  # Re(e^{iθ}, -i e^{iθ}) = cos θ, sin θ
-    for phase in np.linspace(0, 2 * np.pi, 7):
-        circle = [[1 + 2 * np.cos(phase), 1 + 2 * np.sin(phase), 1]]
-        assert animated(start, shape, 2.0, phase) == pytest.approx(np.array(circle))
 
 
 def test_peak_displacement_is_the_largest_of_the_cycle():

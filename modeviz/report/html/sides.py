@@ -6,14 +6,11 @@ from html import escape
 from modeviz.analysis.results import AXIS
 from modeviz.report.charts import BASE, NOW, Curve, line_chart
 from modeviz.report.comparison import Comparison
-from modeviz.text.axes import USUAL_SHOWN_HZ, Axis, decibel_axis, shown_hz
+from modeviz.text.axes import Axis, decibel_axis, shown_hz
 from modeviz.text.markup import change, table, title
 from modeviz.text.wording import number
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
-
-SHOWN_HZ = USUAL_SHOWN_HZ
-"""What is drawn of the usual band."""
 
 
 def chart(
