@@ -117,10 +117,19 @@ def test_dask_is_imported_by_one_module_of_compute():
 
 
 def test_importing_modeviz_leaves_the_viewer_and_the_extras_unloaded():
-    heavy = {"viser", "pyfe3d", "distributed", "dask"}
-    program = f"import sys, modeviz; modeviz.Study; print({heavy!r} & sys.modules.keys())"
+    assert loaded("modeviz.public", "viser", "pyfe3d", "distributed", "dask") == set()
+
+
+def test_what_draws_loads_neither_statistics_nor_a_writer_of_meshes():
+    assert loaded("modeviz.viewer.rendering", "scipy.stats", "trimesh") == set()
+
+
+def loaded(module: str, *heavy: str) -> set[str]:
+    """Those of some modules that come with another one."""
+    program = f"import sys, {module}; print(*sys.modules.keys() & {set(heavy)!r})"
     run = subprocess.run([sys.executable, "-c", program], cwd=CHECKOUT, capture_output=True, text=True)
-    assert run.stdout == "set()\n", run.stderr
+    assert not run.stderr
+    return set(run.stdout.split())
 
 
 @pytest.mark.parametrize(

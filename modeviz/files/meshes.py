@@ -5,8 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import trimesh
-from trimesh.exchange.gltf import export_glb
 
 from modeviz.errors import VehicleError, located
 from modeviz.files.disk import read_bytes
@@ -56,6 +54,9 @@ def read_mesh(path: Path, color: Color = DEFAULT_COLOR) -> Mesh:
 
 def write_mesh(path: Path, mesh: Mesh) -> None:
     """Writes the parts as binary glTF, in single precision, each a node with its material."""
+    import trimesh  # half a second, of which a vehicle that is read needs nothing
+    from trimesh.exchange.gltf import export_glb
+
     scene = trimesh.Scene()
     for part in mesh:
         surface = trimesh.Trimesh(part.vertices, part.faces, process=False)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from modeviz.analysis.sensitivity import RateVariable, rate_variables
 from modeviz.errors import VehicleError
@@ -71,6 +70,8 @@ class DesignSpace:
 
     def samples(self, count: int, seed: int) -> Floats:
         """Designs spread evenly, (count, n_variables): a Latin hypercube of fractions."""
+        from scipy.stats import qmc  # a second, which only those who draw samples wait for
+
         fractions = qmc.LatinHypercube(self.n_variables, rng=seed).random(count)
         return np.array([self.sampled(row) for row in fractions]).reshape(count, self.n_variables)
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import beta
+from scipy.special import betainc
 
 from modeviz.analysis.sensitivity import spring_shares
 from modeviz.compute.cancel import CancelToken
@@ -157,6 +157,6 @@ def percentile_weights(n_samples: int, percent: float) -> Floats:
     """Weights (n_samples,) of sorted values whose sum is Harrell's and Davis's percentile."""
     p = percent / 100
     edges = np.arange(n_samples + 1) / n_samples
-    weights = np.diff(beta.cdf(edges, (n_samples + 1) * p, (n_samples + 1) * (1 - p)))
+    weights = np.diff(betainc((n_samples + 1) * p, (n_samples + 1) * (1 - p), edges))
     weights[weights < LEAST_WEIGHT] = 0
     return weights / weights.sum()

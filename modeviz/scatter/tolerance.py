@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from modeviz.analysis.preparation import PreparedModes
 from modeviz.dynamics.assembly import mounts_of_springs
@@ -75,6 +74,8 @@ class Parts:
 
     def samples(self, count: int, seed: int | np.random.Generator) -> Floats:
         """Deviations evenly spread, (count, n_deviations): a Latin hypercube; a seed repeats it."""
+        from scipy.stats import qmc  # a second, which only those who draw samples wait for
+
         return 2 * qmc.LatinHypercube(self.n_deviations, rng=seed).random(count) - 1
 
     def _factors(self, deviations: Floats) -> tuple[Floats, Floats]:
