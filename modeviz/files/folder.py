@@ -7,16 +7,22 @@ FOLDER/spectra/NAME.csv that of a force or a motion of the ground; all in SI.
 """
 
 from dataclasses import replace
-from itertools import chain
 from pathlib import Path
 
 import msgspec
 
 from modeviz.errors import VehicleError, located
 from modeviz.files.disk import file_stems, replace_folder, write_text
-from modeviz.files.limits import check_size
 from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
+from modeviz.files.records.bodies import AddedMassRecord, FlexibleBodyRecord, RigidBodyRecord
+from modeviz.files.records.connections import (
+    ConnectionRecord,
+    JointRecord,
+    MountGroupRecord,
+    RodRecord,
+    TyreRecord,
+)
 from modeviz.files.records.loads import (
     BaseMotionRecord,
     ForceRecord,
@@ -24,19 +30,10 @@ from modeviz.files.records.loads import (
     WheelLoadRecord,
 )
 from modeviz.files.records.problems import ProblemRecord
-from modeviz.files.records.record import built
+from modeviz.files.records.rates import RateSetRecord
 from modeviz.files.records.vehicle import (
-    AddedMassRecord,
-    ConnectionRecord,
-    FlexibleBodyRecord,
-    JointRecord,
     ModeDampingRecord,
-    MountGroupRecord,
-    RateSetRecord,
     ResponsePointRecord,
-    RigidBodyRecord,
-    RodRecord,
-    TyreRecord,
     VehicleRecord,
 )
 from modeviz.files.roads import write_road
@@ -49,34 +46,16 @@ from modeviz.files.toml_reader import read_toml
 from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
-from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring, Tyre
+from modeviz.vehicle.connections import Bolt, Damper, Rod, Spring
 from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.orientation import orientation_doubts
-from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle
+from modeviz.vehicle.vehicle import Vehicle
 
 VEHICLE_FILE = "vehicle.toml"
 CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra"}
 """What a vehicle folder holds."""
-
-MOST_TABLES = 2_000
-"""Of a kind."""
-
-COORDINATES, MOST_COORDINATES = "coordinates (6 of a rigid body, the modes of a flexible one)", 2_000
-"""Five times the truck's; their time rises with the cube, their memory with the square."""
-
-MOST_BODIES = 150
-"""All that move freely have modes in the band, each of which takes time and is named."""
-
-CONNECTION_KINDS: dict[str, type[Connection]] = {
-    "spring": Spring,
-    "rod": Rod,
-    "bolt": Bolt,
-    "damper": Damper,
-    "tyre": Tyre,
-}
-"""The kind of connection in each of the file's tables."""
 
 
 def builtin_vehicle() -> Path:
@@ -114,7 +93,10 @@ def read_vehicle(folder: Path | str) -> Vehicle:
         axes = axes_of(record.axes)
         ours = turned(msgspec.to_builtins(record), VehicleRecord, axes)
         source = Source(folder, Conventions(record.units, axes))
-        return replace(_build(msgspec.convert(ours, VehicleRecord), source), file=str(path))
+        vehicle = msgspec.convert(ours, VehicleRecord).build(source)
+        check_workload(vehicle)
+        _note_doubts(vehicle, source)
+        return replace(vehicle, notes=source.notes, file=str(path))
 
 
 def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
@@ -140,57 +122,11 @@ def _replaceable(folder: Path) -> bool:
     return not names or ((folder / VEHICLE_FILE).is_file() and names <= CONTENT)
 
 
-def _check_counts(record: VehicleRecord) -> None:
-    """Raises VehicleError for more than can be computed, before it is built."""
-    for key in record.__struct_fields__:
-        tables = getattr(record, key)
-        if isinstance(tables, list):
-            check_size(f"tables [[{key}]]", len(tables), MOST_TABLES)
-    check_size("bodies", len(record.rigid_body) + len(record.flexible_body), MOST_BODIES)
-    check_size("mounts", sum(len(group.mount) for group in record.mount_group), MOST_TABLES)
-    check_size(COORDINATES, 6 * len(record.rigid_body), MOST_COORDINATES)
-
-
-def _build(record: VehicleRecord, source: Source) -> Vehicle:
-    _check_counts(record)
-    flexible = built(record.flexible_body, "flexible_body", lambda r: r.build(source))
-    rigid = built(record.rigid_body, "rigid_body", lambda r: r.build(source))
-    n_coordinates = sum(body.n_modes for body in flexible) + 6 * len(rigid)
-    check_size(COORDINATES, n_coordinates, MOST_COORDINATES)
-    connections = [
-        built(getattr(record, key), key, lambda r, kind=kind: r.build(kind))
-        for key, kind in CONNECTION_KINDS.items()
-    ]
-    roads = built(record.road, "road", lambda r: r.build(source))
-    forces = built(record.force, "force", lambda r: r.build(source))
-    base_motions = built(record.base_motion, "base_motion", lambda r: r.build(source))
-    source.check_lines()
-    vehicle = Vehicle(
-        name=record.name,
-        bodies=(*flexible, *rigid),
-        connections=tuple(chain(*connections)),
-        mount_groups=built(record.mount_group, "mount_group", MountGroupRecord.build),
-        added_masses=built(record.added_mass, "added_mass", AddedMassRecord.build),
-        response_points=built(record.response_point, "response_point", ResponsePointRecord.build),
-        roads=roads,
-        wheel_loads=built(record.wheel_load, "wheel_load", WheelLoadRecord.build),
-        forces=forces,
-        base_motions=base_motions,
-        rate_sets={
-            name: {group: rates.build() for group, rates in groups.items()}
-            for name, groups in record.rates.items()
-        },
-        problems=built(record.problem, "problem", ProblemRecord.build),
-        speed=record.speed or USUAL_SPEED,
-        highest_frequency=record.highest_frequency,
-        frequency_step=record.frequency_step,
-        mode_damping=built(record.mode_damping, "mode_damping", ModeDampingRecord.build),
-    )
-    check_workload(vehicle)
+def _note_doubts(vehicle: Vehicle, source: Source) -> None:
+    """Notes what is likely wrong with a vehicle that can be built."""
     axes = source.conventions.axes
     for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
         source.note(doubt)
-    return replace(vehicle, notes=source.notes)
 
 
 def _write_content(vehicle: Vehicle, folder: Path) -> None:

@@ -10,8 +10,8 @@ import msgspec
 
 from modeviz.errors import VehicleError, check_unique, located
 from modeviz.files.disk import LARGEST_TEXT, WESTERN, read_text, write_text
+from modeviz.files.records.rates import RateSetRecord
 from modeviz.files.records.record import Record
-from modeviz.files.records.vehicle import RateSetRecord
 from modeviz.files.schema.decoding import decode, unreadable
 from modeviz.files.schema.quantities import quantity_of
 from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si, to_si

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from modeviz.errors import VehicleError, listed, located, quoted, unknown
 from modeviz.files.rate_files import read_rates
-from modeviz.files.records.vehicle import RateSetRecord
+from modeviz.files.records.rates import RateSetRecord
 from modeviz.files.schema.quantities import quantity_of
 from modeviz.units import parse, parse_number
 from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, Rates

@@ -6,14 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.disk import write_text
 from modeviz.files.schema.conventions import Conventions
-from modeviz.files.spectrum_tables import read_spectrum_table
+from modeviz.files.spectra import FREQUENCY, read_spectrum_table, write_spectrum_table
 from modeviz.files.tables import Row
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.loads import Road
 
-COLUMNS = ("frequency_hz", "left", "right", "cross_real", "cross_imag")
+COLUMNS = (FREQUENCY, "left", "right", "cross_real", "cross_imag")
 """Both tracks' spectra and S_lr = E[L R*]."""
 
 COHERENCE_EXCESS = 1e-3
@@ -54,10 +53,8 @@ def write_road(path: Path, road: Road) -> None:
     """Writes the spectra in m²/Hz; every number reads back to the same bits."""
     S = road.spectrum
     S_lr = S[:, 0, 1]
-    columns = (road.frequency_hz, S[:, 0, 0].real, S[:, 1, 1].real, S_lr.real, S_lr.imag)
-    rows = np.column_stack(columns).tolist()
-    lines = [",".join(COLUMNS), *(",".join(map(repr, row)) for row in rows)]
-    write_text(path, "\n".join(lines) + "\n")
+    values = (road.frequency_hz, S[:, 0, 0].real, S[:, 1, 1].real, S_lr.real, S_lr.imag)
+    write_spectrum_table(path, COLUMNS, values)
 
 
 def _coherent(rows: tuple[Row, ...], left: Floats, right: Floats, cross: np.ndarray) -> np.ndarray:

@@ -1,1 +1,5 @@
-"""The tables of `vehicle.toml`: a record is one table, its fields are the keys."""
+"""The tables of `vehicle.toml` and what each becomes.
+
+A record is one table as it stands in the file, so its fields are the keys; each says what its numbers
+are. `build` makes the vehicle's part from a record in SI, `of` the record from the part.
+"""

@@ -8,7 +8,8 @@ from msgspec import Meta, field
 
 from modeviz.errors import VehicleError
 from modeviz.files.records.fields import Frequency, LowestFrequency, Name, Ratio, RatioLimits
-from modeviz.files.records.record import RatesRecord, Record, built
+from modeviz.files.records.rates import RatesRecord
+from modeviz.files.records.record import Record, built
 from modeviz.files.schema.quantities import UNITLESS, FixedUnit
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS

@@ -1,14 +1,13 @@
 """What all records of `vehicle.toml` are made of."""
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Self, TypeVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar
 
 import msgspec
+import numpy as np
 
 from modeviz.errors import ModevizError, VehicleError
-from modeviz.files.records.fields import Rate
 from modeviz.files.schema.quantities import check_annotations
-from modeviz.vehicle.connections import MountRates
 
 R = TypeVar("R")
 P = TypeVar("P")
@@ -32,21 +31,6 @@ class FileRecord(Record, kw_only=True):
 
     units: dict[str, str] = msgspec.field(default_factory=dict)
     """Of its numbers, quantity to unit."""
-
-
-class RatesRecord(Record, kw_only=True):
-    """The rates of a mount."""
-
-    vertical: Rate
-    lateral: Rate
-    fore_aft: Rate
-
-    @classmethod
-    def of(cls, rates: MountRates) -> Self:
-        return cls(vertical=rates.vertical, lateral=rates.lateral, fore_aft=rates.fore_aft)
-
-    def build(self) -> MountRates:
-        return MountRates(self.vertical, self.lateral, self.fore_aft)
 
 
 class RecordError(VehicleError):
@@ -81,3 +65,16 @@ def _together(errors: Sequence[RecordError]) -> RecordError:
     said = [first.words, *map(str, others[: MOST_ERRORS - 1])]
     n_more = len(errors) - len(said)
     return RecordError(first.path, "; ".join([*said, *([f"{n_more} more"] if n_more else [])]))
+
+
+def said(kind: type[Record], fields: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a record that differ from its defaults."""
+    default = {field.name: field.default for field in msgspec.structs.fields(kind)}
+    return {key: value for key, value in fields.items() if value != default[key]}
+
+
+def tuples(value: Any) -> Any:
+    """An array as tuples, whatever else as it is."""
+    if isinstance(value, np.ndarray):
+        return tuple(map(tuples, value)) if value.ndim else float(value)
+    return float(value) if isinstance(value, np.floating) else value

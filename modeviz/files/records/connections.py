@@ -1,0 +1,205 @@
+"""The tables of `vehicle.toml` that connect bodies, from mounts to tyres, in SI."""
+
+from dataclasses import replace
+from typing import Annotated, Any, Self
+
+import msgspec
+import numpy as np
+
+from modeviz.errors import VehicleError
+from modeviz.files.records.fields import (
+    Damping,
+    DampingRate,
+    Ends,
+    Frame,
+    Length,
+    Motions,
+    Name,
+    Place,
+    Position,
+    Rate,
+    Ratio,
+    RatioLimits,
+    RotationalDamping,
+    RotationalStiffness,
+    Stiffness,
+)
+from modeviz.files.records.rates import RatesRecord
+from modeviz.files.records.record import Record, said, tuples
+from modeviz.files.schema.quantities import UNITLESS
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import (
+    MOTIONS,
+    SHARED,
+    Connection,
+    Mount,
+    MountGroup,
+    Rod,
+    Track,
+    usual_bounds,
+)
+
+NO_RATES = (0.0, 0.0, 0.0)
+VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+class MountRecord(Record, kw_only=True):
+    """[[mount_group.mount]]; but for the place, the keys are the attributes of a connection."""
+
+    name: Name
+    bodies: tuple[str, str]
+    at: Place
+    rotational_stiffness: RotationalStiffness = NO_RATES
+    damping: Damping = NO_RATES
+    rotational_damping: RotationalDamping = NO_RATES
+    axes: Frame = VEHICLE_AXES
+    elastic_center: Annotated[float, UNITLESS] = 0.5
+    """Where between its ends it acts: 0 at the first, 1 at the second."""
+
+    @classmethod
+    def of(cls, connection: Connection) -> Self:
+        first, second = map(tuples, connection.points)
+        keys = (f for f in cls.__struct_fields__ if f != "at")
+        fields = {key: tuples(getattr(connection, key)) for key in keys}
+        return cls(at=first if first == second else (first, second), **said(cls, fields))
+
+    def arguments(self) -> dict[str, Any]:
+        """The constructor's arguments of a connection."""
+        fields = {f: getattr(self, f) for f in self.__struct_fields__ if f != "at"}
+        return {"points": self._ends(), **fields}
+
+    def _ends(self) -> Floats:
+        ends = self.at if len(self.at) == 2 else (self.at, self.at)
+        if any(np.shape(end) != (3,) for end in ends):
+            raise VehicleError(f"at: found {list(self.at)}, expected [x, y, z] or two of them")
+        return np.array(ends, float)
+
+
+class MountGroupRecord(Record, kw_only=True):
+    """[[mount_group]]."""
+
+    name: Name
+    label: str = ""
+    """The name, if not given."""
+    rates: RatesRecord
+    loss_factor: Ratio
+    softest: RatesRecord | None = None
+    stiffest: RatesRecord | None = None
+    ratio_limits: RatioLimits | None = None
+    """The least and the most that lateral and fore-aft rates may be of the vertical one."""
+    rotational_stiffness: RotationalStiffness = NO_RATES
+    """Of each mount that has none of its own, as what follows."""
+    damping: Damping = NO_RATES
+    rotational_damping: RotationalDamping = NO_RATES
+    mount: list[MountRecord]
+
+    @classmethod
+    def of(cls, group: MountGroup) -> Self:
+        return cls(
+            name=group.name,
+            label=group.label,
+            rates=RatesRecord.of(group.rates),
+            loss_factor=group.loss_factor,
+            softest=RatesRecord.of(group.bounds[0]),
+            stiffest=RatesRecord.of(group.bounds[1]),
+            ratio_limits=group.ratio_limits,
+            mount=[MountRecord.of(_own(mount, group)) for mount in group.mounts],
+            **{name: tuples(getattr(group, name)) for name in SHARED},
+        )
+
+    def build(self) -> MountGroup:
+        rates = self.rates.build()
+        softest, stiffest = usual_bounds(rates)
+        return MountGroup(
+            self.name,
+            self.label or self.name,
+            rates,
+            self.loss_factor,
+            (
+                self.softest.build() if self.softest else softest,
+                self.stiffest.build() if self.stiffest else stiffest,
+            ),
+            tuple(Mount(group=self.name, **mount.arguments()) for mount in self.mount),
+            self.ratio_limits,
+            **{name: np.array(getattr(self, name)) for name in SHARED},
+        )
+
+
+def _own(mount: Mount, group: MountGroup) -> Mount:
+    """A mount with nothing that it has from its group."""
+    shared = [name for name in SHARED if np.array_equal(getattr(mount, name), getattr(group, name))]
+    return replace(mount, **dict.fromkeys(shared, np.zeros(3)))
+
+
+class ConnectionRecord(MountRecord, kw_only=True):
+    """[[damper]], and what springs, bolts and tyres have in common with it."""
+
+    group: Name | None = None
+    """After the kind of connection, "springs", if not given."""
+    stiffness: Stiffness = NO_RATES
+    loss_factor: Ratio = 0.0
+
+    def build(self, kind: type[Connection]) -> Connection:
+        arguments: dict[str, Any] = {
+            **self.arguments(),
+            "group": self.group or f"{kind.__name__.lower()}s",
+        }
+        return kind(**arguments)
+
+
+class JointRecord(ConnectionRecord, kw_only=True):
+    """[[spring]] or [[bolt]]."""
+
+    rigid: Motions = False
+    """Whether its ends do not move relative to each other, or in which of `MOTIONS` they do not."""
+
+    @classmethod
+    def of(cls, connection: Connection) -> Self:
+        rigid = connection.rigid == MOTIONS or connection.rigid or False
+        return msgspec.structs.replace(super().of(connection), rigid=rigid)
+
+    def arguments(self) -> dict[str, Any]:
+        rigid = (MOTIONS if self.rigid else ()) if isinstance(self.rigid, bool) else self.rigid
+        return {**super().arguments(), "rigid": rigid}
+
+
+class RodRecord(Record, kw_only=True):
+    """[[rod]]: a link between two places, hinged at both; it acts along the line between them."""
+
+    name: Name
+    group: Name = "rods"
+    bodies: tuple[str, str]
+    at: Ends
+    stiffness: Rate = 0.0
+    damping: DampingRate = 0.0
+    loss_factor: Ratio = 0.0
+    rigid: bool = False
+    """Whether its length does not change."""
+
+    @classmethod
+    def of(cls, rod: Rod) -> Self:
+        fields = {
+            "name": rod.name,
+            "group": rod.group,
+            "bodies": rod.bodies,
+            "stiffness": float(rod.stiffness[0]),
+            "damping": float(rod.damping[0]),
+            "loss_factor": rod.loss_factor,
+            "rigid": bool(rod.rigid),
+        }
+        return cls(at=tuples(rod.points), **said(cls, fields))
+
+    def build(self, kind: type[Rod]) -> Rod:
+        fields = {f: getattr(self, f) for f in self.__struct_fields__ if f != "at"}
+        return kind.between(points=np.array(self.at), **fields)
+
+
+class TyreRecord(ConnectionRecord, kw_only=True):
+    """[[tyre]]."""
+
+    elastic_center: Annotated[float, UNITLESS] = 1.0
+    """As any connection's, but at the patch, its second end, unless told otherwise."""
+    wheel_center: Position
+    trail: Length = 0.0
+    track: Track | None = None
+    """Which track of a road it runs in; that of its side, if not given."""
