@@ -67,7 +67,7 @@ def _past_windows(search: Search, evaluator: Evaluator, start: Floats) -> Optimi
     if search.windows is None:
         return _restarted(search, evaluator, start)
     free = _restarted(replace(search, windows=None), evaluator, start)
-    if search.allows(search.space.admitted(free.x[: search.space.n_variables])):
+    if evaluator.allows(free.x[: search.space.n_variables]):
         return free
     return _restarted(search, evaluator, start if evaluator.x is None else evaluator.x)
 
@@ -91,7 +91,7 @@ def _smallest(search: Search, evaluator: Evaluator, start: Floats) -> OptimizeRe
         jac=True,
         method="SLSQP",
         bounds=_bounds(search),
-        constraints=_constraints(search),
+        constraints=_constraints(search, evaluator),
         options={"ftol": TOLERANCE, "maxiter": MOST_STEPS},
     )
 
@@ -109,7 +109,7 @@ def _smallest_largest(search: Search, evaluator: Evaluator, start: Floats) -> Op
         jac=lambda z: np.eye(len(z))[-1],
         method="SLSQP",
         bounds=[*_bounds(search), (0.0, None)],
-        constraints=[under, *map(_without_last, _constraints(search))],
+        constraints=[under, *map(_without_last, _constraints(search, evaluator))],
         options={"ftol": MIN_MAX_TOLERANCE, "maxiter": MOST_STEPS},
     )
 
@@ -127,7 +127,7 @@ def _bounds(search: Search) -> list[tuple[float, float]]:
     return list(zip(search.space.lower.tolist(), search.space.upper.tolist(), strict=True))
 
 
-def _constraints(search: Search) -> list[dict[str, Any]]:
+def _constraints(search: Search, evaluator: Evaluator) -> list[dict[str, Any]]:
     """Ratio limits and windows as scipy takes them, c(x) >= 0."""
     space = search.space
     rows, values = space.rows[space.ratios], space.values[space.ratios]
@@ -135,11 +135,8 @@ def _constraints(search: Search) -> list[dict[str, Any]]:
     if len(rows):
         constraints.append({"type": "ineq", "fun": lambda x: values - rows @ x, "jac": lambda _: -rows})
     if search.windows is not None:
+        margins = evaluator.margins
         constraints.append(
-            {
-                "type": "ineq",
-                "fun": lambda x: search.margins(x)[0],
-                "jac": lambda x: search.margins(x)[1],
-            }
+            {"type": "ineq", "fun": lambda x: margins(x)[0], "jac": lambda x: margins(x)[1]}
         )
     return constraints

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import OptimizeResult
 
+from modeviz.analysis.latest import Latest
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.optimise.search import Search
 from modeviz.optimise.windows import SLACK
@@ -62,7 +63,8 @@ class Evaluator:
         self.x: Floats | None = None
         self._value = np.inf
         self._unit = 0.0
-        self._parts: tuple[Floats, tuple[Floats, Floats]] | None = None
+        self._parts: Latest[tuple[Floats, Floats]] = Latest()
+        self._margins: Latest[tuple[Floats, Floats]] = Latest()
 
     def value_and_gradient(self, x: Floats) -> tuple[float, Floats]:
         """The goal of the design nearest to one, and its derivatives, relative to the first one's goal.
@@ -80,13 +82,20 @@ class Evaluator:
 
     def parts(self, x: Floats) -> tuple[Floats, Floats]:
         """All of which a `MinMax` is the largest, likewise; asked twice it solves once."""
-        if self._parts is None or not np.array_equal(self._parts[0], x):
-            self._count()
-            admitted = self._search.space.admitted(x)
-            parts, gradients = self._search.parts(admitted)
-            unit = self._found(admitted, float(parts.max()))
-            self._parts = x.copy(), (parts / unit, gradients / unit)
-        return self._parts[1]
+        return self._parts.get(x.tobytes(), lambda: self._solved_parts(x))
+
+    def margins(self, x: Floats) -> tuple[Floats, Floats]:
+        """What the design nearest to one has left to the ends of windows, see `Search.margins`.
+
+        A solver asks for these and for their derivatives, and whoever remembers the best design asks
+        whether it is one: all that is one eigenproblem.
+        """
+        x = self._search.space.admitted(x)
+        return self._margins.get(x.tobytes(), lambda: self._search.margins(x))
+
+    def allows(self, x: Floats) -> bool:
+        """Whether all modes of that are where the windows want them."""
+        return bool((self.margins(x)[0] >= -SLACK).all())
 
     def value(self, x: Floats) -> float:
         """The goal of a design; of one that leaves a window `FORBIDDEN` and more, the farther it is.
@@ -96,9 +105,11 @@ class Evaluator:
         2000). Raises as `value_and_gradient`.
         """
         self._count()
-        margins, _ = self._search.margins(x)
-        is_allowed = bool((margins >= -SLACK).all())
-        value = self._search.value(x) if is_allowed else FORBIDDEN * (1 - margins.clip(max=0).sum())
+        is_allowed = self.allows(x)
+        if is_allowed:
+            value = self._search.value(x)
+        else:
+            value = FORBIDDEN * (1 - self.margins(x)[0].clip(max=0).sum())
         self._remember(x, value, is_allowed and value < self._value)
         return value
 
@@ -113,6 +124,13 @@ class Evaluator:
             reason = OUT_OF_BUDGET
         return Descent(self.x, self._value, reason, self._n_evaluations)
 
+    def _solved_parts(self, x: Floats) -> tuple[Floats, Floats]:
+        self._count()
+        x = self._search.space.admitted(x)
+        parts, gradients = self._search.parts(x)
+        unit = self._found(x, float(parts.max()))
+        return parts / unit, gradients / unit
+
     def _count(self) -> None:
         # The first design is always evaluated, so that whoever ends a search has one to keep.
         if self._n_evaluations:
@@ -123,7 +141,7 @@ class Evaluator:
 
     def _found(self, x: Floats, value: float) -> float:
         """Remembers a design whose windows are not known yet; returns the first one's goal."""
-        self._remember(x, value, value < self._value and self._search.allows(x))
+        self._remember(x, value, value < self._value and self.allows(x))
         self._unit = self._unit or abs(value) or 1.0
         return self._unit
 
