@@ -15,6 +15,9 @@ from modeviz.vehicle.arrays import Floats
 FORBIDDEN = 1e12
 """Stands for the goal of a design that leaves a window, where there must be a number."""
 
+ROUNDING = 1e-12
+"""Of the logarithm of a rate."""
+
 CONVERGED, CANCELLED, OUT_OF_BUDGET = "converged", "cancelled", "out of budget"
 """Why a search ends; else it is the solver's own word."""
 
@@ -75,8 +78,7 @@ class Evaluator:
             SolveError: as `Search.evaluate`.
         """
         self._count()
-        x = self._search.space.admitted(x)
-        value, gradient = self._search.evaluate(x)
+        value, gradient = self._search.evaluate(self._search.space.admitted(x))
         unit = self._found(x, value)
         return value / unit, gradient / unit
 
@@ -85,17 +87,19 @@ class Evaluator:
         return self._parts.get(x.tobytes(), lambda: self._solved_parts(x))
 
     def margins(self, x: Floats) -> tuple[Floats, Floats]:
-        """What the design nearest to one has left to the ends of windows, see `Search.margins`.
+        """What a design has left to the ends of windows, and derivatives, see `Search.margins`.
 
         A solver asks for these and for their derivatives, and whoever remembers the best design asks
         whether it is one: all that is one eigenproblem.
         """
-        x = self._search.space.admitted(x)
         return self._margins.get(x.tobytes(), lambda: self._search.margins(x))
 
     def allows(self, x: Floats) -> bool:
-        """Whether all modes of that are where the windows want them."""
-        return bool((self.margins(x)[0] >= -SLACK).all())
+        """Whether all modes of the design nearest to one are where the windows want them."""
+        admitted = self._search.space.admitted(x)
+        # What only rounding puts within the limits is the design that the solver asks for.
+        asked = x if np.allclose(x, admitted, rtol=0, atol=ROUNDING) else admitted
+        return bool((self.margins(asked)[0] >= -SLACK).all())
 
     def value(self, x: Floats) -> float:
         """The goal of a design; of one that leaves a window `FORBIDDEN` and more, the farther it is.
@@ -126,8 +130,7 @@ class Evaluator:
 
     def _solved_parts(self, x: Floats) -> tuple[Floats, Floats]:
         self._count()
-        x = self._search.space.admitted(x)
-        parts, gradients = self._search.parts(x)
+        parts, gradients = self._search.parts(self._search.space.admitted(x))
         unit = self._found(x, float(parts.max()))
         return parts / unit, gradients / unit
 
@@ -140,8 +143,9 @@ class Evaluator:
         self._n_evaluations += 1
 
     def _found(self, x: Floats, value: float) -> float:
-        """Remembers a design whose windows are not known yet; returns the first one's goal."""
-        self._remember(x, value, value < self._value and self.allows(x))
+        """Remembers the design nearest to one, windows asked; returns the first one's goal."""
+        is_best = value < self._value and self.allows(x)
+        self._remember(self._search.space.admitted(x), value, is_best)
         self._unit = self._unit or abs(value) or 1.0
         return self._unit
 
