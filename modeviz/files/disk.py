@@ -1,6 +1,7 @@
 """Files and folders, with errors a user can act on."""
 
 import codecs
+import os
 import re
 import stat
 from collections.abc import Callable, Iterable, Iterator
@@ -33,7 +34,8 @@ def read_bytes(path: Path, most: int) -> bytes:
         VehicleError: it is not there, too large, endless, or cannot be read.
     """
     with opened(path, most) as file:
-        return file.read(most_allowed(most))
+        size = os.fstat(file.fileno()).st_size  # what `read` makes room for
+        return file.read(min(size, most_allowed(most)))
 
 
 @contextmanager

@@ -370,6 +370,12 @@ def test_no_limit_is_proposed_that_would_be_refused():
         check_size("bytes", 1_000_001, 1000)
 
 
+def test_raised_limits_take_no_memory_that_files_do_not_fill(folder, monkeypatch):
+    monkeypatch.setenv("MODEVIZ_LIMIT", "1000")
+    with memory():
+        assert read_vehicle(folder).bodies
+
+
 def test_limits_are_raised_by_the_environment(tmp_path, monkeypatch):
     folder = written(tmp_path / "a", HEAD + "".join(BODY.format(i, 1) for i in range(300)))
     with pytest.raises(VehicleError, match="MODEVIZ_LIMIT=2 in the environment"):

@@ -6,7 +6,8 @@ so a record with such a field cannot be made.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, get_args, get_origin, get_type_hints
+from inspect import get_annotations
+from typing import Annotated, Any, get_args, get_origin
 
 from modeviz.files.schema.axes import Turns
 from modeviz.files.schema.hints import annotations_of
@@ -54,12 +55,12 @@ def quantity_of(record: type, key: str) -> QuantityName | None:
 
 
 def check_annotations(record: type) -> None:
-    """Checks that a record says of all its numbers what they are, and of its vectors how they turn.
+    """Checks that a record says of its own numbers what they are, and of its vectors how they turn.
 
     Raises:
         TypeError: of a field nothing is said.
     """
-    for key, hint in get_type_hints(record, include_extras=True).items():
+    for key, hint in get_annotations(record, eval_str=True).items():
         if _is_bare(hint, (int, float), (Quantity, FixedUnit)):
             raise TypeError(f"{record.__name__}.{key}: numbers without a Quantity or a FixedUnit")
         if _is_bare(hint, (Vector,), (Turns,)):
