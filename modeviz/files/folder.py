@@ -39,7 +39,7 @@ from modeviz.files.records.vehicle import (
 from modeviz.files.roads import write_road
 from modeviz.files.schema.axes import axes_of, turned
 from modeviz.files.schema.conventions import Conventions
-from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si
+from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.source import Source
 from modeviz.files.spectra import write_spectrum
 from modeviz.files.toml_reader import read_toml
@@ -132,8 +132,7 @@ def _note_doubts(vehicle: Vehicle, source: Source) -> None:
 def _write_content(vehicle: Vehicle, folder: Path) -> None:
     for name in ("bodies", "meshes", "roads"):
         (folder / name).mkdir()
-    content = msgspec.to_builtins(_record(vehicle, folder))
-    write_text(folder / VEHICLE_FILE, to_toml(from_si(content, VehicleRecord)))
+    write_text(folder / VEHICLE_FILE, to_toml(_record(vehicle, folder)))
 
 
 def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:

@@ -3,13 +3,12 @@
 from pathlib import Path
 from typing import Annotated
 
-import msgspec
 from msgspec import Meta
 
 from modeviz.errors import located
 from modeviz.files.records.problems import ProblemRecord
 from modeviz.files.records.record import FileRecord
-from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si
+from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.toml_reader import read_toml
 from modeviz.files.toml_writer import to_toml
 from modeviz.vehicle.problem import Problem
@@ -28,8 +27,7 @@ class ProblemFileRecord(FileRecord, kw_only=True):
 
 def problem_text(problem: Problem) -> str:
     """The file of a problem; all but its first table can be put into a vehicle.toml in N/mm."""
-    record = ProblemFileRecord(units=UNITS, problem=[ProblemRecord.of(problem)])
-    return to_toml(from_si(msgspec.to_builtins(record), ProblemFileRecord))
+    return to_toml(ProblemFileRecord(units=UNITS, problem=[ProblemRecord.of(problem)]))
 
 
 def read_problem(path: Path, vehicle: Vehicle) -> Problem:

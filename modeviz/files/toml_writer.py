@@ -1,17 +1,19 @@
-"""Plain data as TOML that people like to read: arrays and tables of numbers on one line."""
+"""Records as TOML that people like to read: arrays and tables of numbers on one line."""
 
 import json
 import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+import msgspec
 
-def to_toml(table: Mapping[str, Any]) -> str:
-    """The table as TOML; numbers read back to the same bits.
+from modeviz.files.records.record import FileRecord
+from modeviz.files.schema.scaling import from_si
 
-    Args:
-        table: of text, numbers, truth values, and lists and tables of those.
-    """
+
+def to_toml(record: FileRecord) -> str:
+    """The TOML of a file's record in SI, in `WRITTEN_UNITS`; numbers read back to the same bits."""
+    table = from_si(msgspec.to_builtins(record), type(record))
     return "\n".join(_lines(table, "")).strip() + "\n"
 
 

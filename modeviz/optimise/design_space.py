@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from modeviz.analysis.sensitivity import RateVariable, rate_variables
 from modeviz.errors import VehicleError
 from modeviz.optimise.limits import DesignVariable, Limit, group_limits, group_variables, reach
+from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.problem import DesignGroup
@@ -96,11 +97,11 @@ class DesignSpace:
 
     def spoken(self, x: Floats) -> str:
         """The rates of a design in a sentence: "C2 fore-aft 141 N/mm, E rates × 1.2"."""
-        rates = self.rates(x)
+        rates, per_mm = self.rates(x), factor("N/mm", "stiffness")
         texts = [
             f"{v.spoken} × {np.exp(step):.3g}"
             if len(v.fields) > 1
-            else f"{v.spoken} {_rate(rates, v.group, v.lead) / 1e3:.4g} N/mm"
+            else f"{v.spoken} {_rate(rates, v.group, v.lead) / per_mm:.4g} N/mm"
             for v, step in zip(self.variables, x, strict=True)
         ]
         return ", ".join(texts)

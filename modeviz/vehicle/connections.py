@@ -13,6 +13,7 @@ from typing import Literal, Self, get_args
 import numpy as np
 
 from modeviz.errors import VehicleError, unknown
+from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats, frozen, frozen_places
 
 GROUND = "ground"
@@ -262,11 +263,12 @@ class MountRates:
 def check_bounds(where: str, bounds: tuple[MountRates, MountRates], may_be_same: bool = False) -> None:
     """Raises VehicleError unless the softest rates are below the stiffest, or the same if they may."""
     softest, stiffest = (rates.as_tuple() for rates in bounds)
+    per_mm = factor("N/mm", "stiffness")
     for direction, low, high in zip(DIRECTIONS, softest, stiffest, strict=True):
         if not (low < high or (may_be_same and low == high)):
             raise VehicleError(
-                f"{where}: bounds: {direction}: found {low / 1e3:g} to {high / 1e3:g} N/mm, expected "
-                "the lower one first"
+                f"{where}: bounds: {direction}: found {low / per_mm:g} to {high / per_mm:g} N/mm, "
+                "expected the lower one first"
             )
 
 
