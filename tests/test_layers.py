@@ -116,6 +116,18 @@ def test_dask_is_imported_by_one_module_of_compute():
     assert users_of("distributed") == ["compute/cluster.py"]
 
 
+def test_only_what_begins_work_limits_the_threads_of_blas():
+    """A command, a study, an open page, a task on a worker, a pool of threads of ours."""
+    assert users_of("threadpoolctl") == ["compute/threads.py"]
+    limiting = {
+        path.relative_to(PACKAGE).as_posix()
+        for path in MODULES
+        if "modeviz.compute.threads.one_thread" in imports(path)
+    }
+    beginning = {"cli/__init__.py", "compute/cluster.py", "study/page.py", "study/study.py"}
+    assert limiting == beginning | {"viewer/app.py"}
+
+
 def test_importing_modeviz_leaves_the_viewer_and_the_extras_unloaded():
     assert loaded("modeviz.public", "viser", "pyfe3d", "distributed", "dask") == set()
 

@@ -30,5 +30,6 @@ def _run(arguments: Sequence[str]) -> None:
         from modeviz.compute.threads import one_thread
 
     options = parse(arguments)
-    one_thread(options.run)(options)
+    with one_thread():
+        options.run(options)
     sys.stdout.flush()

@@ -152,4 +152,5 @@ def _kept(shared: S) -> S:
 
 def _solved(function: Callable[[S, A], T], shared: S, item: A) -> T:
     """A task, with as many BLAS threads as here."""
-    return one_thread(function)(shared, item)
+    with one_thread():
+        return function(shared, item)

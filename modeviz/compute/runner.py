@@ -1,17 +1,12 @@
 """Where many tasks of the same kind are computed: here, or on other machines (`compute.cluster`)."""
 
-import os
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, wait
 from typing import Protocol, TypeVar
 
-from threadpoolctl import threadpool_limits
-
 from modeviz.compute.cancel import CancelToken
-
-N_THREADS = min(4, os.cpu_count() or 1)
-"""Tasks side by side: linear algebra does not hold the interpreter's lock."""
+from modeviz.compute.threads import N_THREADS, thread_pool
 
 POLL_S = 0.05
 """Between looks at whether somebody ends it."""
@@ -47,19 +42,15 @@ class Here:
     def map(
         self, function: Callable[[S, A], T], shared: S, items: Sequence[A], token: CancelToken
     ) -> Iterator[T]:
-        pool, waiting = ThreadPoolExecutor(N_THREADS), deque()
-        with threadpool_limits(1, user_api="blas"):
-            try:
-                for item in items:
-                    token.check()
-                    waiting.append(pool.submit(function, shared, item))
-                    if len(waiting) > N_THREADS:
-                        yield _result(waiting.popleft(), token)
-                while waiting:
+        waiting: deque[Future[T]] = deque()
+        with thread_pool() as pool:
+            for item in items:
+                token.check()
+                waiting.append(pool.submit(function, shared, item))
+                if len(waiting) > N_THREADS:
                     yield _result(waiting.popleft(), token)
-            finally:
-                # Tasks in hand are left to themselves: who ends it does not wait for them.
-                pool.shutdown(wait=False, cancel_futures=True)
+            while waiting:
+                yield _result(waiting.popleft(), token)
 
 
 def _result(future: Future[T], token: CancelToken) -> T:

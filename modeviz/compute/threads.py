@@ -1,36 +1,67 @@
-"""BLAS on one thread for what solves many small systems."""
+"""Threads: ours side by side, with one of BLAS each, and one of BLAS for whoever begins work."""
 
-from collections.abc import Callable
-from contextvars import ContextVar
-from functools import wraps
-from typing import ParamSpec, TypeVar
+import os
+import threading
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 
 from threadpoolctl import threadpool_limits
 
-P = ParamSpec("P")
-T = TypeVar("T")
-
-_is_limited: ContextVar[bool] = ContextVar("is_limited", default=False)
+N_THREADS = min(4, os.cpu_count() or 1)
+"""Tasks side by side: linear algebra does not hold the interpreter's lock."""
 
 
-def one_thread(function: Callable[P, T]) -> Callable[P, T]:
-    """The same function with BLAS on one thread.
+class _Limit:
+    """The limit of this process, which is there as long as somebody wants it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._n_holders = 0
+        self._set = None
+
+    def hold(self) -> None:
+        with self._lock:
+            if not self._n_holders:
+                self._set = threadpool_limits(limits=1, user_api="blas")
+            self._n_holders += 1
+
+    def release(self) -> None:
+        with self._lock:
+            self._n_holders -= 1
+            if self._set and not self._n_holders:
+                self._set.restore_original_limits()
+
+
+_limit = _Limit()
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """BLAS has one thread within, in the whole process; also to be put on a function.
 
     A second one helps no system this small, beside other programs it is up to a hundred times slower,
     and it rounds otherwise: so the same seed finds the same to the last digit, however many threads a
-    processor of one kind has. Another kind rounds otherwise too. Within another such function it costs
-    nothing; by itself some ms, for the libraries are looked for.
+    processor of one kind has. Another kind rounds otherwise too. Only who begins work asks for it (a
+    command, a study, a page, a task of a cluster), since it holds for everybody and takes some ms, for
+    the libraries are looked for; whoever is last to leave gives the threads back.
     """
+    _limit.hold()
+    try:
+        yield
+    finally:
+        _limit.release()
 
-    @wraps(function)
-    def on_one_thread(*arguments: P.args, **keywords: P.kwargs) -> T:
-        if _is_limited.get():
-            return function(*arguments, **keywords)
-        token = _is_limited.set(True)
+
+@contextmanager
+def thread_pool() -> Iterator[ThreadPoolExecutor]:
+    """A pool of `N_THREADS`, with one of BLAS each.
+
+    Who leaves it early does not wait: tasks in hand are left to themselves, the others are cancelled.
+    """
+    pool = ThreadPoolExecutor(N_THREADS)
+    with one_thread():
         try:
-            with threadpool_limits(limits=1, user_api="blas"):
-                return function(*arguments, **keywords)
+            yield pool
         finally:
-            _is_limited.reset(token)
-
-    return on_one_thread
+            pool.shutdown(wait=False, cancel_futures=True)

@@ -15,23 +15,18 @@ D. J. Rixen, S. N. Voormeeren, "General framework for dynamic substructuring", A
 what a force there gives is the joint's own force.
 """
 
-import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
+from modeviz.compute.threads import thread_pool
 from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import System, connection_coefficients, modal_coefficients
 from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
-
-N_THREADS = min(4, os.cpu_count() or 1)
-"""Frequencies solved side by side: LAPACK does not hold the interpreter's lock."""
 
 SOFT = 1e-4
 """A coordinate is kept where by itself it is softer than this part of the stiffness its joints give
@@ -68,7 +63,7 @@ def receptance_lines(
     """
     check_frequencies(frequency_hz)
     parts = _disassemble(system, rows)
-    with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(N_THREADS) as pool:
+    with thread_pool() as pool:
         for i, G in enumerate(pool.map(parts.receptance, frequency_hz)):
             yield G
             if progress:
@@ -91,7 +86,7 @@ def receptances_along(system: System, rows: Floats) -> Callable[[Complexes, Comp
             return complex(np.inf, 0)
 
     def along(frequency_hz: Complexes, directions: Complexes) -> Complexes:
-        with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(N_THREADS) as pool:
+        with thread_pool() as pool:
             return np.array(list(pool.map(one, frequency_hz, directions)), complex)
 
     return along

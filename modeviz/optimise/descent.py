@@ -8,7 +8,6 @@ import numpy as np
 from scipy.optimize import OptimizeResult, minimize
 
 from modeviz.compute.cancel import CancelToken
-from modeviz.compute.threads import one_thread
 from modeviz.optimise.evaluator import Descent, Evaluator, Step
 from modeviz.optimise.min_max import MinMax
 from modeviz.optimise.search import Search
@@ -29,7 +28,6 @@ MIN_MAX_TOLERANCE = 1e-8
 with less."""
 
 
-@one_thread
 def descend(
     search: Search,
     start: Floats,

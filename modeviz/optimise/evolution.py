@@ -5,12 +5,10 @@ from collections.abc import Callable
 from scipy.optimize import differential_evolution
 
 from modeviz.compute.cancel import CancelToken
-from modeviz.compute.threads import one_thread
 from modeviz.optimise.evaluator import Descent, Evaluator, Step
 from modeviz.optimise.search import Search
 
 
-@one_thread
 def evolve(
     search: Search,
     seed: int,

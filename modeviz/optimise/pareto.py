@@ -7,7 +7,6 @@ import numpy as np
 
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import HERE
-from modeviz.compute.threads import one_thread
 from modeviz.optimise.descent import descend
 from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent
 from modeviz.optimise.run import BUDGET
@@ -60,7 +59,6 @@ class FrontProgress:
     """Of all its designs, 0 to 1; at 1 they are held against the full model, one after the other."""
 
 
-@one_thread
 def find_front(
     trade_off: TradeOff,
     known: Sequence[Rates],

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import Runner
-from modeviz.compute.threads import one_thread
 from modeviz.errors import SolveError
 from modeviz.optimise.active_limits import ActiveConstraint, active_constraints
 from modeviz.optimise.descent import descend
@@ -183,7 +182,6 @@ def why_ended(descents: Sequence[Descent], n_starts: int) -> str:
     return min(descents, key=lambda d: d.value).reason
 
 
-@one_thread
 def best_of(
     search: Search,
     descents: Sequence[Descent],

@@ -8,7 +8,6 @@ import numpy as np
 
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.sensitivity import rate_variables
-from modeviz.compute.threads import one_thread
 from modeviz.errors import SolveError, located
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import Goal, prepare_goal
@@ -89,7 +88,6 @@ def _check_finite(value: float, gradient: Floats | float = 0.0) -> None:
         raise SolveError(f"the goal is {value} and its derivatives are {gradient}")
 
 
-@one_thread
 def prepare_search(
     vehicle: Vehicle,
     problem: Problem,

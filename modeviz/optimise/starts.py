@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeviz.compute.cancel import CancelledError, CancelToken
-from modeviz.compute.threads import one_thread
 from modeviz.optimise.descent import descend
 from modeviz.optimise.search import Search
 from modeviz.vehicle.arrays import Floats
@@ -22,7 +21,6 @@ ROUNDS = (6, 6), (2, 6)
 best of these that take some more."""
 
 
-@one_thread
 def start_points(
     search: Search, rates: Rates, n_starts: int, seed: int = 0, token: CancelToken | None = None
 ) -> list[Floats]:

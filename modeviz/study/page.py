@@ -1,15 +1,14 @@
 """The page of a study: in a browser, or in a notebook's cell."""
 
 import sys
-from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import partial
 from html import escape
 from typing import TYPE_CHECKING
 
-from threadpoolctl import threadpool_limits
-
 from modeviz.analysis.results import Conditions
+from modeviz.compute.threads import one_thread
 from modeviz.study.telling import Tell
 from modeviz.vehicle.connections import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -33,8 +32,8 @@ class Page:
     """In a notebook, pixels."""
     app: "App" = field(repr=False)
     """What is shown, as the viewer has it."""
-    unlimit: Callable[[], None] = field(repr=False)
-    """Gives BLAS its threads back: as long as the page is open it has one, for two are far slower."""
+    limit: ExitStack = field(repr=False)
+    """Has BLAS on one thread as long as the page is open."""
 
     @property
     def rates(self) -> dict[str, MountRates]:
@@ -44,7 +43,7 @@ class Page:
     def close(self) -> None:
         """Close it; whoever has it open is told."""
         self.app.close()
-        self.unlimit()
+        self.limit.close()
 
     def _repr_html_(self) -> str:
         link = escape(self.link, quote=True)
@@ -90,13 +89,13 @@ def open_page(
     from modeviz.viewer.page.tokens import new_token
 
     title = f"{vehicle.name} · modeviz"
-    limits = threadpool_limits(limits=1, user_api="blas")
-    server = open_server(port=port, token=new_token(), title=title, is_framed=True)
-    try:
-        app = App(vehicle, rates, conditions, server, dark)
-        app.start(partial(tell, "preparing"))
-    except BaseException:
-        server.stop()
-        limits.restore_original_limits()
-        raise
-    return Page(server.link, height, app, limits.restore_original_limits)
+    with ExitStack() as limit:
+        limit.enter_context(one_thread())
+        server = open_server(port=port, token=new_token(), title=title, is_framed=True)
+        try:
+            app = App(vehicle, rates, conditions, server, dark)
+            app.start(partial(tell, "preparing"))
+        except BaseException:
+            server.stop()
+            raise
+        return Page(server.link, height, app, limit.pop_all())

@@ -122,7 +122,7 @@ class Study:
         """The names of the response points, the driver's first."""
         return tuple(point.name for point in self._vehicle.response_points)
 
-    @one_thread
+    @one_thread()
     def modes(self, below_hz: float | None = None, method: Method = "enriched") -> ModesTable:
         """Return the modes: frequencies, damping, names, energies and shapes.
 
@@ -141,7 +141,7 @@ class Study:
         prepared = self._modes_prepared() if below <= top else prepare_modes(self._vehicle, below)
         return ModesTable(solve_followed(prepared, self.rates.by_group, method), below)
 
-    @one_thread
+    @one_thread()
     def ride(self, road: str | None = None) -> Ride:
         """Return the ride on a road, or under another random load.
 
@@ -153,7 +153,7 @@ class Study:
         """
         return Ride(self._ride(road))
 
-    @one_thread
+    @one_thread()
     def wheels(self) -> WheelRide:
         """Return the response to every wheel load and other harmonic load.
 
@@ -167,7 +167,7 @@ class Study:
         ride = self._ride(None) if has_ride(vehicle) else None
         return WheelRide(vehicle.with_rates(self.rates.by_group), results, ride)
 
-    @one_thread
+    @one_thread()
     def sensitivity(self, road: str | None = None) -> RateSensitivity:
         """Return what ten percent more of each mount rate do to frequencies and to the ride.
 
@@ -181,7 +181,7 @@ class Study:
         results = self._ride(road)
         return RateSensitivity(results, sensitivity(self._all_prepared(), results))
 
-    @one_thread
+    @one_thread()
     def optimise(
         self,
         problem: "str | Path | Problem | None" = None,
@@ -217,7 +217,7 @@ class Study:
             search, optimum = find_best(search, rates, options, token, telling(self._tell, token))
         return OptimiseResult(chosen, search, optimum)
 
-    @one_thread
+    @one_thread()
     def front(
         self,
         goals: str,
@@ -249,7 +249,7 @@ class Study:
             front = find_designs(trade_off, rates, options, token, self._tell)
         return FrontResult(chosen, trade_off, front)
 
-    @one_thread
+    @one_thread()
     def scatter(
         self,
         samples: int = 1000,
@@ -294,7 +294,7 @@ class Study:
             )
         return ScatterResult(told)
 
-    @one_thread
+    @one_thread()
     def report(
         self,
         path: "str | PathLike[str]" = "report.html",
@@ -325,7 +325,7 @@ class Study:
         write_text(Path(path), report(comparison, date.today(), drawn, self._checked(comparison)))
         return WrittenFile(Path(path))
 
-    @one_thread
+    @one_thread()
     def render(
         self,
         path: "str | PathLike[str]",

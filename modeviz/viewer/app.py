@@ -5,9 +5,9 @@ from collections.abc import Callable, Sequence
 from datetime import date
 
 import viser
-from threadpoolctl import threadpool_limits
 
 from modeviz.analysis.results import Conditions
+from modeviz.compute.threads import one_thread
 from modeviz.errors import ModevizError
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import Picture, report
@@ -365,8 +365,7 @@ def serve(
         ModevizError: the port is in use, the address needs a token, or the road does not go with the
             speed.
     """
-    # Two BLAS threads on these sizes, beside a browser, are far slower than one.
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_thread():
         server = open_server(host, port, token, f"{vehicle.name} · modeviz", public_names)
         try:
             app = App(vehicle, rates, conditions, server, dark)

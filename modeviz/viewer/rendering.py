@@ -10,8 +10,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal, TypeVar, get_args
 
-from threadpoolctl import threadpool_limits
-
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError, located, quoted
 from modeviz.report.comparison import RateSet
@@ -165,17 +163,16 @@ def _app(
     dark: bool,
 ) -> Iterator[App]:
     """The app on a port that nobody knows, with a token."""
-    with threadpool_limits(limits=1, user_api="blas"):
-        server = open_server(port=0, token=secrets.token_urlsafe())
-        try:
-            app = App(vehicle, rates, conditions, server, dark)
-        except ModevizError:
-            server.stop()
-            raise
-        try:
-            yield app
-        finally:
-            app.close()
+    server = open_server(port=0, token=secrets.token_urlsafe())
+    try:
+        app = App(vehicle, rates, conditions, server, dark)
+    except ModevizError:
+        server.stop()
+        raise
+    try:
+        yield app
+    finally:
+        app.close()
 
 
 def _first_answer(

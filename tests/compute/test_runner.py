@@ -3,7 +3,8 @@ import threading
 import pytest
 
 from modeviz.compute.cancel import CancelledError, CancelToken
-from modeviz.compute.runner import HERE, N_THREADS
+from modeviz.compute.runner import HERE
+from modeviz.compute.threads import N_THREADS
 
 SOON = 20
 
