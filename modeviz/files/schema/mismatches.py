@@ -13,7 +13,6 @@ path. cattrs takes "12" for a number too, and has neither bounds nor, without ho
 
 import operator
 from collections.abc import Callable, Iterator, Mapping
-from itertools import repeat
 from reprlib import repr as brief
 from typing import Any, Literal, get_args, get_origin
 
@@ -47,6 +46,10 @@ LENGTHS: Bounds = {
     "min_length": (operator.ge, "of length at least {}"),
     "max_length": (operator.le, "of length at most {}"),
 }
+
+
+AT_ONCE = 1000
+"""Items of a list that are asked for together, since lists can have millions."""
 
 
 def mismatch(data: Any, hint: Any, where: str = "") -> str:
@@ -96,13 +99,17 @@ def _in_record(table: dict[str, Any], record: Any, where: str) -> str:
 
 
 def _parts(data: Any, kind: Any) -> Iterator[tuple[str | int, Any, Any]]:
-    """Key, value and type of each item of a table or a list."""
+    """Key, value and type of items of a table or a list, of those at least that do not fit."""
     inner = get_args(kind)
     if isinstance(data, dict):
         yield from ((key, value, inner[1]) for key, value in data.items())
+    elif _is_fixed(kind):
+        yield from ((i, *pair) for i, pair in enumerate(zip(data, inner, strict=True)))
     elif isinstance(data, list):
-        each = inner if _is_fixed(kind) else repeat(inner[0])
-        yield from ((i, value, kind) for i, (value, kind) in enumerate(zip(data, each, strict=False)))
+        for start in range(0, len(data), AT_ONCE):
+            some = data[start : start + AT_ONCE]
+            if not _fits(some, list[inner[0]]):
+                yield from ((start + i, value, inner[0]) for i, value in enumerate(some))
 
 
 def _fits(value: Any, hint: Any) -> bool:
