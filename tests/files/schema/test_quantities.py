@@ -58,10 +58,11 @@ def test_every_number_of_every_record_says_what_it_is(record):
 
 
 def test_records_have_numbers_of_every_quantity():
-    """So that the test above looks at something."""
+    """So that the test above looks at something; and there is one list of quantities."""
     notes = [n for r in RECORDS for hint in fields_of(r).values() for n in numbers_of(hint)]
     found = {name for each in notes for n in each if isinstance(n, Quantity) for name in n.names}
     assert found == set(UNITS) == set(get_args(QuantityName)) == set(WRITTEN_UNITS)
+    assert all(unit in UNITS[quantity] for quantity, unit in WRITTEN_UNITS.items())
 
 
 @pytest.mark.parametrize(
