@@ -141,37 +141,52 @@ def test_what_cannot_be_printed_is_said_and_what_can_be_written_is(tmp_path, hos
     assert read_rates(path, mounted_cabin())
 
 
+@pytest.fixture
+def full():
+    """A stream that takes nothing."""
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        yield full
+
+
 @pytest.mark.parametrize("command", ["modes", "psd", "wheels", "scatter", "optimise"])
-@pytest.mark.parametrize(
-    ("line", "why"),
-    [("MODEVIZ > /dev/full", "No space left on device"), ("MODEVIZ >&-", "it is closed")],
-)
-def test_what_has_nowhere_to_be_printed_is_not_computed(line, why, command):
-    run = shell(line, command, "no vehicle is looked at")
-    assert run.returncode == 2
-    assert run.stderr == f"modeviz: standard output cannot be written ({why})\n"
+def test_what_has_nowhere_to_be_printed_is_not_computed(monkeypatch, capsys, full, command):
+    for stream, why in ((full, "No space left on device"), (None, "it is closed")):
+        monkeypatch.setattr("sys.stdout", stream)
+        assert main([command, "no vehicle is looked at"]) == 2
+        sentence = f"modeviz: standard output cannot be written ({why})\n"
+        assert capsys.readouterr().err == sentence
 
 
 @pytest.mark.parametrize("options", [[], ["--json"]], ids=["table", "json"])
-def test_what_cannot_be_printed_at_the_end_goes_where_errors_go(tmp_path, hostile, options):
+def test_what_cannot_be_printed_at_the_end_goes_where_errors_go(tmp_path, hostile, capsys, options):
     line = f"ulimit -f 0; MODEVIZ > '{tmp_path}/result'"
     run = shell(line, "modes", hostile, *options)
-    expected = shell("MODEVIZ", "modes", hostile, *options)
+    assert main(["modes", hostile, *options]) == 0
     sentence = "modeviz: standard output cannot be written (File too large)\n"
-    assert (run.returncode, run.stderr) == (2, expected.stdout + sentence)
+    assert (run.returncode, run.stderr) == (2, capsys.readouterr().out + sentence)
 
 
-@pytest.mark.parametrize("line", ["MODEVIZ 2>&-", "MODEVIZ 2> /dev/full"])
-def test_results_do_not_need_somewhere_for_errors(hostile, line):
-    run = shell(line, "modes", hostile)
-    assert (run.returncode, run.stderr) == (0, "")
-    assert "Hz" in run.stdout
+def test_results_do_not_need_somewhere_for_errors(monkeypatch, capsys, full, hostile):
+    for stream in (full, None):
+        monkeypatch.setattr("sys.stderr", stream)
+        assert main(["modes", hostile]) == 0
+        assert "Hz" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("line", ["MODEVIZ 2>&-", "MODEVIZ 2> /dev/full", "MODEVIZ >&- 2>&-"])
-def test_an_error_that_nobody_can_read_is_still_a_status(tmp_path, line):
-    run = shell(line, "modes", str(tmp_path))
-    assert (run.returncode, run.stdout, run.stderr) == (2, "", "")
+def test_an_error_that_nobody_can_read_is_still_a_status(monkeypatch, capsys, full, tmp_path):
+    for stream in (full, None):
+        monkeypatch.setattr("sys.stderr", stream)
+        assert main(["modes", str(tmp_path)]) == 2
+        assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize(
+    ("line", "folder", "status"), [("MODEVIZ 2>&-", "{}", 0), ("MODEVIZ >&- 2>&-", "nowhere", 2)]
+)
+def test_a_program_without_a_stream_for_errors_has_its_status(hostile, line, folder, status):
+    run = shell(line, "modes", folder.format(hostile))
+    assert (run.returncode, run.stderr) == (status, "")
+    assert ("Hz" in run.stdout) == (status == 0)
 
 
 def test_the_line_of_the_server_is_cleaned_too(hostile):
