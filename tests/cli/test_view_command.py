@@ -6,34 +6,15 @@ import re
 import signal
 import subprocess
 import sys
-from contextlib import contextmanager
 from urllib.parse import urlsplit
 
 import pytest
 from usual_signals import usual_signals
 
 from modeviz.cli import main
+from modeviz.viewer.page.access import open_server
 
 LINK = re.compile(r"(\S+) is at (http://\S+)  \(Ctrl\+C ends\)\n")
-
-
-@contextmanager
-def served(folder, *options, token=""):
-    """The link that is printed while the page is served."""
-    command = [sys.executable, "-m", "modeviz", "view", folder, "--port", "0", *options]
-    environment = {**os.environ, "MODEVIZ_TOKEN": token}
-    with (
-        usual_signals(),
-        subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run,
-    ):
-        assert run.stdout
-        match = LINK.fullmatch(run.stdout.readline())
-        assert match
-        try:
-            yield match[2]
-        finally:
-            run.send_signal(signal.SIGINT)
-            run.wait(30)
 
 
 def status(link):
@@ -44,32 +25,63 @@ def status(link):
 
 
 def test_the_link_carries_a_new_token_and_opens_the_page(folder):
-    with served(folder) as link:
-        assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{40,}", link)
-        assert status(link) == 303
-        assert status(link.partition("?")[0]) == 403
+    command = [sys.executable, "-m", "modeviz", "view", folder, "--port", "0"]
+    environment = {**os.environ, "MODEVIZ_TOKEN": ""}
+    with (
+        usual_signals(),
+        subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run,
+    ):
+        assert run.stdout
+        match = LINK.fullmatch(run.stdout.readline())
+        assert match
+        link = match[2]
+        try:
+            assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{40,}", link)
+            assert status(link) == 303
+            assert status(link.partition("?")[0]) == 403
+        finally:
+            run.send_signal(signal.SIGINT)
+            run.wait(30)
 
 
-def test_without_a_token_whoever_is_on_this_machine_gets_in(folder):
-    with served(folder, "--no-token", token="found-outside-of-it") as link:
-        assert re.fullmatch(r"http://127\.0\.0\.1:\d+/", link)
-        assert status(link) == 200
+@pytest.fixture
+def link(monkeypatch, folder):
+    """The link of the server that a command opens, on which no page is built."""
+    servers = []
+
+    def serve(vehicle, rates, conditions, host, port, token, *_):
+        servers.append(open_server(host, port, token))
+
+    def link(*options, token=""):
+        monkeypatch.setenv("MODEVIZ_TOKEN", token)
+        assert main(["view", folder, "--port", "0", *options]) == 0
+        return servers[-1].link
+
+    monkeypatch.setattr("modeviz.viewer.app.serve", serve)
+    yield link
+    for server in servers:
+        server.stop()
 
 
-def test_a_token_comes_from_the_environment_or_a_file(folder, tmp_path):
+def test_without_a_token_whoever_is_on_this_machine_gets_in(link):
+    own = link("--no-token", token="found-outside-of-it")
+    assert re.fullmatch(r"http://127\.0\.0\.1:\d+/", own)
+    assert status(own) == 200
+
+
+def test_a_token_comes_from_the_environment_or_a_file(link, tmp_path):
     file = tmp_path / "token"
     file.write_text("read-from-the-file\n", encoding="utf-8")
-    with served(folder, token="found-outside-of-it") as link:
-        assert link.endswith("/?token=found-outside-of-it")
-    with served(folder, "--token-file", str(file), token="found-outside-of-it") as link:
-        assert link.endswith("/?token=read-from-the-file")
-        assert status(link) == 303
+    assert link(token="found-outside-of-it").endswith("/?token=found-outside-of-it")
+    own = link("--token-file", str(file), token="found-outside-of-it")
+    assert own.endswith("/?token=read-from-the-file")
+    assert status(own) == 303
 
 
-def test_the_link_of_a_server_for_others_names_an_address_of_this_machine(folder):
-    with served(folder, "--host", "0.0.0.0") as link:
-        assert urlsplit(link).hostname not in ("0.0.0.0", None)
-        assert status(link) == 303
+def test_the_link_of_a_server_for_others_names_an_address_of_this_machine(link):
+    own = link("--host", "0.0.0.0")
+    assert urlsplit(own).hostname not in ("0.0.0.0", None)
+    assert status(own) == 303
 
 
 @pytest.mark.parametrize(
