@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from independent_solver import Folder
 from random_folders import random_folder
+from shared_preparations import shared_preparations
 
 N_VEHICLES, N_QUICK = 20, 6
 """Each of them uses every key; the others have other numbers, and are slow for being many."""
@@ -19,7 +20,8 @@ RANDOM = ("road", "wind", "quake", "tremor")
 
 @pytest.fixture(scope="module", params=SEEDS)
 def folder(request, tmp_path_factory):
-    return random_folder(tmp_path_factory.mktemp("random") / "vehicle", request.param)
+    with shared_preparations():
+        yield random_folder(tmp_path_factory.mktemp("random") / "vehicle", request.param)
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ from typing import get_args
 
 import pytest
 from builtin_truck import builtin_truck
+from shared_preparations import shared_preparations
 
 import modeviz as mv
 from modeviz.cli import main
@@ -79,6 +80,13 @@ def keys(value) -> set[str]:
     return set(value).union(*inner)
 
 
+@pytest.fixture(scope="module")
+def prepared_once():
+    with shared_preparations():
+        yield
+
+
+@pytest.mark.usefixtures("prepared_once")
 @pytest.mark.parametrize("command", ["modes", "psd", "wheels"])
 def test_json_has_the_keys_that_the_readme_documents(command, capsys: pytest.CaptureFixture[str]):
     (documented,) = re.findall(rf"^{command} +(\{{.*?)^(?=\w)", README, re.DOTALL | re.MULTILINE)

@@ -110,7 +110,7 @@ def fine_rms(vehicle: Vehicle, rates) -> np.ndarray:
     modes = solve(prepare(vehicle, np.array([5.0, 9.0])), rates, ROAD).modes
     gamma = modes.damping_ratio * modes.frequency_hz
     near = [
-        np.clip(f + g * np.sinh(np.linspace(-8, 8, 600)), 0.1, 40)
+        np.clip(f + g * np.sinh(np.linspace(-8, 8, 300)), 0.1, 40)
         for f, g in zip(modes.frequency_hz, gamma, strict=True)
         if f > 0.1
     ]

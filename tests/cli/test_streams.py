@@ -9,6 +9,7 @@ from dataclasses import replace
 import pytest
 from cabin_problem import PROBLEM
 from mounted_cabin import mounted_cabin
+from shared_preparations import shared_preparations
 
 from modeviz.cli import main
 from modeviz.cli.streams import CONTROL, Printed, plain, printable
@@ -39,7 +40,8 @@ def hostile(tmp_path_factory):
     )
     folder = tmp_path_factory.mktemp("vehicles") / "cabin"
     write_vehicle(replace(vehicle, problems=(PROBLEM,)), folder)
-    return str(folder)
+    with shared_preparations():
+        yield str(folder)
 
 
 def printed(monkeypatch, encoding, *arguments):

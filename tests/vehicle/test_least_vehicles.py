@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from mounted_cabin import SOFT, STIFF, mounted_cabin
 from oracles import Beam
+from shared_preparations import shared_preparations
 
 from modeviz.cli import main
 from modeviz.errors import VehicleError
@@ -85,14 +86,15 @@ COMMANDS = {
 def test_every_command_has_an_answer_or_a_sentence(tmp_path, monkeypatch, capsys, name):
     monkeypatch.chdir(tmp_path)
     write_vehicle(VEHICLES[name], tmp_path / "v")
-    for command, options in COMMANDS.items():
-        status = main([command, "v", *options])
-        captured = capsys.readouterr()
-        assert status in (0, 2)
-        assert bool(captured.out) == (status == 0)
-        assert captured.err.count("\n") == (status == 2)
-        assert "nan" not in captured.out.replace("resonance", "")
-    assert main(["modes", "v"]) == 0
+    with shared_preparations():
+        for command, options in COMMANDS.items():
+            status = main([command, "v", *options])
+            captured = capsys.readouterr()
+            assert status in (0, 2)
+            assert bool(captured.out) == (status == 0)
+            assert captured.err.count("\n") == (status == 2)
+            assert "nan" not in captured.out.replace("resonance", "")
+        assert main(["modes", "v"]) == 0
 
 
 def test_a_road_that_no_tyre_passes_on_is_refused(tmp_path, capsys):
