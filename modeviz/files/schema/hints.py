@@ -79,7 +79,7 @@ def each_annotated(
         change: given the value, its annotation, the table that it is in, and its key path.
         where: the key path of the data.
     """
-    hint = plain(hint)
+    hint = _table_kind(hint) if isinstance(data, dict) else plain(hint)
     inner = get_args(hint) or (Any,)
     if isinstance(data, dict) and is_record(hint):
         hints, notes = fields_of(hint), annotations_of(hint, kind)
@@ -100,3 +100,9 @@ def each_annotated(
             for index, value in enumerate(data)
         ]
     return data
+
+
+def _table_kind(hint: Any) -> Any:
+    """What a table is, whatever else its key may be."""
+    kinds = [plain(kind) for kind in alternatives(hint)] or [hint]
+    return next(filter(is_record, kinds), kinds[0])

@@ -91,6 +91,19 @@ def test_a_record_with_a_vector_that_does_not_say_how_it_turns_cannot_be_made():
     assert type("R", (Record,), {"__annotations__": {"place": turning, "yes": bool, "name": str}})
 
 
+class Sized(Record):
+    size: Annotated[float, Quantity("length")]
+
+
+class Either(Record):
+    by: Annotated[tuple[float, ...], UNITLESS] | Sized | None
+
+
+def test_a_table_that_may_be_a_list_too_has_the_quantities_of_its_own():
+    assert to_si({"by": {"size": 2.0}}, Either, {"length": "mm"}) == {"by": {"size": 2e-3}}
+    assert to_si({"by": [2.0]}, Either, {"length": "mm"}) == {"by": [2.0]}
+
+
 def test_a_text_with_a_quantity_is_not_scaled():
     """It names a file, which may say its own unit."""
     data = {"name": "f", "body": "b", "at": [1, 2, 3], "direction": "vertical", "psd": "1"}
