@@ -95,6 +95,8 @@ def _from_json(text: str) -> Rates:
     except (ValueError, RecursionError) as error:
         raise VehicleError(f"not JSON: {unreadable(error)}") from None
     file = decode(data, RatesFile)
+    if not file.rates:
+        return {}
     with located("units"):
         factor(file.units, "stiffness")
     in_si = msgspec.convert(to_si(data, RatesFile, {"stiffness": file.units}), RatesFile)

@@ -139,3 +139,7 @@ def test_rates_cannot_be_written_into_no_folder(tmp_path):
         write_rates(tmp_path / "nowhere" / "a.json", VEHICLE.rates)
     with pytest.raises(VehicleError, match=r"found '\.txt', expected a file of rates, \.json or \.csv"):
         write_rates(tmp_path / "a.txt", VEHICLE.rates)
+
+
+def test_a_file_without_rates_needs_no_unit():
+    assert parse_rates('{"rates": {}}', "json", VEHICLE) == {}
