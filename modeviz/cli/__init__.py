@@ -29,7 +29,7 @@ def _run(arguments: Sequence[str]) -> None:
         from modeviz.cli.parser import parse
         from modeviz.compute.threads import one_thread
 
-    options = parse(arguments)
+    run = parse(arguments)
     with one_thread():
-        options.run(options)
+        run()
     sys.stdout.flush()

@@ -1,17 +1,27 @@
 """The command that searches for better mount rates."""
 
-from argparse import Namespace
-from dataclasses import replace
+from argparse import ArgumentParser
+from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
+from typing import get_args
 
+from modeviz.cli.command import Command, of_options
 from modeviz.cli.front import optimise_front
 from modeviz.cli.interrupt import cancelled_by_interrupt
 from modeviz.cli.options import (
-    chosen_problem,
-    chosen_speed,
-    chosen_tolerance,
-    of_options,
-    vehicle_and_rates,
+    JsonOptions,
+    ProblemOptions,
+    SpeedOptions,
+    ToleranceOptions,
+    VehicleOptions,
+    add_json,
+    add_problem,
+    add_scheduler,
+    add_seed,
+    add_speed,
+    add_tolerances,
+    add_vehicle,
 )
 from modeviz.cli.results import check_printable, keep, print_result
 from modeviz.cli.terminal import progress, say
@@ -19,35 +29,85 @@ from modeviz.compute.cancel import CancelToken
 from modeviz.errors import ModevizError
 from modeviz.files.disk import check_writable
 from modeviz.files.rate_files import rates_format, write_rates
-from modeviz.optimise.run import Optimum, Progress
-from modeviz.optimise.search import Search, prepare_search
+from modeviz.optimise.run import BUDGET, Progress
+from modeviz.optimise.search import prepare_search
 from modeviz.report.optimum import optimum_record, optimum_table
-from modeviz.report.records import Record
-from modeviz.scatter.searching import SearchOptions, find_best
+from modeviz.scatter.searching import FRONT_STARTS, SearchOptions, find_best
 from modeviz.text.wording import significant
-from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.problem import GoalKind, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
-N_STARTS = 20
+
+@dataclass(frozen=True, kw_only=True)
+class OptimiseOptions(VehicleOptions, ProblemOptions, ToleranceOptions, SpeedOptions, JsonOptions):
+    """What `modeviz optimise` is asked for."""
+
+    output: Path | None = None
+    """Where to write what is found, .json or .csv, if anywhere."""
+    goal: str | None = None
+    """Instead of the problem's: one of `GoalKind`."""
+    plain: bool = False
+    """Whether load cases are added up as they are."""
+    starts: int | None = None
+    """None: as many as are usual."""
+    front: str | None = None
+    """Two goals, to find designs between them instead."""
+    everywhere: bool = False
+    """Whether to search everywhere at once instead of from starts."""
+    seed: int = 0
+    """The same finds the same."""
+    budget: int = BUDGET
+    """The most evaluations, besides those that choose where to start."""
+    robust: bool = False
+    """Whether then the 95th percentile over parts is made small."""
+    scheduler: str | None = None
+    """Address of a dask cluster; None: here."""
+
+    def how(self) -> SearchOptions:
+        """Return how the search goes.
+
+        Raises:
+            ModevizError: it cannot go so.
+        """
+        if self.everywhere and self.scheduler:
+            raise ModevizError("--global is one search: expected it without --scheduler")
+        usual = FRONT_STARTS if self.front else SearchOptions.starts
+        tolerance = self.chosen_tolerance() if self.robust else None
+        with of_options():
+            how = SearchOptions(
+                usual if self.starts is None else self.starts,
+                self.seed,
+                self.budget,
+                self.everywhere,
+                tolerance,
+                self.scheduler,
+            )
+        if self.has_tolerance and not self.robust:
+            raise ModevizError("--tolerance and --loss-tolerance: expected them with --robust")
+        return how
+
+    def changed_problem(self, vehicle: Vehicle) -> Problem:
+        """Return the problem that was asked for, as the vehicle has it but for what was changed."""
+        problem = self.chosen_problem(vehicle)
+        if self.goal:
+            problem = replace(problem, goal=self.goal)
+        return replace(problem, is_normalised=problem.is_normalised and not self.plain)
 
 
-def optimise_rates(options: Namespace) -> None:
+def optimise_rates(options: OptimiseOptions) -> None:
     """Searches, writes the rates that were found and prints what they are worth."""
-    if options.everywhere and options.scheduler:
-        raise ModevizError("--global is one search: expected it without --scheduler")
-    how = _how(options)
-    if not options.robust and (options.tolerance, options.loss_tolerance) != (None, None):
-        raise ModevizError("--tolerance and --loss-tolerance: expected them with --robust")
+    how = options.how()
     if options.output is None:
         check_printable()
-    vehicle, rates = vehicle_and_rates(options)
-    problem = _problem(options, vehicle)
-    speed = chosen_speed(options, vehicle)
-    if options.output:
-        rates_format(options.output)
-        check_writable(options.output)
+    vehicle, rates = options.read()
+    problem = options.changed_problem(vehicle)
+    speed = options.chosen_speed(vehicle)
+    output, json = options.output, options.json
+    if output:
+        rates_format(output)
+        check_writable(output)
     if options.front:
-        optimise_front(options, vehicle, problem, rates, speed)
+        optimise_front(options.front, how, vehicle, problem, rates, speed, output, json)
         return
     search = prepare_search(vehicle, problem, rates, speed)
     with cancelled_by_interrupt() as token:
@@ -55,32 +115,10 @@ def optimise_rates(options: Namespace) -> None:
             search, optimum = find_best(search, rates, how, token, partial(_tell, token))
         finally:
             say("")
+        told = optimum_record if json else optimum_table
         keep(
-            lambda: write_rates(options.output, optimum.rates) if options.output else None,
-            lambda: print_result(_result(options, problem, search, optimum)),
-        )
-
-
-def _result(options: Namespace, problem: Problem, search: Search, optimum: Optimum) -> Record | str:
-    told = optimum_record if options.json else optimum_table
-    return told(problem, search, optimum)
-
-
-def _problem(options: Namespace, vehicle: Vehicle) -> Problem:
-    """The problem that was asked for, as the vehicle has it but for what was changed."""
-    problem = chosen_problem(options, vehicle)
-    if options.goal:
-        problem = replace(problem, goal=options.goal)
-    return replace(problem, is_normalised=problem.is_normalised and not options.plain)
-
-
-def _how(options: Namespace) -> SearchOptions:
-    """How the search goes that was asked for."""
-    tolerance = chosen_tolerance(options) if options.robust else None
-    starts = N_STARTS if options.starts is None else options.starts
-    with of_options():
-        return SearchOptions(
-            starts, options.seed, options.budget, options.everywhere, tolerance, options.scheduler
+            lambda: write_rates(output, optimum.rates) if output else None,
+            lambda: print_result(told(problem, search, optimum)),
         )
 
 
@@ -92,3 +130,58 @@ def _tell(token: CancelToken, where: Progress) -> None:
         return
     text = f"search {where.start:3d} of {where.n_starts}, objective {significant(where.value):>9}"
     progress(text)((where.start - 1) / where.n_starts)
+
+
+def _add_options(command: ArgumentParser) -> None:
+    add_vehicle(command)
+    command.add_argument(
+        "--output", type=Path, metavar="FILE", help="where to write what is found: .json or .csv"
+    )
+    add_problem(command)
+    command.add_argument(
+        "--goal", metavar="NAME", help="instead of the problem's: " + ", ".join(get_args(GoalKind))
+    )
+    command.add_argument(
+        "--plain",
+        action="store_true",
+        help="add load cases up as they are, as the paper does, not relative to the original",
+    )
+    command.add_argument(
+        "--starts",
+        type=int,
+        metavar="N",
+        help=f"the first from --rates; default {SearchOptions.starts}, or {FRONT_STARTS} for each "
+        "design of a front",
+    )
+    command.add_argument(
+        "--front",
+        metavar="GOALS",
+        help='find designs between two goals instead, such as "lateral against vertical"',
+    )
+    command.add_argument(
+        "--global",
+        action="store_true",
+        dest="everywhere",
+        help="search everywhere at once instead: slower, and finds what starts may miss",
+    )
+    add_seed(command)
+    command.add_argument(
+        "--budget",
+        type=int,
+        metavar="N",
+        help=f"evaluations, besides those that choose where to start; default {BUDGET}",
+    )
+    command.add_argument(
+        "--robust",
+        action="store_true",
+        help="then make the 95th percentile over mounts within their tolerances small",
+    )
+    add_tolerances(command)
+    add_scheduler(command)
+    add_speed(command)
+    add_json(command)
+
+
+OPTIMISE = Command(
+    "optimise", "search for better mount rates", OptimiseOptions, _add_options, optimise_rates
+)

@@ -1,99 +1,214 @@
-"""What commands share: the vehicle, rates, road and speed that were asked for."""
+"""Options that several commands have, how they are read, and what they stand for."""
 
-import json
-from argparse import Namespace
-from collections.abc import Iterator
-from contextlib import contextmanager
+from argparse import ArgumentParser
+from dataclasses import dataclass
+from pathlib import Path
 
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions
 from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError, located
 from modeviz.files import builtin_vehicle, read_vehicle
-from modeviz.files.rate_settings import resolve_rates
-from modeviz.report.records import Record
+from modeviz.files.rate_settings import ORIGINAL, resolve_rates
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.study.conditions import has_ride, on_even_road, road_conditions
-from modeviz.study.searching import chosen_problem as problem_called
+from modeviz.study.searching import chosen_problem
 from modeviz.units import parse
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 
-def vehicle_and_rates(options: Namespace) -> tuple[Vehicle, Rates]:
-    """The vehicle with its own rates, and the rates chosen; says the notes on the vehicle."""
-    vehicle = read_vehicle(options.vehicle or builtin_vehicle())
-    for note in vehicle.notes:
-        remark(note)
-    return vehicle, resolve_rates(vehicle, options.rates, options.settings)
+@dataclass(frozen=True, kw_only=True)
+class VehicleOptions:
+    """Which vehicle, with which mount rates."""
+
+    vehicle: Path | None = None
+    """Its folder; None: the pickup's."""
+    rates: str = ORIGINAL
+    """The name of a set of the vehicle's, or of a file."""
+    settings: tuple[str, ...] = ()
+    """Single rates, such as "C2.lateral=131 N/mm"."""
+
+    def read(self) -> tuple[Vehicle, Rates]:
+        """Return the vehicle with its own rates, and the rates chosen; says the notes on the vehicle.
+
+        Raises:
+            VehicleError: something is wrong in a file, or there are no such rates.
+        """
+        vehicle = read_vehicle(self.vehicle or builtin_vehicle())
+        for note in vehicle.notes:
+            remark(note)
+        return vehicle, resolve_rates(vehicle, self.rates, self.settings)
 
 
-def conditions(options: Namespace, vehicle: Vehicle) -> Conditions:
-    """The road and the speed chosen, or the vehicle's; raises as `road_conditions`."""
-    return road_conditions(vehicle, options.road, chosen_speed(options, vehicle))
+@dataclass(frozen=True, kw_only=True)
+class SpeedOptions:
+    """How fast."""
+
+    speed: str | None = None
+    """Such as "88 km/h"; None: the vehicle's."""
+
+    def chosen_speed(self, vehicle: Vehicle) -> float:
+        """Return the speed, m/s.
+
+        Raises:
+            ModevizError: it is not a speed above zero.
+        """
+        if self.speed is None:
+            return vehicle.speed
+        with located("--speed"):
+            speed = parse(self.speed, "speed")
+            if speed <= 0:
+                raise ModevizError(f"found {self.speed!r}, expected more than zero")
+        return speed
 
 
-def chosen_speed(options: Namespace, vehicle: Vehicle) -> float:
-    """The speed chosen, or the vehicle's, m/s.
+@dataclass(frozen=True, kw_only=True)
+class RoadOptions(SpeedOptions):
+    """On which road, and how fast."""
 
-    Raises:
-        ModevizError: it is not a speed above zero.
-    """
-    if options.speed is None:
-        return vehicle.speed
-    with located("--speed"):
-        speed = parse(options.speed, "speed")
-        if speed <= 0:
-            raise ModevizError(f"found {options.speed!r}, expected more than zero")
-    return speed
+    road: str | None = None
+    """Name of a road or another random load; None: the vehicle's first."""
 
+    def conditions(self, vehicle: Vehicle) -> Conditions:
+        """Return the road and the speed chosen, or the vehicle's; raises as `road_conditions`."""
+        return road_conditions(vehicle, self.road, self.chosen_speed(vehicle))
 
-def chosen_problem(options: Namespace, vehicle: Vehicle) -> Problem:
-    """The problem of the vehicle or of the file that was named, or else the vehicle's usual one.
+    def ride(self, vehicle: Vehicle) -> Conditions | None:
+        """Return the same; None for a vehicle that nothing shakes or feels, unless it is asked for."""
+        is_asked_for = self.road is not None or self.speed is not None
+        return self.conditions(vehicle) if is_asked_for or has_ride(vehicle) else None
 
-    Raises:
-        VehicleError: there is none of that name, or not in that file, or nothing to make one of.
-    """
-    return problem_called(vehicle, options.problem)
+    def shown(self, vehicle: Vehicle) -> tuple[Vehicle, Conditions]:
+        """Return a vehicle that can be shown, and its ride: without one, on an even road unfelt."""
+        chosen = self.ride(vehicle)
+        return on_even_road(vehicle) if chosen is None else (vehicle, chosen)
 
 
-def chosen_tolerance(options: Namespace) -> Tolerance:
-    """That of the parts, as far as it is given, or else the usual one; raises as `Tolerance`."""
-    given = {"rates": options.tolerance, "loss_factor": options.loss_tolerance}
-    return Tolerance(**{name: value for name, value in given.items() if value is not None})
+@dataclass(frozen=True, kw_only=True)
+class ProblemOptions:
+    """What is to become small."""
+
+    problem: str | None = None
+    """Name of a problem of the vehicle's, or of a .toml file; None: the usual one."""
+
+    def chosen_problem(self, vehicle: Vehicle) -> Problem:
+        """Return that problem; raises as `modeviz.study.searching.chosen_problem`."""
+        return chosen_problem(vehicle, self.problem)
 
 
-def ride(options: Namespace, vehicle: Vehicle) -> Conditions | None:
-    """As `conditions`; None for a vehicle that nothing shakes or feels, unless it is asked for."""
-    asked = options.road is not None or options.speed is not None
-    return conditions(options, vehicle) if asked or has_ride(vehicle) else None
+@dataclass(frozen=True, kw_only=True)
+class ToleranceOptions:
+    """How far parts may be from their drawing."""
+
+    tolerance: float | None = None
+    """A fraction of every mount's hardness, up and down; None: the usual one."""
+    loss_tolerance: float | None = None
+    """A fraction of every mount's loss factor; None: the usual one."""
+
+    @property
+    def has_tolerance(self) -> bool:
+        """Whether one was given."""
+        return (self.tolerance, self.loss_tolerance) != (None, None)
+
+    def chosen_tolerance(self) -> Tolerance:
+        """Return the tolerance, as far as it is given, or else the usual one; raises as `Tolerance`."""
+        given = {"rates": self.tolerance, "loss_factor": self.loss_tolerance}
+        return Tolerance(**{name: value for name, value in given.items() if value is not None})
 
 
-def shown(options: Namespace, vehicle: Vehicle) -> tuple[Vehicle, Conditions]:
-    """A vehicle that can be shown, and what it drives over: without a ride, an even road unfelt."""
-    chosen = ride(options, vehicle)
-    return on_even_road(vehicle) if chosen is None else (vehicle, chosen)
+@dataclass(frozen=True, kw_only=True)
+class JsonOptions:
+    """How a result is printed."""
+
+    json: bool = False
+    """As a record and not as a table."""
 
 
-@contextmanager
-def of_options() -> Iterator[None]:
-    """Names what is wrong inside the block as an option is written: "--seed" for "seed".
+def add_vehicle(command: ArgumentParser) -> None:
+    """Reads `VehicleOptions`."""
+    command.add_argument(
+        "vehicle",
+        nargs="?",
+        default=None,  # what is suppressed here would be read as a path
+        type=Path,
+        metavar="VEHICLE",
+        help="vehicle folder (default: the pickup)",
+    )
+    command.add_argument(
+        "--rates",
+        metavar="NAME|FILE",
+        help="a set of the vehicle's, such as original or optimised, or a JSON or CSV file",
+    )
+    command.add_argument(
+        "--set",
+        action="append",
+        metavar="RATE",
+        dest="settings",
+        help='one rate or loss factor, such as "C2.lateral=131 N/mm" or C2.loss_factor=0.2; may be '
+        "repeated",
+    )
 
-    Raises:
-        ModevizError: something inside raised one.
-    """
-    try:
-        yield
-    except ModevizError as error:
-        raise ModevizError(f"--{error}") from None
+
+def add_speed(command: ArgumentParser) -> None:
+    """Reads `SpeedOptions`."""
+    command.add_argument("--speed", metavar="SPEED", help='such as "88 km/h" (default: the vehicle\'s)')
+
+
+def add_road(command: ArgumentParser) -> None:
+    """Reads `RoadOptions`."""
+    command.add_argument(
+        "--road", metavar="NAME", help="or another random load; default: the vehicle's first road"
+    )
+    add_speed(command)
+
+
+def add_problem(command: ArgumentParser, what: str = "") -> None:
+    """Reads `ProblemOptions`; `what` it is for begins its help."""
+    command.add_argument(
+        "--problem",
+        metavar="NAME|FILE",
+        help=f"{what}a .toml file that the page saved is one, too (default: the vehicle's first)",
+    )
+
+
+def add_tolerances(command: ArgumentParser) -> None:
+    """Reads `ToleranceOptions`."""
+    usual = Tolerance()
+    command.add_argument(
+        "--tolerance",
+        type=float,
+        metavar="PART",
+        help=f"of every mount's hardness, up and down; default {usual.rates:g}",
+    )
+    command.add_argument(
+        "--loss-tolerance",
+        type=float,
+        metavar="PART",
+        help=f"of every mount's loss factor; default {usual.loss_factor:g}",
+    )
+
+
+def add_seed(command: ArgumentParser) -> None:
+    """Reads a field `seed`."""
+    command.add_argument("--seed", type=int, metavar="N", help="random seed")
+
+
+def add_scheduler(command: ArgumentParser) -> None:
+    """Reads a field `scheduler`."""
+    command.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="compute on the dask cluster there, as tcp://10.0.0.1:8786 (default: here)",
+    )
+
+
+def add_json(command: ArgumentParser) -> None:
+    """Reads `JsonOptions`."""
+    command.add_argument("--json", action="store_true", help="print JSON instead of a table")
 
 
 def prepare_telling(vehicle: Vehicle) -> Prepared:
-    """Prepares a vehicle and shows on a terminal how far that is."""
+    """Return a vehicle made ready; shows on a terminal how far that is."""
     return prepare(vehicle, progress=progress("preparing"))
-
-
-def json_text(record: Record) -> str:
-    """A record as it is printed."""
-    return json.dumps(record, indent=1, ensure_ascii=False)

@@ -1,57 +1,58 @@
 """The command that writes a comparison of two sets of rates as an HTML file."""
 
-from argparse import Namespace
-from collections.abc import Sequence
-from datetime import date
+from argparse import ArgumentParser
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from modeviz.analysis.exact_check import Check, checked
 from modeviz.analysis.results import Conditions
+from modeviz.cli.command import Command
 from modeviz.cli.interrupt import ended_by_interrupt
-from modeviz.cli.options import prepare_telling, ride, vehicle_and_rates
-from modeviz.cli.terminal import Teller, progress, say
+from modeviz.cli.options import RoadOptions, VehicleOptions, add_road, add_vehicle, prepare_telling
+from modeviz.cli.terminal import Teller, say
 from modeviz.errors import ModevizError
-from modeviz.files.disk import check_writable, write_text
-from modeviz.files.rate_settings import resolve_rates
-from modeviz.report.comparison import Comparison, RateSet, compare
-from modeviz.report.html import Picture, report
+from modeviz.files.disk import check_writable
+from modeviz.files.rate_settings import ORIGINAL, resolve_rates
+from modeviz.report.comparison import RateSet
+from modeviz.report.html import Picture
+from modeviz.study.pictures import report_pictures
+from modeviz.study.reporting import write_report
 from modeviz.vehicle.vehicle import Vehicle
 
-PICTURE_SIZE = (1280, 800)
-"""Pixels."""
+
+@dataclass(frozen=True, kw_only=True)
+class ReportOptions(VehicleOptions, RoadOptions):
+    """What `modeviz report` is asked for."""
+
+    against: str = ORIGINAL
+    """The name of a set of the vehicle's, or of a file."""
+    output: Path = Path("report.html")
+    pictures: bool = True
+    """Whether it has some."""
 
 
-def write_report(options: Namespace) -> None:
+def compare_rates(options: ReportOptions) -> None:
     """Solves with both sets of rates, checks the answer and writes the report."""
-    vehicle, rates = vehicle_and_rates(options)
+    vehicle, rates = options.read()
     base = RateSet(_name(options.against), resolve_rates(vehicle, options.against))
     now = RateSet(_name(options.rates, bool(options.settings)), rates)
-    chosen = ride(options, vehicle)
+    conditions = options.ride(vehicle)
     check_writable(options.output)
-    pictures = _pictures(vehicle, (base, now), chosen) if options.pictures else []
-    comparison = compare(prepare_telling(vehicle), base, now, chosen)
-    page = report(comparison, date.today(), pictures, _check(comparison))
-    write_text(options.output, page)
+    pictures = []
+    if options.pictures and conditions is not None:
+        pictures = _pictures(vehicle, (base, now), conditions)
+    prepare = partial(prepare_telling, vehicle)
+    write_report(options.output, prepare, (base, now), conditions, pictures, Teller())
     print(f"{options.output}: {now.name} against {base.name}")
 
 
-def _pictures(
-    vehicle: Vehicle, sets: Sequence[RateSet], conditions: Conditions | None
-) -> list[Picture]:
-    """The mode the page would open with, with both sets of rates; none of a vehicle without a road."""
-    if conditions is None:
-        return []
+def _pictures(vehicle: Vehicle, sets: tuple[RateSet, RateSet], conditions: Conditions) -> list[Picture]:
+    """The mode the page would open with, with both sets of rates."""
     with ended_by_interrupt():
-        from modeviz.viewer.pictures.pictures import (
-            ImageSettings,  # viser alone takes a second to import
-        )
-        from modeviz.viewer.rendering import RenderRequest, photographs
-        from modeviz.viewer.scene.stage import FIELD_OF_VIEW, ISO, LIGHT
+        import modeviz.viewer.rendering  # noqa: F401  viser alone takes a second
 
-    wish = RenderRequest("", ISO, "bodies", amplitude=1.0, phase=0.0, n_frames=1)
-    shot = ImageSettings(*PICTURE_SIZE, "white", LIGHT, FIELD_OF_VIEW)
     try:
-        return photographs(vehicle, sets, conditions, wish, shot, Teller())
+        return report_pictures(vehicle, sets, conditions, Teller())
     except ModevizError as error:
         raise ModevizError(f"{error}; or leave the pictures out with --no-pictures") from error
     finally:
@@ -63,11 +64,27 @@ def _name(choice: str, is_changed: bool = False) -> str:
     return f"{Path(choice).name}, changed" if is_changed else Path(choice).name
 
 
-def _check(comparison: Comparison) -> Check | None:
-    """The second set of rates against the full model, solved from scratch; None without a road."""
-    if comparison.rides is None:
-        return None
-    tell = progress("checking")
-    found = checked(comparison.rides[1], tell)
-    tell(1.0)
-    return found
+def _add_options(command: ArgumentParser) -> None:
+    add_vehicle(command)
+    command.add_argument(
+        "--against",
+        metavar="NAME|FILE",
+        help="the rates that those of --rates are compared with (default: original)",
+    )
+    add_road(command)
+    command.add_argument("--output", type=Path, metavar="FILE", help="default report.html")
+    command.add_argument(
+        "--no-pictures",
+        action="store_false",
+        dest="pictures",
+        help="without the pictures, for which a Chromium is needed",
+    )
+
+
+REPORT = Command(
+    "report",
+    "write a comparison of two sets of rates as HTML",
+    ReportOptions,
+    _add_options,
+    compare_rates,
+)

@@ -4,7 +4,6 @@ import json
 import sys
 from collections.abc import Callable
 
-from modeviz.cli.options import json_text
 from modeviz.cli.streams import Printed, plain
 from modeviz.errors import ModevizError
 from modeviz.report.records import Record
@@ -34,6 +33,11 @@ def print_result(result: Record | str) -> None:
     except ModevizError:
         print(text, file=sys.stderr)
         raise
+
+
+def json_text(record: Record) -> str:
+    """Return a record as it is printed."""
+    return json.dumps(record, indent=1, ensure_ascii=False)
 
 
 def _json(record: Record) -> str:

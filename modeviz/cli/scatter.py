@@ -1,16 +1,25 @@
 """The command that drives many vehicles whose mounts scatter."""
 
-from argparse import Namespace
+from argparse import ArgumentParser
+from dataclasses import dataclass
 from functools import partial
 
+from modeviz.cli.command import Command, of_options
 from modeviz.cli.interrupt import cancelled_by_interrupt
 from modeviz.cli.options import (
-    chosen_problem,
-    chosen_tolerance,
-    conditions,
-    of_options,
+    JsonOptions,
+    ProblemOptions,
+    RoadOptions,
+    ToleranceOptions,
+    VehicleOptions,
+    add_json,
+    add_problem,
+    add_road,
+    add_scheduler,
+    add_seed,
+    add_tolerances,
+    add_vehicle,
     prepare_telling,
-    vehicle_and_rates,
 )
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import progress, remark, say
@@ -19,25 +28,42 @@ from modeviz.scatter.driving import ScatterOptions, drive_many
 from modeviz.study.conditions import need
 
 
-def scatter_mounts(options: Namespace) -> None:
+@dataclass(frozen=True, kw_only=True)
+class ScatterCommandOptions(VehicleOptions, ToleranceOptions, ProblemOptions, RoadOptions, JsonOptions):
+    """What `modeviz scatter` is asked for."""
+
+    samples: int = 1000
+    """How many vehicles."""
+    seed: int = 0
+    """The same gives the same vehicles."""
+    point: str | None = None
+    """Name of the response point that is looked at; None: the vehicle's first."""
+    scheduler: str | None = None
+    """Address of a dask cluster; None: here."""
+
+    def chosen_vehicles(self) -> ScatterOptions:
+        """Return which vehicles are driven; raises ModevizError for what cannot be."""
+        points = () if self.point is None else (self.point,)
+        tolerance = self.chosen_tolerance()
+        with of_options():
+            return ScatterOptions(self.samples, tolerance, self.seed, points, self.scheduler)
+
+
+def scatter_mounts(options: ScatterCommandOptions) -> None:
     """Prints percentiles of ride and goal, the worst corner, and which mounts make the spread."""
     check_printable()
-    tolerance = chosen_tolerance(options)
-    with of_options():
-        chosen_vehicles = ScatterOptions(
-            options.samples, tolerance, options.seed, _points(options), options.scheduler
-        )
-    vehicle, rates = vehicle_and_rates(options)
+    chosen_vehicles = options.chosen_vehicles()
+    vehicle, rates = options.read()
     need(vehicle, "mount group", vehicle.mount_groups)
-    chosen = conditions(options, vehicle)
-    problem = chosen_problem(options, vehicle)
+    conditions = options.conditions(vehicle)
+    problem = options.chosen_problem(vehicle)
     with cancelled_by_interrupt() as token:
         try:
             told = drive_many(
                 vehicle,
                 partial(prepare_telling, vehicle),
                 rates,
-                chosen,
+                conditions,
                 problem,
                 chosen_vehicles,
                 token,
@@ -51,6 +77,22 @@ def scatter_mounts(options: Namespace) -> None:
         print_result(scatter_record(told) if options.json else scatter_table(told))
 
 
-def _points(options: Namespace) -> tuple[str, ...]:
-    """The response point that is looked at, if one was named."""
-    return () if options.point is None else (options.point,)
+def _add_options(command: ArgumentParser) -> None:
+    add_vehicle(command)
+    command.add_argument("--samples", type=int, metavar="N", help="default 1000")
+    add_seed(command)
+    add_tolerances(command)
+    add_problem(command, "whose goal; ")
+    command.add_argument("--point", metavar="NAME", help="response point; default: the vehicle's first")
+    add_road(command)
+    add_scheduler(command)
+    add_json(command)
+
+
+SCATTER = Command(
+    "scatter",
+    "drive many vehicles whose mounts are not as drawn",
+    ScatterCommandOptions,
+    _add_options,
+    scatter_mounts,
+)

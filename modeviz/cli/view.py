@@ -1,21 +1,46 @@
 """The command that opens a vehicle in the browser."""
 
-from argparse import Namespace
+from argparse import ArgumentParser
+from dataclasses import dataclass
+from pathlib import Path
 
+from modeviz.cli.command import Command
 from modeviz.cli.interrupt import ended_by_interrupt
-from modeviz.cli.options import shown, vehicle_and_rates
+from modeviz.cli.options import RoadOptions, VehicleOptions, add_road, add_vehicle
 from modeviz.cli.terminal import progress
 
+DEFAULT_PORT = 8080
 
-def view(options: Namespace) -> None:
+
+@dataclass(frozen=True, kw_only=True)
+class ViewOptions(VehicleOptions, RoadOptions):
+    """What `modeviz view` is asked for."""
+
+    host: str = "127.0.0.1"
+    """Address to listen on."""
+    port: int = DEFAULT_PORT
+    """0 takes a free one."""
+    public_names: tuple[str, ...] = ()
+    """Under which a proxy makes the page known."""
+    token: str | None = None
+    """Asked of every visitor; None: that of a file, of the environment, or a new one."""
+    token_file: Path | None = None
+    """Holds the token."""
+    has_token: bool = True
+    """Whether a token is asked for at all."""
+    dark: bool = False
+    """Whether the page is dark."""
+
+
+def view(options: ViewOptions) -> None:
     """Serves the page until it is stopped."""
     with ended_by_interrupt():
         from modeviz.viewer.app import serve  # viser alone takes a second to import
         from modeviz.viewer.page.tokens import chosen_token
 
     token = chosen_token(options.token, options.token_file, options.has_token)
-    vehicle, start = vehicle_and_rates(options)
-    vehicle, chosen = shown(options, vehicle)
+    vehicle, start = options.read()
+    vehicle, chosen = options.shown(vehicle)
     serve(
         vehicle,
         start,
@@ -27,3 +52,36 @@ def view(options: Namespace) -> None:
         progress("preparing"),
         options.public_names,
     )
+
+
+def _add_options(command: ArgumentParser) -> None:
+    add_vehicle(command)
+    add_road(command)
+    command.add_argument(
+        "--host", help="address to listen on, such as 0.0.0.0 for colleagues (default: this machine)"
+    )
+    command.add_argument("--port", type=int, help=f"default {DEFAULT_PORT}; 0 takes a free one")
+    command.add_argument(
+        "--public-name",
+        action="append",
+        metavar="NAME",
+        dest="public_names",
+        help="under which a proxy makes the page known, such as tool.example.com; may be repeated",
+    )
+    token = command.add_mutually_exclusive_group()
+    token.add_argument(
+        "--token",
+        help="asked of every visitor (default: that of the environment's MODEVIZ_TOKEN, or else a new "
+        "one, in the link that is printed); everybody on this machine can read it here",
+    )
+    token.add_argument("--token-file", type=Path, metavar="FILE", help="that holds the token")
+    token.add_argument(
+        "--no-token",
+        action="store_false",
+        dest="has_token",
+        help="let in whoever is on this machine",
+    )
+    command.add_argument("--dark", action="store_true", help="dark page")
+
+
+VIEW = Command("view", "open the vehicle in the browser", ViewOptions, _add_options, view)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from modeviz.errors import VehicleError
+from modeviz.errors import ModevizError, VehicleError, unknown
 from modeviz.optimise.goals import Goal
 from modeviz.optimise.min_max import MinMax
 from modeviz.optimise.search import Search, prepare_search
@@ -111,6 +111,18 @@ def sides(vehicle: Vehicle, problem: Problem) -> dict[str, tuple[Side, Side]]:
             for second in every[i + 1 :]:
                 found[f"{first.name} against {second.name}"] = first, second
     return found
+
+
+def chosen_sides(vehicle: Vehicle, problem: Problem, name: str) -> tuple[Side, Side]:
+    """Return one of `sides`.
+
+    Raises:
+        ModevizError: the problem does not offer that.
+    """
+    offers = sides(vehicle, problem)
+    if name not in offers:
+        raise ModevizError(unknown("trade-off", name, offers))
+    return offers[name]
 
 
 def prepare_trade_off(

@@ -16,6 +16,9 @@ from modeviz.scatter.robust import optimise_robustly, robust_search
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.vehicle.connections import Rates
 
+FRONT_STARTS = 5
+"""Usual for each design of a front, besides those found before."""
+
 
 @dataclass(frozen=True)
 class SearchOptions:

@@ -1,6 +1,7 @@
 """The page of a study: in a browser, or in a notebook's cell."""
 
 import sys
+import threading
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import partial
@@ -39,6 +40,15 @@ class Page:
     def rates(self) -> dict[str, MountRates]:
         """The mount rates that are on the page now, of every group, N/m."""
         return dict(self.app.session.state.rates)
+
+    def wait(self) -> None:
+        """Wait for Ctrl+C, then close it."""
+        try:
+            threading.Event().wait()
+        except KeyboardInterrupt:
+            pass
+        finally:
+            self.close()
 
     def close(self) -> None:
         """Close it; whoever has it open is told."""

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError
+from modeviz.files.disk import write_bytes
 from modeviz.report.comparison import RateSet
 from modeviz.report.html import Picture
 from modeviz.study.notebook import block
@@ -17,12 +18,13 @@ from modeviz.study.telling import Tell
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
+if TYPE_CHECKING:
+    from modeviz.viewer.pictures.pictures import ImageSettings
+    from modeviz.viewer.rendering import Kind, RenderRequest
+
 View = Literal["Iso", "Side", "Front", "Top", "Under"]
 Colors = Literal["bodies", "displacement", "kinetic energy", "strain energy"]
 Background = Literal["scene", "white", "transparent"]
-
-REPORT_SIZE = (1280, 800)
-"""Pixels of a report's pictures."""
 
 SHOWN = {
     ".png": '<img alt="{name}" style="max-width:100%" src="data:image/png;base64,{data}">',
@@ -49,26 +51,26 @@ class WrittenFile:
         return block(str(self.path), f"<div>{shown}</div>")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PictureOptions:
     """What is to be seen, and how."""
 
-    mode: str
+    mode: str = ""
     """Its name; "" is the one that the page opens with."""
-    view: View
-    color: Colors
+    view: View = "Iso"
+    color: Colors = "bodies"
     """What the colours of bodies mean."""
-    background: Background
-    dark: bool
-    width: int
+    background: Background = "scene"
+    dark: bool = False
+    width: int = 1280
     """Pixels."""
-    height: int
+    height: int = 720
     """Pixels."""
-    amplitude: float
+    amplitude: float = 1.0
     """Times the usual one."""
-    phase: float
+    phase: float = 0.0
     """Of a still picture, degrees: 0 is the largest."""
-    frames: int
+    frames: int = 36
     """Of a cycle of a moving one."""
 
     def __post_init__(self) -> None:
@@ -78,45 +80,55 @@ class PictureOptions:
                 raise ModevizError(f"{name}: found {found:g}, expected {low} to {high}")
 
 
-def draw(
-    vehicle: Vehicle,
-    rates: Rates,
-    conditions: Conditions,
-    path: Path,
-    options: PictureOptions,
-    tell: Tell,
-) -> bytes:
-    """Return the content of a picture file, whose ending says its kind.
-
-    Args:
-        vehicle: with the rates that all is compared with.
-        rates: to show it with.
-        conditions: of the plots in an offline page.
-        path: of the file.
-        options: what is to be seen, and how.
-        tell: told how far it is.
+def picture_kind(path: Path) -> "Kind":
+    """Return the kind of a picture file, which its ending says.
 
     Raises:
-        ModevizError: the path ends otherwise, there is no such mode, or what draws is missing.
+        ModevizError: it ends otherwise.
     """
-    from modeviz.viewer.pictures.pictures import ImageSettings
-    from modeviz.viewer.rendering import KINDS, RenderRequest, render
-    from modeviz.viewer.scene.stage import DARK, FIELD_OF_VIEW, LIGHT
+    from modeviz.viewer.rendering import KINDS
 
     kind = KINDS.get(path.suffix.lower())
     if kind is None:
         raise ModevizError(f"found {path.name!r}, expected a name that ends in {', '.join(KINDS)}")
+    return kind
+
+
+def image_settings(options: PictureOptions) -> "ImageSettings":
+    """Return how a picture is drawn; raises ModevizError for a size that is none."""
+    from modeviz.viewer.pictures.pictures import ImageSettings
+    from modeviz.viewer.scene.stage import DARK, FIELD_OF_VIEW, LIGHT
+
     theme = DARK if options.dark else LIGHT
-    settings = ImageSettings(options.width, options.height, options.background, theme, FIELD_OF_VIEW)
-    request = RenderRequest(
-        options.mode,
-        options.view,
-        options.color,
-        options.amplitude,
-        math.radians(options.phase),
-        options.frames,
-    )
-    return render(vehicle, rates, conditions, request, settings, kind, tell)
+    return ImageSettings(options.width, options.height, options.background, theme, FIELD_OF_VIEW)
+
+
+def draw(
+    path: Path,
+    options: PictureOptions,
+    vehicle: Vehicle,
+    rates: Rates,
+    conditions: Conditions,
+    tell: Tell,
+) -> None:
+    """Draws a vehicle in one of its modes, and writes the file.
+
+    Args:
+        path: of the file, whose ending says its kind.
+        options: what is to be seen, and how.
+        vehicle: with the rates that all is compared with.
+        rates: to show it with.
+        conditions: of the plots in an offline page.
+        tell: told how far it is.
+
+    Raises:
+        ModevizError: there is no such mode, what draws is missing, or the file cannot be written.
+    """
+    from modeviz.viewer.rendering import render
+
+    request, settings = _request(options), image_settings(options)
+    content = render(vehicle, rates, conditions, request, settings, picture_kind(path), tell)
+    write_bytes(path, content)
 
 
 def report_pictures(
@@ -127,10 +139,20 @@ def report_pictures(
     Raises:
         ModevizError: what draws is missing.
     """
-    from modeviz.viewer.pictures.pictures import ImageSettings
-    from modeviz.viewer.rendering import RenderRequest, photographs
-    from modeviz.viewer.scene.stage import FIELD_OF_VIEW, ISO, LIGHT
+    from modeviz.viewer.rendering import photographs
 
-    request = RenderRequest("", ISO, "bodies", amplitude=1.0, phase=0.0, n_frames=1)
-    settings = ImageSettings(*REPORT_SIZE, "white", LIGHT, FIELD_OF_VIEW)
+    request, settings = _request(REPORT_PICTURE), image_settings(REPORT_PICTURE)
     return photographs(vehicle, sets, conditions, request, settings, tell)
+
+
+def _request(options: PictureOptions) -> "RenderRequest":
+    """What is to be seen, as the viewer has it."""
+    from modeviz.viewer.rendering import RenderRequest
+
+    phase = math.radians(options.phase)
+    return RenderRequest(
+        options.mode, options.view, options.color, options.amplitude, phase, options.frames
+    )
+
+
+REPORT_PICTURE = PictureOptions(background="white", width=1280, height=800)

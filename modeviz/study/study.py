@@ -1,44 +1,27 @@
 """One vehicle, its mount rates, and all there is to ask of them."""
 
-import threading
-from datetime import date
 from functools import partial
 from os import PathLike
 from pathlib import Path
 
-from modeviz.analysis.exact_check import Check, checked
 from modeviz.analysis.following import solve_followed
-from modeviz.analysis.preparation import Prepared, PreparedModes, prepare, prepare_modes
-from modeviz.analysis.results import Conditions, Results, solve, solve_wheels
+from modeviz.analysis.results import solve_wheels
 from modeviz.analysis.sensitivity import sensitivity
 from modeviz.compute.threads import one_thread
 from modeviz.dynamics.band import Method
-from modeviz.errors import ModevizError, located, unknown
+from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle, read_vehicle
-from modeviz.files.disk import check_writable, write_bytes, write_text
-from modeviz.files.rate_settings import ORIGINAL, resolve_rates
 from modeviz.optimise.run import BUDGET
 from modeviz.optimise.search import prepare_search
-from modeviz.optimise.trade_off import prepare_trade_off, sides
-from modeviz.report.comparison import Comparison, RateSet, compare
-from modeviz.report.html import report
+from modeviz.optimise.trade_off import chosen_sides, prepare_trade_off
 from modeviz.scatter.driving import ScatterOptions, drive_many
-from modeviz.scatter.searching import SearchOptions, find_best
+from modeviz.scatter.searching import FRONT_STARTS, SearchOptions, find_best
 from modeviz.scatter.tolerance import Tolerance
-from modeviz.study.conditions import has_ride, need, on_even_road, road_conditions
+from modeviz.study.conditions import has_ride, need, road_conditions
 from modeviz.study.modes import ModesTable
 from modeviz.study.notebook import block, paragraphs
 from modeviz.study.optimum import OptimiseResult
-from modeviz.study.page import Page, is_notebook, open_page
-from modeviz.study.pictures import (
-    Background,
-    Colors,
-    PictureOptions,
-    View,
-    WrittenFile,
-    draw,
-    report_pictures,
-)
+from modeviz.study.output import StudyOutput
 from modeviz.study.rates import StudyRates
 from modeviz.study.ride import Ride
 from modeviz.study.scatter import ScatterResult
@@ -46,13 +29,13 @@ from modeviz.study.searching import chosen_problem, find_designs, telling
 from modeviz.study.sensitivity import RateSensitivity
 from modeviz.study.telling import Tell, cancelled_by_ctrl_c, say_nothing
 from modeviz.study.trade_off import FrontResult
+from modeviz.study.tuned_vehicle import TunedVehicle
 from modeviz.study.wheels import WheelRide
-from modeviz.units import parse
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 
-class Study:
+class Study(StudyOutput):
     """One vehicle, its mount rates, and all there is to ask of them.
 
         study = mv.Study("my-vehicle")               # a folder, a Vehicle, or nothing: the pickup
@@ -83,44 +66,37 @@ class Study:
         """
         if not isinstance(vehicle, Vehicle):
             vehicle = read_vehicle(builtin_vehicle() if vehicle is None else Path(vehicle))
-        self._vehicle, self._tell = vehicle, progress or say_nothing
-        self._speed = vehicle.speed
-        self._prepared: PreparedModes | None = None
-        self._page: Page | None = None
-        self._rates = StudyRates(vehicle)
+        tell = progress or say_nothing
+        super().__init__(TunedVehicle(vehicle, tell), tell)
 
     @property
     def rates(self) -> StudyRates:
         """The present mount rates, which are read, set and reset through it."""
-        return self._rates
+        return self._tuned.rates
 
     @property
     def vehicle(self) -> Vehicle:
         """With the rates that it has in its file; what reading it had to say is in its `notes`."""
-        return self._vehicle
+        return self._tuned.vehicle
 
     @property
     def speed(self) -> float:
         """On the roads, m/s; set to a number, or to a text with its unit, "88 km/h"."""
-        return self._speed
+        return self._tuned.speed
 
     @speed.setter
     def speed(self, value: float | str) -> None:
-        with located("speed"):
-            speed = parse(value, "speed") if isinstance(value, str) else float(value)
-            if not 0 < speed < float("inf"):
-                raise ModevizError(f"found {value}, expected a finite speed above zero")
-        self._speed = speed
+        self._tuned.speed = value
 
     @property
     def roads(self) -> tuple[str, ...]:
         """The names of the roads and other random loads."""
-        return tuple(load.name for load in self._vehicle.random_loads)
+        return tuple(load.name for load in self.vehicle.random_loads)
 
     @property
     def points(self) -> tuple[str, ...]:
         """The names of the response points, the driver's first."""
-        return tuple(point.name for point in self._vehicle.response_points)
+        return tuple(point.name for point in self.vehicle.response_points)
 
     @one_thread()
     def modes(self, below_hz: float | None = None, method: Method = "enriched") -> ModesTable:
@@ -134,11 +110,10 @@ class Study:
             ModevizError: that frequency is not above zero.
             SolveError: the vehicle has no meaningful modes.
         """
-        top = self._vehicle.highest_frequency
-        below = top if below_hz is None else below_hz
+        below = self.vehicle.highest_frequency if below_hz is None else below_hz
         if not 0 < below < float("inf"):
             raise ModevizError(f"below_hz: found {below:g}, expected a frequency above zero")
-        prepared = self._modes_prepared() if below <= top else prepare_modes(self._vehicle, below)
+        prepared = self._tuned.prepared_modes(below)
         return ModesTable(solve_followed(prepared, self.rates.by_group, method), below)
 
     @one_thread()
@@ -151,7 +126,7 @@ class Study:
         Raises:
             ModevizError: there is no such road, or nothing to drive or to feel it with.
         """
-        return Ride(self._ride(road))
+        return Ride(self._tuned.ride(road))
 
     @one_thread()
     def wheels(self) -> WheelRide:
@@ -160,11 +135,11 @@ class Study:
         Raises:
             ModevizError: the vehicle has no such load, or nothing to feel it with.
         """
-        vehicle = self._vehicle
+        vehicle = self.vehicle
         need(vehicle, "response point", vehicle.response_points)
         need(vehicle, "wheel load", vehicle.harmonic_loads)
-        results = solve_wheels(self._all_prepared(), self.rates.by_group)
-        ride = self._ride(None) if has_ride(vehicle) else None
+        results = solve_wheels(self._tuned.prepared(), self.rates.by_group)
+        ride = self._tuned.ride(None) if has_ride(vehicle) else None
         return WheelRide(vehicle.with_rates(self.rates.by_group), results, ride)
 
     @one_thread()
@@ -177,15 +152,15 @@ class Study:
         Raises:
             ModevizError: as `ride`.
         """
-        need(self._vehicle, "mount group", self._vehicle.mount_groups)
-        results = self._ride(road)
-        return RateSensitivity(results, sensitivity(self._all_prepared(), results))
+        need(self.vehicle, "mount group", self.vehicle.mount_groups)
+        results = self._tuned.ride(road)
+        return RateSensitivity(results, sensitivity(self._tuned.prepared(), results))
 
     @one_thread()
     def optimise(
         self,
         problem: "str | Path | Problem | None" = None,
-        starts: int = 20,
+        starts: int = SearchOptions.starts,
         *,
         seed: int = 0,
         budget: int = BUDGET,
@@ -210,8 +185,8 @@ class Study:
             SolveError: a design that cannot be solved, or none that keeps a mode where it has to be.
         """
         options = SearchOptions(starts, seed, budget, everywhere, robust, scheduler)
-        chosen, rates = chosen_problem(self._vehicle, problem), self.rates.by_group
-        search = prepare_search(self._vehicle, chosen, rates, self._speed)
+        chosen, rates = chosen_problem(self.vehicle, problem), self.rates.by_group
+        search = prepare_search(self.vehicle, chosen, rates, self.speed)
         with cancelled_by_ctrl_c() as token:
             self._tell("choosing where to start", 0.0)
             search, optimum = find_best(search, rates, options, token, telling(self._tell, token))
@@ -222,7 +197,7 @@ class Study:
         self,
         goals: str,
         problem: "str | Path | Problem | None" = None,
-        starts: int = 5,
+        starts: int = FRONT_STARTS,
         *,
         seed: int = 0,
         budget: int = BUDGET,
@@ -240,11 +215,9 @@ class Study:
             ModevizError: the problem has no such goals; else as `optimise`.
         """
         options = SearchOptions(starts, seed, budget)
-        chosen, rates = chosen_problem(self._vehicle, problem), self.rates.by_group
-        offers = sides(self._vehicle, chosen)
-        if goals not in offers:
-            raise ModevizError(unknown("trade-off", goals, offers))
-        trade_off = prepare_trade_off(self._vehicle, chosen, offers[goals], rates, self._speed)
+        chosen, rates = chosen_problem(self.vehicle, problem), self.rates.by_group
+        pair = chosen_sides(self.vehicle, chosen, goals)
+        trade_off = prepare_trade_off(self.vehicle, chosen, pair, rates, self.speed)
         with cancelled_by_ctrl_c() as token:
             front = find_designs(trade_off, rates, options, token, self._tell)
         return FrontResult(chosen, trade_off, front)
@@ -275,16 +248,16 @@ class Study:
         Raises:
             ModevizError: there is no such problem, road or point, or its goal does not scatter.
         """
-        need(self._vehicle, "mount group", self._vehicle.mount_groups)
+        need(self.vehicle, "mount group", self.vehicle.mount_groups)
         points = () if point is None else (point,)
         options = ScatterOptions(samples, tolerance or Tolerance(), seed, points, scheduler)
-        conditions = road_conditions(self._vehicle, road, self._speed)
-        chosen, rates = chosen_problem(self._vehicle, problem), self.rates.by_group
+        conditions = road_conditions(self.vehicle, road, self.speed)
+        chosen, rates = chosen_problem(self.vehicle, problem), self.rates.by_group
         tell = partial(self._tell, "scattering")
         with cancelled_by_ctrl_c() as token:
             told = drive_many(
-                self._vehicle,
-                self._all_prepared,
+                self.vehicle,
+                self._tuned.prepared,
                 rates,
                 conditions,
                 chosen,
@@ -294,165 +267,10 @@ class Study:
             )
         return ScatterResult(told)
 
-    @one_thread()
-    def report(
-        self,
-        path: "str | PathLike[str]" = "report.html",
-        against: str = ORIGINAL,
-        *,
-        road: str | None = None,
-        pictures: bool = True,
-    ) -> WrittenFile:
-        """Write a comparison of the present rates with others as an HTML file that needs no network.
-
-        Args:
-            path: of the file.
-            against: "original", the name of a set of the vehicle, or a JSON or CSV file.
-            road: as of `ride`.
-            pictures: whether it has some, for which a Chromium is needed.
-
-        Raises:
-            ModevizError: there is no such set or road, it cannot be written, or what draws is missing.
-        """
-        base = RateSet(Path(against).name, resolve_rates(self._vehicle, against))
-        now = RateSet(self.rates.name, self.rates.by_group)
-        conditions = self._conditions(road)
-        check_writable(Path(path))
-        drawn = []
-        if pictures and conditions is not None:
-            drawn = report_pictures(self._vehicle, (base, now), conditions, self._tell)
-        comparison = compare(self._all_prepared(), base, now, conditions)
-        write_text(Path(path), report(comparison, date.today(), drawn, self._checked(comparison)))
-        return WrittenFile(Path(path))
-
-    @one_thread()
-    def render(
-        self,
-        path: "str | PathLike[str]",
-        mode: str = "",
-        *,
-        view: View = "Iso",
-        color: Colors = "bodies",
-        background: Background = "scene",
-        dark: bool = False,
-        width: int = 1280,
-        height: int = 720,
-        amplitude: float = 1.0,
-        phase: float = 0.0,
-        frames: int = 36,
-    ) -> WrittenFile:
-        """Write a picture of a mode: PNG, GIF, MP4, or HTML that still moves, as the ending says.
-
-        Args:
-            path: of the file.
-            mode: its name; "": the one that the page opens with.
-            view: from where it is seen.
-            color: what the colours of bodies mean.
-            background: as on the page, white or transparent.
-            dark: whether the scene is dark.
-            width: pixels.
-            height: pixels.
-            amplitude: of the motion, times the usual one.
-            phase: of a PNG, degrees; 0 is the largest motion.
-            frames: of a cycle in a GIF or MP4.
-
-        Raises:
-            ModevizError: there is no such mode, a number is out of its range, the file cannot be
-                written, or what draws is missing.
-        """
-        options = PictureOptions(
-            mode, view, color, background, dark, width, height, amplitude, phase, frames
-        )
-        check_writable(Path(path))
-        vehicle, conditions = self._shown(None)
-        content = draw(vehicle, self.rates.by_group, conditions, Path(path), options, self._tell)
-        write_bytes(Path(path), content)
-        return WrittenFile(Path(path))
-
-    def show(
-        self, road: str | None = None, *, port: int = 0, dark: bool = False, height: int = 720
-    ) -> Page:
-        """Open the page: in a notebook in the cell, elsewhere until Ctrl+C, printing its link.
-
-        A notebook goes on at once, and a page that it showed before is closed. Only this machine can
-        reach it; `modeviz view` has more to choose.
-
-        Args:
-            road: as of `ride`.
-            port: to listen on; 0 takes a free one.
-            dark: whether the page is dark.
-            height: in a notebook, pixels.
-
-        Raises:
-            ModevizError: the port is in use, or there is no such road.
-        """
-        if self._page is not None:
-            self._page.close()
-            self._page = None
-        vehicle, conditions = self._shown(road)
-        rates = self.rates.by_group
-        page = open_page(vehicle, rates, conditions, port, dark, height, self._tell)
-        print(f"{vehicle.name} is at {page.link}", flush=True)
-        if is_notebook():
-            self._page = page
-            return page
-        try:
-            threading.Event().wait()
-        except KeyboardInterrupt:
-            pass
-        finally:
-            page.close()
-        return page
-
     def __repr__(self) -> str:
-        return "\n".join([f"Study of {self._vehicle.name}", *(f"  {line}" for line in self._lines())])
+        return "\n".join(
+            [f"Study of {self.vehicle.name}", *(f"  {line}" for line in self._tuned.described())]
+        )
 
     def _repr_html_(self) -> str:
-        return block(f"Study of {self._vehicle.name}", paragraphs(*self._lines()))
-
-    def _lines(self) -> list[str]:
-        """What there is to ask for."""
-        vehicle = self._vehicle
-        groups = ", ".join(group.name for group in vehicle.mount_groups)
-        lines = [
-            f"bodies: {', '.join(body.name for body in vehicle.bodies)}",
-            f"mount groups: {groups}; rates: {self.rates.name}, of {', '.join(self.rates.sets)}",
-            f"response points: {', '.join(self.points)}",
-            f"roads: {', '.join(self.roads)}; speed: {3.6 * self._speed:.4g} km/h",
-            f"problems: {', '.join(problem.name for problem in vehicle.problems)}",
-            *(f"note: {note}" for note in vehicle.notes),
-        ]
-        return [line for line in lines if not line.endswith(": ")]
-
-    def _modes_prepared(self) -> PreparedModes:
-        """The vehicle made ready for modes at least."""
-        if self._prepared is None:
-            self._prepared = prepare_modes(self._vehicle)
-        return self._prepared
-
-    def _all_prepared(self) -> Prepared:
-        """The vehicle made ready for modes and responses."""
-        if not isinstance(self._prepared, Prepared):
-            self._prepared = prepare(self._vehicle, progress=partial(self._tell, "preparing"))
-        return self._prepared
-
-    def _ride(self, road: str | None) -> Results:
-        conditions = road_conditions(self._vehicle, road, self._speed)
-        return solve(self._all_prepared(), self.rates.by_group, conditions)
-
-    def _conditions(self, road: str | None) -> Conditions | None:
-        """The road asked for, or the vehicle's; None for one that has none, unless it is asked for."""
-        if road is None and not has_ride(self._vehicle):
-            return None
-        return road_conditions(self._vehicle, road, self._speed)
-
-    def _shown(self, road: str | None) -> tuple[Vehicle, Conditions]:
-        """A vehicle that can be shown, and what it drives over."""
-        conditions = self._conditions(road)
-        return on_even_road(self._vehicle) if conditions is None else (self._vehicle, conditions)
-
-    def _checked(self, comparison: Comparison) -> Check | None:
-        """The present rates against the full model, solved from scratch; None without a road."""
-        if comparison.rides is None:
-            return None
-        return checked(comparison.rides[1], partial(self._tell, "checking"))
+        return block(f"Study of {self.vehicle.name}", paragraphs(*self._tuned.described()))

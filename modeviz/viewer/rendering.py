@@ -223,5 +223,5 @@ def _show(app: App, wish: RenderRequest) -> Solved:
     now = shown.now
     if wish.mode and now.mode_index(wish.mode) is None:
         names = ", ".join(name.name for name, _ in listed(now).values())
-        raise ModevizError(f"--mode: unknown mode {quoted(wish.mode)}: there are {names}")
+        raise ModevizError(f"unknown mode {quoted(wish.mode)}: there are {names}")
     return shown

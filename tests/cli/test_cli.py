@@ -1,6 +1,7 @@
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,9 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
+from modeviz.cli.parser import COMMANDS, parse
+from modeviz.cli.render import RENDER
+from modeviz.cli.scatter import ScatterCommandOptions
 from modeviz.files import write_vehicle
 from modeviz.vehicle.connections import MountRates
 
@@ -42,10 +46,10 @@ def test_modes_json_has_its_documented_structure(printed_json, folder):
 def test_commands_have_one_thread_for_linear_algebra(monkeypatch, folder):
     found = []
 
-    def note(_):
+    def note():
         found.extend(p["num_threads"] for p in threadpool_info() if p["user_api"] == "blas")
 
-    monkeypatch.setattr("modeviz.cli.tables.psd", note)
+    monkeypatch.setattr("modeviz.cli.psd.check_printable", note)
     with threadpool_limits(2, user_api="blas"):
         main(["psd", folder])
     assert set(found) == {1}
@@ -179,3 +183,25 @@ def test_a_wrong_option_is_status_2_too(capsys):
     with pytest.raises(SystemExit) as end:
         main(["modes", "--no-such-option"])
     assert end.value.code == 2
+
+
+def test_what_is_not_given_is_as_the_options_of_a_command_say():
+    for command in COMMANDS:
+        needed = {"output": "x.png"} if command is RENDER else {}
+        given = [part for name, value in needed.items() for part in (f"--{name}", value)]
+        paths = {name: Path(value) for name, value in needed.items()}
+        assert parse([command.name, *given]).args == (command.options(**paths),)
+
+
+def test_options_are_read_by_the_names_and_types_of_their_fields():
+    given = "cabin --set A.lateral=1 --set B.lateral=2 --speed 20 --samples 30 --point seat --json"
+    (options,) = parse(["scatter", *given.split()]).args
+    expected = ScatterCommandOptions(
+        vehicle=Path("cabin"),
+        settings=("A.lateral=1", "B.lateral=2"),
+        speed="20",
+        samples=30,
+        point="seat",
+        json=True,
+    )
+    assert options == expected

@@ -1,6 +1,5 @@
 """Vehicles that have no road, or nobody to feel it: their modes are shown all the same."""
 
-from argparse import Namespace
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
-from modeviz.cli.options import shown
+from modeviz.cli.options import RoadOptions
 from modeviz.files import write_vehicle
 from modeviz.viewer.app import App
 from modeviz.viewer.page.access import open_server
@@ -43,8 +42,7 @@ def test_a_road_that_is_asked_for_must_be_there(vehicle, tmp_path, capsys):
 
 
 def test_the_page_shows_everything_but_responses(vehicle, tmp_path):
-    options = Namespace(road=None, speed=None)
-    vehicle, conditions = shown(options, vehicle)
+    vehicle, conditions = RoadOptions().shown(vehicle)
     server = open_server(port=0, token="open-sesame-open")
     app = App(vehicle, vehicle.rates, conditions, server)
     failures = []

@@ -4,9 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from modeviz.compute.cancel import CancelToken
-from modeviz.errors import ModevizError, unknown
 from modeviz.optimise.pareto import FrontProgress, find_front
-from modeviz.optimise.trade_off import ParetoPoint, Side, prepare_trade_off, sides
+from modeviz.optimise.trade_off import ParetoPoint, Side, chosen_sides, prepare_trade_off, sides
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.session.planning.plan import planned
@@ -72,11 +71,9 @@ class FrontTask:
         """
         state, vehicle = self._session.state, self._session.vehicle
         problem = self._problem(state)
-        offers = sides(vehicle, problem)
-        if name not in offers:
-            raise ModevizError(unknown("trade-off", name, offers))
+        pair = chosen_sides(vehicle, problem, name)
         known = (state.rates, *rate_sets(vehicle, state).values())
-        self._task.start(Job(Trade(problem, offers[name], state, known)))
+        self._task.start(Job(Trade(problem, pair, state, known)))
 
     def cancel(self) -> None:
         """Ends what is running; the designs found by then are kept."""
