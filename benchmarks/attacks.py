@@ -13,12 +13,10 @@ from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
 
-import viser
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import WebSocketException
-from websockets.typing import Origin, Subprotocol
 
-from benchmarks.websocket import CAMERA, Message, messages, wire
+from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, wire
 
 NESTED_BYTES = 20_000_000
 QUATERNION_BYTES = 5_000_000
@@ -232,16 +230,8 @@ async def _page(port: int) -> AsyncIterator[ClientConnection]:
 
 
 def _socket(port: int) -> connect:
-    return connect(
-        f"ws://127.0.0.1:{port}",
-        origin=Origin(f"http://127.0.0.1:{port}"),
-        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
-        compression=None,
-        max_size=None,
-        open_timeout=WATCH_S,
-        close_timeout=0.5,
-        ping_interval=None,
-    )
+    url, limits = f"ws://127.0.0.1:{port}", {"open_timeout": WATCH_S, "close_timeout": 0.5}
+    return connect(url, **limits, **handshake(own_origin(port)))
 
 
 def _status(port: int, path: str, headers: dict[str, Any] | None = None, timeout: float = 5.0) -> int:

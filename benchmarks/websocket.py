@@ -10,17 +10,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from typing import Any
 
-import msgspec
 import numpy as np
-import viser
-import zstandard
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection as Page
-from websockets.typing import Origin, Subprotocol
 
+from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, wire
 from modeviz.analysis.results import Conditions
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.app import serve
@@ -30,21 +26,6 @@ N_FIRST = 6
 
 REST_S = 1.5
 PATIENCE_S = 60.0
-
-Message = dict[str, Any]
-
-CAMERA = {
-    "wxyz": (1.0, 0.0, 0.0, 0.0),
-    "position": (5.0, 5.0, 3.0),
-    "fov": 1.0,
-    "near": 0.1,
-    "far": 100.0,
-    "image_height": 600,
-    "image_width": 800,
-    "look_at": (0.0, 0.0, 0.0),
-    "up_direction": (0.0, 0.0, 1.0),
-}
-"""What a page tells of its camera."""
 
 
 @dataclass(frozen=True)
@@ -129,19 +110,6 @@ def _received(page: Page) -> Iterator[Message]:
         yield from messages(page.recv(timeout=PATIENCE_S))
 
 
-def messages(frame: bytes | str) -> list[Message]:
-    """Those in a frame: two lengths before their compressed msgpack."""
-    assert isinstance(frame, bytes)
-    length = int.from_bytes(frame[8:16], "little")
-    content = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + length])
-    return msgspec.msgpack.decode(content)["messages"]
-
-
-def wire(kind: str, **fields: Any) -> bytes:
-    """A message of a page as it goes to the server."""
-    return msgspec.msgpack.encode({"type": kind, **fields})
-
-
 @contextmanager
 def open_page(port: int) -> Iterator[Page]:
     """A page that has opened; viser knows it once it has told its camera."""
@@ -152,15 +120,7 @@ def open_page(port: int) -> Iterator[Page]:
 
 def open_websocket(port: int) -> Page:
     """Connects to a page's server as a browser here does, for messages of any size and number."""
-    return connect(
-        f"ws://127.0.0.1:{port}",
-        origin=Origin(f"http://127.0.0.1:{port}"),
-        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
-        compression=None,
-        max_size=None,
-        max_queue=None,
-        ping_interval=None,
-    )
+    return connect(f"ws://127.0.0.1:{port}", max_queue=None, **handshake(own_origin(port)))
 
 
 def _connect(port: int) -> Page:

@@ -1,6 +1,10 @@
 """Derivatives without derivatives, to compare analytic ones with."""
 
+from dataclasses import replace
+
 import numpy as np
+
+from modeviz.vehicle.connections import RATE_FIELDS
 
 
 def central_difference(function, at: float, step: float):
@@ -10,6 +14,21 @@ def central_difference(function, at: float, step: float):
         for h in (step * at, step * at / 2)
     )
     return (4 * fine - coarse) / 3
+
+
+def rate_derivatives(function, rates) -> np.ndarray:
+    """Those of a function of all groups' rates with respect to each of their fields, in their order."""
+    return np.array(
+        [
+            central_difference(
+                lambda k, g=group, n=name: function({**rates, g: replace(rates[g], **{n: k})}),
+                getattr(rates[group], name),
+                step=1e-3,
+            )
+            for group in rates
+            for name in RATE_FIELDS
+        ]
+    )
 
 
 def relative_to_largest(found: np.ndarray, expected: np.ndarray, over: int) -> np.ndarray:

@@ -7,26 +7,27 @@ from typing import Any
 
 import msgspec.msgpack
 import viser
-import zstandard
 from websockets.sync.client import connect
+
+from benchmarks import page_client
+from modeviz.viewer.page.decoding import PART
 
 TOKEN = "a-long.secret_1"
 
 PATIENCE_S = 20.0
 
-CAMERA = {
-    "type": "ViewerCameraMessage",
-    "wxyz": (1.0, 0.0, 0.0, 0.0),
-    "position": (1.0, 0.0, 0.0),
-    "fov": 1.0,
-    "near": 0.1,
-    "far": 10.0,
-    "image_height": 10,
-    "image_width": 10,
-    "look_at": (0.0, 0.0, 0.0),
-    "up_direction": (0.0, 0.0, 1.0),
-}
+CAMERA = {"type": "ViewerCameraMessage", **page_client.CAMERA}
 """What a page says first."""
+
+
+PART_OF_FILE = {
+    "type": "FileTransferPart",
+    "source_component_uuid": "button",
+    "transfer_uuid": "new",
+    "part_index": 0,
+    "content": b"x" * PART,
+}
+"""Of what a page uploads."""
 
 
 def get(server, path="/", **headers):
@@ -38,20 +39,16 @@ def get(server, path="/", **headers):
 
 
 def own_origin(server):
-    return f"http://127.0.0.1:{server.get_port()}"
+    return page_client.own_origin(server.get_port())
 
 
 def knock(server, origin, path="/", version=viser.__version__, **headers):
     """A websocket to the server as a page of `origin` would open it."""
     return connect(
         f"ws://127.0.0.1:{server.get_port()}{path}",
-        origin=origin,
-        subprotocols=[f"viser-v{version}"],
-        additional_headers=headers,
         open_timeout=PATIENCE_S,
         close_timeout=1.0,
-        compression=None,
-        max_size=None,
+        **page_client.handshake(origin, version, **headers),
     )
 
 
@@ -66,15 +63,7 @@ def encoded(message: Any) -> bytes:
 
 def update(handle, value) -> bytes:
     """What a page says when a widget has another value."""
-    fields = {"type": "GuiUpdateMessage", "uuid": handle._impl.uuid, "updates": {"value": value}}
-    return encoded(fields)
-
-
-def decoded(frame):
-    """The messages in what viser sends: two lengths, and a compressed msgpack."""
-    length = int.from_bytes(frame[8:16], "little")
-    unzipped = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + length])
-    return msgspec.msgpack.decode(unzipped)["messages"]
+    return page_client.wire("GuiUpdateMessage", uuid=handle._impl.uuid, updates={"value": value})
 
 
 def wait_until(reached: Callable[[], Any], seconds: float = PATIENCE_S) -> None:

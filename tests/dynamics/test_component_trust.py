@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from html_documents import Document
 from mounted_cabin import mounted_cabin
+from one_element import OneElement
 from oracles import Beam
 
 from modeviz.analysis.preparation import prepare
@@ -130,16 +131,8 @@ def test_a_report_has_it_beside_exact(vehicle):
 
 
 def test_the_page_has_it_once_it_is_known(vehicle):
-    class Page:
-        content = ""
-
-        def add_html(self, content):
-            self._impl = SimpleNamespace(props=self)
-            self._queue_update = lambda *_: None
-            return self
-
     now = solve(prepare(vehicle, np.array([1.0, 2.0])), {}, Conditions("flat", 20.0))
-    page = Page()
+    page = OneElement()
     panel = StatusPanel(page)
     values = {"classic_error": None, "seconds": 0.004, "missing": ""}
     state = SimpleNamespace(classic=False, against="Original")

@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 from datetime import date
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from html_documents import Document
 from mounted_cabin import mounted_cabin
 from noted_vehicle import noted_vehicle
+from one_element import OneElement
 
 from modeviz.analysis.preparation import prepare
 from modeviz.cli import main
@@ -57,19 +57,8 @@ def test_a_report_has_the_notes():
     assert "mesh <far> away" in document.words
 
 
-class Page:
-    """Stands for viser's: keeps the last content of the one element."""
-
-    content = ""
-
-    def add_html(self, content):
-        self._impl = SimpleNamespace(props=self)
-        self._queue_update = lambda *_: None
-        return self
-
-
 def test_the_page_has_the_notes_from_the_first_moment():
-    page = Page()
+    page = OneElement()
     StatusPanel(page, ("mesh <far> away",)).show_progress(0.1)
     assert "mesh &lt;far&gt; away" in page.content
 

@@ -10,9 +10,10 @@ from urllib.parse import urlencode
 import pytest
 import viser
 from viser import _messages
-from visitors import CAMERA, TOKEN, decoded, encoded, get, knock, own_origin
+from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin
 from websockets.exceptions import InvalidStatus
 
+from benchmarks.page_client import messages as decoded
 from modeviz.errors import ModevizError
 from modeviz.viewer.page.access import open_server
 from modeviz.viewer.page.handshake import WHY

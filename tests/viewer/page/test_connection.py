@@ -9,6 +9,7 @@ from contextlib import ExitStack, contextmanager, suppress
 import pytest
 from visitors import (
     CAMERA,
+    PART_OF_FILE,
     PATIENCE_S,
     TOKEN,
     encoded,
@@ -27,14 +28,6 @@ from modeviz.viewer.page import connection, tokens
 from modeviz.viewer.page.access import open_server
 from modeviz.viewer.page.connection import MOST_BYTES, MOST_PAGES_OF_ONE, MOST_WRONG
 from modeviz.viewer.page.decoding import PART
-
-PART_OF_FILE = {
-    "type": "FileTransferPart",
-    "source_component_uuid": "button",
-    "transfer_uuid": "new",
-    "part_index": 0,
-    "content": b"x" * PART,
-}
 
 
 @contextmanager
@@ -135,7 +128,7 @@ def test_whatever_a_page_says_of_its_camera_is_one_line_on_the_terminal(server, 
         (client,) = server.get_clients().values()
         for _ in range(50):
             socket.send(encoded({**CAMERA, **wrong}))
-        socket.send(encoded({**CAMERA, "image_width": 20}))
+        socket.send(encoded({**CAMERA, "image_width": 2 * CAMERA["image_height"]}))
         wait_until(lambda: client.camera.aspect == 2.0)
     assert len(lines(capfd)) == 1
 

@@ -7,13 +7,12 @@ import tracemalloc
 import msgspec.msgpack
 import pytest
 from viser import _messages
-from visitors import CAMERA, encoded
+from visitors import CAMERA, PART_OF_FILE, encoded
 
 from modeviz.viewer.page import decoding
 from modeviz.viewer.page.decoding import (
     LARGEST_WRONG,
     MOST_ITEMS,
-    PART,
     MessageError,
     TooMuchError,
     checked,
@@ -38,13 +37,6 @@ START = {
     "mime_type": "text/csv",
     "part_count": 1,
     "size_bytes": 100,
-}
-PART_OF_FILE = {
-    "type": "FileTransferPart",
-    "source_component_uuid": "button",
-    "transfer_uuid": "new",
-    "part_index": 0,
-    "content": b"x" * PART,
 }
 
 

@@ -7,23 +7,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from one_element import OneElement
 
 from modeviz.analysis.exact_check import Check, ClassicError
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.viewer.panels.status import StatusPanel, _rounded
 from modeviz.viewer.session.answers import Rest
-
-
-class Page:
-    """Stands for viser's: keeps the last content of the one element."""
-
-    content = ""
-
-    def add_html(self, content):
-        self._impl = SimpleNamespace(props=self)
-        self._queue_update = lambda *_: None
-        return self
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +23,7 @@ def now():
 
 def content(now, **changes):
     """What the panel draws of an answer."""
-    page = Page()
+    page = OneElement()
     values = {"check": None, "problem": "", "classic_error": None, "seconds": 0.0042, "missing": ""}
     values |= changes
     state = SimpleNamespace(classic=values["classic_error"] is not None, against="Original")
@@ -48,7 +38,7 @@ def shown(now, **changes):
 
 
 def test_the_preparation_shows_how_far_it_is():
-    page = Page()
+    page = OneElement()
     StatusPanel(page).show_progress(0.43)
     assert "Preparing" in page.content
     assert "43 %" in page.content

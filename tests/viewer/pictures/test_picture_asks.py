@@ -9,8 +9,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from visitors import CAMERA, decoded, encoded, update, visit, wait_until
+from visitors import CAMERA, encoded, update, visit, wait_until
 
+from benchmarks.page_client import messages as decoded
 from modeviz.errors import ModevizError
 from modeviz.viewer.page.access import open_server
 from modeviz.viewer.panels import pictures as panel

@@ -1,0 +1,53 @@
+"""What a page says to its server and hears from it, without a browser."""
+
+from typing import Any
+
+import msgspec
+import viser
+import zstandard
+from websockets.typing import Origin, Subprotocol
+
+Message = dict[str, Any]
+
+CAMERA = {
+    "wxyz": (1.0, 0.0, 0.0, 0.0),
+    "position": (5.0, 5.0, 3.0),
+    "fov": 1.0,
+    "near": 0.1,
+    "far": 100.0,
+    "image_height": 600,
+    "image_width": 800,
+    "look_at": (0.0, 0.0, 0.0),
+    "up_direction": (0.0, 0.0, 1.0),
+}
+"""What a page tells of its camera."""
+
+
+def wire(kind: str, **fields: Any) -> bytes:
+    """A message of a page as it goes to the server."""
+    return msgspec.msgpack.encode({"type": kind, **fields})
+
+
+def messages(frame: bytes | str) -> list[Message]:
+    """Those in a frame of the server's: two lengths before their compressed msgpack."""
+    assert isinstance(frame, bytes)
+    length = int.from_bytes(frame[8:16], "little")
+    content = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + length])
+    return msgspec.msgpack.decode(content)["messages"]
+
+
+def own_origin(port: int) -> str:
+    """Where a page comes from that this machine's server at a port has given out."""
+    return f"http://127.0.0.1:{port}"
+
+
+def handshake(origin: str | None, version: str = viser.__version__, **headers: str) -> dict[str, Any]:
+    """How a page of some origin connects, for messages of any size: arguments of `connect`."""
+    return {
+        "origin": origin and Origin(origin),
+        "subprotocols": [Subprotocol(f"viser-v{version}")],
+        "additional_headers": headers,
+        "compression": None,
+        "max_size": None,
+        "ping_interval": None,
+    }
