@@ -227,12 +227,9 @@ def turning_axes(vehicle: Vehicle) -> NDArray[np.bool_]:
 
 
 def _number(vehicle: Vehicle) -> dict[str, slice]:
-    ends = np.cumsum([0] + [_n_coordinates(b) for b in vehicle.bodies])
+    counts = [b.n_modes if isinstance(b, FlexibleBody) else len(MOTIONS) for b in vehicle.bodies]
+    ends = np.cumsum([0, *counts])
     return {b.name: slice(ends[i], ends[i + 1]) for i, b in enumerate(vehicle.bodies)}
-
-
-def _n_coordinates(body: Body) -> int:
-    return body.n_modes if isinstance(body, FlexibleBody) else 6
 
 
 def _coordinate_names(body: Body) -> list[str]:

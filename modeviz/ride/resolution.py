@@ -33,14 +33,10 @@ def resolving_lines(
     """
     parts = [known_part(load, lines, speed) for load, speed in loads]
     held = lines[min(p.start for p in parts) : max(p.stop for p in parts)]
-    lags = [_longest_lag(vehicle, speed) for load, speed in loads if isinstance(load, Road)]
+    speeds = [speed for load, speed in loads if isinstance(load, Road)]
+    lags = [lag(tyre, vehicle.tyres, speed) for speed in speeds for tyre in vehicle.tyres]
     longest = max(lags, default=0.0)
     m = max(1, math.ceil(LINES_A_TURN * longest * (held[1] - held[0])))
     closer = np.linspace(held[0], held[-1], m * (len(held) - 1) + 1)
     closer[::m] = held
     return closer
-
-
-def _longest_lag(vehicle: Vehicle, speed: float) -> float:
-    """τ, s."""
-    return max((lag(tyre, vehicle.tyres, speed) for tyre in vehicle.tyres), default=0.0)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from modeviz.shapes.colors import Color
-from modeviz.shapes.surface import Patch, Surface
+from modeviz.shapes.surface import Surface
 from modeviz.vehicle.arrays import Array
 from modeviz.vehicle.bodies import Material
 from modeviz.vehicle.srgb import srgb_to_linear
@@ -32,7 +32,7 @@ def glb(surface: Surface, edge_color: Color | None = None) -> bytes:
     for patch in surface.patches:
         arrays.append(patch.faces.reshape(-1).astype("<u4"))
         primitives.append(_primitive(TRIANGLES, len(primitives)))
-        materials.append(_patch_material(patch))
+        materials.append({**_material(patch.material), "extras": {"skin": patch.is_skin}})
     if edge_color is not None and len(surface.edges):
         arrays.append(surface.edges.reshape(-1).astype("<u4"))
         primitives.append(_primitive(LINES, len(primitives)))
@@ -53,10 +53,6 @@ def glb(surface: Surface, edge_color: Color | None = None) -> bytes:
 def _primitive(mode: int, number: int) -> dict[str, Any]:
     """The primitive of that number; accessor 0 holds the vertices, the next ones the indices."""
     return {"mode": mode, "attributes": {"POSITION": 0}, "indices": number + 1, "material": number}
-
-
-def _patch_material(patch: Patch) -> dict[str, Any]:
-    return {**_material(patch.material), "extras": {"skin": patch.is_skin}}
 
 
 def _material(material: Material) -> dict[str, Any]:

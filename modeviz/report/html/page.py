@@ -90,7 +90,11 @@ def _figures(comparison: Comparison) -> str:
     """The few numbers that a decision is made on."""
     if comparison.rides is None:
         return ""
-    return f'<div class="figures">{"".join(_figure(*f) for f in _counting(comparison))}</div>'
+    figures = "".join(
+        f"<div><span>{what}</span><b>{now}</b><small>from {base} {difference}</small></div>"
+        for what, now, base, difference in _counting(comparison)
+    )
+    return f'<div class="figures">{figures}</div>'
 
 
 def _counting(comparison: Comparison) -> Iterator[tuple[str, str, str, str]]:
@@ -110,10 +114,6 @@ def _gain(difference: float) -> str:
     """That of a rating, where more is better; what rounds to none is none."""
     kind = "good" if difference > 0 else "bad"
     return span(signed(difference, 2), kind if abs(difference) >= 0.005 else "dim")
-
-
-def _figure(what: str, now: str, base: str, difference: str) -> str:
-    return f"<div><span>{what}</span><b>{now}</b><small>from {base} {difference}</small></div>"
 
 
 def _notes(vehicle: Vehicle) -> str:
