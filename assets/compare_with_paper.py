@@ -13,7 +13,8 @@ from functools import cached_property
 import numpy as np
 
 from modeviz.analysis.preparation import Prepared, prepare
-from modeviz.analysis.results import AXIS, Conditions, Results, solve, solve_wheels
+from modeviz.analysis.results import AXIS, Conditions, Results, solve
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.ride.participation import Peak
 from modeviz.ride.psd import rms

@@ -8,7 +8,8 @@ from differences import central_difference
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import AXIS, solve_wheels
+from modeviz.analysis.results import AXIS
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.optimise.goals import prepare_goal
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.bodies import RigidBody

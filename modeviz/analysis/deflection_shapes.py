@@ -5,7 +5,8 @@ Each is a shape in the vehicle's coordinates, (n_dofs,), complex: motion goes as
 
 import numpy as np
 
-from modeviz.analysis.results import AXIS, ModalResults, Results
+from modeviz.analysis.modal_results import ModalResults
+from modeviz.analysis.results import AXIS, Results
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.damped import DampedMode, damped_mode
 from modeviz.dynamics.response import direct_shape

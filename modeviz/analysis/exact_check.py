@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.analysis.results import Results, solve_modal
+from modeviz.analysis.modal_results import solve_modal
+from modeviz.analysis.results import Results
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import SolveError

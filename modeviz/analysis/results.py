@@ -1,6 +1,6 @@
-"""One solve for screen, report and command line."""
+"""The ride of a vehicle on a road, with its modes: one solve for screen, report and command line."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -8,29 +8,23 @@ import numpy as np
 
 from modeviz.analysis.driven import Driven, driven, load_lines
 from modeviz.analysis.latest import Latest
-from modeviz.analysis.preparation import Prepared, PreparedModes
+from modeviz.analysis.modal_results import ModalResults, modes_of
+from modeviz.analysis.preparation import Prepared
 from modeviz.dynamics.actions import forces_on_rest, led
-from modeviz.dynamics.assembly import System
-from modeviz.dynamics.band import BandModes, Method, band_modes, modes_above
+from modeviz.dynamics.band import Method, modes_above
 from modeviz.dynamics.basis import REACH
-from modeviz.dynamics.damped import DampedModes, damped_modes
-from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
-from modeviz.dynamics.naming import ModeName, name_modes
-from modeviz.dynamics.resonances import Resonances, resonances, resonances_at
+from modeviz.dynamics.resonances import Resonances
 from modeviz.dynamics.response import modal_coordinates
-from modeviz.dynamics.trust import ErrorEstimate
 from modeviz.errors import ModevizError
 from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.excitation import Load, excitation, input_spectrum
-from modeviz.ride.integration import line_distances
 from modeviz.ride.participation import Peak, participation, participation_above, peak_lines, peaks
-from modeviz.ride.psd import acceleration_psd, averaged_acceleration_psd, harmonic_acceleration, rms
+from modeviz.ride.psd import acceleration_psd, averaged_acceleration_psd, rms
 from modeviz.ride.rating import Rating, rate
-from modeviz.vehicle.arrays import Array, Complexes, Floats
+from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
 from modeviz.vehicle.loads import RandomLoad
-from modeviz.vehicle.vehicle import Vehicle
 
 AXIS: dict[str, int] = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
 """Where a direction is among x, y, z."""
@@ -88,83 +82,6 @@ class RoadExcitation(Driven):
         """Whether there is more of the band, of which nothing is known."""
         whole = self.prepared.frequency_hz
         return self.known != (float(whole[0]), float(whole[-1]))
-
-
-@dataclass(frozen=True, eq=False)
-class ModalResults:
-    """A vehicle's modes in the prepared band, what they are called and where their energy is."""
-
-    prepared: PreparedModes
-    rates: Rates
-    """Of every mount group."""
-    band: BandModes
-
-    @cached_property
-    def names(self) -> tuple[ModeName, ...]:
-        """One for each mode."""
-        return name_modes(self.prepared.namer, self.modes)
-
-    @property
-    def modes(self) -> Modes:
-        return self.band.modes
-
-    @property
-    def trust(self) -> ErrorEstimate:
-        return self.band.trust
-
-    @cached_property
-    def system(self) -> System:
-        """With these rates."""
-        return self.prepared.system.with_rates(self.rates)
-
-    @cached_property
-    def vehicle(self) -> Vehicle:
-        """With these rates."""
-        return self.prepared.vehicle.with_rates(self.rates)
-
-    @cached_property
-    def resonances(self) -> Resonances:
-        """Where the modes are in resonance, and how sharply."""
-        return resonances(self.modes, self.band.damping, self.band.structural_damping)
-
-    @cached_property
-    def damped(self) -> DampedModes:
-        """The modes with what damping couples, in the order of `modes`."""
-        return damped_modes(self.band)
-
-    @cached_property
-    def momentum(self) -> Floats:
-        """M φ of each mode, (n_dofs, n_modes)."""
-        return self.prepared.system.momentum(self.modes.shapes)
-
-    @cached_property
-    def _mount_rates(self) -> Floats:
-        return np.real(self.prepared.mount_stiffness(self.rates)).astype(np.float64)
-
-    @cached_property
-    def kinetic_energy(self) -> Mapping[str, Floats]:
-        """Share of each body, (n_modes,) by name."""
-        return kinetic_energy(self.prepared.system, self.modes.shapes)
-
-    @cached_property
-    def strain_energy(self) -> Mapping[str, Floats]:
-        """Share of each flexible body and connection group, (n_modes,) by name."""
-        return strain_energy(self.prepared.system, self.modes.shapes, self._mount_rates)
-
-    def strain_shares(self, shape: Array) -> dict[str, float]:
-        """The strain energy of a shape: share of each flexible body and connection group.
-
-        Args:
-            shape: (n_dofs,), real or complex, in any scale.
-        """
-        system, phi = self.prepared.system, shape[:, None]
-        norm = np.sqrt(np.vdot(phi, system.momentum(phi)).real) or 1.0
-        shares = strain_energy(system, phi / norm, self._mount_rates)
-        return {name: float(share[0]) for name, share in shares.items()}
-
-    def mode_index(self, name: str) -> int | None:
-        """Which mode is called that; None if no mode is."""
-        return next((i for i, n in enumerate(self.names) if n.name == name), None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,27 +214,6 @@ class Results(ModalResults):
         return int(np.searchsorted(self.above.frequency_hz, REACH * self.prepared.basis.top_hz))
 
 
-def solve_modal(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> ModalResults:
-    """The modes of a vehicle with other mount rates.
-
-    Args:
-        prepared: see `prepare` and `prepare_modes`.
-        rates: of the groups that differ from the vehicle's own.
-        method: how modes are found.
-
-    Raises:
-        VehicleError: a group that the vehicle does not have.
-    """
-    return _modal(prepared, rates, prepared.mount_stiffness(rates), method)
-
-
-def _modal(prepared: PreparedModes, rates: Rates, stiffness: Complexes, method: Method) -> ModalResults:
-    """The same, given the springs' complex rates."""
-    return ModalResults(
-        prepared, prepared.all_rates(rates), band_modes(prepared.basis, stiffness, method)
-    )
-
-
 def solve(
     prepared: Prepared, rates: Rates, conditions: Conditions, method: Method = "enriched"
 ) -> Results:
@@ -352,7 +248,7 @@ def solve_on(drive: RoadExcitation, rates: Rates, method: Method = "enriched") -
     """Modes and ride on a road with other mount rates; arguments and errors as `solve`."""
     prepared = drive.prepared
     stiffness = prepared.mount_stiffness(rates)
-    modal = _modal(prepared, rates, stiffness, method)
+    modal = modes_of(prepared, rates, stiffness, method)
     spectra = solve_spectra(drive, stiffness, modal.resonances)
     return Results(prepared, modal.rates, modal.band, drive, *spectra)
 
@@ -367,36 +263,3 @@ def solve_spectra(
     around = averaged_acceleration_psd(lines, H, drive.spectrum_around(lines))
     shape = len(lines), H.shape[1] // 3, 3
     return lines, at.reshape(shape), around.reshape(shape)
-
-
-@dataclass(frozen=True, eq=False)
-class WheelResults:
-    """Harmonic response to each of a vehicle's wheel and other harmonic loads."""
-
-    frequency_hz: Floats
-    """(n_freqs,)."""
-    acceleration_g: Floats
-    """(n_freqs, n_loads, n_points, 3): peak x, y, z, g."""
-    is_graded: bool = False
-    """Whether lines lie closer where modes are sharp; else each counts alike."""
-
-    def mean(self, band: tuple[float, float]) -> Floats:
-        """Mean over a band, ends included, (n_loads, n_points, 3), g."""
-        f = self.frequency_hz
-        inside = (f > band[0] - 1e-6) & (f < band[1] + 1e-6)
-        weights = inside * line_distances(f) if self.is_graded else 1.0 * inside
-        return np.tensordot(weights, self.acceleration_g, 1) / weights.sum()
-
-
-def solve_wheels(prepared: Prepared, rates: Rates) -> WheelResults:
-    """The response to every harmonic load of the vehicle; arguments and errors as `solve`."""
-    loads, n_points = prepared.vehicle.harmonic_loads, len(prepared.vehicle.response_points)
-    if not loads:
-        f = prepared.frequency_hz
-        return WheelResults(f, np.zeros((len(f), 0, n_points, 3)))
-    stiffness = prepared.mount_stiffness(rates)
-    under = driven(prepared, loads, prepared.vehicle.speed)
-    f = under.lines(resonances_at(prepared.basis, stiffness))
-    g = harmonic_acceleration(f, under.response(stiffness, f)).transpose(0, 2, 1)
-    g = g.reshape(len(f), len(loads), n_points, 3)
-    return WheelResults(f, g, prepared.is_graded)

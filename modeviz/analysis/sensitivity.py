@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeviz.analysis.modal_results import ModalResults
 from modeviz.analysis.preparation import Prepared, PreparedModes
-from modeviz.analysis.results import Conditions, ModalResults, Results, drive
+from modeviz.analysis.results import Conditions, Results, drive
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.resonances import resonances_at
 from modeviz.ride.psd import averaged_acceleration_psd, mean_square, rms

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeviz.analysis.results import AXIS, Results, WheelResults
+from modeviz.analysis.results import AXIS, Results
+from modeviz.analysis.wheel_results import WheelResults
 from modeviz.ride.participation import Peak, peak_lines, peaks
 
 

@@ -5,7 +5,7 @@ from argparse import ArgumentParser
 from dataclasses import dataclass
 from typing import get_args
 
-from modeviz.analysis.following import solve_followed
+from modeviz.analysis.mode_tracking import solve_followed
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.cli.command import Command
 from modeviz.cli.options import JsonOptions, VehicleOptions, add_json, add_vehicle

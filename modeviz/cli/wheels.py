@@ -3,7 +3,7 @@
 from argparse import ArgumentParser
 from dataclasses import dataclass
 
-from modeviz.analysis.results import solve_wheels
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.cli.command import Command
 from modeviz.cli.options import JsonOptions, VehicleOptions, add_json, add_vehicle, prepare_telling
 from modeviz.cli.results import check_printable, print_result

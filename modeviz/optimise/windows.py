@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeviz.analysis.modal_results import ModalResults, solve_modal
 from modeviz.analysis.preparation import PreparedModes
-from modeviz.analysis.results import ModalResults, solve_modal
 from modeviz.analysis.sensitivity import frequency_sensitivity
 from modeviz.errors import VehicleError, unknown
 from modeviz.vehicle.arrays import Floats

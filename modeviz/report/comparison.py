@@ -2,18 +2,11 @@
 
 from dataclasses import dataclass
 
-from modeviz.analysis.following import follow
+from modeviz.analysis.modal_results import ModalResults, solve_modal
+from modeviz.analysis.mode_tracking import follow
 from modeviz.analysis.preparation import Prepared
-from modeviz.analysis.results import (
-    Conditions,
-    ModalResults,
-    Results,
-    WheelResults,
-    drive,
-    solve_modal,
-    solve_on,
-    solve_wheels,
-)
+from modeviz.analysis.results import Conditions, Results, drive, solve_on
+from modeviz.analysis.wheel_results import WheelResults, solve_wheels
 from modeviz.dynamics.tracking import Track
 from modeviz.errors import VehicleError
 from modeviz.optimise.design_space import DesignSpace, design_space

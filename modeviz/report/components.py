@@ -3,7 +3,7 @@
 import math
 from dataclasses import asdict
 
-from modeviz.analysis.results import ModalResults
+from modeviz.analysis.modal_results import ModalResults
 from modeviz.dynamics.component_trust import ComponentTrust
 
 LEAST_REACH = 1.5

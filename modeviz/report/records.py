@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from modeviz.analysis.following import Followed
-from modeviz.analysis.results import AXIS, ModalResults, Results, WheelResults
+from modeviz.analysis.modal_results import ModalResults
+from modeviz.analysis.mode_tracking import Followed
+from modeviz.analysis.results import AXIS, Results
+from modeviz.analysis.wheel_results import WheelResults
 from modeviz.report.components import component_record
 from modeviz.ride.psd import amplitude_decibels
 from modeviz.units import factor

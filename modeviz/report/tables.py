@@ -4,8 +4,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from modeviz.analysis.following import Followed
-from modeviz.analysis.results import AXIS, ModalResults, Results, WheelResults
+from modeviz.analysis.modal_results import ModalResults
+from modeviz.analysis.mode_tracking import Followed
+from modeviz.analysis.results import AXIS, Results
+from modeviz.analysis.wheel_results import WheelResults
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.tracking import WEAK_MAC
 from modeviz.report.components import believed

@@ -7,8 +7,8 @@ from html import escape
 import numpy as np
 
 from modeviz.analysis.deflection_shapes import complex_mode
-from modeviz.analysis.following import Followed
-from modeviz.analysis.results import ModalResults
+from modeviz.analysis.modal_results import ModalResults
+from modeviz.analysis.mode_tracking import Followed
 from modeviz.dynamics.damped import DampedMode
 from modeviz.report.records import Record, modes_record
 from modeviz.report.tables import came_from, health, largest, modes_table

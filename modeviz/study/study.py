@@ -4,9 +4,9 @@ from functools import partial
 from os import PathLike
 from pathlib import Path
 
-from modeviz.analysis.following import solve_followed
-from modeviz.analysis.results import solve_wheels
+from modeviz.analysis.mode_tracking import solve_followed
 from modeviz.analysis.sensitivity import sensitivity
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.compute.threads import one_thread
 from modeviz.dynamics.band import Method
 from modeviz.errors import ModevizError

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.analysis.results import AXIS, Results, WheelResults
+from modeviz.analysis.results import AXIS, Results
 from modeviz.analysis.wheel_peaks import wheel_peak_lines, wheel_peaks
+from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
 from modeviz.report.records import Record, wheels_record
 from modeviz.report.tables import wheel_band, wheels_table

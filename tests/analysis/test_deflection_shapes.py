@@ -10,7 +10,8 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import AXIS, Conditions, Results, solve, solve_wheels
+from modeviz.analysis.results import AXIS, Conditions, Results, solve
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError, VehicleError
 from modeviz.ride.roads import road_spectrum, track_forces

@@ -10,8 +10,9 @@ from road_oscillator import LEVEL, oscillator, transmitted
 
 from modeviz.analysis.batch import solve_many
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import Conditions, solve, solve_wheels
+from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.sensitivity import rate_variables, ride_sensitivity
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.optimise.goals import prepare_goal
 from modeviz.ride.psd import rms
 from modeviz.ride.rating import squared_weights

@@ -13,7 +13,8 @@ from rounding import TRUCK, assert_near
 
 from modeviz.analysis.batch import solve_many
 from modeviz.analysis.exact_check import check_exactly, classic_error
-from modeviz.analysis.results import Conditions, solve, solve_modal
+from modeviz.analysis.modal_results import solve_modal
+from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.sensitivity import frequency_sensitivity, rate_variables, ride_sensitivity
 from modeviz.dynamics import basis as enriched
 from modeviz.dynamics.assembly import System, assemble, mount_stiffness

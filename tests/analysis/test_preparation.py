@@ -6,8 +6,10 @@ from mounted_cabin import mounted_cabin
 from rounding import EPSILON
 from small_systems import block
 
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import FREQUENCY_HZ, prepare, prepare_modes
-from modeviz.analysis.results import Conditions, solve, solve_modal, solve_wheels
+from modeviz.analysis.results import Conditions, solve
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.assembly import mount_stiffness
 from modeviz.errors import SolveError, VehicleError
 from modeviz.vehicle.connections import GROUND, MountRates, Spring

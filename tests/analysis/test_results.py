@@ -5,8 +5,10 @@ import pytest
 from full_solutions import wheel_forces
 from mounted_cabin import mounted_cabin, twisted_cabin
 
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import FREQUENCY_HZ, prepare, prepare_modes
-from modeviz.analysis.results import Conditions, drive, solve, solve_modal, solve_wheels
+from modeviz.analysis.results import Conditions, drive, solve
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response

@@ -5,8 +5,9 @@ import pytest
 from differences import central_difference, relative_to_largest
 from mounted_cabin import mounted_cabin, twisted_cabin
 
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare, prepare_modes
-from modeviz.analysis.results import Conditions, solve, solve_modal
+from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.sensitivity import (
     RateVariable,
     frequency_sensitivity,

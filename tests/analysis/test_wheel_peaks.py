@@ -5,8 +5,9 @@ from mounted_cabin import mounted_cabin
 from scipy.signal import find_peaks
 
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import AXIS, Conditions, solve, solve_wheels
+from modeviz.analysis.results import AXIS, Conditions, solve
 from modeviz.analysis.wheel_peaks import wheel_peak_lines, wheel_peaks
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response

@@ -12,7 +12,8 @@ from mount_controls import box, drag, open_folder, position, thumb, type_rate
 from pages import CLOSE_NOTICES, has_beside, send, wait_for, wait_until
 
 from modeviz.analysis.exact_check import Check, check_exactly
-from modeviz.analysis.results import Conditions, solve_modal
+from modeviz.analysis.modal_results import solve_modal
+from modeviz.analysis.results import Conditions
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.scene import stage
 from modeviz.viewer.session import session

@@ -16,7 +16,8 @@ from builtin_truck import builtin_truck, truck_modes
 from pages import CLOSE_NOTICES, wait_for, wait_until
 from PIL import Image
 
-from modeviz.analysis.results import Conditions, solve_modal
+from modeviz.analysis.modal_results import solve_modal
+from modeviz.analysis.results import Conditions
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart

@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 from pages import draw_on, wait_for, wait_until
 
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare_modes
-from modeviz.analysis.results import Conditions, solve_modal
+from modeviz.analysis.results import Conditions
 from modeviz.shapes.motion import default_amplitude
 from modeviz.shapes.surface import surface, vertex_areas
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Material, MeshPart, RigidBody

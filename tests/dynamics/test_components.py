@@ -6,7 +6,7 @@ from builtin_truck import truck_modes
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 
-from modeviz.analysis.results import solve_modal
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.components import component_modes, component_shares
 from modeviz.dynamics.energy import kinetic_energy

@@ -13,8 +13,8 @@ from scipy.optimize import linear_sum_assignment
 from small_systems import damper, mass_on_a_string, spring
 
 from modeviz.analysis.deflection_shapes import complex_mode
+from modeviz.analysis.modal_results import ModalResults, solve_modal
 from modeviz.analysis.preparation import prepare_modes
-from modeviz.analysis.results import ModalResults, solve_modal
 from modeviz.dynamics.modes import vibrating_roots
 from modeviz.errors import SolveError
 from modeviz.vehicle.connections import Damper, MountRates, Spring

@@ -8,8 +8,9 @@ from full_solutions import receptances
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.exact_check import check_exactly
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare, prepare_modes
-from modeviz.analysis.results import Conditions, solve, solve_modal
+from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.mode_damping import with_mode_damping

@@ -29,7 +29,8 @@ from shaken_blocks import (
 from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
 from modeviz.analysis.exact_check import check_exactly
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import AXIS, Conditions, solve, solve_wheels
+from modeviz.analysis.results import AXIS, Conditions, solve
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes

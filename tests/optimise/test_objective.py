@@ -5,7 +5,8 @@ from mounted_cabin import mounted_cabin
 from rounding import CABIN
 
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import Conditions, solve, solve_wheels
+from modeviz.analysis.results import Conditions, solve
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.errors import SolveError, VehicleError
 from modeviz.optimise.objective import LoadCase, prepare_objective
 from modeviz.vehicle.connections import MountRates

@@ -12,7 +12,7 @@ from scipy.optimize import nnls
 from threadpoolctl import threadpool_limits
 from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
-from modeviz.analysis.results import solve_modal
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.compute.cancel import CancelToken
 from modeviz.errors import SolveError, VehicleError
 from modeviz.optimise.descent import descend

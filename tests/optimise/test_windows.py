@@ -3,8 +3,8 @@ import pytest
 from differences import central_difference
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare_modes
-from modeviz.analysis.results import solve_modal
 from modeviz.analysis.sensitivity import frequency_sensitivity
 from modeviz.dynamics.naming import ModeName
 from modeviz.errors import VehicleError

@@ -3,7 +3,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import solve_wheels
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.report.records import wheels_record
 from modeviz.report.tables import wheels_table
 

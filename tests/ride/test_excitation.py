@@ -22,8 +22,9 @@ from small_vehicles import tyre, wheel
 from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
 from modeviz.analysis.exact_check import check_exactly
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import AXIS, Conditions, solve, solve_wheels
+from modeviz.analysis.results import AXIS, Conditions, solve
 from modeviz.analysis.wheel_peaks import wheel_peaks
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError

@@ -11,8 +11,9 @@ from studied_cabin import cabin_study
 
 import modeviz as mv
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import Conditions, solve, solve_wheels
+from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.sensitivity import frequency_sensitivity, ride_sensitivity
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.cli import main
 from modeviz.errors import ModevizError, VehicleError
 from modeviz.report.records import Record

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.analysis.results import Conditions, solve_wheels
+from modeviz.analysis.results import Conditions
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.viewer.app import App
 from modeviz.viewer.page.access import open_server
 

@@ -6,8 +6,9 @@ from html import escape
 
 import numpy as np
 
-from modeviz.analysis.pairing import Pair, pair_modes
-from modeviz.analysis.results import ModalResults, Results
+from modeviz.analysis.modal_results import ModalResults
+from modeviz.analysis.mode_tracking import Pair, pair_modes
+from modeviz.analysis.results import Results
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.optimise.outside import outside_space
 from modeviz.report.comparison import Comparison, ObjectiveValues

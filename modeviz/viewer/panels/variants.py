@@ -4,7 +4,7 @@ from html import escape
 
 import viser
 
-from modeviz.analysis.pairing import same_mode
+from modeviz.analysis.mode_tracking import same_mode
 from modeviz.analysis.results import AXIS, Results
 from modeviz.text.wording import sentence_case, signed
 from modeviz.vehicle.connections import RIDE_DIRECTIONS

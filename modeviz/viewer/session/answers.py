@@ -8,21 +8,12 @@ from functools import cached_property
 import numpy as np
 
 from modeviz.analysis.exact_check import Check, ClassicError, classic_error
-from modeviz.analysis.following import follow
-from modeviz.analysis.pairing import Pair, pair_modes, same_mode
+from modeviz.analysis.modal_results import ModalResults, solve_modal
+from modeviz.analysis.mode_tracking import Pair, follow, pair_modes, same_mode
 from modeviz.analysis.preparation import Prepared, prepare
-from modeviz.analysis.results import (
-    Conditions,
-    ModalResults,
-    Results,
-    RoadExcitation,
-    WheelResults,
-    drive,
-    solve_modal,
-    solve_on,
-    solve_wheels,
-)
+from modeviz.analysis.results import Conditions, Results, RoadExcitation, drive, solve_on
 from modeviz.analysis.sensitivity import Sensitivity
+from modeviz.analysis.wheel_results import WheelResults, solve_wheels
 from modeviz.dynamics.component_trust import ComponentTrust
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import Track

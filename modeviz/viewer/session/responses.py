@@ -3,8 +3,9 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from modeviz.analysis.results import AXIS, Results, WheelResults
+from modeviz.analysis.results import AXIS, Results
 from modeviz.analysis.wheel_peaks import wheel_peak_lines, wheel_peaks
+from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import cut
 from modeviz.report.tables import wheel_band
 from modeviz.ride.participation import Peak

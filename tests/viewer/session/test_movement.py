@@ -9,7 +9,8 @@ from rounding import CABIN, assert_near
 
 from modeviz.analysis.deflection_shapes import complex_mode, road_shape, wheel_shape
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import Conditions, solve, solve_wheels
+from modeviz.analysis.results import Conditions, solve
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.components import component_modes, component_shares
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.session.movement import ShownMode, movement

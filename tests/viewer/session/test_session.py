@@ -6,9 +6,10 @@ import pytest
 from mounted_cabin import mounted_cabin
 from rounding import CABIN, assert_near
 
-from modeviz.analysis.following import follow, solve_followed
+from modeviz.analysis.mode_tracking import follow, solve_followed
 from modeviz.analysis.preparation import prepare
-from modeviz.analysis.results import Conditions, solve, solve_wheels
+from modeviz.analysis.results import Conditions, solve
+from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.errors import SolveError
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.session.session import Session

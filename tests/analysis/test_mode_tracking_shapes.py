@@ -7,9 +7,9 @@ import pytest
 from builtin_truck import builtin_truck, truck_modes
 from mounted_cabin import mounted_cabin
 
-from modeviz.analysis.following import follow, solve_followed
+from modeviz.analysis.modal_results import solve_modal
+from modeviz.analysis.mode_tracking import follow, solve_followed
 from modeviz.analysis.preparation import prepare_modes
-from modeviz.analysis.results import solve_modal
 from modeviz.dynamics.tracking import EQUAL, MAJORITY
 from modeviz.vehicle.connections import RATE_FIELDS
 

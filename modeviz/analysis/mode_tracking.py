@@ -1,8 +1,9 @@
-"""Which modes are compared with each other, for every table of two sets of rates.
+"""Which modes of one set of rates are which with another, by shape and by name.
 
-A mode is called after what moves, and modes of one name are compared, wherever their shapes went.
-Only namesakes ("box flexing", "box flexing 2") are told apart by shape: their numbers count them by
-frequency and say nothing of which is which once another of them comes or goes.
+Shapes are followed from one set to the other. A table of two sets compares modes of one name, wherever
+their shapes went, for a mode is called after what moves. Only namesakes ("box flexing", "box flexing
+2") are told apart by shape: their numbers count them by frequency and say nothing of which is which
+once another of them comes or goes.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -10,10 +11,36 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.analysis.following import follow
-from modeviz.analysis.results import ModalResults
+from modeviz.analysis.modal_results import ModalResults, solve_modal
+from modeviz.analysis.preparation import PreparedModes
+from modeviz.dynamics.band import Method
 from modeviz.dynamics.naming import ModeName
-from modeviz.dynamics.tracking import Track
+from modeviz.dynamics.tracking import Track, track_modes
+from modeviz.vehicle.connections import Rates
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """The modes with the vehicle's own rates, those with other rates, and where the former went."""
+
+    base: ModalResults
+    now: ModalResults
+    track: Track
+    """From the modes of `base` to those of `now`."""
+
+
+def solve_followed(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> Followed:
+    """The modes with other mount rates, and which they are of those with the vehicle's own.
+
+    Arguments and errors as `analysis.modal_results.solve_modal`.
+    """
+    base, now = (solve_modal(prepared, r, method) for r in ({}, rates))
+    return Followed(base, now, follow(base, now))
+
+
+def follow(base: ModalResults, now: ModalResults) -> Track:
+    """Where the modes of one set of rates are with another of the same vehicle."""
+    return track_modes(base.momentum, base.modes, now.modes)
 
 
 @dataclass(frozen=True)

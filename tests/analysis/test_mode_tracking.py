@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from builtin_truck import truck_modes
 
-from modeviz.analysis.following import follow
-from modeviz.analysis.pairing import Pair, pair_modes, same_mode
-from modeviz.analysis.results import solve_modal
+from modeviz.analysis.modal_results import solve_modal
+from modeviz.analysis.mode_tracking import Pair, follow, pair_modes, same_mode
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import EQUAL, WEAK_MAC, Track
 
