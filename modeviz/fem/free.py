@@ -165,7 +165,7 @@ def most_independent(rows: Floats) -> np.ndarray:
 
     By QR with pivoting: each is the one that is largest beyond what the rows before it show.
     """
-    _, by_choice = sl.qr(rows.T, mode="r", pivoting=True)
+    by_choice = np.asarray(sl.qr(rows.T, mode="r", pivoting=True)[-1], int)
     return by_choice[: rows.shape[1]]
 
 

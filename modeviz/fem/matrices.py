@@ -29,7 +29,7 @@ class Matrices:
     @property
     def n_dofs(self) -> int:
         """The number of degrees of freedom."""
-        return self.mass.shape[0]
+        return len(self.rigid)
 
     def scaled(self, stiffness_factor: float, mass_factor: float) -> "Matrices":
         """The same body of a material so many times as stiff and as heavy."""
@@ -47,7 +47,7 @@ def nodal_matrices(
         stiffness: (n_dofs, n_dofs), N/m and N m/rad.
         dofs: (n_dofs,), which they are, 6 node + (0 to 5 for x to rz); all of them, if not given.
     """
-    motion = sp.eye_array(6 * len(nodes), format="csc")
+    motion = sp.csc_array(sp.eye_array(6 * len(nodes)))
     rigid = rigid_motions(nodes).reshape(-1, 6)
     if dofs is None:
         return Matrices(nodes, mass, stiffness, motion.tocsr(), rigid)
