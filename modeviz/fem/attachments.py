@@ -1,4 +1,4 @@
-"""Where things hang on a finite-element body: the motion of a named point from that of nodes."""
+"""Attachments of a finite-element body: the motion of a named point, made of that of nodes."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""From a mesh or matrices to a component of a vehicle: free modes, residual vectors, attachments."""
+"""Components of a vehicle made of meshes or matrices: free modes, residual vectors, attachments."""
 
 from collections.abc import Sequence
 

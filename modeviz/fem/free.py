@@ -49,7 +49,7 @@ def rigid_modes(matrices: Matrices) -> Floats:
 
 
 def center_of_gravity(matrices: Matrices) -> Floats:
-    """Where the mass is balanced, (3,), m."""
+    """The centre of gravity, (3,), m."""
     R = matrices.rigid
     M = R.T @ (matrices.mass @ R)
     return np.array([M[1, 5], M[2, 3], M[0, 4]]) / M[0, 0]
@@ -127,7 +127,7 @@ def static_response(matrices: Matrices, loads: Floats) -> Floats:
 
 
 def residual_response(matrices: Matrices, modes: ModalBasis, loads: Floats) -> Floats:
-    """What static loads deform beyond the given free modes, (n_dofs, n_loads).
+    """The static displacement under loads beyond that in the given free modes, (n_dofs, n_loads).
 
     The inertia-relief response u less its part in the modes, Φ Φᵀ M u = Φ Ω⁻² Φᵀ f. Zero where only
     rounding is left.
@@ -161,7 +161,7 @@ def residual_vectors(matrices: Matrices, modes: ModalBasis, loads: Floats) -> Mo
 
 
 def most_independent(rows: Floats) -> np.ndarray:
-    """Which rows, as many as there are columns, tell the columns apart best: (n_columns,), best first.
+    """The rows, as many as there are columns, that tell the columns apart best: indices, best first.
 
     By QR with pivoting: each is the one that is largest beyond what the rows before it show.
     """
@@ -199,7 +199,7 @@ def _orthonormal(u: Floats, mass: sp.csc_array, dependent: float = 1e-10) -> Flo
 
 
 def _signed(phi: Floats) -> Floats:
-    """The same shapes with their largest entry positive, the first where several are as large."""
+    """Shapes with the sign that makes their largest entry positive, the first of several as large."""
     sizes = np.abs(phi)
     first = np.argmax(sizes > 0.99 * sizes.max(axis=0), axis=0)
     return phi * np.sign(phi[first, np.arange(phi.shape[1])])

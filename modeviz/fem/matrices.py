@@ -32,7 +32,7 @@ class Matrices:
         return len(self.rigid)
 
     def scaled(self, stiffness_factor: float, mass_factor: float) -> "Matrices":
-        """The same body of a material so many times as stiff and as heavy."""
+        """The body in a material so many times as stiff and as heavy."""
         return replace(self, mass=self.mass * mass_factor, stiffness=self.stiffness * stiffness_factor)
 
 

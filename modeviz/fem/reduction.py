@@ -44,7 +44,7 @@ class GuyanReduction:
     """The lowest natural frequency of the rest with these held; infinite where that has no mass."""
 
     def too_high(self, modes: ModalBasis) -> Floats:
-        """By which part of it each natural frequency is too high, to first order, (n_modes,).
+        """The part by which each natural frequency is too high, to first order, (n_modes,).
 
         ω² φᵀ Q φ / 2: what the inertia of the omitted degrees of freedom bends them further. It is too
         little by up to 1 / (1 - (f / `omitted_hz`)²).
@@ -56,7 +56,7 @@ class GuyanReduction:
         return modes.omega_n_squared * np.einsum("ij,ij->j", phi, self.residual @ phi) / 2
 
     def at_least_hz(self, frequency_hz: Floats) -> Floats:
-        """What the full model's frequencies are at least: 1 / f² = 1 / f_reduced² + 1 / f_omitted².
+        """Lower bounds of the full model's frequencies: 1 / f² = 1 / f_reduced² + 1 / f_omitted².
 
         Of the flexibility K⁻¹M the retained coordinates and the omitted ones, held, are diagonal
         blocks, and no eigenvalue of a positive matrix exceeds that of one block by more than the
