@@ -1,4 +1,4 @@
-"""What acts on a system: forces on its coordinates and, after them, motions given to its rigid joints.
+"""The inputs of a system: forces on its coordinates and, after them, motions given to its rigid joints.
 
     R x = a,  Z x = F + Rᵀλ  ⇒  x = U a + T y,  TᵀZT y = Tᵀ(F - Z U a)
 
@@ -35,7 +35,7 @@ def led(system: System, actions: Array) -> Array:
 
 
 def forces_on_rest(system: System, frequency_hz: float | Floats, actions: Complexes) -> Complexes:
-    """What acts, as forces on the motions that rigid joints leave, (..., n_dofs, n_inputs).
+    """Inputs turned into forces on the motions that rigid joints leave, (..., n_dofs, n_inputs).
 
     F - (K + jK_g + jωC) U a: mass does not pull, for TᵀMU = 0.
 

@@ -1,4 +1,4 @@
-"""From a vehicle to the matrices of the paper's equation 10.
+"""The matrices of a vehicle, those of the paper's equation 10.
 
     (-ω² M + jω C + jK_g + K) q = F
 
@@ -144,7 +144,7 @@ class System:
         return replace(self.with_springs(change), vehicle=vehicle)
 
     def with_springs(self, change: Complexes) -> "System":
-        """The same with mount springs that differ from what the vehicle says.
+        """The system with mount springs that differ from what the vehicle says.
 
         Args:
             change: (n_springs,), of complex rates, N/m.
@@ -199,7 +199,7 @@ def assemble(vehicle: Vehicle) -> System:
 
 
 def _is_rigid(vehicle: Vehicle) -> NDArray[np.bool_]:
-    """Which relative motions of all connections are held, (6 n_connections,)."""
+    """A mask of the relative motions of all connections that are held, (6 n_connections,)."""
     return np.array([m in c.rigid for c in vehicle.all_connections for m in MOTIONS], bool)
 
 

@@ -157,7 +157,7 @@ def _ritz(basis: EnrichedBasis, change: Floats, method: Method) -> _Solution:
 
 
 def _amplification(basis: EnrichedBasis, omega_squared: Floats) -> Floats:
-    """What a mode's own motion adds to the static effect of a residual, (n_modes,).
+    """The motion that a mode adds to the static effect of a residual, (n_modes,).
 
     To second order ω² is too high by rᵀ(K - ω²M)⁻¹r. The residual r is orthogonal to the vectors in
     use, so it moves only what is faster than the base modes: there 1/(ω_j² - ω²) is at most 1/ω_j²

@@ -152,7 +152,7 @@ def _whitened(A: Floats, L: Floats) -> Floats:
 
 
 def _n_negative(A: Floats) -> int:
-    """How many eigenvalues of a symmetric matrix are negative: as many as of D in A = LDLᵀ."""
+    """The number of negative eigenvalues of a symmetric matrix: as many as of D in A = LDLᵀ."""
     D = scipy.linalg.ldl(A)[1]
     eigenvalues = np.asarray(scipy.linalg.eigvalsh_tridiagonal(np.diag(D), np.diag(D, 1)))
     return int((eigenvalues < 0).sum())

@@ -80,7 +80,7 @@ class Between:
         return min(N_NODES, len(self.known.frequency_hz))
 
     def _weights(self, first: NDArray[np.intp], x: Array) -> Complexes:
-        """What values at even nodes count, (n_x, n_nodes), from the first node on."""
+        """The weights of values at even nodes, (n_x, n_nodes), from the first node on."""
         factors, poles, is_local = (a[first] for a in self._windows)
         nodes = self.known.frequency_hz[first[:, None] + np.arange(self._n_nodes)]
         away, step = x[:, None] - nodes, nodes[:, 1] - nodes[:, 0]
@@ -146,7 +146,7 @@ def prepare_between(
     rows: tuple[Floats, Floats],
     along: Callable[[Complexes, Complexes], Complexes],
 ) -> Between:
-    """What is needed to know receptances between their lines.
+    """Prepare receptances to be known between their lines.
 
     Args:
         known: the receptances.
@@ -172,7 +172,13 @@ def prepare_between(
 def modified_between(
     between: Between, stiffness: Complexes, basis: EnrichedBasis, rows: tuple[Floats, Floats]
 ) -> Between:
-    """The same at other mount rates, (n_springs,), complex, N/m; rows as of `prepare_between`.
+    """Receptances between their lines at other mount rates; rows as of `prepare_between`.
+
+    Args:
+        between: at the present mount rates.
+        stiffness: (n_springs,), complex, N/m, the other ones.
+        basis: holds the modes at these.
+        rows: of the outputs and the inputs.
 
     Raises:
         SolveError: with these rates an undamped resonance lies on a line.

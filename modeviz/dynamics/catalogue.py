@@ -15,7 +15,7 @@ RIDE_SHARE = 0.7
 
 @dataclass(frozen=True, eq=False)
 class Shares:
-    """What modes have of a vehicle's motions: shares of kinetic energy, 0 to 1, but for the ends."""
+    """The shares of modes in a vehicle's motions: parts of kinetic energy, 0 to 1, but for the ends."""
 
     axles: tuple[Axle, ...]
     units: tuple[Unit, ...]
@@ -34,11 +34,11 @@ class Shares:
 
     @cached_property
     def ride(self) -> np.ndarray:
-        """Which are ride modes, (n_modes,)."""
+        """A mask of the ride modes, (n_modes,)."""
         return self.whole.sum(axis=0) > RIDE_SHARE
 
     def of_role(self, role: Role) -> tuple[str, Floats] | None:
-        """What the unit of a role is called, and its rigid shares (6, n_modes); None without one."""
+        """The word for the unit of a role and its rigid shares, (6, n_modes); None if there is none."""
         found = (i for i, unit in enumerate(self.units) if unit.bodies[0].role == role)
         i = next(found, None)
         return None if i is None else (self.units[i].word, self.rigid[i])

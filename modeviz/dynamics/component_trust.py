@@ -1,4 +1,4 @@
-"""How far the components of a vehicle are believed, whatever is exact about the vehicle made of them.
+"""Estimates of what truncating the components of a vehicle does to its frequencies.
 
 Modes that a body was given without are missing in every answer, and no solve of the vehicle can tell.
 What can be told is how high a body's modes reach, and how much its last ones matter: frequencies only
@@ -26,7 +26,7 @@ LAST_PART = 5
 
 @dataclass(frozen=True)
 class ComponentTrust:
-    """What is known of the truncation of one flexible body."""
+    """An estimate of what the truncation of one flexible body does."""
 
     body: str
     highest_hz: float
@@ -44,7 +44,7 @@ class ComponentTrust:
 
 @lru_cache(maxsize=2)
 def component_trust(system: System, top_hz: float) -> tuple[ComponentTrust, ...]:
-    """How far each flexible body of a vehicle is believed, in the order of its bodies.
+    """Estimate the truncation of each flexible body of a vehicle, in the order of its bodies.
 
     It takes as long as an eigenproblem of the vehicle for each, so the last answers are kept.
 
@@ -108,7 +108,7 @@ def _pulls(system: System) -> Floats:
 
 
 def _changes(system: System, coordinates: Floats, frequency_hz: Floats) -> Floats:
-    """How much higher each natural frequency is, a part of it, where only some coordinates move."""
+    """The part by which each natural frequency rises where only some coordinates move."""
     T = coordinates
     if system.rigid_joints is not None:
         joints = rigid_joints(T.T @ system.mass @ T, system.rigid_joints.held @ T)

@@ -27,7 +27,7 @@ class ComponentModes:
 
 @dataclass(frozen=True)
 class ComponentShare:
-    """What one of a body's own modes has of the kinetic energy of a motion of the vehicle."""
+    """The share of one of a body's own modes in the kinetic energy of a motion of the vehicle."""
 
     name: str
     """As `ComponentModes.names`, or "residual vectors" or "added masses"."""
@@ -70,7 +70,7 @@ def component_modes(system: System, body: str) -> ComponentModes:
 def component_shares(
     system: System, shape: Floats | Complexes, body: str
 ) -> tuple[ComponentShare, ...]:
-    """Which of a body's free-free modes make up a motion of the vehicle, the largest share first.
+    """The body's free-free modes that make up a motion of the vehicle, the largest share first.
 
     |q|² / φᴴMφ with the body's mass-normalised coordinates q. Its residual vectors are one share
     together, and so are the masses added to it, which its own modes do not know; the shares of a body
@@ -108,14 +108,14 @@ def _alone(body: Body) -> System:
 
 
 def _elastic(body: Body) -> np.ndarray:
-    """Which of a body's coordinates are its elastic normal modes."""
+    """The indices of a body's coordinates that are its elastic normal modes."""
     if not isinstance(body, FlexibleBody):
         return np.arange(0)
     return np.arange(body.n_rigid, body.n_normal)
 
 
 def _rigid_modes(alone: System) -> tuple[tuple[str, ...], Floats]:
-    """What a body's rigid modes are called, and their shapes in its coordinates, (n_dofs, n_rigid)."""
+    """Names of a body's rigid modes, and their shapes in its coordinates, (n_dofs, n_rigid)."""
     bodies = alone.vehicle.bodies
     X = rigid_coordinates(alone, bodies, center_of_gravity(alone, bodies))
     kept = _independent(X.T @ alone.mass @ X)
@@ -127,7 +127,7 @@ def _rigid_modes(alone: System) -> tuple[tuple[str, ...], Floats]:
 
 
 def _independent(rigid_mass: Floats) -> list[int]:
-    """Which of six rigid motions a body can do: all but the one closest to what has no inertia."""
+    """The rigid motions, of six, that a body can do: all but the one closest to having no inertia."""
     scale = np.sqrt(np.maximum(np.diag(rigid_mass), MASSLESS * np.trace(rigid_mass)))
     inertia, motions = np.linalg.eigh(rigid_mass / np.outer(scale, scale))
     kept = list(range(6))

@@ -1,4 +1,4 @@
-"""Where the energy of a mode is: the job of the paper's ENERGY program."""
+"""Shares of a mode's energy in bodies and connections: the job of the paper's ENERGY program."""
 
 from collections.abc import Mapping
 

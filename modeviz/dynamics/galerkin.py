@@ -65,7 +65,7 @@ class Reduced:
 
 
 def reduced(receptances: Receptances, stiffness: Complexes) -> Reduced:
-    """As few stretches as samples need; it pays where there are few inputs.
+    """Reduce springs to as few stretches as samples need; it pays where there are few inputs.
 
     Args:
         receptances: at one frequency or more.

@@ -58,7 +58,7 @@ class FewLines:
 
 
 def few_lines(receptances: Receptances, stiffness: Complexes) -> FewLines:
-    """As many frequencies as sampled responses need.
+    """Choose as many frequencies as sampled responses need.
 
     Args:
         receptances: at all frequencies.

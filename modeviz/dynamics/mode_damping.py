@@ -74,7 +74,7 @@ def _ratios(system: System, modes: Modes, stated: tuple[ModeDamping, ...]) -> Fl
 
 
 def _number(damping: ModeDamping, names: list[str]) -> int:
-    """Which mode is meant, from zero."""
+    """The index of the mode that is meant."""
     if isinstance(damping.mode, str):
         if damping.mode not in names:
             raise VehicleError("mode damping: " + unknown("mode", damping.mode, names))

@@ -31,7 +31,7 @@ def rigid_coordinates(system: System, bodies: Sequence[Body], center: Floats) ->
 
 
 def center_of_gravity(system: System, bodies: Sequence[Body]) -> Floats:
-    """Where the bodies' common centre of gravity is, (3,), m, with the masses added to them."""
+    """The bodies' common centre of gravity, (3,), m, with the masses added to them."""
     X = rigid_coordinates(system, bodies, np.zeros(3))
     m = X.T @ system.mass @ X
     return np.array([m[1, 5], -m[0, 5], m[0, 4]]) / m[0, 0]
@@ -97,7 +97,7 @@ def bending_rows(system: System, frame: FlexibleBody) -> Floats:
 
 
 def flexibility_share(amplitudes: Floats, omega_n_squared: Floats) -> Floats:
-    """What each mode adds to a frame's static flexibility, in proportion to the largest.
+    """The part of each mode in a frame's static flexibility, in proportion to the largest.
 
     A mode's part is (its amplitude)² / ω², so of several modes that bend a frame the lowest stands out.
     Free modes have none.

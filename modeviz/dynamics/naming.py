@@ -43,7 +43,7 @@ MOTION_WORDS = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
 
 @dataclass(frozen=True)
 class ModeName:
-    """What a mode is called, and how well that fits."""
+    """The name of a mode, and how well it fits."""
 
     name: str
     score: float
@@ -51,7 +51,7 @@ class ModeName:
 
     @property
     def motion(self) -> str:
-        """What moves: "box flexing" of "box flexing 2"."""
+        """The motion without its number: "box flexing" of "box flexing 2"."""
         return re.sub(r" \d+$", "", self.name)
 
     @property
@@ -61,13 +61,13 @@ class ModeName:
 
     @property
     def spoken(self) -> str:
-        """As shown to people: "~cab yaw" where the name fits weakly."""
+        """The name for people: "~cab yaw" where it fits weakly."""
         return f"~{self.name}" if self.is_weak else self.name
 
 
 @dataclass(frozen=True, eq=False)
 class Namer:
-    """What names need of a vehicle, whatever its mount rates: words and the rows of its motions."""
+    """The words and rows of motions by which a vehicle's modes are named, whatever its mount rates."""
 
     system: System
     axles: tuple[Axle, ...]
@@ -81,7 +81,7 @@ class Namer:
 
 
 def prepare_names(system: System) -> Namer:
-    """What `name_modes` needs, made once for a vehicle."""
+    """Prepare a vehicle once for `name_modes`."""
     its_axles, its_units = axles(system.vehicle), units(system.vehicle)
     none = np.zeros((0, system.n_dofs))
     frame = next(filter(_bends, system.vehicle.bodies), None)
@@ -120,7 +120,7 @@ def name_modes(namer: Namer, modes: Modes) -> tuple[ModeName, ...]:
 
 
 def _shares(namer: Namer, modes: Modes) -> Shares:
-    """What each mode has of the vehicle's motions."""
+    """The shares of each mode in the vehicle's motions."""
     n_modes = modes.shapes.shape[1]
     whole, wheels, rigid, ends, bending = np.split(namer.rows @ modes.shapes, namer.blocks)
     energy = kinetic_energy(namer.system, modes.shapes)
@@ -159,7 +159,7 @@ def _describe(shares: Shares) -> list[ModeName]:
 
 
 def _without_repeats(names: Iterable[ModeName]) -> tuple[ModeName, ...]:
-    """The same names, a second "box flexing" called "box flexing 2"."""
+    """The names with repeats numbered, a second "box flexing" as "box flexing 2"."""
     counts: dict[str, int] = {}
     result = []
     for name in names:

@@ -37,7 +37,7 @@ BLOCK = 2**22
 
 @dataclass(frozen=True, eq=False)
 class Receptances:
-    """What a vehicle's mount springs, outputs and inputs do to each other, at some mount rates."""
+    """Receptances among a vehicle's mount springs, outputs and inputs, at some mount rates."""
 
     frequency_hz: Floats
     """(n_freqs,)."""
@@ -58,7 +58,7 @@ class Receptances:
         return sum(a.nbytes for a in (self.springs, self.outputs, self.inputs, self.direct))
 
     def driven(self, forces: Complexes, ground: Complexes) -> "Receptances":
-        """The same with other inputs: each a sum of the present ones and of motions of the ground.
+        """These receptances for other inputs: sums of the present ones and of motions of the ground.
 
         Args:
             forces: (n_freqs, n_inputs, n_loads), of the present inputs in each load; what the ground
@@ -69,7 +69,7 @@ class Receptances:
         return replace(self, inputs=self.inputs @ forces - ground, direct=self.direct @ forces)
 
     def modified(self, stiffness: Complexes, pole: float = POLE) -> "Receptances":
-        """The same at other mount rates, all of it.
+        """All of these receptances at other mount rates.
 
         Args:
             stiffness: (n_springs,), complex rates, N/m.
@@ -133,7 +133,7 @@ class Receptances:
         return H
 
     def at(self, lines: NDArray[np.intp]) -> "Receptances":
-        """The same at some of the frequencies only."""
+        """These receptances at some of the frequencies only."""
         return Receptances(
             self.frequency_hz[lines],
             self.mount_stiffness,
@@ -146,7 +146,7 @@ class Receptances:
         springs: NDArray[np.intp] | None = None,
         inputs: NDArray[np.intp] | None = None,
     ) -> "Receptances":
-        """The same for some lines, springs and inputs only; None is all."""
+        """These receptances for some lines, springs and inputs only; None is all."""
         s = np.arange(self.springs.shape[1]) if springs is None else springs
         i = slice(None) if inputs is None else inputs
         return Receptances(
@@ -176,7 +176,7 @@ class Receptances:
         )
 
     def with_outputs(self, outputs: NDArray[np.intp]) -> "Receptances":
-        """The same for some of the outputs only."""
+        """These receptances for some of the outputs only."""
         return replace(self, outputs=self.outputs[:, :, outputs], direct=self.direct[:, outputs])
 
     def response_gradient(self, stiffness: Complexes) -> tuple[Complexes, Complexes, Complexes]:
@@ -204,14 +204,14 @@ class Receptances:
 
     @cached_property
     def _sizes(self) -> Floats:
-        """What stretches are scaled by, (n_springs,): the root of each spring's largest receptance."""
+        """The scales of stretches, (n_springs,): the root of each spring's largest receptance."""
         own = np.abs(np.diagonal(self.springs, axis1=1, axis2=2))
         return np.sqrt(np.maximum(own.max(axis=0, initial=0.0), np.finfo(np.float64).tiny))
 
     def _forces(
         self, stiffness: Complexes, stretches: Complexes, pole: float = POLE
     ) -> tuple[NDArray[np.intp], Complexes]:
-        """Which springs change, and the forces Δ (I + G_mm Δ)⁻¹ b that this adds to stretches b.
+        """The springs that change, and the forces Δ (I + G_mm Δ)⁻¹ b that this adds to stretches b.
 
         Stretches are scaled by u = √|G_ii| and forces by 1 + |Δ| u², so that nothing is large or small
         whether a rate is zero or practically rigid.

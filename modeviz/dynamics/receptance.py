@@ -94,7 +94,7 @@ def receptances_along(system: System, rows: Floats) -> Callable[[Complexes, Comp
 
 @dataclass(frozen=True, eq=False)
 class _Joints:
-    """What joins bodies or is carried by them: springs and dampers, added masses, rigid joints."""
+    """All that joins bodies or is carried by them: springs and dampers, added masses, rigid joints."""
 
     stiffness: Complexes
     damping: Floats
@@ -175,7 +175,7 @@ class _Disassembled:
         return matrix, 1 / np.sqrt(np.concatenate([own_parts[kept], joint_parts]))
 
     def _held_by(self, compliance: Complexes, squares: Floats) -> Floats:
-        """How stiffly the joints hold each coordinate, (n_dofs,), rad²/s².
+        """The stiffness with which joints hold each coordinate, (n_dofs,), rad²/s².
 
         A rigid joint holds as the elastic modes behind it do, and without any there is no limit.
         """

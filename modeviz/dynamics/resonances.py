@@ -1,4 +1,4 @@
-"""Where a vehicle is in resonance and how sharply, to place the lines at which it is solved."""
+"""Resonances of a vehicle and their sharpness, to place the lines at which it is solved."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -43,7 +43,7 @@ class Resonances:
     """(n_dofs, n_modes), mass-normalised; None where damping couples modes much."""
 
     def seen(self, outputs: Floats, inputs: Floats) -> "Resonances":
-        """Those that can add to what outputs show of forces, all if shapes are not known.
+        """The resonances that can add to what outputs show of forces, all if shapes are not known.
 
         By the power φ_o² φ_i²/(ζ f) that a mode has from a white force.
 
@@ -65,7 +65,7 @@ class Resonances:
         return Resonances(self.frequency_hz[seen], self.damping_ratio[seen])
 
     def rounded(self) -> "Resonances":
-        """The same within a part of a half width, so that small changes of rates change nothing."""
+        """The resonances to a part of a half width, so that small changes of rates change nothing."""
         damped = self.damping_ratio > 0
         exponent = np.floor(np.log(np.where(damped, self.damping_ratio, 1.0)) / np.log(CLASS))
         zeta = np.where(damped, CLASS**exponent, 0.0)

@@ -84,7 +84,7 @@ def check_frequencies(frequency_hz: Floats) -> None:
 def modal_response(
     system: System, modes: Modes, frequency_hz: Floats, forces: Complexes, outputs: Floats
 ) -> Complexes:
-    """The same in modal coordinates, keeping the damping that couples them.
+    """The response in modal coordinates, keeping the damping that couples them.
 
     Exact when `modes` are all of the system's; otherwise what the modes left out would add
     statically is missing. Arguments as `direct_response`.
@@ -110,7 +110,7 @@ def modal_coordinates(
     frequency_hz: Floats,
     modal_forces: Complexes,
 ) -> Complexes:
-    """How much of each mode is in a response: q, (n_freqs, n_modes, n_inputs).
+    """Modal coordinates of a response: q, (n_freqs, n_modes, n_inputs).
 
     (Ω² - ω²I + jωφᵀCφ + jφᵀK_gφ) q = φᵀF
 

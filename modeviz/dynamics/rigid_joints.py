@@ -21,7 +21,7 @@ needed. In mass-normalised coordinates, relative to what is held best."""
 
 @dataclass(frozen=True, eq=False)
 class RigidJoints:
-    """What the rigid joints of a system hold, and what they leave."""
+    """The motions that the rigid joints of a system hold, and those they leave."""
 
     held: Floats
     """B, (n_held, n_dofs): independent rows that are zero in every motion."""

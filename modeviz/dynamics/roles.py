@@ -1,4 +1,4 @@
-"""Which bodies are spoken of together: the cab with its front end, an axle's wheels.
+"""Bodies that are spoken of together: the cab with its front end, an axle's wheels.
 
 Nothing here knows a particular vehicle: bodies enter by their role, wheels by their tyres.
 """

@@ -138,7 +138,7 @@ def _counting(center: Floats, gamma: Floats, last: int) -> _Counting:
 
 @lru_cache(maxsize=512)
 def _grading(gamma: float) -> Floats:
-    """How many lines a mode adds up to places beside it, as cubics, (N_CELLS, 4).
+    """The number of lines that a mode adds up to places beside it, as cubics, (N_CELLS, 4).
 
     Equal cells of u = asinh(d/γ), each with its powers of 0 to 1.
 
@@ -156,7 +156,7 @@ def _grading(gamma: float) -> Floats:
 
 
 def _phase(counting: _Counting) -> Floats:
-    """What brings a line onto each mode, (n_modes,), as far as modes do not share their lines."""
+    """Shifts that bring a line onto each mode, (n_modes,), as far as modes do not share their lines."""
     ends = counting.stretched(np.array([0.0, counting.last]))
     free = np.flatnonzero(counting.shift(*ends)[0].max(axis=0) < SLIGHT)
     t, _ = counting(counting.center[free])
@@ -168,14 +168,14 @@ def _phase(counting: _Counting) -> Floats:
 
 @lru_cache(maxsize=64)
 def _lines(center: bytes, gamma: bytes, last: int) -> Floats:
-    """Where the counting function is whole, in steps of the grid; kept for the next similar rates."""
+    """Places where the counting function is whole, in steps of the grid; kept for similar rates."""
     lines = _whole(_counting(np.frombuffer(center), np.frombuffer(gamma), last))
     lines.flags.writeable = False
     return lines
 
 
 def _whole(counting: _Counting) -> Floats:
-    """Where the counting function is whole, from the grid's first line to its last."""
+    """Places where the counting function is whole, from the grid's first line to its last."""
     last = counting.last
     grid = np.arange(last + 1.0)
     is_near = (np.abs(grid[:, None] - counting.center) < NEAR * REACH + 1).any(axis=1)

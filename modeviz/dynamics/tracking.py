@@ -1,4 +1,4 @@
-"""Which mode of one set of mount rates is which with another.
+"""Tracking of modes: which of one set of mount rates is which with another.
 
 Modes are recognised by the modal assurance criterion weighted with mass, MAC = (φ_oldᵀ M φ_new)² of
 mass-normalised shapes (R. J. Allemang, "The modal assurance criterion: twenty years of use and abuse",
@@ -35,7 +35,7 @@ REPEATED = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """Where each mode of one set of rates, the start, is with another."""
+    """The place of each mode of one set of rates, the start, among those of another."""
 
     shares: Floats
     """(n_start, n_present), MAC: how much of each start's shape is in each present mode."""
@@ -51,7 +51,7 @@ class Track:
 
     @property
     def weak(self) -> NDArray[np.bool_]:
-        """Whose shape others may share, or which is gone, (n_start,)."""
+        """A mask of the modes whose shape others may share, or which are gone, (n_start,)."""
         return self.mac < WEAK_MAC
 
     def split(self, start: int, count: int = 3) -> list[tuple[int, float]]:
@@ -68,7 +68,7 @@ class Track:
 
 
 def track_modes(momentum: Floats, start: Modes, present: Modes) -> Track:
-    """Where each mode of one set of rates is with another.
+    """Find each mode of one set of rates among those of another.
 
     Args:
         momentum: M φ of the start's shapes, (n_dofs, n_start).
@@ -94,7 +94,7 @@ def likeliest(shares: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 def _assigned(shares: Floats) -> NDArray[np.intp]:
-    """Which column each row is, (n_rows,); -1 if none that is leading by row and by column."""
+    """The column that each row is, (n_rows,); -1 if none is leading by row and by column."""
     leads = _leads(shares) & _leads(shares.T).T
     rows, columns = likeliest(np.where(leads, shares, 0.0))
     index = np.full(len(shares), -1)
@@ -103,7 +103,7 @@ def _assigned(shares: Floats) -> NDArray[np.intp]:
 
 
 def _leads(shares: Floats) -> NDArray[np.bool_]:
-    """Which shares of each row are at least half of its largest, (n_rows, n_columns).
+    """A mask of the shares that are at least half of their row's largest, (n_rows, n_columns).
 
     What is missing to one may be in a single mode outside and counts as that.
     """
@@ -143,7 +143,7 @@ def _turned_to_each_other(products: Floats, rows: list[slice], columns: list[sli
 
 
 def _turned_to_others(products: Floats, rows: list[slice]) -> Floats:
-    """The same, where each set of repeated rows is as near to other shapes as can be.
+    """The rows, each set of repeated ones turned as near to other shapes as can be.
 
     It is rotated within its own space onto as many of the others as it has members, those that lie in
     that space most (orthogonal Procrustes: P. H. Schönemann, 1966), and takes their order.

@@ -1,4 +1,4 @@
-"""How far found modes can be from the true ones, and whether all were found."""
+"""Bounds on the error of modes, and a count that tells whether all were found."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ EDGE = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class ErrorEstimate:
-    """What is known of the error of modes without another solve."""
+    """An estimate of the error of modes without another solve."""
 
     residual: Floats
     """(n_modes,), ‖Kφ - ω²Mφ‖ in the norm of M⁻¹, rad²/s²: a true ω² lies within it of the mode's."""
@@ -41,13 +41,13 @@ def gap_error(omega_squared: Floats, residual: Floats) -> Floats:
 
 
 def frequency_error(omega_squared: Floats, error: Floats) -> Floats:
-    """How far natural frequencies are off, (n_modes,), Hz, when ω² is off by `error`."""
+    """The error of natural frequencies, (n_modes,), Hz, when ω² is off by `error`."""
     omega = np.sqrt(np.maximum(omega_squared, 0.0))
     return (np.sqrt(omega**2 + error) - omega) / (2 * np.pi)
 
 
 def count_below(n_base: int, top_receptance: Floats, change: Floats) -> int:
-    """How many modes a system has below a frequency after its springs have changed.
+    """The number of modes that a system has below a frequency after its springs have changed.
 
     Sturm's count, the negative eigenvalues of K + RᵀΔR - ω²M, from that before the change and a matrix
     of the size of the springs: n = n₀ + n₊(Δ⁻¹ + G) - n₊(Δ), because inertia adds up over the two ways
