@@ -35,7 +35,7 @@ FOLLOWS = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Excitation:
-    """What inputs do to a vehicle, per unit of each."""
+    """Forces and motions of the ground that inputs give a vehicle, per unit of each."""
 
     forces: Complexes
     """(n_freqs, n_directions, n_inputs), N along each of `input_directions`; m, where that is a motion
@@ -113,7 +113,7 @@ def together(excitations: Sequence[Excitation]) -> Excitation:
 
 
 def generalised_forces(system: System, load: Load, frequency_hz: Floats, speed: float) -> Complexes:
-    """What acts on a system per unit of each input of a load, (n_freqs, n_dofs + n_rigid, n_inputs).
+    """Forces and given motions per unit of each input, (n_freqs, n_dofs + n_rigid, n_inputs).
 
     Forces on its coordinates, then motions given to its rigid joints. Arguments as of `excitation`.
     """
@@ -139,7 +139,7 @@ def input_spectrum(load: Load, frequency_hz: Floats, speed: float) -> Complexes:
 
 
 def known_part(load: Load, frequency_hz: Floats, speed: float) -> slice:
-    """Which of some frequencies, (n_freqs,), the spectrum of a load is known at.
+    """The slice of some frequencies, (n_freqs,), at which the spectrum of a load is known.
 
     Raises:
         ModevizError: none of them.
@@ -152,7 +152,7 @@ def known_part(load: Load, frequency_hz: Floats, speed: float) -> slice:
 
 
 def table_hz(load: Load, speed: float) -> Floats:
-    """Where the spectrum of a load is given, (n_freqs,), Hz, rising; none of a harmonic load."""
+    """The frequencies at which the spectrum of a load is given, Hz, rising; none of a harmonic load."""
     if isinstance(load, Road):
         return load.frequency_hz * (speed / load.speed)
     if not isinstance(load, WheelLoad) and isinstance(load.amplitude, Spectrum):
@@ -161,7 +161,7 @@ def table_hz(load: Load, speed: float) -> Floats:
 
 
 class _Slots:
-    """Where in `input_directions` each load has its own."""
+    """The places in `input_directions` of each load's own."""
 
     def __init__(self, vehicle: Vehicle) -> None:
         n = 3 * len(vehicle.tyres)
@@ -209,7 +209,7 @@ def _check_led(system: System, motion: BaseMotion) -> None:
 
 
 def _springs(vehicle: Vehicle, connection: Connection) -> slice:
-    """Which mount springs are along the axes of a connection, none if it is no mount."""
+    """The slice of the mount springs along the axes of a connection, empty if it is no mount."""
     names = [mount.name for mount in vehicle.mounts]
     if connection.name not in names:
         return slice(0, 0)

@@ -26,7 +26,7 @@ N_STEPS = 4
 
 
 def integration_weights(frequency_hz: Floats, band: tuple[float, float]) -> Floats:
-    """What each value of a spectrum counts in its integral over a band, (n_freqs,), Hz.
+    """The weight of each value of a spectrum in its integral over a band, (n_freqs,), Hz.
 
     By trapezia where the lines are few or their distances change abruptly.
 
@@ -39,7 +39,7 @@ def integration_weights(frequency_hz: Floats, band: tuple[float, float]) -> Floa
 
 @lru_cache(maxsize=8)
 def _weights(frequency_hz: bytes, band: tuple[float, float]) -> Floats:
-    """The same, kept for the next spectrum at the same lines."""
+    """Weights of `integration_weights`, kept for the next spectrum at the same lines."""
     f = np.frombuffer(frequency_hz)
     if not is_graded(f):
         return _trapezia(f, band)
@@ -56,7 +56,7 @@ def is_graded(f: Floats) -> bool:
 
 
 def _trapezia(f: Floats, band: tuple[float, float]) -> Floats:
-    """The same for a polygon."""
+    """Weights of the integral of a polygon over a band, (n_freqs,), Hz."""
     start, end = np.clip(f[:-1], *band), np.clip(f[1:], *band)
     length, middle = end - start, (start + end) / 2
     of_right = length * (middle - f[:-1]) / np.diff(f)
@@ -64,7 +64,7 @@ def _trapezia(f: Floats, band: tuple[float, float]) -> Floats:
 
 
 def line_distances(f: Floats) -> Floats:
-    """What each of `N_SLOPE` lines or more stands for, f'(t), (n_freqs,), Hz.
+    """The distance that each of `N_SLOPE` lines or more stands for, f'(t), (n_freqs,), Hz.
 
     By the polynomials through the lines around it.
     """

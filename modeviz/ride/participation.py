@@ -1,4 +1,4 @@
-"""Which modes make a response: the job of the paper's MPN program."""
+"""Participation of modes in a response: the job of the paper's MPN program."""
 
 from dataclasses import dataclass
 
@@ -62,7 +62,7 @@ def participation_above(
     frequency_hz: Floats,
     input_psd: Complexes,
 ) -> Floats:
-    """That of modes which damping couples to no other, and of the rest, (n_freqs, n_single + 1).
+    """Participation of modes that damping leaves single, and of the rest, (n_freqs, n_single + 1).
 
     Args:
         modes: rising.
@@ -110,7 +110,7 @@ def peaks(
 
 
 def peak_lines(psd: Floats) -> list[int]:
-    """Where a response (n_freqs,) has its peaks, rising, `PROMINENCE_DB` above the dips beside them."""
+    """The peaks of a response (n_freqs,), rising, `PROMINENCE_DB` above the dips beside them."""
     # scipy.signal finds them too, but importing it costs half of a program's start.
     level = power_decibels(psd)
     before, here, after = level[:-2], level[1:-1], level[2:]
@@ -119,7 +119,7 @@ def peak_lines(psd: Floats) -> list[int]:
 
 
 def _prominence(level: Floats, maxima: NDArray[np.intp]) -> Floats:
-    """How far each maximum stands above the higher of the dips to its sides, up to higher ground."""
+    """The height of each maximum above the higher of the dips to its sides, up to higher ground."""
     lines = np.arange(len(level))
     top, height = maxima[:, None], level[maxima][:, None]
     higher = level > height

@@ -30,7 +30,7 @@ def acceleration_psd(
 def averaged_acceleration_psd(
     frequency_hz: Floats, frequency_response: Complexes, input_psd: Complexes
 ) -> Floats:
-    """The same around lines, of an `averaged_spectrum`: for integrals, it may be negative."""
+    """Acceleration PSD around lines, of an `averaged_spectrum`: for integrals, it may be negative."""
     H = frequency_response
     S_xx = (H @ input_psd * H.conj()).real.sum(axis=-1)
     omega = 2 * np.pi * np.asarray(frequency_hz)[:, None]

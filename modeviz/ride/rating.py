@@ -18,7 +18,7 @@ COMFORT_FACTORS = (1.0, 1.0, 1.0)
 
 @dataclass(frozen=True)
 class Rating:
-    """How a ride feels at one point."""
+    """A rating of the ride at one point."""
 
     rms_lateral_g: float
     rms_vertical_g: float
@@ -79,7 +79,7 @@ def _note(combined_g: float, rating: float, frequency_hz: Floats, is_known_from_
 
 
 def _part(low_hz: float, high_hz: float, is_known_from_start: bool) -> str:
-    """Of which part of its band a rating is, nothing if of all."""
+    """A note of the part of the band that a rating is of, nothing if of all."""
     low, high = RIDE_BAND
     if is_known_from_start and high_hz >= high * (1 - WHOLE):
         return ""
@@ -106,7 +106,7 @@ def squared_weights(frequency_hz: Floats) -> Floats:
 
 @lru_cache(maxsize=8)
 def _squared_weights(frequency_hz: bytes) -> Floats:
-    """The same, kept for the next rating at the same frequencies."""
+    """Squared weights of x, y, z, (n_freqs, 3), kept for the next rating at the same frequencies."""
     f = np.frombuffer(frequency_hz)
     horizontal, vertical = weight_d(f) ** 2, weight_k(f) ** 2
     return np.column_stack([horizontal, horizontal, vertical])
@@ -130,12 +130,12 @@ def _band_limits(f: Floats) -> Complexes:
 
 
 def _transition(f: Floats, corner_hz: float, quality: float) -> Complexes:
-    """From acceleration to velocity: level below the corner, falling as 1/f above."""
+    """The filter from acceleration to velocity: level below the corner, falling as 1/f above."""
     return (1 + 1j * f / corner_hz) / _quadratic(f, corner_hz, quality)
 
 
 def _upward_step(f: Floats, lower_hz: float, upper_hz: float, quality: float) -> Complexes:
-    """From (lower/upper)² up to one."""
+    """The filter that rises from (lower/upper)² to one."""
     step = _quadratic(f, lower_hz, quality) / _quadratic(f, upper_hz, quality)
     return step * (lower_hz / upper_hz) ** 2
 

@@ -1,4 +1,4 @@
-"""How close lines must lie so that a response between them can be told from those at them."""
+"""The distance of lines at which a response between them can be told from those at them."""
 
 import math
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ LINES_A_TURN = 8
 def resolving_lines(
     vehicle: Vehicle, loads: Sequence[tuple[RandomLoad, float]], lines: Floats
 ) -> Floats:
-    """Those of some lines that a load's table holds, and more between where a road is met slowly.
+    """The lines that a load's table holds, and more between where a road is met slowly.
 
     Args:
         vehicle: whose tyres meet roads.

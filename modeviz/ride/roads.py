@@ -66,7 +66,7 @@ def track_amplitudes(vehicle: Vehicle, frequency_hz: Floats, speed: float) -> Co
 
 
 def track_shares(tyre: Tyre) -> tuple[float, float]:
-    """What a tyre's patch follows of the left and of the right track; they add up to one.
+    """The shares of the left and of the right track in the motion of a tyre's patch, adding up to one.
 
     That of its side, left where y < 0; between the tracks the mean of both.
     """
@@ -75,7 +75,7 @@ def track_shares(tyre: Tyre) -> tuple[float, float]:
 
 
 def lag(tyre: Tyre, tyres: tuple[Tyre, ...], speed: float) -> float:
-    """How much later, in s, a tyre meets the road than the frontmost of `tyres`."""
+    """The time, s, by which a tyre meets the road later than the frontmost of `tyres`."""
     front = min(t.points[1, 0] for t in tyres)
     return (tyre.points[1, 0] - front) / speed
 
@@ -124,7 +124,7 @@ def interpolated_power(what: str, spectrum: Spectrum, frequency_hz: Floats) -> F
 
 
 def held(what: str, table_hz: Floats, frequency_hz: Floats) -> slice:
-    """Which of some frequencies a table holds.
+    """The slice of some frequencies that a table holds.
 
     Raises:
         ModevizError: none of them.

@@ -46,6 +46,6 @@ def wheel_amplitudes(vehicle: Vehicle, loads: Sequence[WheelLoad], frequency_hz:
 
 
 def _lateral_force_point(tyre: Tyre) -> Floats:
-    """On the ground, the pneumatic trail behind the wheel centre."""
+    """The point on the ground, the pneumatic trail behind the wheel centre."""
     x, y, _ = tyre.wheel_center
     return np.array([x + tyre.trail, y, 0.0])
