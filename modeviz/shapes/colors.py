@@ -1,4 +1,4 @@
-"""From how vertices move to their colours."""
+"""Colours of vertices, made of how they move."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ COLOR_STOPS = ("#3a5480", "#3e8aa0", "#96bea0", "#ecce78", "#e28446", "#b02c34")
 
 @dataclass(frozen=True)
 class Shade:
-    """How a body is coloured: each vertex by `gain` times a measure of its displacement u."""
+    """A way to colour a body: each vertex by `gain` times a measure of its displacement u."""
 
     gain: float
     power: Literal[0, 1, 2]

@@ -1,4 +1,4 @@
-"""How a displayed vertex moves with its body: from generalised coordinates to drawn positions."""
+"""The motion of displayed vertices with their body: from generalised coordinates to drawn positions."""
 
 from collections.abc import Sequence
 
@@ -114,7 +114,7 @@ def _carriers(body: FlexibleBody, vertices: Floats) -> tuple[NDArray[np.intp], F
 
 
 def _carried(shapes: Array, offset: Floats) -> Array:
-    """What six motions of a point are `offset` away from it, u + θ x r: (n, 3, n_coordinates)."""
+    """Six motions of a point carried to places `offset` away, u + θ x r: (n, 3, n_coordinates)."""
     translation, rotation = shapes[:, :3], shapes[:, 3:]
     return translation + np.cross(rotation, offset[..., None].astype(shapes.dtype), axis=1)
 

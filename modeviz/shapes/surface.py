@@ -1,4 +1,4 @@
-"""What is drawn of a body: its parts on one set of vertices, so that one shape moves them all."""
+"""The drawn surface of a body: its parts on one set of vertices, so that one shape moves them all."""
 
 from dataclasses import dataclass
 
