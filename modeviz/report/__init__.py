@@ -1,1 +1,1 @@
-"""What is found, as records, tables, charts, images and a page to print."""
+"""Results as records, tables, charts, images and a page to print."""

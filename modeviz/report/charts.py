@@ -49,7 +49,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class _Frame:
-    """Where a chart's values are drawn."""
+    """The place of a chart's values on the drawing."""
 
     x: Axis
     y: Axis

@@ -27,7 +27,7 @@ class RateSet:
 
 @dataclass(frozen=True)
 class ObjectiveValues:
-    """What the goal of a problem is."""
+    """Values of a problem's goal with several sets of rates."""
 
     problem: Problem
     original: float
@@ -43,7 +43,7 @@ class ObjectiveValues:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """What two sets of rates make of a vehicle."""
+    """A vehicle with two sets of rates, solved."""
 
     names: tuple[str, str]
     """Of the set that is compared with, and of the other."""

@@ -1,4 +1,4 @@
-"""How far the components of a vehicle are believed, in words."""
+"""Words for what the truncation of a vehicle's components does."""
 
 import math
 from dataclasses import asdict
@@ -33,7 +33,7 @@ def component_record(trust: ComponentTrust) -> dict[str, str | float | None]:
 
 
 def change_words(trust: ComponentTrust) -> str:
-    """What leaving out the last fifth of a body's modes does."""
+    """Words for what leaving out the last fifth of a body's modes does."""
     if math.isinf(trust.change):
         return "nothing moves"
     if trust.change < LEAST_SAID:

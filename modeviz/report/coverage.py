@@ -1,4 +1,4 @@
-"""Of which part of a vehicle's band an answer speaks, in words."""
+"""Words for the part of a vehicle's band that an answer is of."""
 
 from modeviz.analysis.results import Results
 from modeviz.units import factor
@@ -12,7 +12,7 @@ def band_text(results: Results) -> str:
 
 
 def coverage_note(results: Results) -> str:
-    """What is not known because the load's table does not hold it; nothing if it holds all."""
+    """A note of what a load's table does not hold, and so is not known; nothing if it holds all."""
     if not results.drive.is_partial:
         return ""
     name, speed = results.conditions.road, results.conditions.speed / factor("km/h", "speed")

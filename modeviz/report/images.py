@@ -95,7 +95,7 @@ def _mixed(image: Image.Image, palette: Image.Image) -> Image.Image:
 
 
 def _bayer(n: int) -> Floats:
-    """In which order pixels of a square get brighter, 0 to n² - 1, (n, n), n a power of two."""
+    """The order in which pixels of a square get brighter, 0 to n² - 1, (n, n), n a power of two."""
     if n == 1:
         return np.zeros((1, 1))
     quarter = 4 * _bayer(n // 2)

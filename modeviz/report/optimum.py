@@ -1,4 +1,4 @@
-"""What an optimisation found, as plain values for JSON and as a text table."""
+"""Results of an optimisation as plain values for JSON and as a text table."""
 
 import math
 
@@ -29,7 +29,7 @@ SMALL: dict[GoalKind, str] = {
 
 
 def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record:
-    """What an optimisation found.
+    """The result of an optimisation as plain values for JSON.
 
     `{"goal", "normalised", "percentile": of the objective over parts that scatter or null, "objective":
     {"original", "found", "paper": of the problem's reference or null}, "rates": see rates_record,
@@ -72,7 +72,7 @@ def optimum_table(problem: Problem, search: Search, optimum: Optimum) -> str:
 
 
 def objective_words(problem: Problem) -> str:
-    """What becomes small and how it is added up: nobody has to guess which sum a number is."""
+    """Words for what becomes small and how it is added up, so that nobody has to guess the sum."""
     what = SMALL[problem.goal]
     if problem.goal == "change":
         return what

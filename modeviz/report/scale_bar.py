@@ -24,7 +24,7 @@ PLATE = 217
 
 @dataclass(frozen=True, eq=False)
 class ScaleBar:
-    """What a scale says and how it looks."""
+    """The words and the looks of a colour scale."""
 
     quantity: str
     last: str

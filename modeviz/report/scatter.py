@@ -1,4 +1,4 @@
-"""What scattered mounts do, as plain values for JSON and as text tables."""
+"""Results of scattered mounts as plain values for JSON and as text tables."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ PERCENT = (5, 50, 95)
 
 
 def scatter_record(told: Scattered) -> Record:
-    """What scattered mounts do.
+    """The result of scattered mounts as plain values for JSON.
 
     `{"road", "speed_m_per_s", "point", "samples", "seed", "tolerance": {"rates", "loss_factor"},
     "goal", "quantities": {NAME: {"nominal", "mean", "p5", "p50", "p95"}}, "psd": {"frequency_hz",
@@ -71,7 +71,7 @@ def scatter_table(told: Scattered) -> str:
 
 
 def _quantities(result: Scatter) -> dict[str, tuple[float, Floats]]:
-    """What parts as drawn do, and what the samples do, at the first point."""
+    """Each quantity at the first point: its value with parts as drawn, and those of the samples."""
     rms = {
         f"rms_{d}_g": (float(result.nominal_rms[0, AXIS[d]]), result.rms[:, 0, AXIS[d]])
         for d in RIDE_DIRECTIONS

@@ -1,4 +1,4 @@
-"""What a search could find, in words."""
+"""Words for what a search can find and what it cannot."""
 
 from collections.abc import Mapping, Sequence
 
@@ -19,7 +19,7 @@ def ratio_words(space: DesignSpace) -> str:
 
 
 def outside_words(name: str, reasons: Sequence[str]) -> str:
-    """That a set of rates could not be found, and why; "" if it could."""
+    """The reasons why a set of rates could not be found; "" if it could."""
     if not reasons:
         return ""
     more = [f"{len(reasons) - FEW} more"] if len(reasons) > FEW else []

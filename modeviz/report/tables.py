@@ -24,7 +24,7 @@ WHEEL_BAND = (11.0, 16.0)
 
 
 def wheel_band(vehicle: Vehicle) -> tuple[float, float]:
-    """That, or all of a vehicle's band that does not hold it."""
+    """The paper's band of wheel loads, or all of a vehicle's band that does not hold it, Hz."""
     low, high = vehicle.frequency_step, vehicle.highest_frequency
     return WHEEL_BAND if high >= WHEEL_BAND[1] else (low, high)
 
@@ -75,7 +75,7 @@ def came_from(followed: Followed, mode: int) -> str:
 
 
 def health(results: ModalResults) -> str:
-    """Whether a mode may be missing, and how exact those found are."""
+    """A sentence on whether a mode may be missing, and on how exact those found are."""
     f, trust = results.modes.frequency_hz, results.trust
     missed = f"{trust.n_missed} missed" if trust.n_missed else "none missed"
     worst = float(trust.frequency_error_hz[f > RESOLVED_HZ].max(initial=0.0))

@@ -1,4 +1,4 @@
-"""What a report says of how exact it is."""
+"""The report's section on how exact it is."""
 
 from html import escape
 
@@ -13,7 +13,7 @@ from modeviz.text.wording import scientific
 
 
 def exactness(comparison: Comparison, check: Check | None) -> str:
-    """How far the numbers are from those of the full model."""
+    """The section on how far the numbers are from those of the full model."""
     sets = zip(comparison.names, (comparison.base, comparison.now), strict=True)
     items = [f"{title(name)}: {health(results)}." for name, results in sets]
     if check is not None:

@@ -1,4 +1,4 @@
-"""What a report says of mounts and modes; a section that has nothing to say is empty."""
+"""The report's sections on mounts and modes; one that has nothing to say is empty."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -46,7 +46,7 @@ def rates(comparison: Comparison) -> str:
 
 
 def objective(comparison: Comparison) -> str:
-    """What the vehicle's usual problem makes small, of the same sets as in `rates`.
+    """The section on the vehicle's usual problem: its goal with the same sets as in `rates`.
 
     Values are parts of the original's, if that has any.
     """
@@ -71,7 +71,7 @@ def objective(comparison: Comparison) -> str:
 
 
 def _space(comparison: Comparison, worth: ObjectiveValues) -> list[str]:
-    """Which ratios a search from the vehicle's own rates keeps, and which sets it could not find."""
+    """Lines on the ratios that a search from the own rates keeps, and on sets out of its reach."""
     if worth.space is None:
         return []
     vehicles = [comparison.base.vehicle, comparison.now.vehicle]
@@ -85,7 +85,7 @@ def _space(comparison: Comparison, worth: ObjectiveValues) -> list[str]:
 
 
 def _reference(comparison: Comparison) -> list[tuple[str, Vehicle]]:
-    """What the vehicle's usual problem is compared with, by name; nothing if it is one of both."""
+    """The set that the usual problem is compared with, by name; nothing if it is one of both."""
     vehicle = comparison.vehicle
     name = vehicle.problems[0].reference if vehicle.problems else ""
     if not name or name in comparison.names:
@@ -94,7 +94,7 @@ def _reference(comparison: Comparison) -> list[tuple[str, Vehicle]]:
 
 
 def _group_rows(groups: Sequence[MountGroup]) -> Iterator[list[str]]:
-    """Of one group with each set of rates."""
+    """Rows of one group's rates with each set."""
     per_mm = factor("N/mm", "stiffness")
     yield [f"{escape(groups[0].name)} <small>{escape(groups[0].label)}</small>"]
     columns = zip(*(group.rates.as_tuple() for group in groups), strict=True)
@@ -129,7 +129,7 @@ def frequencies(comparison: Comparison) -> str:
 
 
 def _pairs(comparison: Comparison) -> list[Pair]:
-    """What is compared and with either set of rates is listed, by rising frequency."""
+    """The pairs of modes that are listed with either set of rates, by rising frequency."""
     base, now = comparison.base, comparison.now
     before, after = set(_below(base)), set(_below(now))
 
@@ -162,7 +162,7 @@ def _mode_row(comparison: Comparison, pair: Pair) -> list[str]:
 
 
 def _name(found: Sequence[tuple[ModalResults, int]]) -> str:
-    """What a mode is called, and what it was if a namesake came or went."""
+    """The name of a mode, and what it was if a namesake came or went."""
     *was, now = (results.names[mode].name for results, mode in found)
     return title(now) + (f" <small>was {escape(was[0])}</small>" if was not in ([], [now]) else "")
 
@@ -175,7 +175,7 @@ def _frequency(results: ModalResults, mode: int | None) -> str:
 
 
 def _went_to(comparison: Comparison, before: int, after: int | None) -> str:
-    """Which modes may be called a shape's now, where that is not clear from the name."""
+    """The modes that may be called a shape's now, where that is not clear from the name."""
     track, now = comparison.track, comparison.now
     holders = track.holders(before)
     if not holders:

@@ -69,7 +69,7 @@ def report(
 
 
 def _about(comparison: Comparison, made: date) -> str:
-    """Where the numbers come from."""
+    """The list of where the numbers come from."""
     items = [("Vehicle", escape(comparison.vehicle.name))]
     if comparison.rides is not None:
         conditions = comparison.rides[1].conditions
@@ -98,7 +98,7 @@ def _figures(comparison: Comparison) -> str:
 
 
 def _counting(comparison: Comparison) -> Iterator[tuple[str, str, str, str]]:
-    """What it is, its value now, its value before, its change."""
+    """The title, value now, value before and change of each figure."""
     assert comparison.rides is not None
     base, now = comparison.rides
     before, after = base.rating.mean_personal_rating, now.rating.mean_personal_rating
@@ -111,13 +111,13 @@ def _counting(comparison: Comparison) -> Iterator[tuple[str, str, str, str]]:
 
 
 def _gain(difference: float) -> str:
-    """That of a rating, where more is better; what rounds to none is none."""
+    """The difference of a rating, where more is better; what rounds to none is none."""
     kind = "good" if difference > 0 else "bad"
     return span(signed(difference, 2), kind if abs(difference) >= 0.005 else "dim")
 
 
 def _notes(vehicle: Vehicle) -> str:
-    """What reading the vehicle had to say."""
+    """The section with the notes made while the vehicle was read."""
     if not vehicle.notes:
         return ""
     items = "".join(f"<li>{escape(note)}</li>" for note in vehicle.notes)

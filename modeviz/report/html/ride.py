@@ -1,4 +1,4 @@
-"""What a report says of the road; a section that has nothing to say is empty."""
+"""The report's sections on the road; one that has nothing to say is empty."""
 
 from html import escape
 

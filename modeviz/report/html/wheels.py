@@ -1,4 +1,4 @@
-"""What a report says of unbalance and tyre force variation; nothing where there are no such loads."""
+"""The report's section on unbalance and tyre force variation; empty where there are no such loads."""
 
 from html import escape
 
@@ -80,7 +80,7 @@ def _drawn_load(vehicle: Vehicle) -> int:
 
 
 def _largest(comparison: Comparison, base: Floats) -> str:
-    """What all changes are also relative to; `base` is (n_loads, n_points, 3)."""
+    """Words for the value that all changes are also relative to; `base` is (n_loads, n_points, 3)."""
     vehicle = comparison.vehicle
     load, point, axis = np.unravel_index(base.argmax(), base.shape)
     direction = next(d for d in DIRECTIONS if AXIS[d] == axis)
