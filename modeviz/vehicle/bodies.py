@@ -27,7 +27,7 @@ FURTHEST_VERTEX = 1e5
 
 @dataclass(frozen=True, eq=False)
 class Material:
-    """How a surface looks."""
+    """The look of a surface."""
 
     color: tuple[int, int, int]
     """sRGB, 0 to 255."""
@@ -175,17 +175,17 @@ class FlexibleBody:
 
     @property
     def n_modes(self) -> int:
-        """How many modes it keeps, its rigid ones and residual vectors among them."""
+        """The number of its modes, rigid ones and residual vectors among them."""
         return len(self.omega_n_squared)
 
     @property
     def n_rigid(self) -> int:
-        """How many of the first modes are rigid: the zeros that `omega_n_squared` begins with."""
+        """The number of its rigid modes: the zeros that `omega_n_squared` begins with."""
         return int((np.cumsum(self.omega_n_squared != 0) == 0).sum())
 
     @property
     def n_normal(self) -> int:
-        """How many modes are normal modes, rigid or elastic, and no residual vectors."""
+        """The number of its normal modes, rigid or elastic, without residual vectors."""
         return self.n_modes - self.n_residuals
 
     @property
@@ -238,7 +238,7 @@ class FlexibleBody:
         return min(self.attachments, key=lambda a: float(np.linalg.norm(a.position - position)))
 
     def truncated(self, n_modes: int, residual_vectors: bool = False) -> "FlexibleBody":
-        """The same body in its lowest `n_modes` normal modes, rigid ones included.
+        """The body in its lowest `n_modes` normal modes, rigid ones included.
 
         Args:
             n_modes: from the rigid ones up to the number of normal modes.
@@ -263,7 +263,7 @@ class FlexibleBody:
         )
 
     def residual_compliance(self, attachment: str, position: Floats | None = None) -> Floats:
-        """What the truncated modes add to the flexibility of a point, (3, 3) in m/N.
+        """The flexibility that the truncated modes would add at a point, (3, 3) in m/N.
 
         R = Σ φ φᵀ / ω² over the residual vectors: exact at zero frequency in the directions that have
         a residual vector (A. E. Duncan, after McClelland's residual compliance).

@@ -348,7 +348,7 @@ class MountGroup:
         return self.loss_factor if rates.loss_factor is None else rates.loss_factor
 
     def plain(self, rates: MountRates) -> MountRates:
-        """The same rates, with a loss factor only if it is not the group's own."""
+        """The rates with a loss factor only if it is not the group's own."""
         is_own = rates.loss_factor == self.loss_factor
         return replace(rates, loss_factor=None) if is_own else rates
 

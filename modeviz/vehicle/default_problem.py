@@ -17,7 +17,7 @@ WHEEL_HZ = np.array([11.0, 13.25, 15.75])
 
 
 def problems(vehicle: Vehicle) -> tuple[Problem, ...]:
-    """Those of a vehicle, the usual one first, or else the one that is made of what it has.
+    """The problems of a vehicle, the usual one first, or else one that is made of what it has.
 
     Raises:
         VehicleError: it has none, and lacks what one is made of.
@@ -78,6 +78,6 @@ def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
 
 
 def _held(road: Road, speed: float) -> Floats:
-    """Those of the paper's frequencies that a road's table holds at a speed."""
+    """The paper's frequencies that a road's table holds at a speed."""
     low, high = road.frequency_hz[[0, -1]] * speed / road.speed
     return ROAD_HZ[(low <= ROAD_HZ) & (high >= ROAD_HZ)]

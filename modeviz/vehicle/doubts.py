@@ -1,4 +1,4 @@
-"""What is likely wrong with the modes of a body, though each number is one that could be.
+"""Doubts about the modes of a body whose numbers, each by itself, could be right.
 
 Rigid modes are held against the rigid motions they ought to be, modal mass against the mass that is
 stated, and frequencies against those that bodies have.
@@ -32,7 +32,7 @@ LOW_HZ = 10.0
 
 
 def doubts(vehicle: Vehicle) -> Iterator[str]:
-    """What is likely wrong with a vehicle, a sentence each."""
+    """Sentences on what is likely wrong with a vehicle."""
     for body in vehicle.bodies:
         if isinstance(body, FlexibleBody):
             for doubt in (*_of_rigid_modes(body), *_of_mass(body), *_of_elastic_modes(body)):
@@ -46,7 +46,7 @@ def doubts(vehicle: Vehicle) -> Iterator[str]:
 
 
 def _of_rigid_modes(body: FlexibleBody) -> Iterator[str]:
-    """Whether they move the attachments as one rigid body."""
+    """A sentence if the rigid modes do not move the attachments as one rigid body."""
     if not body.attachments:
         return
     found = np.array([a.shapes[:, : body.n_rigid] for a in body.attachments])
@@ -63,7 +63,7 @@ def _of_rigid_modes(body: FlexibleBody) -> Iterator[str]:
 
 
 def _misfit(have: Floats, want: Floats) -> tuple[int, float, float] | None:
-    """Which attachment is off most, by what part of the largest motion, and the scale of all."""
+    """The attachment that is off most, by what part of the largest motion, and the scale of all."""
     off = np.linalg.norm(have - want, axis=(1, 2))
     size = np.linalg.norm(want, axis=(1, 2)).max()
     at = int(off.argmax())
@@ -73,7 +73,7 @@ def _misfit(have: Floats, want: Floats) -> tuple[int, float, float] | None:
 
 
 def _in_other_units(what: str, scale: float) -> str:
-    """What may be the reason that motions are so many times as large as they ought to be."""
+    """A likely reason why motions are so many times as large as they ought to be."""
     reasons = [words for factor, words in ROTATION_UNITS.items() if abs(scale / factor - 1) < 0.05]
     if what == "rotations" and reasons:
         return f"; they are {scale:.3g} times as large, {reasons[0]}"
@@ -81,7 +81,7 @@ def _in_other_units(what: str, scale: float) -> str:
 
 
 def _of_mass(body: FlexibleBody) -> Iterator[str]:
-    """Whether the mass that the rigid modes say is that of a body, and of this one."""
+    """A sentence if the mass by the rigid modes is that of no body, or not of this one."""
     fit = body.rigid_fit
     moving, turning = fit.mass_about_center_of_gravity
     along = np.diag(moving)
@@ -101,7 +101,7 @@ def _of_mass(body: FlexibleBody) -> Iterator[str]:
 
 
 def _of_elastic_modes(body: FlexibleBody) -> Iterator[str]:
-    """Whether they look like mass-normalised modes in rising order with ω² in rad²/s²."""
+    """Sentences where modes do not look mass-normalised, or ω² not rising in rad²/s²."""
     normal = slice(body.n_rigid, body.n_normal)
     f = body.natural_frequency_hz[normal]
     if not f.size:

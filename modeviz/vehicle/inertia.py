@@ -1,4 +1,4 @@
-"""What a tensor of inertia can be."""
+"""Tensors of inertia that a body can have."""
 
 import numpy as np
 

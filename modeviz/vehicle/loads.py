@@ -104,7 +104,7 @@ class Force:
 
     @property
     def label(self) -> str:
-        """What a person calls it: its name."""
+        """Its name, for people."""
         return self.name
 
     def __post_init__(self) -> None:
@@ -134,7 +134,7 @@ class BaseMotion:
 
     @property
     def label(self) -> str:
-        """What a person calls it: its name."""
+        """Its name, for people."""
         return self.name
 
     def __post_init__(self) -> None:

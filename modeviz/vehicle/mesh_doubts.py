@@ -1,4 +1,4 @@
-"""Whether display meshes go with their bodies: their size and place against mounts and mass."""
+"""Doubts about display meshes: their size and place against the mounts and mass of their bodies."""
 
 from collections.abc import Iterator
 
@@ -28,7 +28,7 @@ NEAR_FACTOR = 2.0
 
 
 def mesh_doubts(vehicle: Vehicle) -> Iterator[str]:
-    """What is likely wrong with the display meshes of a vehicle, a sentence each."""
+    """Sentences on what is likely wrong with the display meshes of a vehicle."""
     for body in vehicle.bodies:
         if not body.mesh:
             continue
@@ -40,7 +40,7 @@ def mesh_doubts(vehicle: Vehicle) -> Iterator[str]:
 
 
 def _known(vehicle: Vehicle, body: Body) -> dict[str, tuple[Floats, float]]:
-    """What is known of a body besides its mesh: the space it takes, (2, 3), and its size, m."""
+    """The space, (2, 3), and the size, m, of a body as other things than its mesh tell them."""
     known: dict[str, tuple[Floats, float]] = {}
     places = [
         point
@@ -63,7 +63,7 @@ def _known(vehicle: Vehicle, body: Body) -> dict[str, tuple[Floats, float]]:
 
 
 def _of_size(mesh: Floats, known: dict[str, tuple[Floats, float]]) -> str:
-    """What there is to say of the mesh's size, if anything."""
+    """Words on the mesh's size, if there is something to say."""
     sizes = {what: size for what, (_, size) in known.items() if size > 0}
     size = _size(mesh)
     if not sizes or not size:
@@ -79,7 +79,7 @@ def _of_size(mesh: Floats, known: dict[str, tuple[Floats, float]]) -> str:
 
 
 def _factors(ratio: float) -> str:
-    """By how many times a mesh is likely wrong, the likeliest first."""
+    """The factors by which a mesh is likely wrong, the likeliest first."""
     by_nearness = sorted(FACTORS, key=lambda factor: abs(np.log(factor / ratio)))
     near = [f for f in by_nearness if 1 / NEAR_FACTOR <= f / ratio <= NEAR_FACTOR]
     named = [f"{factor:g} ({FACTORS[factor]})" for factor in near]
@@ -87,7 +87,7 @@ def _factors(ratio: float) -> str:
 
 
 def _of_place(mesh: Floats, known: dict[str, tuple[Floats, float]]) -> str:
-    """What there is to say of the mesh's place, if anything."""
+    """Words on the mesh's place, if there is something to say."""
     for what, (space, _) in known.items():
         gap = np.linalg.norm(np.maximum(0, np.maximum(space[0] - mesh[1], mesh[0] - space[1])))
         if gap > FAR * max(_size(mesh), _size(space)):

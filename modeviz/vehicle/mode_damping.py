@@ -27,7 +27,7 @@ class ModeDamping:
 
     @property
     def name(self) -> str:
-        """Whose damping it is, in words."""
+        """Words for whose damping it is."""
         if self.mode is None:
             return "all other modes"
         return self.mode if isinstance(self.mode, str) else f"mode {self.mode}"

@@ -1,4 +1,4 @@
-"""Whether a vehicle stands the right way round: x rearward, y to the right, z up.
+"""Signs of the way round that a vehicle stands: x rearward, y to the right, z up.
 
 Nothing in a file proves it, but names, tyres and the origin tell: "front left" is before "rear left", a
 wheel's centre is above the ground, and what has an axle at the origin has its front axle there.
@@ -39,7 +39,7 @@ class Sign:
 
 
 def signs(vehicle: Vehicle) -> Iterator[Sign]:
-    """What tells which way round a vehicle stands."""
+    """The signs that tell which way round a vehicle stands."""
     for axis, first, second in _BEFORE:
         for things in (_tyres(vehicle), [*_tyres(vehicle), *_placed(vehicle)]):
             before, after = (_named(things, word) for word in (first, second))
@@ -65,7 +65,7 @@ def _signs_of_tyres(vehicle: Vehicle) -> Iterator[Sign]:
 
 
 def orientation_doubts(vehicle: Vehicle, axes: Floats) -> tuple[str, ...]:
-    """What is to be said of a vehicle that seems to stand the wrong way round; nothing if it does not.
+    """Sentences on a vehicle that seems to stand the wrong way round; none if it does not.
 
     Args:
         vehicle: as it was read.

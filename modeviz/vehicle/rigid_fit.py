@@ -13,7 +13,7 @@ INDEPENDENT = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class RigidFit:
-    """How the rigid modes of a body move as rigid bodies do."""
+    """The rigid motions that the rigid modes of a body are closest to."""
 
     center: Floats
     """(3,), m: the middle of all places that are known."""

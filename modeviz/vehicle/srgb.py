@@ -1,4 +1,4 @@
-"""Between sRGB, which screens show, and linear light, which glTF keeps."""
+"""Conversion between sRGB, which screens show, and linear light, which glTF keeps."""
 
 import numpy as np
 from numpy.typing import ArrayLike

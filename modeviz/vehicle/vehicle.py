@@ -121,7 +121,7 @@ class Vehicle:
 
     @cached_property
     def tyres(self) -> tuple[Tyre, ...]:
-        """Those of the connections that are tyres."""
+        """The connections that are tyres."""
         return tuple(c for c in self.connections if isinstance(c, Tyre))
 
     @property
@@ -150,13 +150,13 @@ class Vehicle:
 
     @cached_property
     def random_loads(self) -> tuple[RandomLoad, ...]:
-        """What has a spectrum: roads first, then forces, then motions of the ground."""
+        """Loads with a spectrum: roads first, then forces, then motions of the ground."""
         others = (*self.forces, *self.base_motions)
         return (*self.roads, *(load for load in others if isinstance(load.amplitude, Spectrum)))
 
     @cached_property
     def harmonic_loads(self) -> tuple[HarmonicLoad, ...]:
-        """What has an amplitude at every frequency: wheel loads, then forces, motions of the ground."""
+        """Loads with an amplitude: wheel loads first, then forces, then motions of the ground."""
         others = (*self.forces, *self.base_motions)
         return (
             *self.wheel_loads,
@@ -190,7 +190,7 @@ class Vehicle:
         return _named("problem", name, self.problems)
 
     def with_rates(self, rates: Rates) -> "Vehicle":
-        """The same vehicle with other rates and loss factors in the groups that are named.
+        """The vehicle with other rates and loss factors in the groups that are named.
 
         Raises:
             VehicleError: a group that does not exist.
