@@ -1,4 +1,4 @@
-"""How somebody else holds, ends or follows a long computation."""
+"""Tokens by which somebody else holds, ends or follows a long computation."""
 
 import threading
 

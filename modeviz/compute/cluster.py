@@ -36,7 +36,7 @@ T = TypeVar("T")
 
 @contextmanager
 def runner_at(address: str | None) -> Iterator[Runner]:
-    """What computes tasks on the cluster of a scheduler, or here if there is no address.
+    """A runner on the cluster of a scheduler, or in this process if there is no address.
 
     Scheduler and workers need the same version of modeviz. The numbers are the same wherever they come
     from, to the last digit on the same kind of processor.
@@ -84,7 +84,7 @@ def _client(address: str) -> "Iterator[Client]":
 
 
 def _host_and_port(address: str) -> tuple[str, int]:
-    """Of an address such as "tcp://10.0.0.1:8786"; raises ValueError for another one."""
+    """Host and port of an address such as "tcp://10.0.0.1:8786"; raises ValueError for another one."""
     parts = urlsplit(address)
     if parts.scheme not in ("tcp", "tls") or not parts.hostname or not parts.port:
         raise ValueError(address)
@@ -114,7 +114,7 @@ class _Cluster:
             self._client.cancel([*waiting, kept], force=True)
 
     def _sent(self, shared: object) -> "Future":
-        """What all tasks share, as a task: other than what is scattered, it outlives its workers."""
+        """The shared value as a task: other than what is scattered, it outlives its workers."""
         import dask.config
 
         with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1GB"}):
@@ -141,7 +141,7 @@ class _Cluster:
                 raise ModevizError("all workers of the scheduler are lost")
 
     def _n_threads(self) -> int:
-        """Of all workers there are."""
+        """The number of threads of all workers."""
         by_worker: Any = self._client.nthreads()
         return sum(by_worker.values())
 

@@ -1,4 +1,4 @@
-"""Where many tasks of the same kind are computed: here, or on other machines (`compute.cluster`)."""
+"""Runners of many tasks of the same kind: in this process, or on other machines (`compute.cluster`)."""
 
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
@@ -22,7 +22,7 @@ class Runner(Protocol):
     def map(
         self, function: Callable[[S, A], T], shared: S, items: Sequence[A], token: CancelToken
     ) -> Iterator[T]:
-        """What a function of a module or class gives for each item, in their order.
+        """The results of a function for each item, in their order.
 
         Args:
             function: of what is shared and an item; the same numbers whoever calls it.

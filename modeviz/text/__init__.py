@@ -1,1 +1,1 @@
-"""How numbers, names and axes are written, wherever they are shown."""
+"""Writing of numbers, names and axes, wherever they are shown."""

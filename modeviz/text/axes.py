@@ -32,7 +32,7 @@ class Axis:
         assert self.low > 0 or not self.is_logarithmic
 
     def place(self, values: NDArray[np.float64] | Sequence[float] | float) -> NDArray[np.float64]:
-        """Where values are between the ends, 0 to 1; what a logarithm has no place for is far below."""
+        """The places of values between the ends, 0 to 1; far below where there is no logarithm."""
         values, ends = np.asarray(values, float), np.array([self.low, self.high])
         if self.is_logarithmic:
             values, ends = np.log10(np.maximum(values, 1e-9 * self.low)), np.log10(ends)
@@ -62,7 +62,7 @@ class Axis:
 
 
 def shown_hz(highest_frequency: float) -> tuple[float, float]:
-    """What is drawn of a band that ends there: of the usual one the paper's part, of others all."""
+    """The part of a band that is drawn: of the usual one the paper's part, of others all."""
     if highest_frequency == USUAL_HZ:
         return USUAL_SHOWN_HZ
     return min(USUAL_SHOWN_HZ[0], highest_frequency / USUAL_HZ), highest_frequency

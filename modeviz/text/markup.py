@@ -36,7 +36,7 @@ def section(heading: str, *content: str) -> str:
 
 
 def note(text: str) -> str:
-    """What is to be known about the table or figure before it."""
+    """A remark on the table or figure before it."""
     return f'<p class="note">{text}</p>'
 
 

@@ -1,4 +1,4 @@
-"""How long something still takes, by how fast it went so far."""
+"""Estimates of the time that something still takes, by how fast it went so far."""
 
 import time
 from collections.abc import Callable

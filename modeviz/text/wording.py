@@ -86,7 +86,7 @@ def significant(value: float) -> str:
 
 
 def percent_change(now: float, base: float) -> str:
-    """How much more or less something is than it was; of nothing there is no percentage."""
+    """The change of a value in percent; of nothing there is no percentage."""
     if base == 0:
         return "0.0 %" if now == 0 else "–"
     return signed(100 * (now / base - 1), 1, " %")
