@@ -32,6 +32,7 @@ from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
 from modeviz.viewer.page.access import Server, open_server
 from modeviz.viewer.pictures.headless import chromium
+from modeviz.viewer.session.commands.looks import ChangeCharts, ChangeMotion, ChooseCurve
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import ResponseCurve
 
@@ -146,15 +147,18 @@ def _use(page: Page, server: Server, found: Soak, seconds: float, seed: int) -> 
 def _disagreements(page: Page, server: Server, session: Session) -> list[str]:
     """Where the page shows something else than the server has, or a fresh solve gives."""
     curves = (ResponseCurve(0, "lateral"), ResponseCurve(0, "vertical"))
-    session.change(load="", decibels=True, log_frequency=False, curves=curves, motion="mode")
+    session.do(ChangeCharts(load="", decibels=True, log_frequency=False))
+    for chart, curve in enumerate(curves):
+        session.do(ChooseCurve(chart, curve))
+    session.do(ChangeMotion(kind="mode"))
     if not session.wait_checked(PATIENCE_S):
         return ["the session does not come to rest"]
     page.wait_for_timeout(2000)
-    fresh = solve(prepare(session.vehicle), session.state.rates, session.state.conditions)
+    fresh = solve(prepare(session.vehicle), session.state.design.rates, session.state.conditions)
     return [
         *_widgets(page, server),
         *_spectra(page, fresh),
-        *_shape(page, fresh, session.state.mode),
+        *_shape(page, fresh, session.state.motion.mode),
     ]
 
 

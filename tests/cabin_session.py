@@ -1,13 +1,13 @@
 """A tuning session of the small cabin, and somebody who waits for what runs beside it."""
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 from mounted_cabin import mounted_cabin
+from session_commands import Listener
 
 from modeviz.analysis.results import Conditions
-from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
 
@@ -16,16 +16,16 @@ SOON = 120
 
 
 @contextmanager
-def open_session(show: Callable[[Solved], None] = lambda _: None) -> Iterator[Session]:
-    """A session with its first answer, in which nothing fails."""
-    vehicle, failures = mounted_cabin(), []
+def open_session() -> Iterator[tuple[Session, Listener]]:
+    """A session with its first answer, in which nothing fails, and what it tells."""
+    vehicle, heard = mounted_cabin(), Listener()
     state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
-    session = Session(vehicle, state, show, failures.append)
+    session = Session(vehicle, state, heard)
     session.start()
     assert session.wait(SOON)
-    yield session
+    yield session, heard
     session.close()
-    assert not failures
+    assert not heard.failures
 
 
 class Watcher:

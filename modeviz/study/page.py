@@ -39,7 +39,7 @@ class Page:
     @property
     def rates(self) -> dict[str, MountRates]:
         """The mount rates that are on the page now, of every group, N/m."""
-        return dict(self.app.session.state.rates)
+        return dict(self.app.session.state.design.rates)
 
     def wait(self) -> None:
         """Wait for Ctrl+C, then close it."""

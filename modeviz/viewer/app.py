@@ -26,7 +26,7 @@ from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.excitation import ExcitationPanel
 from modeviz.viewer.panels.figures import TablePanel
 from modeviz.viewer.panels.guide import Guide
-from modeviz.viewer.panels.modes import ModesPanel, listed
+from modeviz.viewer.panels.modes import ModesPanel, StepMode, listed
 from modeviz.viewer.panels.mounts.history_row import HistoryRow
 from modeviz.viewer.panels.mounts.opener import FolderOpener
 from modeviz.viewer.panels.mounts.panel import MountsPanel
@@ -41,10 +41,14 @@ from modeviz.viewer.panels.variants import VariantsPanel
 from modeviz.viewer.panels.view import ViewPanel
 from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import DARK, LIGHT
-from modeviz.viewer.session.answers import Solved, asks_for_the_same
+from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import ColorScale, color_scale
+from modeviz.viewer.session.commands.decisions import Swap
+from modeviz.viewer.session.commands.looks import SelectGroup
+from modeviz.viewer.session.design import variant_name
+from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import State, first_state, variant_name
+from modeviz.viewer.session.state import first_state
 from modeviz.viewer.tasks.front_task import FrontTask
 from modeviz.viewer.tasks.scatter_task import ScatterTask
 from modeviz.viewer.tasks.search_task import SearchTask
@@ -80,16 +84,9 @@ class App:
         """
         self.server: Server = server
         self._gui = server.gui
-        self._last: Solved | None = None
-        self._failure: Exception | None = None
         self._title, self._dark = Title(server), dark
-        self.session: Session = Session(
-            vehicle,
-            first_state(vehicle, rates, conditions),
-            self._show,
-            self._tell_failure,
-            self._tell_check,
-        )
+        first = first_state(vehicle, rates, conditions)
+        self.session: Session = Session(vehicle, first, self._hear)
         mistake = server.notices.mistake
         self.optimiser: SearchTask = SearchTask(self.session, lambda: self._optimise.follow(), mistake)
         self.trader: FrontTask = FrontTask(self.session, lambda: self._trade_off.follow(), mistake)
@@ -127,26 +124,6 @@ class App:
         """What stands in the middle of every page."""
         return self._scene
 
-    @property
-    def shown(self) -> Solved | None:
-        """The answer on the pages, once there is one."""
-        return self._last
-
-    def answer(self, timeout: float) -> Solved:
-        """Waits for the answer to what is asked for, and gives it once it is on the pages.
-
-        Args:
-            timeout: how long to wait, s.
-
-        Raises:
-            ModevizError: there is no such answer, or not in time.
-        """
-        if not self.session.wait(timeout):
-            raise ModevizError(f"there was no answer within {timeout:.0f} s")
-        if self._last is None or not asks_for_the_same(self._last.state, self.session.state):
-            raise self._failure or ModevizError("there is no answer")
-        return self._last
-
     def pictured(self, solved: Solved) -> ColorScale | None:
         """What the colours of a picture mean, if they mean something.
 
@@ -171,7 +148,7 @@ class App:
             ModevizError: nothing is shown yet.
         """
         solved = self._solved()
-        variant = variant_name(self.session.vehicle, solved.state)
+        variant = variant_name(self.session.vehicle, solved.state.design)
         return offline_page(self.server, solved, variant, self._dark, position, look_at)
 
     def report(self, pictures: Sequence[Picture]) -> bytes:
@@ -182,12 +159,12 @@ class App:
         """
         solved = self._solved()
         vehicle, state = self.session.vehicle, solved.state
-        name = variant_name(vehicle, state)
-        now = RateSet(name if name != state.against else f"{name}, now", state.rates)
+        name = variant_name(vehicle, state.design)
+        now = RateSet(name if name != state.against else f"{name}, now", state.design.rates)
         base = RateSet(state.against, solved.base.rates)
-        conditions = state.conditions if state.curves else None
+        conditions = state.conditions if state.charts.curves else None
         comparison = compare(solved.now.prepared, base, now, conditions)
-        return report(comparison, date.today(), pictures, solved.rest.check).encode()
+        return report(comparison, date.today(), pictures, solved.findings.check).encode()
 
     def end(self) -> None:
         """Ends the session, and what may be running in it."""
@@ -256,17 +233,27 @@ class App:
         self._hotkeys.add("Play or pause", "space", lambda event: self._animation.toggle(event.client))
         self._hotkeys.add("Next mode", "N", lambda _: self._step_mode(1))
         self._hotkeys.add("Mode before", "P", lambda _: self._step_mode(-1))
-        self._hotkeys.add("Swap with the set compared with", "B", lambda _: session.swap())
+        self._hotkeys.add("Swap with the set compared with", "B", lambda _: session.do(Swap()))
+
+    def _hear(self, notification: Notification) -> None:
+        """Puts what the session tells on every page."""
+        match notification:
+            case Answered(solved):
+                self._show(solved)
+            case Checked(solved):
+                self._status.show(solved)
+                self.server.flush()
+            case Failed(error):
+                self._tell_failure(error)
 
     def _show(self, solved: Solved) -> None:
         """Draws an answer: the panels in one batch, the scene in another, which waits for a frame.
 
         While rates move, what has to be read is drawn only now and then.
         """
-        self._last, self._failure = solved, None
         with self.server.atomic():
             vehicle = self.session.vehicle
-            self._title.show(vehicle.name, variant_name(vehicle, solved.state))
+            self._title.show(vehicle.name, variant_name(vehicle, solved.state.design))
             self._response.show(solved)
             self._animation.show(solved)
             self._shape.show(solved)
@@ -287,27 +274,20 @@ class App:
         self.server.flush()
         self._scene.show(solved)
 
-    def _tell_check(self, solved: Solved) -> None:
-        """Says how far the check of the answer on the pages is."""
-        self._last = solved
-        self._status.show(solved)
-        self.server.flush()
-
     def _solved(self) -> Solved:
-        if self._last is None:
+        if self.session.answer is None:
             raise ModevizError("nothing is solved yet: try again when the preparation is done")
-        return self._last
+        return self.session.answer
 
     def _illustrated_report(self, png: bytes) -> bytes:
         """The report with a picture of the scene as it is."""
         solved = self._solved()
-        moving, variant = solved.movement, variant_name(self.session.vehicle, solved.state)
+        moving, variant = solved.movement, variant_name(self.session.vehicle, solved.state.design)
         caption = f"{moving.title}, {moving.frequency_hz:.2f} Hz, {variant}"
         return self.report([Picture(caption, png)])
 
     def _tell_failure(self, error: Exception) -> None:
         """Says what went wrong; the last good answer stays on the screen."""
-        self._failure = error
         if not isinstance(error, ModevizError):
             self.server.notices.mistake(error)
         for client in self.server.get_clients().values():
@@ -315,26 +295,17 @@ class App:
 
     def _select(self, group: str) -> None:
         self._opener.ask()
-        self.session.change(group=group)
+        self.session.do(SelectGroup(group))
 
     def _step_mode(self, step: int) -> None:
-        last = self._last
+        last = self.session.answer
         if last and listed(last.now):
-            self.session.update(lambda state: _stepped(state, last, step))
+            self.session.do(StepMode(last, step))
 
     def _subject(self) -> str:
         """What is to be seen: "Pickup cab yaw"."""
-        moving = self._last.movement.subject if self._last else ""
-        return f"{self.session.vehicle.name} {moving}"
-
-
-def _stepped(state: State, last: Solved, step: int) -> State:
-    """Showing a mode further down the list of the last answer, from the one that is asked for."""
-    names, modes = last.now.names, list(listed(last.now))
-    is_answered = (state.mode, state.mode_rates) == (last.state.mode, last.state.mode_rates)
-    shown = last.mode if is_answered else last.now.mode_index(state.mode)
-    at = modes.index(shown) + step if shown in modes else 0
-    return state.with_mode(names[modes[at % len(modes)]].name, last.now.rates)
+        last = self.session.answer
+        return f"{self.session.vehicle.name} {last.movement.subject if last else ''}"
 
 
 def serve(

@@ -26,8 +26,9 @@ from modeviz.viewer.panels.peaks import strongest
 from modeviz.viewer.panels.plots import Line, Scale, level_axis, level_range
 from modeviz.viewer.scene.driver import DRIVER
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.responses import NOW, Responses, curve_label
+from modeviz.viewer.session.responses import Responses, curve_label
 from modeviz.viewer.session.state import ResponseCurve
+from modeviz.viewer.session.wheel_responses import NOW
 
 
 def offline_page(
@@ -72,7 +73,9 @@ def _content(solved: Solved, name: str) -> str:
         MOTION,
         _charts(solved),
         f"<h2>Modes</h2>{_modes(solved)}",
-        f"<h2>Mount rates, {solved.state.unit}</h2>{_rates(solved)}" if solved.state.rates else "",
+        f"<h2>Mount rates, {solved.state.unit}</h2>{_rates(solved)}"
+        if solved.state.design.rates
+        else "",
     )
 
 
@@ -90,19 +93,19 @@ def _charts(solved: Solved) -> str:
     """The responses that the page draws, and what their colours mean."""
     responses = Responses(solved)
     lines = chart_lines(solved, responses, BASE, NOW_COLOR)
-    charts = (_chart(solved, responses, lines, curve) for curve in solved.state.curves)
+    charts = (_chart(solved, responses, lines, curve) for curve in solved.state.charts.curves)
     return legend(lines, solved) + "".join(charts)
 
 
 def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response: ResponseCurve) -> str:
     state, vehicle = solved.state, solved.now.prepared.vehicle
     shown = shown_hz(vehicle.highest_frequency)
-    scale = Scale(responses.quantity, state.decibels, state.log_frequency)
+    scale = Scale(responses.quantity, state.charts.decibels, state.charts.log_frequency)
     names = [state.against, *responses.overlaid, NOW]
     every = [(responses.lines(name), responses.of(name, response)) for name in names]
     decibels = [scale.quantity.decibels(level) for _, level in every]
     curves = [
-        Curve("", f, db if state.decibels else level, line.color, line.thickness, dash=line.dash)
+        Curve("", f, db if state.charts.decibels else level, line.color, line.thickness, dash=line.dash)
         for line, (f, level), db in zip(lines, every, decibels, strict=True)
     ]
     curves[-1] = replace(curves[-1], peaks=strongest(responses, response, solved))
@@ -110,7 +113,7 @@ def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response
     label = curve_label(vehicle, response)
     chart = line_chart(
         curves,
-        Axis("Frequency, Hz", *shown, state.log_frequency),
+        Axis("Frequency, Hz", *shown, state.charts.log_frequency),
         level_axis(scale, *level_range(np.concatenate(inside))),
         f"Acceleration, {label}",
         width=420,
@@ -124,7 +127,7 @@ def _modes(solved: Solved) -> str:
     for mode, (name, f) in listed(solved.now).items():
         moved = span(moved_by(solved, mode), "dim")
         zeta = f"{100 * solved.now.modes.damping_ratio[mode]:.1f}"
-        rows.append(row([title(name.spoken), f"{f:.2f}", moved, zeta], mode == solved.mode))
+        rows.append(row([title(name.spoken), f"{f:.2f}", moved, zeta], mode == solved.followed.mode))
     return table(("Mode", "Hz", "Δ Hz", "ζ %"), rows)
 
 

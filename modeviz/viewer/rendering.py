@@ -32,6 +32,8 @@ from modeviz.viewer.pictures.pictures import (
 from modeviz.viewer.scene.stage import box, camera
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import ColorScale
+from modeviz.viewer.session.commands.decisions import TakeRates
+from modeviz.viewer.session.commands.looks import ChangeLook, SelectGroup, ShowMode
 from modeviz.viewer.session.state import Coloring
 
 T = TypeVar("T")
@@ -145,7 +147,7 @@ def photographs(
         pictures = []
         for done, rate_set in enumerate(sets):
             tell("drawing", done / len(sets))
-            app.session.change(rates=vehicle.all_rates(rate_set.rates))
+            app.session.do(TakeRates(vehicle.all_rates(rate_set.rates)))
             with located(rate_set.name):
                 movement = _show(app, wish).movement
             studio.follow(app.scene.driver)
@@ -215,11 +217,12 @@ def _window(shot: ImageSettings) -> tuple[int, int]:
 
 def _show(app: App, wish: RenderRequest) -> Solved:
     """Has the app show what is wished; raises ModevizError as `render`."""
-    app.session.change(coloring=wish.coloring, group="")
+    app.session.do(ChangeLook(coloring=wish.coloring))
+    app.session.do(SelectGroup(""))
     if wish.mode:
-        app.session.show_mode(wish.mode)
+        app.session.do(ShowMode(wish.mode))
     app.scene.driver.drive(amplitude=wish.amplitude)
-    shown = app.answer(PATIENCE)
+    shown = app.session.wait_for_answer(PATIENCE)
     now = shown.now
     if wish.mode and now.mode_index(wish.mode) is None:
         names = ", ".join(name.name for name, _ in listed(now).values())

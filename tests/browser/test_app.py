@@ -10,13 +10,15 @@ from builtin_truck import builtin_truck, truck_modes
 from charts import at_lines, has_lines
 from mount_controls import box, drag, open_folder, position, thumb, type_rate
 from pages import CLOSE_NOTICES, has_beside, send, wait_for, wait_until
+from session_commands import Alter, Become
 
 from modeviz.analysis.exact_check import Check, check_exactly
 from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.results import Conditions
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.scene import stage
-from modeviz.viewer.session import session
+from modeviz.viewer.session import inspector
+from modeviz.viewer.session.commands.decisions import Pin, SetRate
 
 GROUPS = ("F", "C1", "C2", "E", "T")
 CAB = "/vehicle/cab"
@@ -50,7 +52,7 @@ def app(server):
     vehicle = builtin_truck()
     with pytest.MonkeyPatch.context() as patch:
         checked = Check(frequency_error=0.0, psd_error=0.0, n_lines=1, n_freqs=1)
-        patch.setattr(session, "check_exactly", lambda results: iter([checked]))
+        patch.setattr(inspector, "check_exactly", lambda results: iter([checked]))
         with open_app(server, vehicle, Conditions("road 1", vehicle.speed)) as app:
             app.start()
             yield app
@@ -69,8 +71,8 @@ def page(app, server, open_page):
 @pytest.fixture(autouse=True)
 def original(app, page):
     """Every test starts with the original rates solved and shown."""
-    app.session.change(
-        rates=app.session.vehicle.rates, mode="cab yaw", conditions=Conditions("road 1", 20.0)
+    app.session.do(
+        Alter(rates=app.session.vehicle.rates, mode="cab yaw", conditions=Conditions("road 1", 20.0))
     )
     assert app.session.wait(SOLVE_S)
     wait_for(page, f"{TITLE}?.startsWith(a.title)", title=title(app, "cab yaw"))
@@ -106,8 +108,8 @@ def test_dragged_rates_give_what_the_command_line_prints(app, page, printed_json
     drag(page, thumb(page, "C2", "lateral"), 60)
     open_folder(page, "F")
     type_rate(page, "F", "fore-aft", "130")
-    wait_until(page, lambda: app.session.state.rates["F"].fore_aft == 130e3)
-    dragged = app.session.state.rates["C2"].lateral
+    wait_until(page, lambda: app.session.state.design.rates["F"].fore_aft == 130e3)
+    dragged = app.session.state.design.rates["C2"].lateral
     assert 100e3 < dragged < 150e3
 
     settings = "--set", f"C2.lateral={dragged} N/m", "--set", "F.fore-aft=130 N/mm"
@@ -169,7 +171,7 @@ def test_a_click_in_the_mode_table_shows_that_mode(app, page):
 def test_a_click_on_a_peaks_contributor_shows_that_mode(app, page):
     page.locator(".mv .pill label", has_text=re.compile(r"^First torsion")).first.click()
     wait_for(page, f"{TITLE}.startsWith(a.title)", title=title(app, "first torsion"))
-    shares = app._last.strain
+    shares = app.session.answer.strain
     assert app.session.state.group == max(GROUPS, key=lambda group: shares[group])
 
 
@@ -180,7 +182,7 @@ def test_what_a_page_loses_is_put_back(app, page):
     # The page itself still draws the old value, as after a lost message; then it gets the server's.
     wait_until(page, lambda: position(thumb(page, "C2", "lateral")) == 100)
     assert app.session.wait(SOLVE_S)
-    assert app.session.state.rates["C2"].lateral == row._travel.rate(100, 294e3)
+    assert app.session.state.design.rates["C2"].lateral == row._travel.rate(100, 294e3)
 
 
 def test_another_road_is_solved(page, printed_json):
@@ -195,14 +197,14 @@ def test_another_road_is_solved(page, printed_json):
 
 
 COMPARED = {"ghost": "compared", "overlaid": frozenset({"Optimised", "Pinned"}), "classic": True}
-OPERATING = {"motion": "operating shape", "operating_hz": 40.0, **COMPARED}
+OPERATING = {"kind": "operating shape", "operating_hz": 40.0, **COMPARED}
 
 
 @pytest.mark.parametrize(
     "switches",
     [
         {},
-        {"motion": "damped mode", "coloring": "displacement", **COMPARED},
+        {"kind": "damped mode", "coloring": "displacement", **COMPARED},
         {"coloring": "strain energy", **OPERATING},
         {"coloring": "kinetic energy", "load": "front left radial force", **OPERATING},
     ],
@@ -212,15 +214,15 @@ def test_a_move_of_a_slider_sends_less_than_200_kb_whatever_is_drawn(
     app, server, monkeypatch, switches
 ):
     before = app.session.state
-    app.session.pin("Pinned")
-    app.session.change(**switches)
+    app.session.do(Pin("Pinned"))
+    app.session.do(Alter(**switches))
     assert app.session.wait_checked(SOLVE_S)
     with listening(server) as socket:
-        monkeypatch.setattr(session, "check_exactly", check_exactly)  # which sends how far it is
-        app.session.set_rate("C2", "lateral", 250e3)
+        monkeypatch.setattr(inspector, "check_exactly", check_exactly)  # which sends how far it is
+        app.session.do(SetRate("C2", "lateral", 250e3))
         assert app.session.wait_checked(SOLVE_S)
         sent = n_bytes(socket)
-    app.session.update(lambda _: before)
+    app.session.do(Become(before))
     assert 20_000 < sent < 200_000
 
 

@@ -4,8 +4,10 @@ import pytest
 from apps import open_app
 from mounted_cabin import mounted_cabin
 from pages import draw_on, wait_for, wait_until
+from session_commands import Alter, Become
 
 from modeviz.analysis.results import Conditions
+from modeviz.viewer.session.commands.decisions import Load
 
 SOLVE_S = 60
 CAMERA = "__viserMutable.camera.matrixWorld.elements"
@@ -64,7 +66,7 @@ def test_keys_do_nothing_behind_the_guide(app, page):
     wait_for(page, f"!{GUIDE}")
     page.keyboard.press("n")
     wait_until(page, lambda: app.session.state != before)
-    app.session.change(mode=before.mode)
+    app.session.do(Become(before))
     assert app.session.wait(SOLVE_S)
 
 
@@ -84,20 +86,20 @@ def test_escape_closes_the_guide(app, page):
 
 def test_the_title_names_vehicle_and_variant(app, page):
     wait_for(page, "document.title === 'cabin · Original · modeviz'")
-    app.session.load("Soft")
+    app.session.do(Load("Soft"))
     wait_for(page, "document.title === 'cabin · Soft · modeviz'")
     app.session.undo()
     wait_for(page, "document.title === 'cabin · Original · modeviz'")
 
 
 def test_keys_show_the_next_mode_and_the_one_before(app, page):
-    names = [name.name for name in app._last.now.names]
-    app.session.change(mode=names[6])
+    names = [name.name for name in app.session.answer.now.names]
+    app.session.do(Alter(mode=names[6]))
     page.keyboard.press("n")
-    wait_until(page, lambda: app.session.state.mode == names[7])
+    wait_until(page, lambda: app.session.state.motion.mode == names[7])
     assert app.session.wait(SOLVE_S)
     page.keyboard.press("p")
-    wait_until(page, lambda: app.session.state.mode == names[6])
+    wait_until(page, lambda: app.session.state.motion.mode == names[6])
 
 
 def test_the_space_bar_plays_and_stops_once_even_on_the_button_that_was_clicked(app, page):
@@ -119,6 +121,6 @@ def test_keys_do_nothing_while_somebody_types(app, page):
     page.locator("body").click(position={"x": 490, "y": 20})
     page.keyboard.press("p")
     wait_until(page, lambda: app.session.state != before)
-    app.session.undo()
+    app.session.do(Become(before))
     assert app.session.state == before
     assert not app._scene.driver._running

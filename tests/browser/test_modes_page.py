@@ -8,9 +8,12 @@ import pytest
 from apps import listening, n_bytes, open_app
 from mounted_cabin import mounted_cabin
 from pages import send, wait_for, wait_until
+from session_commands import Alter, Become
 
 from modeviz.analysis.results import Conditions
 from modeviz.vehicle.bodies import Material, MeshPart
+from modeviz.viewer.session.commands.decisions import SetRate
+from modeviz.viewer.session.commands.looks import ShowMode
 from modeviz.viewer.session.state import first_state
 
 SOLVE_S = 60
@@ -76,7 +79,7 @@ def first(app, page):
     """Every test starts with what the session opened with, standing still."""
     state = first_state(app.session.vehicle, app.session.vehicle.rates, Conditions("flat", 20.0))
     app._animation._run(False)
-    app.session.change(**vars(state))
+    app.session.do(Become(state))
     assert app.session.wait(SOLVE_S)
     shown(app, page)
 
@@ -91,7 +94,7 @@ def drawn(page, body):
 
 def expected(app, body, position):
     """How a rigid body's vertices move in the newest answer, of no particular size."""
-    moving = app._last.movement.shape[app._last.now.prepared.system.dofs[body]]
+    moving = app.session.answer.movement.shape[app.session.answer.now.prepared.system.dofs[body]]
     arms = position - app.session.vehicle.body(body).center_of_gravity
     return moving[:3] + np.cross(moving[3:], arms)
 
@@ -121,7 +124,7 @@ def open_tab(page, name):
 def test_a_mode_picked_in_the_table_is_drawn(app, page):
     _, before = drawn(page, "cab")
     page.locator(".mv .modes label", has_text="Cab roll").click()
-    wait_until(page, lambda: app.session.state.mode == "cab roll")
+    wait_until(page, lambda: app.session.state.motion.mode == "cab roll")
     assert app.session.wait(SOLVE_S)
     shown(app, page)
     _, after = drawn(page, "cab")
@@ -133,7 +136,7 @@ def test_a_damped_mode_is_drawn_with_its_true_phases(app, page):
     assert not drawn(page, "cab")[1].imag.any()
     open_tab(page, "What moves")
     pick(page, "Shows", "Mode with damping")
-    wait_until(page, lambda: app._last.movement.about.startswith("damped"))
+    wait_until(page, lambda: app.session.answer.movement.about.startswith("damped"))
     shown(app, page)
     _, shape = drawn(page, "cab")
     assert np.abs(shape.imag).max() > 8 * HALF * np.abs(shape).max()
@@ -145,24 +148,24 @@ def test_the_operating_shape_follows_rates_and_frequency(app, page):
     wait_for(page, "document.querySelector('.mv .title').textContent === 'Operating shape  11.00 Hz'")
     shown(app, page)
     before = drawn(page, "cab")[1]
-    app.session.set_rate("A", "lateral", 1e5)
+    app.session.do(SetRate("A", "lateral", 1e5))
     assert app.session.wait(SOLVE_S)
     shown(app, page)
     softer = drawn(page, "cab")[1]
     assert np.abs(softer - before).max() > 0.01
     send(page, app._shape._frequency, 14.0)
-    wait_until(page, lambda: app._last.movement.frequency_hz == 14.0)
+    wait_until(page, lambda: app.session.answer.movement.frequency_hz == 14.0)
     shown(app, page)
     assert np.abs(drawn(page, "cab")[1] - softer).max() > 0.01
 
 
 def test_a_peak_is_one_click_away(app, page):
     open_tab(page, "What moves")
-    app.session.change(motion="operating shape", operating_hz=20.0)
+    app.session.do(Alter(kind="operating shape", operating_hz=20.0))
     page.get_by_role("button", name=re.compile(r"^1\d\.\d$")).first.click()
-    wait_until(page, lambda: app.session.state.operating_hz != 20.0)
-    f, psd = app._last.now.frequency_hz, app._last.now.response(0, "lateral")
-    line = int(np.flatnonzero(np.isclose(f, app.session.state.operating_hz))[0])
+    wait_until(page, lambda: app.session.state.motion.operating_hz != 20.0)
+    f, psd = app.session.answer.now.frequency_hz, app.session.answer.now.response(0, "lateral")
+    line = int(np.flatnonzero(np.isclose(f, app.session.state.motion.operating_hz))[0])
     assert psd[line] > max(psd[line - 1], psd[line + 1])
 
 
@@ -178,35 +181,38 @@ def test_a_body_alone_is_all_that_is_seen_and_its_modes_are_a_click_away(app, pa
     wait_for(page, "document.querySelector('.mv .title').textContent === 'Chassis alone: yaw'")
     assert app.session.wait(SOLVE_S)
     shown(app, page)
-    app.session.undo()
-    app.session.show_mode("cab yaw")
+    app.session.do(ShowMode("cab yaw"))
     wait_for(page, visible, name="/vehicle/cab")
 
 
 def test_the_scale_of_colours_is_on_both_tabs_of_the_card(app, page):
-    app.session.change(coloring="displacement")
+    app.session.do(Alter(coloring="displacement"))
     for tab in ("What moves", "Motion"):
         open_tab(page, tab)
         page.locator(".mv .scale >> visible=true", has_text="Displacement").wait_for()
-    app.session.change(coloring="bodies")
+    app.session.do(Alter(coloring="bodies"))
     page.locator(".mv .scale >> visible=true").wait_for(state="detached")
 
 
 def test_what_cannot_move_is_said_on_the_card(app, page):
-    app.session.change(motion="operating shape", operating_hz=99.0)
+    app.session.do(Alter(kind="operating shape", operating_hz=99.0))
     open_tab(page, "Motion")
     wait_for(
         page, "[...document.querySelectorAll('.mv .bad')].some(e => e.textContent.includes('99 Hz'))"
     )
 
 
-def test_undo_moves_the_controls_back(app, page):
+def test_undo_takes_a_rate_back_and_leaves_what_moves(app, page):
     open_tab(page, "What moves")
+    before = app.session.state.design
+    app.session.do(SetRate("A", "lateral", 1e5))
     pick(page, "Shows", "Mode with damping")
-    wait_until(page, lambda: app.session.state.motion == "damped mode")
-    app.session.undo()
-    box = page.get_by_role("combobox", name="Shows")
-    wait_until(page, lambda: box.input_value() == "Mode")
+    wait_until(page, lambda: app.session.state.motion.kind == "damped mode")
+    page.get_by_role("button", name="Undo", exact=True).click()
+    wait_until(page, lambda: app.session.state.design == before)
+    assert app.session.wait(SOLVE_S)
+    shown(app, page)
+    assert page.get_by_role("combobox", name="Shows").input_value() == "Mode with damping"
 
 
 def test_scrubbing_goes_to_the_phase_and_stops(app, page):

@@ -5,9 +5,11 @@ from apps import open_app
 from mount_controls import DIRECTIONS, IS_OPEN, box, drag, open_folder, position, thumb, type_rate
 from mounted_cabin import mounted_cabin
 from pages import CLOSE_NOTICES, wait_for, wait_until
+from session_commands import Alter
 
 from modeviz.analysis.results import Conditions
 from modeviz.vehicle.connections import RATE_FIELDS
+from modeviz.viewer.session.commands.decisions import Load, SetRate
 
 SOLVE_S = 60
 REFUSED = "document.body.textContent.includes('expected 0 to 1000000 N/mm')"
@@ -38,8 +40,14 @@ def page(app, server, open_page):
 @pytest.fixture(autouse=True)
 def original(app, page):
     """Every test starts with the original rates, nothing locked or linked, the first group selected."""
-    app.session.change(
-        rates=app.session.vehicle.rates, locked=frozenset(), linked=frozenset(), unit="N/mm", group="A"
+    app.session.do(
+        Alter(
+            rates=app.session.vehicle.rates,
+            locked=frozenset(),
+            linked=frozenset(),
+            unit="N/mm",
+            group="A",
+        )
     )
     assert app.session.wait(SOLVE_S)
     wait_for(page, "document.querySelector('.mv-selected').dataset.group === 'A'")
@@ -49,7 +57,7 @@ def original(app, page):
 
 
 def rate(app, group, field):
-    return getattr(app.session.state.rates[group], field)
+    return getattr(app.session.state.design.rates[group], field)
 
 
 def text(page, group):
@@ -143,31 +151,31 @@ def test_what_no_rate_can_be_is_refused_once_and_put_back(app, page, typed):
 
 def test_a_locked_rate_stays_while_a_loaded_set_moves_it(app, page):
     page.locator(".effects label").first.click()
-    wait_until(page, lambda: app.session.state.locked == {("A", "vertical")})
+    wait_until(page, lambda: app.session.state.design.locked == {("A", "vertical")})
     wait_until(page, lambda: box(page, "A", "vertical").is_disabled())
-    app.session.set_rate("A", "vertical", 1e6)
-    app.session.set_rate("A", "lateral", 1e5)
+    app.session.do(SetRate("A", "vertical", 1e6))
+    app.session.do(SetRate("A", "lateral", 1e5))
     wait_until(page, lambda: box(page, "A", "lateral").input_value() == "100")
     assert rate(app, "A", "vertical") == 8e5
-    app.session.load("Soft")
+    app.session.do(Load("Soft"))
     wait_until(page, lambda: box(page, "A", "vertical").input_value() == "200")
     assert box(page, "A", "vertical").is_disabled()
 
 
 def test_linked_rates_keep_their_ratios(app, page):
     page.get_by_label("Keep ratios").first.check()
-    wait_until(page, lambda: app.session.state.linked == {"A"})
+    wait_until(page, lambda: app.session.state.design.linked == {"A"})
     type_rate(page, "A", "vertical", "400")
     wait_until(page, lambda: box(page, "A", "lateral").input_value() == "150")
     wait_until(page, lambda: box(page, "A", "fore-aft").input_value() == "200")
 
 
 def test_another_unit_changes_every_number_and_no_rate(app, page):
-    before = app.session.state.rates
+    before = app.session.state.design.rates
     page.get_by_role("combobox", name="Rates in").click()
     page.get_by_role("option", name="N/cm").click()
     wait_until(page, lambda: box(page, "B", "lateral").input_value() == "3000")
-    assert app.session.state.rates == before
+    assert app.session.state.design.rates == before
     type_rate(page, "B", "lateral", "1314")
     wait_until(page, lambda: rate(app, "B", "lateral") == 131.4e3)
 
@@ -184,7 +192,7 @@ def test_one_rate_a_group_and_all_go_back(app, page):
     wait_until(page, lambda: rate(app, "A", "lateral") == 3e5)
     assert rate(app, "B", "vertical") == 5e5
     page.get_by_role("button", name="Reset all", exact=True).click()
-    wait_until(page, lambda: app.session.state.rates == dict(app.session.vehicle.rates))
+    wait_until(page, lambda: app.session.state.design.rates == dict(app.session.vehicle.rates))
 
 
 def test_a_click_on_a_mount_opens_its_folder(app, page):
@@ -230,7 +238,7 @@ def test_controls_that_have_nothing_to_do_look_so(app, page):
     wait_for(page, f"{idle}.includes('group') && {idle}.includes('all')")
     button = page.get_by_role("button", name="Reset all", exact=True)
     assert float(button.evaluate("(b) => getComputedStyle(b).opacity")) < 0.5
-    app.session.set_rate("B", "lateral", 1e5)
+    app.session.do(SetRate("B", "lateral", 1e5))
     wait_for(page, f"!{idle}.includes('all') && !{idle}.includes('group')")
     wait_until(page, lambda: button.evaluate("(b) => getComputedStyle(b).opacity") == "1")
 

@@ -9,12 +9,14 @@ from apps import SOLVE_S, open_solved_cabin
 from held_search import hold_searches
 from mounted_cabin import mounted_cabin
 from pages import CLOSE_NOTICES, wait_for, wait_until
+from session_commands import Alter, AlterPlan
 
 from modeviz.files.problem_file import problem_text, read_problem
 from modeviz.text.wording import significant
 from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.default_problem import problems
 from modeviz.vehicle.problem import Problem
+from modeviz.viewer.session.commands.decisions import Load, SetRate
 from modeviz.viewer.session.planning.plan import first_plan, planned
 from modeviz.viewer.tasks import front_task as trader
 
@@ -43,9 +45,9 @@ def page(app, server, open_page):
 @pytest.fixture(autouse=True)
 def original(app, page):
     """Every test starts with the vehicle's own rates and problem, and leaves no search behind."""
-    app.session.load("Original")
+    app.session.do(Load("Original"))
     plan = replace(first_plan(app.session.vehicle), n_starts=2)
-    app.session.update(lambda state: replace(state, variants={}, plan=plan))
+    app.session.do(Alter(variants={}, plan=plan))
     assert app.session.wait(SOLVE_S)
     yield
     app.optimiser.close()
@@ -77,11 +79,11 @@ def search(app, page):
 
 def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page):
     charts = page.evaluate(CHART)
-    before = app.shown.now.psd
+    before = app.session.answer.now.psd
     found = search(app, page)
     wait_for(page, f"{CHART} === a.n", n=charts + 1)
-    wait_until(page, lambda: app.shown.now.rates == found.rates)
-    assert not np.array_equal(app.shown.now.psd, before)
+    wait_until(page, lambda: app.session.answer.now.rates == found.rates)
+    assert not np.array_equal(app.session.answer.now.psd, before)
     wait_for(page, f"{TEXT}.includes('The full model has the same goal within')")
     chart = app._optimise._fall._chart
     assert chart.data[1][-1] == pytest.approx(found.value, rel=1e-6)
@@ -103,24 +105,28 @@ def test_cancel_keeps_the_best_design(app, page, held):
     press(page, "Cancel")
     wait_for(page, f"{TEXT}.includes('Cancelled')")
     look = app.optimiser.job
-    assert app.session.state.rates == look.found.rates == look.progress.rates
+    assert app.session.state.design.rates == look.found.rates == look.progress.rates
 
 
 def test_the_result_is_accepted_under_a_name_of_its_own(app, page):
     found = search(app, page)
     press(page, "Accept")
-    wait_until(page, lambda: "Optimised 1" in app.session.state.variants)
-    assert app.session.state.variants["Optimised 1"].rates == app.session.state.rates == found.rates
+    wait_until(page, lambda: "Optimised 1" in app.session.state.design.variants)
+    assert (
+        app.session.state.design.variants["Optimised 1"].rates
+        == app.session.state.design.rates
+        == found.rates
+    )
     page.get_by_role("button", name="Accept", exact=True).wait_for(state="detached")
     page.get_by_role("button", name="Undo", exact=True).click()
-    wait_until(page, lambda: app.session.state.rates == mounted_cabin().rates)
-    assert not app.session.state.variants
+    wait_until(page, lambda: app.session.state.design.rates == mounted_cabin().rates)
+    assert not app.session.state.design.variants
 
 
 def test_one_goes_back_to_the_rates_before(app, page):
     search(app, page)
     press(page, "Go back")
-    wait_until(page, lambda: app.session.state.rates == mounted_cabin().rates)
+    wait_until(page, lambda: app.session.state.design.rates == mounted_cabin().rates)
 
 
 def unfold(page, folder, label):
@@ -139,17 +145,17 @@ def test_bounds_and_ratios_of_a_group_are_changed_on_the_page(app, page):
     unfold(page, "Bounds and ratios", "Mounts")
     page.get_by_label("Mounts", exact=True).click()
     page.get_by_role("option", name="B rear", exact=True).click()
-    wait_until(page, lambda: app.session.state.plan.shown_group == "B")
+    wait_until(page, lambda: app.session.state.design.plan.shown_group == "B")
     boxes(page, "Lateral, N/mm").nth(0).fill("20")
-    wait_until(page, lambda: app.session.state.plan.group.softest == MountRates(1e4, 2e4, 1e4))
+    wait_until(page, lambda: app.session.state.design.plan.group.softest == MountRates(1e4, 2e4, 1e4))
     boxes(page, "Lateral, N/mm").nth(1).fill("5")
     wait_for(page, f"{TEXT}.includes('lateral: found 20 to 5 N/mm, expected the lower one first')")
     boxes(page, "Lateral, N/mm").nth(1).fill("5000")
-    wait_until(page, lambda: app.session.state.plan.group.stiffest.lateral == 5e6)
+    wait_until(page, lambda: app.session.state.design.plan.group.stiffest.lateral == 5e6)
     page.get_by_label("Ratios", exact=True).click()
     page.get_by_role("option", name="Within limits", exact=True).click()
     boxes(page, "Limits").nth(0).fill("0.5")
-    wait_until(page, lambda: app.session.state.plan.group.ratio_limits == (0.5, 0.8))
+    wait_until(page, lambda: app.session.state.design.plan.group.ratio_limits == (0.5, 0.8))
     page.locator(".mv .pills label", has_text="Fore-aft").nth(0).click()
     wait_for(page, f"{TEXT}.includes('5 numbers to choose')")
     found = search(app, page)
@@ -160,11 +166,11 @@ def test_bounds_and_ratios_of_a_group_are_changed_on_the_page(app, page):
 
 
 def test_accelerations_are_changed_on_the_page(app, page):
-    own = app.session.state.plan
+    own = app.session.state.design.plan
     assert len(own.loads) == 2
     unfold(page, "Loads and points", "Terms")
     press(page, "Remove")
-    wait_until(page, lambda: app.session.state.plan.loads == own.loads[1:])
+    wait_until(page, lambda: app.session.state.design.plan.loads == own.loads[1:])
     at = boxes(page, "At, Hz")
     wait_until(page, lambda: at.input_value() == own.loads[1].frequencies)
     at.fill("7 to 9 by")
@@ -175,11 +181,11 @@ def test_accelerations_are_changed_on_the_page(app, page):
     page.locator(".mv .pills label", has_text="Front left radial force").click()
     wait_for(page, f"{TEXT}.includes('Rough at 7 to 9 Hz')")
     press(page, "Add")
-    wait_until(page, lambda: app.session.state.plan.shown_load == 1)
+    wait_until(page, lambda: app.session.state.design.plan.shown_load == 1)
     page.get_by_label("Weight").fill("3")
     page.get_by_label("Target").fill("0.5")
     wait_for(page, f"{TEXT}.includes('to 0.5, weight 3')")
-    first, second = app.session.state.plan.loads
+    first, second = app.session.state.design.plan.loads
     assert (first.roads, first.wheel_loads, first.weight) == ({"rough"}, frozenset(), 1)
     assert second == replace(first, weight=3, target=0.5)
 
@@ -188,7 +194,7 @@ def test_a_problem_without_accelerations_gets_some_if_asked(app, page):
     page.get_by_label("Problem", exact=True).click()
     page.get_by_role("option", name="Rating", exact=True).click()
     wait_for(page, f"{TEXT}.includes('Combined mean square at the driver')")
-    assert not app.session.state.plan.loads
+    assert not app.session.state.design.plan.loads
     unfold(page, "Loads and points", "Terms")
     at = boxes(page, "At, Hz")
     at.wait_for(state="detached")
@@ -198,7 +204,7 @@ def test_a_problem_without_accelerations_gets_some_if_asked(app, page):
 
 
 def test_a_front_of_what_cannot_be_is_refused_with_a_word(app, page):
-    app.session.update(lambda state: replace(state, plan=replace(state.plan, free=frozenset())))
+    app.session.do(AlterPlan(free=frozenset()))
     wait_for(page, f"{TEXT}.includes('no group of mounts may change')")
     press(page, "Find front")
     page.locator(".mantine-Notification-root", has_text="no group of mounts may change").wait_for()
@@ -206,7 +212,7 @@ def test_a_front_of_what_cannot_be_is_refused_with_a_word(app, page):
 
 
 def test_the_problem_is_changed_on_the_page(app, page):
-    own = app.session.state.plan
+    own = app.session.state.design.plan
     page.get_by_label("Normalised").uncheck()
     wait_for(page, f"{TEXT}.includes('plain sum')")
     page.locator(".mv .pills label", has_text="B").click()
@@ -216,15 +222,15 @@ def test_the_problem_is_changed_on_the_page(app, page):
     boxes(page, "From, to, Hz").nth(1).fill("9.5")
     wait_for(page, f"{TEXT}.includes('Cab yaw below 9.5 Hz')")
     wanted = replace(own, is_normalised=False, free=frozenset("A"), mode="cab yaw", high_hz=9.5)
-    assert app.session.state.plan == wanted
+    assert app.session.state.design.plan == wanted
     for _ in range(4):
         press(page, "Undo")
-    wait_until(page, lambda: app.session.state.plan == own)
+    wait_until(page, lambda: app.session.state.design.plan == own)
     wait_for(page, f"{TEXT}.includes('6 numbers to choose')")
 
 
 def test_a_changed_problem_is_saved_as_a_file_that_is_read_again(app, page, tmp_path):
-    app.session.update(lambda state: replace(state, plan=replace(state.plan, is_normalised=False)))
+    app.session.do(AlterPlan(is_normalised=False))
     with page.expect_download() as downloaded:
         press(page, "Save problem")
     path = tmp_path / downloaded.value.suggested_filename
@@ -232,11 +238,13 @@ def test_a_changed_problem_is_saved_as_a_file_that_is_read_again(app, page, tmp_
     assert path.name == "cabin-ride-problem.toml"
     problem = read_problem(path, app.session.vehicle)
     assert not problem.is_normalised
-    assert problem_text(problem) == problem_text(planned(app.session.vehicle, app.session.state.plan))
+    assert problem_text(problem) == problem_text(
+        planned(app.session.vehicle, app.session.state.design.plan)
+    )
 
 
 def test_what_cannot_be_searched_is_said_and_starts_nothing(app, page):
-    app.session.update(lambda state: replace(state, plan=replace(state.plan, free=frozenset())))
+    app.session.do(AlterPlan(free=frozenset()))
     complaint = "no group of mounts may change"
     wait_for(page, f"{TEXT}.includes(a.complaint)", complaint=complaint)
     press(page, "Start")
@@ -266,7 +274,7 @@ def test_scattered_parts_shade_the_charts_until_a_rate_moves(app, page):
     wait_until(page, lambda: chart.bands)
     low, high, *_, now, _ = chart.data[1:]
     assert ((low < now) & (now < high)).mean() > 0.9
-    app.session.set_rate("A", "vertical", 3e5)
+    app.session.do(SetRate("A", "vertical", 3e5))
     wait_for(page, f"{TEXT}.includes('other rates or road')")
     wait_until(page, lambda: not chart.bands)
 
@@ -280,5 +288,5 @@ def test_a_click_on_a_front_loads_its_design(app, page, monkeypatch):
     designs = app.trader.job.found
     wait_for(page, f"{points}.length === a.n", n=len(designs))
     page.locator(".mv .front label").nth(1).click()
-    wait_until(page, lambda: app.session.state.rates == designs[1].rates)
+    wait_until(page, lambda: app.session.state.design.rates == designs[1].rates)
     wait_for(page, f"{points}[1].className === 'on'")

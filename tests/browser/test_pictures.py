@@ -15,6 +15,7 @@ import pytest
 from builtin_truck import builtin_truck, truck_modes
 from pages import CLOSE_NOTICES, wait_for, wait_until
 from PIL import Image
+from session_commands import Alter
 
 from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.results import Conditions
@@ -34,6 +35,7 @@ from modeviz.viewer.pictures.pictures import (
 )
 from modeviz.viewer.scene.driver import ShapeDriver, held
 from modeviz.viewer.scene.stage import FIELD_OF_VIEW, LIGHT, box, camera
+from modeviz.viewer.session.commands.looks import ShowMode
 
 PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
@@ -171,8 +173,8 @@ def app():
     app.scene._stage._key.cast_shadow = False
     app.start()
     app._animation._run(False)
-    app.session.show_mode("cab yaw")
-    app.session.change(ghost="none")  # outlines at rest fight with bodies for the same pixels
+    app.session.do(ShowMode("cab yaw"))
+    app.session.do(Alter(ghost="none"))  # outlines at rest fight with bodies for the same pixels
     assert app.session.wait(SOLVE_S)
     yield app
     app.close()
@@ -371,7 +373,7 @@ def test_report_is_downloaded_with_a_picture_of_what_is_seen(app, bench):
     assert "Pickup: Optimised against Original" in text
     (picture,) = pictures_in(text)
     assert picture.size == (160, 120)
-    results = solve_modal(truck_modes(), app.session.state.rates)
+    results = solve_modal(truck_modes(), app.session.state.design.rates)
     yaw = results.modes.frequency_hz[results.mode_index("cab yaw")]
     assert f"ab yaw, {yaw:.2f} Hz, Optimised" in text
 

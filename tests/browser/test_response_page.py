@@ -8,6 +8,7 @@ from apps import open_app
 from charts import at_lines, has_lines
 from mounted_cabin import mounted_cabin
 from pages import draw_on, wait_for, wait_until
+from session_commands import Alter
 
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
@@ -15,6 +16,8 @@ from modeviz.cli import main
 from modeviz.files import write_vehicle
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.panels.plots import SHOWN_HZ
+from modeviz.viewer.session.commands.decisions import Load, SetRate, TakeRates
+from modeviz.viewer.session.commands.looks import Overlay
 from modeviz.viewer.session.state import ResponseCurve
 
 SOLVE_S = 60
@@ -51,11 +54,11 @@ def page(app, server, open_page):
 def original(app, page):
     """Every test starts with the vehicle's rates, on the road, in decibels."""
     page.get_by_role("tab", name="Response").click()
-    app.session.load("Original")
-    app.session.change(
+    app.session.do(Load("Original"))
+    app.session.do(Alter(
         load="", curves=CURVES, conditions=FLAT, decibels=True, log_frequency=False,
         against="Original", overlaid=frozenset(), group="A", mode="cab yaw",
-    )  # fmt: skip
+    ))  # fmt: skip
     assert app.session.wait(SOLVE_S)
 
 
@@ -79,7 +82,7 @@ def zoom(page, chart, low, high):
 
 
 def decibels_of(app, curve):
-    return decibels(app._last.now, curve)
+    return decibels(app.session.answer.now, curve)
 
 
 def range_of(chart):
@@ -90,7 +93,7 @@ def test_a_chart_keeps_its_zoom_when_another_response_is_chosen(app, page):
     seen = zoom(page, 0, 10.0, 17.0)
     assert seen == pytest.approx([10, 17], abs=0.3)
     for curve in (ResponseCurve(0, "vertical"), ResponseCurve(0, "fore-aft")):
-        app.session.change(curves=(curve, CURVES[1]))
+        app.session.do(Alter(curves=(curve, CURVES[1])))
         assert app.session.wait(SOLVE_S)
         assert_drawn(page, 0, "now", decibels_of(app, curve))
         wait_for(page, f"(([low, high]) => low === a.low && high === a.high)({range_of(0)})",
@@ -98,7 +101,7 @@ def test_a_chart_keeps_its_zoom_when_another_response_is_chosen(app, page):
     page.evaluate(f"{CHARTS}[0].chart.over.dispatchEvent(new MouseEvent('dblclick'))")
     wait_for(page, f"(([low, high]) => low === {LOW} && high === {HIGH})({range_of(0)})")
     page.evaluate("() => new Promise(requestAnimationFrame)")  # in which the page takes note of it
-    app.session.change(curves=CURVES)
+    app.session.do(Alter(curves=CURVES))
     assert app.session.wait(SOLVE_S)
     assert_drawn(page, 0, "now", decibels_of(app, CURVES[0]))
     draw_on(page)  # a zoom that came back would be there by now
@@ -137,7 +140,7 @@ def choose(page, label, option):
 
 def test_curves_are_the_results_in_decibels_and_in_their_unit(app, page):
     rates = {"A": MountRates(4e5, 1.5e5, 4e5)}
-    app.session.set_rates(rates)
+    app.session.do(TakeRates(rates))
     prepared = prepare(mounted_cabin())
     now, base = solve(prepared, rates, FLAT), solve(prepared, {}, FLAT)
     for chart, curve in enumerate(CURVES):
@@ -157,7 +160,7 @@ def test_another_direction_is_drawn_where_it_is_chosen(app, page):
 
 
 def test_an_overlaid_set_is_drawn_as_a_curve_of_its_own_and_named(app, page):
-    app.session.overlay("Soft", True)
+    app.session.do(Overlay("Soft", True))
     soft = solve(prepare(mounted_cabin()), mounted_cabin().rate_sets["soft"], FLAT)
     assert_drawn(page, 1, "Soft", decibels(soft, ResponseCurve(0, "vertical")))
     wait_for(page, "document.querySelector('.mv .keyed')?.textContent.includes('Soft')")
@@ -185,7 +188,7 @@ def test_the_zoom_stays_while_rates_move(app, page):
         assert_drawn(page, chart, "now", decibels_of(app, curve))
     page.evaluate(f"{CHARTS}.forEach(c => c.chart.setScale('x', {{ min: 8, max: 14 }}))")
     for rate in (2.9e5, 2.5e5, 2e5):
-        app.session.set_rate("A", "lateral", rate)
+        app.session.do(SetRate("A", "lateral", rate))
         assert app.session.wait(SOLVE_S)
         assert_drawn(page, 0, "now", decibels_of(app, ResponseCurve(0, "lateral")))
     assert page.evaluate(zoom) == [[8, 14], [8, 14]]
@@ -195,10 +198,8 @@ def test_a_click_on_a_contributor_shows_its_mode_and_selects_its_mounts(app, pag
     pill = page.locator(".mv .pill:not(.on)").first
     text = pill.locator("span").inner_text().removeprefix("~")
     pill.locator("label").click()
-    wait_until(page, lambda: app.session.state.mode == text.lower())
+    wait_until(page, lambda: app.session.state.motion.mode == text.lower())
     assert app.session.wait(SOLVE_S)
-    solved = app._last
+    solved = app.session.answer
     largest = max(("A", "B"), key=lambda group: solved.strain[group])
     assert solved.state.group == largest
-    app.session.undo()
-    assert (app.session.state.mode, app.session.state.group) == ("cab yaw", "A")

@@ -4,6 +4,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from pages import draw_on, wait_for, wait_until
+from session_commands import altered
 
 from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare_modes
@@ -20,8 +21,11 @@ from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import VIEWS
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import energy_shares, largest_share
+from modeviz.viewer.session.design import Design
+from modeviz.viewer.session.followed_mode import FollowedMode
 from modeviz.viewer.session.movement import Movement
-from modeviz.viewer.session.state import State
+from modeviz.viewer.session.named_results import Named
+from modeviz.viewer.session.state import Motion, State
 
 HALF = 2.0**-11  # relative rounding of half precision
 QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -120,27 +124,21 @@ def page(server, scene, open_page):
 
 
 def solved(modal, mode=6, **fields):
-    state = State({"C": RATES}, Conditions("none", 20.0), "", **({"group": "C"} | fields))
+    first = State(Design({"C": RATES}), Conditions("none", 20.0), Motion(""), group="C")
+    state = altered(first, **fields)
     name, shape = modal.names[mode], modal.modes.shapes[:, mode]
     f = float(modal.modes.frequency_hz[mode])
     return Solved(
         state=state,
         missing="",
-        named={"Original": modal},
-        unsolved={},
+        named=Named({"Original": modal}, {}),
         now=modal,
-        track=None,
-        pairs=(),
-        mode=mode,
-        same=mode,
-        name=name,
-        shape=shape,
+        followed=FollowedMode(modal, modal, mode, mode, name, shape, None, (), is_detailed=True),
         movement=Movement(name.name, name.name, f, "", shape, None),
         wheels={},
         seconds=0.0,
-        rest=None,
         classic_error=None,
-        is_detailed=True,
+        findings=None,
     )
 
 

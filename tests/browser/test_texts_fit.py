@@ -8,6 +8,7 @@ from mounted_cabin import mounted_cabin
 from pages import CLOSE_NOTICES, has_beside, wait_for, wait_still, wait_until
 
 from modeviz.viewer.page.access import open_server
+from modeviz.viewer.session.commands.decisions import SetRate
 
 LONG = "Donaudampfschifffahrtsgesellschaftskapitän with a second, third and fourth name"
 TABS = ("Variants", "Optimise", "View", "Pictures", "Mounts", "Energy", "Modes", "Figures", "Road",
@@ -60,7 +61,7 @@ def app(request):
     server = open_server(port=0)
     server.scene.configure_environment_map(None)
     with open_solved_cabin(server, request.param()) as app:
-        app.session.set_rate("A", "lateral", 2.34 * app.session.state.rates["A"].lateral)
+        app.session.do(SetRate("A", "lateral", 2.34 * app.session.state.design.rates["A"].lateral))
         assert app.session.wait(60)
         yield app
     server.stop()

@@ -25,7 +25,7 @@ from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.connections import GROUND, MOTIONS, Spring
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.panels.status import StatusPanel
-from modeviz.viewer.session.answers import Rest
+from modeviz.viewer.session.findings import Findings
 
 BEAM = Beam(10, mass_per_length=60.0)
 HELD = ((0, 2), (5, 1), (5, 2), (10, 2))
@@ -137,7 +137,7 @@ def test_the_page_has_it_once_it_is_known(vehicle):
     values = {"classic_error": None, "seconds": 0.004, "missing": ""}
     state = SimpleNamespace(classic=False, against="Original")
     for known in ((), now.prepared.components):
-        rest = Rest(now, components=known)
-        panel.show(SimpleNamespace(now=now, state=state, rest=rest, **values))
+        findings = Findings(now, components=known)
+        panel.show(SimpleNamespace(now=now, state=state, findings=findings, **values))
         assert ("last fifth of rack" in page.content) == bool(known)
         assert ("rack: modes up to" in page.content) == bool(known)

@@ -13,6 +13,8 @@ import pytest
 from html_documents import Document
 from studied_cabin import cabin_study
 
+from modeviz.viewer.session.commands.decisions import TakeRates
+
 
 @pytest.fixture
 def notebook(monkeypatch):
@@ -54,7 +56,7 @@ def test_rates_that_were_tuned_on_the_page_are_used(notebook):
     page = study.show()
     try:
         softer = {**page.rates, "B": study.vehicle.rate_sets["soft"]["A"]}
-        page.app.session.change(rates=softer)
+        page.app.session.do(TakeRates(softer))
         study.rates.use(page.rates)
     finally:
         page.close()

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from session_commands import Alter
 
 from modeviz.analysis.results import Conditions
 from modeviz.analysis.wheel_results import solve_wheels
@@ -27,8 +28,8 @@ def app():
 
 def beside(app, **asked):
     """The text beside the scene with something asked for, and the charts' lines, x from 0 to 1."""
-    app.session.change(**asked)
-    app.answer(30)
+    app.session.do(Alter(**asked))
+    app.session.wait_for_answer(30)
     page = app.offline(np.array([-5.0, -5, 2]), np.zeros(3)).decode()
     text = page[page.index("<aside>") : page.index("</aside>")]
     points = [line.split() for line in re.findall('<polyline points="([^"]+)"', text)]
@@ -41,7 +42,7 @@ def test_road_charts_show_the_compared_set_and_the_present_one_at_the_chosen_poi
     assert len(lines) == 4
     assert text.count("dB re 1 g²/Hz") == 2
     assert all(words in text for words in ("Seat, lateral", "Seat, vertical", "Flat, 72 km/h"))
-    solved = app.shown
+    solved = app.session.answer
     drawn = [(d, results) for d in ("lateral", "vertical") for results in (solved.base, solved.now)]
     for line, (direction, results) in zip(lines, drawn, strict=True):
         check(line, results.frequency_hz, results.response(0, direction))
@@ -53,7 +54,7 @@ def test_under_a_wheel_load_its_response_is_drawn_not_the_roads(app):
     assert text.count("dB re 1 g<") == 2
     assert "Front left radial force" in text
     assert "km/h" not in text
-    now = app.shown.now
+    now = app.session.answer.now
     found = solve_wheels(now.prepared, now.rates)
     check(lines[1], found.frequency_hz, found.acceleration_g[:, 0, 0, 1])
     check(lines[3], found.frequency_hz, found.acceleration_g[:, 0, 0, 2])
@@ -62,10 +63,10 @@ def test_under_a_wheel_load_its_response_is_drawn_not_the_roads(app):
 def test_other_scales_are_those_of_the_page(app):
     text, lines = beside(app, load="", decibels=False, log_frequency=True)
     assert "dB" not in text
-    f = app.shown.now.frequency_hz
+    f = app.session.answer.now.frequency_hz
     inside = (lines[1][:, 0] >= 0) & (lines[1][:, 0] <= 1)
     np.testing.assert_allclose(25 ** lines[1][inside, 0], f[(f >= 1) & (f <= 25)], rtol=2e-3)
-    app.session.change(decibels=True, log_frequency=False)
+    app.session.do(Alter(decibels=True, log_frequency=False))
 
 
 def check(line, frequency_hz, response):

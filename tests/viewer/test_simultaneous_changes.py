@@ -1,15 +1,19 @@
 """Controls that two people use at once: viser calls them in threads, and neither change may be lost."""
 
 import threading
+from dataclasses import replace
+from functools import partial
 
 import pytest
 from mounted_cabin import mounted_cabin
+from session_commands import Become
 
 from modeviz.analysis.results import Conditions
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.app import App
 from modeviz.viewer.page.access import open_server
-from modeviz.viewer.panels.mounts.actions import damp, link, reset_rate, toggle_lock
+from modeviz.viewer.session.commands.decisions import LinkRates, ResetRate, SetLossFactor, ToggleLock
+from modeviz.viewer.session.commands.looks import Drive
 
 PATIENCE_S = 60
 TRIED = {"A": MountRates(4e5, 131.4e3, 4e5)}
@@ -52,6 +56,11 @@ def do_at_once(session, actions):
     session._lock = lock
 
 
+def both(app, *commands):
+    """Two commands to the session."""
+    return [partial(app.session.do, command) for command in commands]
+
+
 def choose_curves(app):
     """What the dropdowns of the two charts do."""
     writes = (binding._write for binding in app._response._charts._bindings)
@@ -61,14 +70,11 @@ def choose_curves(app):
 @pytest.mark.parametrize(
     "actions",
     [
-        lambda app: [lambda f=f: toggle_lock(app.session, "A", f) for f in ("vertical", "lateral")],
-        lambda app: [lambda f=f: reset_rate(app.session, "A", f) for f in ("vertical", "lateral")],
-        lambda app: [lambda g=g: damp(app.session, g, 0.3) for g in "AB"],
-        lambda app: [lambda g=g: link(app.session, g, linked=True) for g in "AB"],
-        lambda app: [
-            lambda: app._excitation._drive(road="rough"),
-            lambda: app._excitation._drive(speed=25.0),
-        ],
+        lambda app: both(app, ToggleLock("A", "vertical"), ToggleLock("A", "lateral")),
+        lambda app: both(app, ResetRate("A", "vertical"), ResetRate("A", "lateral")),
+        lambda app: both(app, SetLossFactor("A", 0.3), SetLossFactor("B", 0.3)),
+        lambda app: both(app, LinkRates("A", True), LinkRates("B", True)),
+        lambda app: both(app, Drive(road="rough"), Drive(speed=25.0)),
         choose_curves,
         lambda app: [lambda: app._step_mode(1)] * 2,
     ],
@@ -80,11 +86,11 @@ def test_both_of_two_changes_at_once_are_kept(app, actions):
         action()
         assert session.wait_checked(PATIENCE_S)
     one_by_one = session.state
-    session.change(**vars(start))
+    session.do(Become(start))
     assert session.wait_checked(PATIENCE_S)
     do_at_once(session, actions(app))
     at_once = session.state
-    session.change(**vars(start))
+    session.do(Become(start))
     assert session.wait_checked(PATIENCE_S)
     # Of what is selected last either may be: the groups' own changes are what counts.
-    assert {**vars(at_once), "group": ""} == {**vars(one_by_one), "group": ""}
+    assert replace(at_once, group="") == replace(one_by_one, group="")

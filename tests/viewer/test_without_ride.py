@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from session_commands import Alter
 
 from modeviz.cli import main
 from modeviz.cli.options import RoadOptions
@@ -46,26 +47,26 @@ def test_the_page_shows_everything_but_responses(vehicle, tmp_path):
     server = open_server(port=0, token="open-sesame-open")
     app = App(vehicle, vehicle.rates, conditions, server)
     failures = []
-    app.session._checker._fail = app.session._worker._fail = failures.append
+    app.session._inspector._worker._fail = app.session._worker._fail = failures.append
     app.start()
     try:
         for change in (
             {"rates": vehicle.all_rates(vehicle.rate_sets["soft"])},
-            {"motion": "damped mode", "classic": True},
-            {"motion": "component"},
-            {"motion": "operating shape"},
+            {"kind": "damped mode", "classic": True},
+            {"kind": "component"},
+            {"kind": "operating shape"},
             {"against": "Soft", "overlaid": frozenset({"Original"})},
         ):
-            app.session.change(**change)
-            solved = app.answer(30)
-            if change.get("motion") == "operating shape":
+            app.session.do(Alter(**change))
+            solved = app.session.wait_for_answer(30)
+            if change.get("kind") == "operating shape":
                 assert "[[response_point]]" in solved.movement.problem
         assert app.session.wait_checked(60)
-        assert app.shown.rest.check.is_complete
-        assert app.shown.rest.check.error < 1e-6
+        assert app.session.answer.findings.check.is_complete
+        assert app.session.answer.findings.check.error < 1e-6
         assert "[[response_point]]" in app._response._figures._content.content
         assert "[[response_point]]" in app._table._content.content
-        assert np.isfinite(app.shown.rest.sensitivity.frequency_hz).all()
+        assert np.isfinite(app.session.answer.findings.sensitivity.frequency_hz).all()
         app.report([])
     finally:
         app.close()

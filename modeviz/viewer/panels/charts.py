@@ -17,9 +17,12 @@ from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, title
 from modeviz.viewer.panels.plots import Line, ResponsePlot, Scale, set_line
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.responses import NOW, Responses, curve_label
+from modeviz.viewer.session.commands.looks import ChooseCurve
+from modeviz.viewer.session.design import set_numbers
+from modeviz.viewer.session.responses import Responses, curve_label
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import ResponseCurve, State, set_numbers
+from modeviz.viewer.session.state import ResponseCurve, State
+from modeviz.viewer.session.wheel_responses import NOW
 
 
 class ChartsPanel:
@@ -36,7 +39,7 @@ class ChartsPanel:
         self._choices: list[viser.GuiDropdownHandle[str]] = []
         self._bindings: list[Binding] = []
         self._plots: list[ResponsePlot] = []
-        for i in range(len(session.state.curves)):
+        for i in range(len(session.state.charts.curves)):
             self._add_chart(gui, i, dark)
 
     def show(
@@ -56,14 +59,14 @@ class ChartsPanel:
                 known.
         """
         state = solved.state
-        scale = Scale(responses.quantity, state.decibels, state.log_frequency)
-        unit = scale.quantity.unit_text(state.decibels)
+        scale = Scale(responses.quantity, state.charts.decibels, state.charts.log_frequency)
+        unit = scale.quantity.unit_text(state.charts.decibels)
         lines = chart_lines(solved, responses, *self._ends)
         names = [state.against, *responses.overlaid, NOW]
         show_all(self._bindings)
         assign(self._legend, content=block(legend(lines, solved)))
         for curve, choice, plot, marked in zip(
-            state.curves, self._choices, self._plots, peaks, strict=True
+            state.charts.curves, self._choices, self._plots, peaks, strict=True
         ):
             assign(choice, label=unit)
             f = np.unique(np.concatenate([responses.lines(name) for name in names]))
@@ -71,23 +74,23 @@ class ChartsPanel:
             shaded = band(curve)
             between = None if shaded is None else drawn_at(f, *shaded)
             peaks_at = np.searchsorted(f, responses.lines(NOW)[marked])
-            subject = curve, state.load, state.conditions
+            subject = curve, state.charts.load, state.conditions
             plot.show(subject, scale, lines, f, np.stack(levels), peaks_at.tolist(), between)
 
     def _add_chart(self, gui: viser.GuiApi, i: int, dark: bool) -> None:
         choice = gui.add_dropdown(
             "dB",
             tuple(self._curves),
-            initial_value=curve_label(self._session.vehicle, self._session.state.curves[i]),
+            initial_value=curve_label(self._session.vehicle, self._session.state.charts.curves[i]),
             hint="Which point's acceleration is drawn, and in which direction; drag in the chart to "
             "look closer, double-click to see all",
         )
 
         def read(state: State) -> str:
-            return curve_label(self._session.vehicle, state.curves[i])
+            return curve_label(self._session.vehicle, state.charts.curves[i])
 
         def write(label: str) -> None:
-            self._session.update(lambda state: state.with_curve(i, self._curves[label]))
+            self._session.do(ChooseCurve(i, self._curves[label]))
 
         self._choices.append(choice)
         self._bindings.append(Binding(choice, self._session, read, write))
@@ -112,7 +115,7 @@ def drawn_at(frequency_hz: Floats, lines: Floats, levels: Floats) -> Floats:
 
 def chart_lines(solved: Solved, responses: Responses, base: str, now: str) -> list[Line]:
     """How the curves of a chart are drawn, the compared set's and the present ones in these colours."""
-    numbers = set_numbers(solved.now.prepared.vehicle, solved.state)
+    numbers = set_numbers(solved.now.prepared.vehicle, solved.state.design)
     overlaid = [set_line(name, numbers[name]) for name in responses.overlaid]
     return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
 
@@ -137,7 +140,7 @@ def swatch(line: Line) -> str:
 
 def excited_by(solved: Solved) -> str:
     """What excites the vehicle, as page text."""
-    if solved.state.load:
-        return title(solved.state.load)
+    if solved.state.charts.load:
+        return title(solved.state.charts.load)
     conditions = solved.now.conditions
     return f"{title(conditions.road)}, {conditions.speed / factor('km/h', 'speed'):.0f} km/h"

@@ -22,6 +22,7 @@ from modeviz.viewer.page.html import (
     title,
 )
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.commands.looks import SelectGroup
 from modeviz.viewer.session.session import Session
 
 LEAST_SHOWN = 0.005
@@ -43,16 +44,18 @@ class EnergyPanel:
         self._bodies = {body.name: body.label for body in bodies}
         self._groups = {group.name: group.label for group in session.vehicle.mount_groups}
         groups = list(self._groups)
-        self._buttons = HiddenButtons(gui, len(groups), lambda i: session.change(group=groups[i]))
+        self._buttons = HiddenButtons(gui, len(groups), lambda i: session.do(SelectGroup(groups[i])))
         self._content = gui.add_html("")
 
     def show(self, solved: Solved) -> None:
         """Draws the shares of an answer's shown mode."""
-        before = solved.same
+        before = solved.followed.same
         colors = legend((("--mv-base", escape(solved.state.against)), ("--mv-now", "now")))
-        kinetic = {name: float(e[solved.mode]) for name, e in solved.now.kinetic_energy.items()}
+        kinetic = {
+            name: float(e[solved.followed.mode]) for name, e in solved.now.kinetic_energy.items()
+        }
         content = block(
-            heading(f"{title(solved.name.spoken)}: kinetic energy", colors),
+            heading(f"{title(solved.followed.name.spoken)}: kinetic energy", colors),
             self._kinetic(kinetic, _shares(solved.base.kinetic_energy, before)),
             heading("Strain energy", "click a mount group to see its rates" if self._groups else ""),
             self._strain(solved, _shares(solved.base.strain_energy, before)),

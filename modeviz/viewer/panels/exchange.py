@@ -10,8 +10,9 @@ from modeviz.files.rate_files import RatesFormat, parse_rates, rates_text
 from modeviz.text.wording import file_name
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.session.commands.decisions import AddVariant
+from modeviz.viewer.session.design import rate_sets, variant_name
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import variant_name
 
 FORMATS = {file_format.upper(): file_format for file_format in get_args(RatesFormat)}
 LONGEST_NAME = 40
@@ -41,8 +42,8 @@ class ExchangePanel:
         if event.client is None:
             return
         state, vehicle = self._session.state, self._session.vehicle
-        name = file_name(f"{vehicle.name} {variant_name(vehicle, state)}", file_format)
-        content = rates_text(state.rates, file_format).encode()
+        name = file_name(f"{vehicle.name} {variant_name(vehicle, state.design)}", file_format)
+        content = rates_text(state.design.rates, file_format).encode()
         event.client.send_file_download(name, content, save_immediately=True)
 
     def _read(self, file: viser.UploadedFile, event: viser.GuiEvent) -> None:
@@ -54,9 +55,17 @@ class ExchangePanel:
             event.client.add_notification("Not imported", f"{file.name}: {error}", color="red")
             return
         wanted = set_name(file.name)
-        name = self._session.add(wanted, rates)
+        name = self._added(wanted, rates)
         other = "" if name == wanted else f"There is another set called {wanted}, so this is {name}. "
         event.client.add_notification("Imported", f"{other}Click {name} in the table to load it.")
+
+    def _added(self, name: str, rates: Rates) -> str:
+        """Pins rates under a name, or a like one if that is taken; gives the name that they have."""
+        self._session.do(AddVariant(name, rates))
+        vehicle, design = self._session.vehicle, self._session.state.design
+        every = vehicle.all_rates(rates)
+        named = (n for n, known in rate_sets(vehicle, design).items() if known == every)
+        return next((n for n in named if n.startswith(name)), name)
 
 
 def rates_in(name: str, content: bytes, vehicle: Vehicle) -> Rates:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, span
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.commands.looks import ChangeCharts, Drive
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
 
@@ -42,8 +42,8 @@ class ExcitationPanel:
             "Excitation",
             loads,
             "The road, or a harmonic load: the charts then show peak accelerations",
-            lambda state: state.load,
-            lambda load: session.change(load=load),
+            lambda state: state.charts.load,
+            lambda load: session.do(ChangeCharts(load=load)),
         )
         self._add_choice(
             gui,
@@ -51,7 +51,7 @@ class ExcitationPanel:
             told_apart(vehicle.random_loads),
             "What is driven over, or another random load",
             lambda state: state.conditions.road,
-            lambda road: self._drive(road=road),
+            lambda road: session.do(Drive(road=road)),
         )
         self._add_speed(gui, _speed_limits(vehicle, session.state.conditions.speed))
         self._about = gui.add_html("")
@@ -60,16 +60,16 @@ class ExcitationPanel:
             "Level",
             LEVELS,
             "How the charts' accelerations are written",
-            lambda state: state.decibels,
-            lambda decibels: session.change(decibels=decibels),
+            lambda state: state.charts.decibels,
+            lambda decibels: session.do(ChangeCharts(decibels=decibels)),
         )
         self._add_choice(
             gui,
             "Frequency",
             FREQUENCIES,
             "How the charts' frequencies are spaced",
-            lambda state: state.log_frequency,
-            lambda is_log: session.change(log_frequency=is_log),
+            lambda state: state.charts.log_frequency,
+            lambda is_log: session.do(ChangeCharts(log_frequency=is_log)),
         )
 
     def show(self, solved: Solved) -> None:
@@ -119,21 +119,15 @@ class ExcitationPanel:
                 slider,
                 self._session,
                 read,
-                lambda kmh: self._drive(kind="speed", speed=kmh * PER_KMH),
+                lambda kmh: self._session.do(Drive(speed=kmh * PER_KMH)),
                 WriteBack(),
             )
         )
 
-    def _drive(self, kind: str | None = None, **fields: Any) -> None:
-        def driven(state: State) -> State:
-            return replace(state, conditions=replace(state.conditions, **fields))
-
-        self._session.update(driven, kind)
-
 
 def _about(state: State) -> str:
     """What the choice means."""
-    if state.load:
+    if state.charts.load:
         return "A force of the same size at every frequency; the road is for figures of sets only."
     return "The rear wheels meet the same road later, by wheelbase and speed."
 

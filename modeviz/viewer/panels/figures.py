@@ -14,8 +14,9 @@ from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, change, heading, named, row, span, table
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.responses import NOW, PSD, Responses
+from modeviz.viewer.session.responses import PSD, Responses
 from modeviz.viewer.session.state import ResponseCurve
+from modeviz.viewer.session.wheel_responses import NOW
 
 DRIVER = 0
 """The response point that is rated: the vehicle's first."""
@@ -42,7 +43,7 @@ class FiguresPanel:
 
     def show(self, solved: Solved, responses: Responses) -> None:
         """Draws the figures of an answer."""
-        if not solved.state.curves:
+        if not solved.state.charts.curves:
             assign(self._content, content=block(span(NOTHING_FELT, "dim")))
             return
         figures = _road_figures if responses.quantity is PSD else _wheel_figures
@@ -58,7 +59,7 @@ class TablePanel:
 
     def show(self, solved: Solved) -> None:
         """Lists the figures of an answer."""
-        if not solved.state.curves:
+        if not solved.state.charts.curves:
             assign(self._content, content=block(span(NOTHING_FELT, "dim")))
             return
         responses = Responses(solved)

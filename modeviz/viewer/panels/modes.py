@@ -1,6 +1,7 @@
 """Right column, lower part: the modes, where each was before, and which of them is shown."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from html import escape
 
 import numpy as np
@@ -11,6 +12,7 @@ from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import WEAK_MAC
 from modeviz.text.wording import sentence_case, signed
 from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import (
     HiddenButtons,
@@ -25,8 +27,12 @@ from modeviz.viewer.page.html import (
     title,
 )
 from modeviz.viewer.panels.ladder import Rail, Scale, around, ladder
-from modeviz.viewer.session.answers import FREE_HZ, Solved
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.commands.command import Command
+from modeviz.viewer.session.commands.looks import ShowMode
+from modeviz.viewer.session.followed_mode import FREE_HZ
 from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
 
 LISTED_HZ = (FREE_HZ, 21.0)
 """Above, the ride ends."""
@@ -61,7 +67,7 @@ class ModesPanel:
     def _select(self, session: Session, i: int) -> None:
         names = self._names
         if i < len(names):  # else a shorter list came between the click and here
-            session.show_mode(names[i], self._rates)
+            session.do(ShowMode(names[i], self._rates))
 
     def show(self, solved: Solved) -> None:
         """Lists the modes of an answer."""
@@ -76,7 +82,7 @@ class ModesPanel:
             return span(NONE_LISTED, "dim")
         moved = _moves_most(solved.now, self._labels)
         rows = [
-            row(self._cells(i, mode, solved, moved[mode]), chosen=mode == solved.mode)
+            row(self._cells(i, mode, solved, moved[mode]), chosen=mode == solved.followed.mode)
             for i, mode in enumerate(modes[:N_ROWS])
         ]
         header = (
@@ -112,7 +118,7 @@ def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
 def moved_by(solved: Solved, mode: int) -> str:
     """How far a mode moved; where there is none to compare it with, what its shape was, as a hint."""
     base, now = solved.base, solved.now
-    pair = next(p for p in solved.pairs if p.after == mode)
+    pair = next(p for p in solved.followed.pairs if p.after == mode)
     if pair.before is None:
         return _without_partner(solved, mode)
     name, old = base.names[pair.before].name, float(base.modes.frequency_hz[pair.before])
@@ -126,7 +132,7 @@ def moved_by(solved: Solved, mode: int) -> str:
 
 def _without_partner(solved: Solved, mode: int) -> str:
     """A dash, with what a mode's shape was as a hint."""
-    sources, base = solved.track.sources(mode), solved.base
+    sources, base = solved.followed.track.sources(mode), solved.base
     if not sources:
         return span("new", "dim")
     part = " in part" if sources[0][1] < WEAK_MAC else ""
@@ -157,27 +163,27 @@ def _ladder(solved: Solved) -> str:
 
     A shape that several modes share is joined to each of them.
     """
-    base, now, track = solved.base, solved.now, solved.track
+    base, now, track = solved.base, solved.now, solved.followed.track
     drawn = scale(base)
     if drawn is None:
         return ""
-    old = solved.same
+    old = solved.followed.same
     after = now.modes.frequency_hz.tolist()
     rails = [
         Rail(before, after[i], share < WEAK_MAC, strong=mode == old)
         for mode, before in enumerate(base.modes.frequency_hz.tolist())
         for i, share in track.holders(mode)
     ]
-    drawing = ladder(_by_name(base), _by_name(now), rails, solved.name.name, drawn)
+    drawing = ladder(_by_name(base), _by_name(now), rails, solved.followed.name.name, drawn)
     return _heading(solved, old) + drawing
 
 
 def _heading(solved: Solved, old: int | None) -> str:
     """The shown mode before and now, and which colour is which."""
-    f = solved.now.modes.frequency_hz[solved.mode]
+    f = solved.now.modes.frequency_hz[solved.followed.mode]
     was = "" if old is None else f"{solved.base.modes.frequency_hz[old]:.2f} → "
     colors = legend((("--mv-base", escape(solved.state.against)), ("--mv-now", "now")))
-    return heading(f"{title(solved.name.spoken)} {was}{f:.2f} Hz", colors)
+    return heading(f"{title(solved.followed.name.spoken)} {was}{f:.2f} Hz", colors)
 
 
 def _by_name(results: Results) -> dict[str, float]:
@@ -188,13 +194,13 @@ def _by_name(results: Results) -> dict[str, float]:
 
 def _old_shape(solved: Solved) -> str:
     """What became of the shape that the shown mode is compared with, where it is not that mode."""
-    old = solved.same
-    if old is None or solved.track.shares[old, solved.mode] > SAME_SHAPE:
+    old = solved.followed.same
+    if old is None or solved.followed.track.shares[old, solved.followed.mode] > SAME_SHAPE:
         return ""
     modes, names = solved.now.modes, solved.now.names
     parts = [
         f"{100 * share:.0f} % {escape(names[i].spoken)} {modes.frequency_hz[i]:.2f} Hz"
-        for i, share in solved.track.split(old, N_PARTS)
+        for i, share in solved.followed.track.split(old, N_PARTS)
         if share > LEAST_PART
     ]
     shape = f"The {escape(solved.base.names[old].name)} of {escape(solved.state.against)}"
@@ -208,3 +214,21 @@ def _moves_most(results: Results, labels: Mapping[str, str]) -> list[str]:
     most = shares.argmax(axis=0).tolist()
     percent = (100 * shares.max(axis=0)).tolist()
     return [named(f"{bodies[i]} {share:.0f} %") for i, share in zip(most, percent, strict=True)]
+
+
+@dataclass(frozen=True, eq=False)
+class StepMode(Command):
+    """Shows a mode further down the list of an answer, from the one that is asked for."""
+
+    last: Solved
+    by: int
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        last, motion = self.last, state.motion
+        modes = list(listed(last.now))
+        before = last.state.motion
+        is_answered = (motion.mode, motion.mode_rates) == (before.mode, before.mode_rates)
+        shown = last.followed.mode if is_answered else last.now.mode_index(motion.mode)
+        at = modes.index(shown) + self.by if shown in modes else 0
+        name = last.now.names[modes[at % len(modes)]].name
+        return ShowMode(name, last.now.rates).apply(state, vehicle)

@@ -11,6 +11,7 @@ from modeviz.text.wording import sentence_case
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block, heading, span
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.commands.looks import ShowMode
 from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import ResponseCurve
@@ -49,17 +50,17 @@ class PeaksPanel:
         """Makes room; `show` fills it."""
         self._session = session
         self._contributors: list[_Contributor] = []
-        n_buttons = len(session.state.curves) * N_PEAKS * N_CONTRIBUTORS
+        n_buttons = len(session.state.charts.curves) * N_PEAKS * N_CONTRIBUTORS
         self._buttons = HiddenButtons(gui, n_buttons, self._select)
         self._content = gui.add_html("")
 
     def show(self, solved: Solved, responses: Responses) -> list[list[int]]:
         """Lists the peaks of an answer; for each chart the numbers of their frequencies."""
-        lines = [strongest(responses, curve, solved) for curve in solved.state.curves]
+        lines = [strongest(responses, curve, solved) for curve in solved.state.charts.curves]
         contributors: list[_Contributor] = []
         rows = []
         for curve, label, its_lines in zip(
-            solved.state.curves, _labels(solved.state.curves), lines, strict=True
+            solved.state.charts.curves, _labels(solved.state.charts.curves), lines, strict=True
         ):
             for peak in responses.peaks(curve, N_CONTRIBUTORS, its_lines):
                 rows.append(
@@ -78,7 +79,7 @@ class PeaksPanel:
             name = sentence_case(solved.now.part_name(part.mode))
             about = f"{name}: {part.ratio:.2f} of the largest part in this peak"
             text = f"<span>{escape(name)}</span><b>{part.ratio:.2f}</b>"
-            on = " on" if part.mode == solved.mode else ""
+            on = " on" if part.mode == solved.followed.mode else ""
             button = self._buttons.label(len(contributors), text)
             pills.append(f'<div class="pill{on}" title="{escape(about)}">{button}</div>')
             contributors.append(_Contributor(solved.now, part.mode))
@@ -89,7 +90,8 @@ class PeaksPanel:
         if i < len(contributors):  # else another answer came between the click and here
             chosen, results = contributors[i], contributors[i].results
             if chosen.mode < len(results.names):
-                self._session.show_mode(results.names[chosen.mode].name, results.rates, chosen.group)
+                name = results.names[chosen.mode].name
+                self._session.do(ShowMode(name, results.rates, chosen.group))
 
 
 def strongest(responses: Responses, curve: ResponseCurve, solved: Solved) -> list[int]:

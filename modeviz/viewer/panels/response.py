@@ -22,14 +22,14 @@ class ResponsePanel:
         self._figures = FiguresPanel(gui)
         self._charts = ChartsPanel(gui, session, dark)
         self._peaks = PeaksPanel(gui, session)
-        self._marked: list[list[int]] = [[] for _ in session.state.curves]
+        self._marked: list[list[int]] = [[] for _ in session.state.charts.curves]
 
     def show(self, solved: Solved) -> None:
         """Draws an answer; while rates move, curves every time and the rest only now and then."""
         responses = Responses(solved)
         if solved.is_detailed:
             self._figures.show(solved, responses)
-        if not solved.state.curves:
+        if not solved.state.charts.curves:
             return
         if solved.is_detailed:
             self._marked = self._peaks.show(solved, responses)

@@ -35,7 +35,7 @@ class ScatterPanel:
         """Builds the controls; nothing for a vehicle without anything to optimise for."""
         self._session, self._scatterer = session, scatterer
         self._lock = threading.Lock()
-        self._is_built = session.state.plan is not None
+        self._is_built = session.state.design.plan is not None
         if not self._is_built:
             return
         with gui.add_folder("Scatter of parts"):

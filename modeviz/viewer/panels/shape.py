@@ -19,10 +19,11 @@ from modeviz.viewer.page.html import HiddenButtons, block, heading, hinted, row,
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.commands.looks import ChangeMotion
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import Motion, State
+from modeviz.viewer.session.state import MotionKind, State
 
-MOTIONS: dict[str, Motion] = {
+MOTIONS: dict[str, MotionKind] = {
     "Mode": "mode",
     "Mode with damping": "damped mode",
     "Shape at a frequency": "operating shape",
@@ -41,7 +42,7 @@ class ShapePanel:
         self._motion = gui.add_dropdown(
             "Shows",
             tuple(MOTIONS),
-            initial_value=_motion_label(session.state.motion),
+            initial_value=_motion_label(session.state.motion.kind),
             hint="A mode without or with its damping, the shape in which road or wheel load move "
             "everything at one frequency, or one body without all others",
         )
@@ -50,7 +51,7 @@ class ShapePanel:
             "Frequency",
             *shown_hz(session.vehicle.highest_frequency),
             HZ_STEP,
-            session.state.operating_hz,
+            session.state.motion.operating_hz,
             marks=(),
             hint="Of the shape, Hz, excited by what the Response tab says",
         )
@@ -62,13 +63,13 @@ class ShapePanel:
         self._body = gui.add_dropdown(
             "Body",
             tuple(bodies),
-            initial_value=labels[session.state.component],
+            initial_value=labels[session.state.motion.component],
             hint="Which body is seen alone, held by nothing",
         )
         self._number = gui.add_slider(
             "Its mode",
             1,
-            n_free_modes(session.vehicle, session.state.component),
+            n_free_modes(session.vehicle, session.state.motion.component),
             1,
             own_mode(session.vehicle, session.state) + 1,
             marks=(),
@@ -82,27 +83,27 @@ class ShapePanel:
             Binding(
                 self._motion,
                 session,
-                lambda state: _motion_label(state.motion),
-                lambda label: session.change(motion=MOTIONS[label]),
+                lambda state: _motion_label(state.motion.kind),
+                lambda label: session.do(ChangeMotion(kind=MOTIONS[label])),
             ),
             Binding(
                 self._frequency,
                 session,
-                lambda state: state.operating_hz,
-                lambda f: session.change("operating_hz", operating_hz=float(f)),
+                lambda state: state.motion.operating_hz,
+                lambda f: session.do(ChangeMotion(operating_hz=float(f))),
                 write_back,
             ),
             Binding(
                 self._body,
                 session,
-                lambda state: labels[state.component],
+                lambda state: labels[state.motion.component],
                 lambda label: self._to_body(bodies[label]),
             ),
             Binding(
                 self._number,
                 session,
                 lambda state: own_mode(session.vehicle, state) + 1,
-                lambda number: session.change("component_mode", component_mode=int(number) - 1),
+                lambda number: session.do(ChangeMotion(component_mode=int(number) - 1)),
                 write_back,
             ),
         )
@@ -110,8 +111,11 @@ class ShapePanel:
     def show(self, solved: Solved) -> None:
         """Draws an answer: the controls of what moves, its peaks or what makes it up."""
         state = solved.state
-        is_operating, is_alone = state.motion == "operating shape", state.motion == "component"
-        assign(self._number, max=n_free_modes(self._session.vehicle, state.component))
+        is_operating, is_alone = (
+            state.motion.kind == "operating shape",
+            state.motion.kind == "component",
+        )
+        assign(self._number, max=n_free_modes(self._session.vehicle, state.motion.component))
         show_all(self._bindings)
         assign(self._frequency, visible=is_operating)
         assign(self._body, visible=is_alone)
@@ -129,8 +133,8 @@ class ShapePanel:
         moving = solved.movement
         self._shares = moving.shares[:N_SHARES]
         if moving.component is None:
-            return block(span(ABOUT[solved.state.motion], "dim"))
-        label = escape(solved.now.vehicle.body(solved.state.component).label)
+            return block(span(ABOUT[solved.state.motion.kind], "dim"))
+        label = escape(solved.now.vehicle.body(solved.state.motion.component).label)
         total = sum(share.share for share in moving.shares)
         own = own_mode(solved.now.vehicle, solved.state)
         rows = [
@@ -139,7 +143,7 @@ class ShapePanel:
         ]
         return block(
             heading(
-                f"{title(label)} in {escape(solved.name.spoken)}",
+                f"{title(label)} in {escape(solved.followed.name.spoken)}",
                 hinted(f"{100 * total:.0f} % of its energy", "Kinetic energy of the whole vehicle"),
             ),
             table((), rows, "energy"),
@@ -161,20 +165,20 @@ class ShapePanel:
 
     def _to_share(self, i: int) -> None:
         if i < len(self._shares) and (mode := self._shares[i].mode) is not None:
-            self._session.change(component_mode=mode)
+            self._session.do(ChangeMotion(component_mode=mode))
 
     def _to_peak(self, text: str) -> None:
         if text in self._peaks_hz:  # else the peaks moved between the click and here
-            self._session.change(operating_hz=self._peaks_hz[text])
+            self._session.do(ChangeMotion(operating_hz=self._peaks_hz[text]))
 
     def _to_body(self, name: str) -> None:
         """Shows a body in its first elastic mode, or a rigid one in its first."""
         body = self._session.vehicle.body(name)
         first = body.n_rigid if isinstance(body, FlexibleBody) else 0
-        self._session.change(component=name, component_mode=first)
+        self._session.do(ChangeMotion(component=name, component_mode=first))
 
 
-ABOUT: dict[Motion, str] = {
+ABOUT: dict[MotionKind, str] = {
     "mode": "All points pass their middle at once. N and P go to the next mode and the one before.",
     "damped mode": "Damping lets some points lag behind others: the motion travels.",
     "operating shape": "",
@@ -190,16 +194,16 @@ def n_free_modes(vehicle: Vehicle, body: str) -> int:
 
 def own_mode(vehicle: Vehicle, state: State) -> int:
     """Which of its own modes a body alone shows: the one asked for, or the last it has."""
-    return min(state.component_mode, n_free_modes(vehicle, state.component) - 1)
+    return min(state.motion.component_mode, n_free_modes(vehicle, state.motion.component) - 1)
 
 
-def _motion_label(motion: Motion) -> str:
+def _motion_label(motion: MotionKind) -> str:
     return next(label for label, m in MOTIONS.items() if m == motion)
 
 
 def _peaks(solved: Solved) -> dict[str, float]:
     """The highest peaks of what the first chart draws, by rising frequency: Hz by their text."""
-    if not solved.state.curves:
+    if not solved.state.charts.curves:
         return {}
     f, level = _first_response(solved)
     low, high = shown_hz(solved.now.prepared.vehicle.highest_frequency)
@@ -210,9 +214,9 @@ def _peaks(solved: Solved) -> dict[str, float]:
 
 def _first_response(solved: Solved) -> tuple[Floats, Floats]:
     """Frequencies and the power of the response in the first chart there, (n_freqs,) both."""
-    state, curve = solved.state, solved.state.curves[0]
-    if not state.load:
+    state, curve = solved.state, solved.state.charts.curves[0]
+    if not state.charts.load:
         return solved.now.frequency_hz, solved.now.response(curve.point, curve.direction)
-    load = [load.name for load in solved.now.vehicle.harmonic_loads].index(state.load)
+    load = [load.name for load in solved.now.vehicle.harmonic_loads].index(state.charts.load)
     wheels, axis = solved.wheels[""], AXIS[curve.direction]
     return wheels.frequency_hz, np.square(wheels.acceleration_g[:, load, curve.point, axis])

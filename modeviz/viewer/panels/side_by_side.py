@@ -11,8 +11,10 @@ from modeviz.viewer.page.html import change, heading, named, row, span, table
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.responses import NOW, Responses
-from modeviz.viewer.session.state import ResponseCurve, variant_name
+from modeviz.viewer.session.design import variant_name
+from modeviz.viewer.session.responses import Responses
+from modeviz.viewer.session.state import ResponseCurve
+from modeviz.viewer.session.wheel_responses import NOW
 
 LEAST_HZ = 0.005
 """Smaller changes of a frequency are not listed."""
@@ -21,7 +23,7 @@ LEAST_HZ = 0.005
 def side_by_side(solved: Solved) -> str:
     """Rates that differ, frequencies that moved, and the figures of the ride."""
     state, base, now = solved.state, solved.base, solved.now
-    names = escape(state.against), escape(variant_name(now.prepared.vehicle, state))
+    names = escape(state.against), escape(variant_name(now.prepared.vehicle, state.design))
     rates = _rates(base, now, state.unit)
     if not rates:
         same = f"The present rates are those of {names[0]}: change one, or compare with another set."
@@ -57,7 +59,7 @@ def _modes(solved: Solved) -> list[str]:
     base, now = solved.base, solved.now
     before, after = listed(base), listed(now)
     rows = []
-    for pair in solved.pairs:
+    for pair in solved.followed.pairs:
         old, new = _frequency(base, pair.before), _frequency(now, pair.after)
         is_listed = pair.before in before or pair.after in after
         if not is_listed or abs(new - old) < LEAST_HZ:
@@ -81,10 +83,10 @@ def _frequency(results: Results, mode: int | None) -> float:
 
 
 def _figures(solved: Solved) -> list[str]:
-    if not solved.state.curves:
+    if not solved.state.charts.curves:
         return []
     responses = Responses(solved)
-    scale, unit = (1, "RMS g") if not solved.state.load else (1000, "mean 10⁻³ g")
+    scale, unit = (1, "RMS g") if not solved.state.charts.load else (1000, "mean 10⁻³ g")
     rows = []
     for direction in DIRECTIONS:
         curve = ResponseCurve(DRIVER, direction)

@@ -10,7 +10,8 @@ from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.report.components import believed, change_words, is_doubtful
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, span, title
-from modeviz.viewer.session.answers import Rest, Solved
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.findings import Findings
 
 LEAST_SHOWN = 1e-3
 """Hz and percent: smaller errors are shown as this."""
@@ -34,7 +35,7 @@ class StatusPanel:
 
     def show(self, solved: Solved) -> None:
         """Says how an answer came about and how good it is."""
-        lines = [_found(solved.now), _checked(solved.rest), *_believed(solved.rest)]
+        lines = [_found(solved.now), _checked(solved.findings), *_believed(solved.findings)]
         if solved.missing:
             lines.append(_compared(solved))
         if solved.state.classic:
@@ -47,7 +48,7 @@ class StatusPanel:
 
 
 def _solved(solved: Solved) -> str:
-    doubtful = solved.rest.check is not None and 100 * solved.rest.check.error > ALARMING
+    doubtful = solved.findings.check is not None and 100 * solved.findings.check.error > ALARMING
     color = "--mv-bad" if doubtful or solved.now.trust.n_missed else "--mv-good"
     dot = f'<i class="swatch" style="background:var({color});border-radius:50%"></i>'
     milliseconds = 1000 * solved.seconds
@@ -65,7 +66,7 @@ def _found(now: Results) -> str:
     return f"{band}, none missed, each within {_rounded(worst)} Hz for the model as given"
 
 
-def _believed(rest: Rest) -> list[str]:
+def _believed(rest: Findings) -> list[str]:
     """How far the bodies are believed: the worst of them, and to read where the pointer rests all."""
     if not rest.components:
         return []
@@ -86,7 +87,7 @@ def _compared(solved: Solved) -> str:
     return span(escape(text), "bad")
 
 
-def _checked(rest: Rest) -> str:
+def _checked(rest: Findings) -> str:
     """What the exact solve says."""
     check = rest.check
     if rest.problem:

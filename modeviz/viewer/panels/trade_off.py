@@ -31,7 +31,7 @@ class TradeOffPanel:
         """Builds the controls; nothing where nothing can be traded."""
         self._session, self._trader = session, trader
         self._lock = threading.Lock()
-        self._is_built = session.state.plan is not None
+        self._is_built = session.state.design.plan is not None
         if not self._is_built:
             return
         self._names = {NOTHING: ""}
@@ -95,7 +95,7 @@ class TradeOffPanel:
         for i, design in enumerate(designs):
             a, b = design.values
             hint = f"{first} {significant(a)}, {second} {significant(b)}: click to load"
-            is_present = design.rates == self._session.state.rates
+            is_present = design.rates == self._session.state.design.rates
             place = f"left:{100 * float(across.place(a)):.1f}%;bottom:{100 * float(up.place(b)):.1f}%"
             point = self._points.label(i, f'<span title="{hint}"></span>')
             points.append(f'<div class="{"on" if is_present else ""}" style="{place}">{point}</div>')

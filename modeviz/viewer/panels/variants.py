@@ -16,8 +16,11 @@ from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.plots import set_line
 from modeviz.viewer.panels.side_by_side import side_by_side
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.commands.decisions import Forget, Load, Pin, Rename, Swap
+from modeviz.viewer.session.commands.looks import CompareWith, Overlay, ShowComparedGhost
+from modeviz.viewer.session.design import known_sets, next_name, rate_sets, set_numbers
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import State, known_sets, next_name, rate_sets, set_numbers
+from modeviz.viewer.session.state import State
 
 N_ROWS = 24
 """So many sets can be clicked; more are listed only."""
@@ -39,7 +42,7 @@ class VariantsPanel:
         self._table = gui.add_html(block(span("The sets follow with the first answer.", "dim")))
         self._against = gui.add_dropdown(
             "Compare with",
-            tuple(rate_sets(session.vehicle, session.state)),
+            tuple(rate_sets(session.vehicle, session.state.design)),
             initial_value=session.state.against,
             hint="The grey curves and all changes are against this set",
         )
@@ -49,19 +52,24 @@ class VariantsPanel:
             hint="The set compared with becomes the present one and the other way round; key B. Rates "
             "without a name are pinned first",
         )
-        swap.on_click(lambda _: session.swap())
+        swap.on_click(lambda _: session.do(Swap()))
         ghost = gui.add_checkbox(
             "Its outlines",
-            session.state.ghost == "compared",
+            session.state.look.ghost == "compared",
             hint="Outlines that move as the vehicle does with the set compared with, in the same phase",
         )
         self._bindings = [
-            Binding(self._against, session, lambda state: state.against, session.compare_with),
+            Binding(
+                self._against,
+                session,
+                lambda state: state.against,
+                lambda name: session.do(CompareWith(name)),
+            ),
             Binding(
                 ghost,
                 session,
-                lambda state: state.ghost == "compared",
-                self._draw_outlines,
+                lambda state: state.look.ghost == "compared",
+                lambda drawn: session.do(ShowComparedGhost(drawn)),
             ),
         ]
         self._name = NameBox(gui, session)
@@ -70,7 +78,7 @@ class VariantsPanel:
 
     def show(self, solved: Solved) -> None:
         """Lists the sets of an answer and how the present rates differ from the one compared with."""
-        self._names = list(rate_sets(self._session.vehicle, solved.state))
+        self._names = list(rate_sets(self._session.vehicle, solved.state.design))
         assign(self._against, options=tuple(self._names))
         show_all(self._bindings)
         self._name.show()
@@ -80,28 +88,26 @@ class VariantsPanel:
         )
         assign(self._side_by_side, content=block(side_by_side(solved)))
 
-    def _draw_outlines(self, drawn: bool) -> None:
-        """Draws those of the set compared with, or again those before."""
-        self._session.update(lambda s: s.with_ghost("compared" if drawn else s.ghost_before))
-
     def _press(self, i: int) -> None:
         number, action = divmod(i, len(ACTIONS))
         if number >= len(self._names):  # a shorter list came between the click and here
             return
         name = self._names[number]
         if ACTIONS[action] == LOAD:
-            self._session.load(name)
+            self._session.do(Load(name))
         elif ACTIONS[action] == FORGET:
-            self._session.unpin(name)
+            self._session.do(Forget(name))
         else:
-            self._session.overlay(name, name not in self._session.state.overlaid)
+            self._session.do(Overlay(name, name not in self._session.state.charts.overlaid))
 
     def _listing(self, solved: Solved) -> str:
         """A row for each set; the last for the present rates, if they have no name."""
-        name = named(sentence_case(solved.name.name))
+        name = named(sentence_case(solved.followed.name.name))
         header = ("", "Set", "lat. g", "vert. g", f"{name} Hz", "rating", "")
-        current = next((n for n, r in solved.named.items() if r.rates == solved.now.rates), None)
-        colors = set_numbers(self._session.vehicle, solved.state)
+        current = next(
+            (n for n, r in solved.named.results.items() if r.rates == solved.now.rates), None
+        )
+        colors = set_numbers(self._session.vehicle, solved.state.design)
         rows = [
             row(self._cells(i, name, colors[name], solved), chosen=name == current)
             for i, name in enumerate(self._names)
@@ -113,14 +119,14 @@ class VariantsPanel:
 
     def _cells(self, i: int, name: str, color: int, solved: Solved) -> list[str]:
         """The cells of row `i`."""
-        state, is_solved = solved.state, name in solved.named
+        state, is_solved = solved.state, name in solved.named.results
         load = named(name, f"Load {name}")
         forget = '<span title="Forget this set; undo brings it back">×</span>'
         return [
             self._button(i, OVERLAY, _mark(color, name, state)) if is_solved else "",
             self._button(i, LOAD, load),
-            *(_figures(solved.named[name], solved) if is_solved else ["–"] * 4),
-            self._button(i, FORGET, forget) if name in state.variants else "",
+            *(_figures(solved.named.results[name], solved) if is_solved else ["–"] * 4),
+            self._button(i, FORGET, forget) if name in state.design.variants else "",
         ]
 
     def _button(self, i: int, action: str, text: str) -> str:
@@ -154,11 +160,13 @@ class NameBox:
 
     def _suggestion(self) -> str:
         state = self._session.state
-        return self._current(state) or next_name(state)
+        return self._current(state) or next_name(state.design)
 
     def _current(self, state: State) -> str | None:
         """The pinned set that the present rates are, if they are one."""
-        return next((n for n, v in state.variants.items() if v.rates == state.rates), None)
+        return next(
+            (n for n, v in state.design.variants.items() if v.rates == state.design.rates), None
+        )
 
     def _press(self, button: str, event: viser.GuiEvent) -> None:
         complaint = self._keep(button, self._box.value.strip())
@@ -175,14 +183,14 @@ class NameBox:
         if name in known_sets(vehicle):
             return f"{name} is one of the vehicle's own sets: choose another name."
         if button == PIN:
-            self._session.pin(name)
+            self._session.do(Pin(name))
             return None
         current = self._current(state)
         if current is None:
             return "The present rates are not pinned: load a pinned set to rename it."
-        if name != current and name in state.variants:
+        if name != current and name in state.design.variants:
             return f"There is a set called {name}: choose another name."
-        self._session.rename(current, name)
+        self._session.do(Rename(current, name))
         return None
 
 
@@ -191,7 +199,7 @@ def _figures(results: Results, solved: Solved) -> list[str]:
     base = solved.base
     mode = _shown_mode(results, solved)
     f = "–" if mode is None else f"{results.modes.frequency_hz[mode]:.2f}"
-    if not solved.state.curves:
+    if not solved.state.charts.curves:
         return ["–", "–", f, "–"]
     gain = results.rating.mean_personal_rating - base.rating.mean_personal_rating
     kind = "dim" if abs(gain) < 0.005 else "good" if gain > 0 else "bad"
@@ -203,26 +211,32 @@ def _figures(results: Results, solved: Solved) -> list[str]:
 def _shown_mode(results: Results, solved: Solved) -> int | None:
     """Which mode of a set of rates the shown one is."""
     if results is solved.now:
-        return solved.mode
-    return solved.same if results is solved.base else same_mode(solved.now, solved.mode, results)
+        return solved.followed.mode
+    return (
+        solved.followed.same
+        if results is solved.base
+        else same_mode(solved.now, solved.followed.mode, results)
+    )
 
 
 def _mark(number: int, name: str, state: State) -> str:
     """The colour of a set's curve: filled if it is drawn."""
     if name == state.against:
         return '<i class="mark on base" title="Drawn grey: all is compared with this set"></i>'
-    on, what = (" on", "Drawn in the charts") if name in state.overlaid else ("", "Draw in the charts")
+    on, what = (
+        (" on", "Drawn in the charts") if name in state.charts.overlaid else ("", "Draw in the charts")
+    )
     color = set_line(name, number).color
     return f'<i class="mark{on}" style="--mark:{color}" title="{what}"></i>'
 
 
 def _complaints(solved: Solved) -> str:
     """Why sets have no figures."""
-    reasons = (f"{name} has no answer: {why}." for name, why in solved.unsolved.items())
+    reasons = (f"{name} has no answer: {why}." for name, why in solved.named.unsolved.items())
     return "".join(f'<div class="bad">{escape(reason)}</div>' for reason in reasons)
 
 
 def _advice(state: State) -> str:
-    if state.variants:
+    if state.design.variants:
         return ""
     return span("No variant yet: change a rate, then pin it.", "dim")

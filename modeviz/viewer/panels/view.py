@@ -7,7 +7,8 @@ import viser
 
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.bodies import Body
-from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.page.binding import Binding, Read, Write, show_all
+from modeviz.viewer.session.commands.looks import ChangeLook, ShowBody, ShowClassicError, ShowGhost
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import Coloring
 
@@ -41,25 +42,34 @@ class ViewPanel:
             self._choice(
                 "Colours",
                 COLORINGS,
-                "coloring",
-                lambda coloring: session.change(coloring=coloring),
+                lambda state: state.look.coloring,
+                lambda coloring: session.do(ChangeLook(coloring=coloring)),
                 "What the colours of the bodies mean",
             ),
             self._choice(
                 "Outlines",
                 GHOSTS,
-                "ghost",
-                lambda ghost: session.update(lambda state: state.with_ghost(ghost)),
+                lambda state: state.look.ghost,
+                lambda ghost: session.do(ShowGhost(ghost)),
                 "Drawn beside the bodies: the vehicle at rest, or moving as with the set of rates that "
                 "all is compared with",
             ),
             self._switch(
-                "See through", "see_through", "Shows what is behind sheet metal in its own colours"
+                "See through",
+                lambda state: state.look.see_through,
+                lambda on: session.do(ChangeLook(see_through=on)),
+                "Shows what is behind sheet metal in its own colours",
             ),
-            self._switch("Follow", "follow", "The camera looks at the selected mounts"),
+            self._switch(
+                "Follow",
+                lambda state: state.look.follow,
+                lambda on: session.do(ChangeLook(follow=on)),
+                "The camera looks at the selected mounts",
+            ),
             self._switch(
                 "Classic error",
-                "classic",
+                lambda state: state.classic,
+                lambda on: session.do(ShowClassicError(on)),
                 "How far the paper's equation, on the original modes alone, is off; said at the foot",
             ),
         ]
@@ -75,34 +85,30 @@ class ViewPanel:
         self,
         label: str,
         choices: Mapping[str, Any],
-        field: str,
-        write: Callable[[Any], None],
+        read: Read,
+        write: Write,
         hint: str,
     ) -> Binding:
         """A dropdown for one field of the state, whose values are `choices` by what they are called."""
         words = {value: word for word, value in choices.items()}
-        value = getattr(self._session.state, field)
+        value = read(self._session.state)
         return Binding(
             self._gui.add_dropdown(label, tuple(choices), initial_value=words[value], hint=hint),
             self._session,
-            lambda state: words[getattr(state, field)],
+            lambda state: words[read(state)],
             lambda word: write(choices[word]),
         )
 
-    def _switch(self, label: str, field: str, hint: str) -> Binding:
+    def _switch(self, label: str, read: Read, write: Write, hint: str) -> Binding:
         """A checkbox for one field of the state."""
-        return Binding(
-            self._gui.add_checkbox(label, getattr(self._session.state, field), hint=hint),
-            self._session,
-            lambda state: getattr(state, field),
-            lambda value: self._session.change(**{field: value}),
-        )
+        box = self._gui.add_checkbox(label, read(self._session.state), hint=hint)
+        return Binding(box, self._session, read, write)
 
     def _body(self, body: Body) -> Binding:
         """A checkbox for whether a body is drawn."""
         return Binding(
             self._gui.add_checkbox(sentence_case(body.label), True, hint=f"Draws the {body.label}"),
             self._session,
-            lambda state: body.name not in state.hidden,
-            lambda drawn: self._session.show_body(body.name, drawn),
+            lambda state: body.name not in state.look.hidden,
+            lambda drawn: self._session.do(ShowBody(body.name, drawn)),
         )

@@ -61,16 +61,18 @@ class Scene:
             moving = solved.movement
             hidden = self._hidden(solved)
             drawn = self.show_shape(solved.now.prepared.system, moving.shape, moving.other, hidden)
-            self.show_colors(state.coloring, drawn, shares)
-            see_through = state.see_through and state.coloring == "bodies"
-            has_ghost = state.ghost == "rest" or moving.other is not None
+            self.show_colors(state.look.coloring, drawn, shares)
+            see_through = state.look.see_through and state.look.coloring == "bodies"
+            has_ghost = state.look.ghost == "rest" or moving.other is not None
             self.show_bodies(hidden, see_through, has_ghost)
             if solved.is_detailed:
                 strain = strain_shares(solved)
-                groups = {group: strain[group] for group in state.rates}
+                groups = {group: strain[group] for group in state.design.rates}
                 what = within_sentence(moving.title)
                 group = state.group if moving.bodies is None else ""  # else no mount is at work
-                self._markers.show(group, state.rates, state.unit, groups, what, share_colors(shares))
+                self._markers.show(
+                    group, state.design.rates, state.unit, groups, what, share_colors(shares)
+                )
         self._cameras.frame(self._framed(solved))
 
     def is_empty(self, solved: Solved) -> bool:
@@ -85,7 +87,7 @@ class Scene:
         if drawn:
             return bodies_box(drawn)
         groups = {group.name: group for group in self._vehicle.mount_groups}
-        if not state.follow or state.group not in groups:
+        if not state.look.follow or state.group not in groups:
             return self._box
         return self._box.around(np.mean([m.center for m in groups[state.group].mounts], axis=0))
 
@@ -93,7 +95,7 @@ class Scene:
         """The bodies that are not drawn: all but the one that moves alone, or those chosen."""
         alone = solved.movement.bodies
         if alone is None:
-            return solved.state.hidden
+            return solved.state.look.hidden
         return {body.name for body in self._vehicle.bodies} - alone
 
     def show_shape(

@@ -40,7 +40,7 @@ class ColorScale:
 
 def color_scale(solved: Solved) -> ColorScale | None:
     """The scale of the colours in an answer; None if bodies have their own."""
-    coloring = solved.state.coloring
+    coloring = solved.state.look.coloring
     if coloring == "bodies":
         return None
     if coloring == "displacement":
@@ -55,10 +55,10 @@ def energy_shares(solved: Solved) -> Shares:
 
     By body for kinetic energy, by flexible body and mount group for strain energy.
     """
-    if solved.state.coloring == "kinetic energy":
+    if solved.state.look.coloring == "kinetic energy":
         energy = kinetic_energy(solved.now.prepared.system, solved.movement.shape[:, None])
         return {body: float(share[0]) for body, share in energy.items()}
-    if solved.state.coloring == "strain energy":
+    if solved.state.look.coloring == "strain energy":
         drawn = _strained(solved.now.vehicle)
         return {name: share for name, share in strain_shares(solved).items() if name in drawn}
     return {}
@@ -66,7 +66,7 @@ def energy_shares(solved: Solved) -> Shares:
 
 def strain_shares(solved: Solved) -> Shares:
     """The strain energy of what moves: each flexible body's and connection group's share."""
-    if solved.movement.shape is solved.shape:
+    if solved.movement.shape is solved.followed.shape:
         return solved.strain
     return solved.now.strain_shares(solved.movement.shape)
 

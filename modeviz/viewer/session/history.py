@@ -1,49 +1,63 @@
-"""What was before, and what was undone."""
+"""What was decided before, and what was undone."""
 
 import time
 from collections.abc import Hashable
-from typing import Generic, TypeVar
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import TypeVar
+
+from modeviz.viewer.session.state import State
 
 Value = TypeVar("Value")
 
 MERGE_WITHIN = 1.0
-"""s: changes of one kind that follow so closely, such as a drag, are undone together."""
+"""s: changes of one step that follow so closely, such as a drag, are undone together."""
 
 LONGEST = 500
 
 
-class History(Generic[Value]):
-    """The values that something had, the newest of them the present one."""
+@dataclass(frozen=True)
+class Change:
+    """A state before and after something was decided."""
 
-    def __init__(self, value: Value) -> None:
-        """Starts with a value that cannot be undone."""
-        self._past: list[Value] = []
-        self._future: list[Value] = []
-        self.value: Value = value
-        self._kind: Hashable = None
+    before: State
+    after: State
+
+
+class History:
+    """The newest state, and the changes of its design that led there.
+
+    How one looks at a design is not gone back over, but for what was changed by deciding.
+    """
+
+    def __init__(self, state: State) -> None:
+        """Starts with a state that cannot be undone."""
+        self._past: list[Change] = []
+        self._future: list[Change] = []
+        self.state: State = state
+        self._step: Hashable = None
         self._changed_at = 0.0
 
-    def put(self, value: Value, kind: Hashable = None, within: float = MERGE_WITHIN) -> None:
-        """Goes on to a value; what was undone is gone.
+    def put(self, state: State, step: Hashable = None, within: float = MERGE_WITHIN) -> None:
+        """Goes on to a state; if it has another design, what was undone is gone.
 
         Args:
-            value: the new one.
-            kind: what was changed, if many such changes are to be one; None if not.
+            state: the new one.
+            step: what the change is a part of, if many are to be undone as one; None if not.
             within: s, how closely they have to follow.
         """
-        if value == self.value:
+        before, self.state = self.state, state
+        if state.design == before.design:
+            self._look(before, state)
             return
         now = time.monotonic()
-        is_more_of_the_same = (
-            kind is not None and kind == self._kind and now - self._changed_at < within
-        )
-        if not is_more_of_the_same or not self._past:
-            self._past = [*self._past[1 - LONGEST :], self.value]
+        goes_on = step is not None and step == self._step and now - self._changed_at < within
+        first = self._past.pop().before if goes_on and self._past else before
+        self._past = [*self._past[1 - LONGEST :], Change(first, state)]
         self._future.clear()
-        self.value, self._kind, self._changed_at = value, kind, now
-        if self._past[-1] == value:  # all the way back is no step
+        self._step, self._changed_at = step, now
+        if first.design == state.design:  # all the way back is no step
             self._past.pop()
-            self._kind = None
+            self._step = None
 
     @property
     def can_undo(self) -> bool:
@@ -57,14 +71,38 @@ class History(Generic[Value]):
         """Goes back; whether there was anything to go back to."""
         if not self._past:
             return False
-        self._future.append(self.value)
-        self.value, self._kind = self._past.pop(), None
+        change = self._past.pop()
+        self._future.append(change)
+        self._go(change.after, change.before)
         return True
 
     def redo(self) -> bool:
         """Goes forward again; whether there was anything undone."""
         if not self._future:
             return False
-        self._past.append(self.value)
-        self.value, self._kind = self._future.pop(), None
+        change = self._future.pop()
+        self._past.append(change)
+        self._go(change.before, change.after)
         return True
+
+    def _go(self, old: State, new: State) -> None:
+        self.state, self._step = merged(self.state, old, new), None
+
+    def _look(self, old: State, new: State) -> None:
+        """Takes a look into the last change, which may go on: it is no part of it."""
+        if self._past:
+            last = self._past[-1]
+            self._past[-1] = Change(merged(last.before, old, new), merged(last.after, old, new))
+
+
+def merged(value: Value, old: Value, new: Value) -> Value:
+    """Return a value with what differs between an old and a new one, where it is still the old."""
+    if old == new:
+        return value
+    if value == old:
+        return new
+    if not is_dataclass(value) or isinstance(value, type):
+        return value
+    names = [field.name for field in fields(value)]
+    parts = {n: merged(getattr(value, n), getattr(old, n), getattr(new, n)) for n in names}
+    return replace(value, **parts)

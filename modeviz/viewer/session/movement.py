@@ -14,27 +14,11 @@ from modeviz.dynamics.components import (
     component_modes,
     component_shares,
 )
-from modeviz.dynamics.naming import ModeName
 from modeviz.errors import SolveError
 from modeviz.text.wording import sentence_case
-from modeviz.vehicle.arrays import Array, Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes
+from modeviz.viewer.session.followed_mode import FollowedMode
 from modeviz.viewer.session.state import ResponseCurve, State
-
-
-@dataclass(frozen=True, eq=False)
-class ShownMode:
-    """The mode that is followed, whatever moves."""
-
-    now: Results
-    index: int
-    """Which of `now.modes`."""
-    name: ModeName
-    shape: Floats
-    """(n_dofs,), in the phase that it is shown in."""
-    base: Results
-    """What all is compared with."""
-    same: int | None
-    """The mode of `base` that it is compared with; None if there is none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,14 +46,14 @@ class Movement:
     """Why this is not what was asked for, but what moved before; "" if it is."""
 
 
-def movement(state: State, shown: ShownMode) -> Movement:
+def movement(state: State, shown: FollowedMode) -> Movement:
     """What moves in the answer to a state.
 
     Raises:
         SolveError: there is no such shape, because the mode does not vibrate, the frequency is that of
             an undamped resonance or the reference does not move.
     """
-    match state.motion:
+    match state.motion.kind:
         case "mode":
             return _undamped(state, shown)
         case "damped mode":
@@ -82,27 +66,20 @@ def movement(state: State, shown: ShownMode) -> Movement:
 
 def asks(state: State) -> tuple[object, ...]:
     """All of a state that decides what moves beyond the shown mode."""
-    return (
-        state.motion,
-        state.operating_hz,
-        state.load,
-        state.curves[:1],
-        state.component,
-        state.component_mode,
-        state.ghost == "compared",
-    )
+    charts = state.charts
+    return state.motion, charts.load, charts.curves[:1], state.look.ghost == "compared"
 
 
-def _undamped(state: State, shown: ShownMode) -> Movement:
-    modes, i = shown.now.modes, shown.index
+def _undamped(state: State, shown: FollowedMode) -> Movement:
+    modes, i = shown.now.modes, shown.mode
     about = f"mode {i + 1}, damping {100 * modes.damping_ratio[i]:.1f} %"
     other = _same_mode(state, shown, lambda base, same: base.modes.shapes[:, same])
     title = sentence_case(shown.name.spoken)
     return Movement(title, shown.name.name, float(modes.frequency_hz[i]), about, shown.shape, other)
 
 
-def _damped(state: State, shown: ShownMode) -> Movement:
-    mode = complex_mode(shown.now, shown.index)
+def _damped(state: State, shown: FollowedMode) -> Movement:
+    mode = complex_mode(shown.now, shown.mode)
     about = f"damped, {100 * mode.damping_ratio:.1f} % of critical"
     other = _same_mode(state, shown, lambda base, same: complex_mode(base, same).shape)
     title = sentence_case(shown.name.spoken)
@@ -111,39 +88,39 @@ def _damped(state: State, shown: ShownMode) -> Movement:
     return Movement(title, subject, mode.damped_frequency_hz, about, shape, other)
 
 
-def _operating(state: State, shown: ShownMode) -> Movement:
+def _operating(state: State, shown: FollowedMode) -> Movement:
     """The shape under road or wheel load; the phase of either is that of what excites or is read."""
     now = shown.now
-    if state.load:
-        about = state.load
+    if state.charts.load:
+        about = state.charts.load
     else:
         curve = _reference(state)
         point = now.vehicle.response_points[curve.point].name
         about = f"{now.conditions.road}, as at {point}, {curve.direction}"
-    other = _excited(state, shown.base) if state.ghost == "compared" else None
-    f, shape = state.operating_hz, _excited(state, now)
+    other = _excited(state, shown.base) if state.look.ghost == "compared" else None
+    f, shape = state.motion.operating_hz, _excited(state, now)
     return Movement("Operating shape", f"operating shape {f:.1f} Hz", f, about, shape, other)
 
 
 def _excited(state: State, results: Results) -> Complexes:
-    if state.load:
-        return wheel_shape(results, state.load, state.operating_hz)
+    if state.charts.load:
+        return wheel_shape(results, state.charts.load, state.motion.operating_hz)
     curve = _reference(state)
-    return road_shape(results, state.operating_hz, curve.point, curve.direction)
+    return road_shape(results, state.motion.operating_hz, curve.point, curve.direction)
 
 
 def _reference(state: State) -> ResponseCurve:
     """The response in whose phase a vehicle is seen on its road."""
-    if not state.curves:
+    if not state.charts.curves:
         raise SolveError("an operating shape on a road needs a [[road]] and a [[response_point]]")
-    return state.curves[0]
+    return state.charts.curves[0]
 
 
-def _component(state: State, shown: ShownMode) -> Movement:
+def _component(state: State, shown: FollowedMode) -> Movement:
     system = shown.now.prepared.system
-    modes = _free_modes(system, state.component)
-    i = min(state.component_mode, len(modes.names) - 1)
-    label = sentence_case(system.vehicle.body(state.component).label)
+    modes = _free_modes(system, state.motion.component)
+    i = min(state.motion.component_mode, len(modes.names) - 1)
+    label = sentence_case(system.vehicle.body(state.motion.component).label)
     return Movement(
         f"{label} alone: {modes.names[i]}",
         f"{label} {modes.names[i]}",
@@ -151,9 +128,9 @@ def _component(state: State, shown: ShownMode) -> Movement:
         "free, nothing attached",
         modes.shapes[:, i],
         None,
-        frozenset({state.component}),
+        frozenset({state.motion.component}),
         modes,
-        component_shares(system, shown.shape, state.component),
+        component_shares(system, shown.shape, state.motion.component),
     )
 
 
@@ -161,14 +138,16 @@ _free_modes = lru_cache(maxsize=1)(component_modes)
 """A body's own modes, which no rate changes."""
 
 
-def _same_mode(state: State, shown: ShownMode, shape: Callable[[Results, int], Array]) -> Array | None:
+def _same_mode(
+    state: State, shown: FollowedMode, shape: Callable[[Results, int], Array]
+) -> Array | None:
     """The shape of the base's mode that is compared with the shown one, if it is wanted."""
-    if state.ghost != "compared" or shown.same is None:
+    if state.look.ghost != "compared" or shown.same is None:
         return None
     return _in_phase(shape(shown.base, shown.same), shown)
 
 
-def _in_phase(shape: Array, shown: ShownMode) -> Array:
+def _in_phase(shape: Array, shown: FollowedMode) -> Array:
     """A shape turned to move with the shown mode as far as it can; a real one stays real."""
     product = np.vdot(shape, shown.now.prepared.system.mass @ shown.shape)
     return shape * (product / abs(product)) if product else shape

@@ -15,9 +15,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.state import ResponseCurve
-
-NOW = ""
-"""In place of a set's name: the present rates."""
+from modeviz.viewer.session.wheel_responses import NOW
 
 LONGEST_POINT = 26
 """Letters of a point's name that leave its box room for the direction."""
@@ -46,14 +44,16 @@ class Responses:
     def __init__(self, solved: Solved) -> None:
         """Looks at an answer."""
         self._solved = solved
-        self._load = load_number(solved.now.prepared.vehicle, solved.state.load)
+        self._load = load_number(solved.now.prepared.vehicle, solved.state.charts.load)
         self.quantity: LevelUnit = PSD if self._load is None else PEAK_ACCELERATION
 
     @property
     def overlaid(self) -> list[str]:
         """The sets drawn beside the one compared with, in the order of all sets."""
         state = self._solved.state
-        return [n for n in self._solved.named if n in state.overlaid and n != state.against]
+        return [
+            n for n in self._solved.named.results if n in state.charts.overlaid and n != state.against
+        ]
 
     def of(self, name: str, curve: ResponseCurve) -> Floats:
         """The response with a set's rates, or `NOW`, (n_freqs,), in the unit of `quantity`."""
@@ -94,7 +94,7 @@ class Responses:
         return self._solved.wheels[NOW]
 
     def _results(self, name: str) -> Results:
-        return self._solved.now if name == NOW else self._solved.named[name]
+        return self._solved.now if name == NOW else self._solved.named.results[name]
 
 
 def load_number(vehicle: Vehicle, name: str) -> int | None:

@@ -8,9 +8,11 @@ from modeviz.optimise.pareto import FrontProgress, find_front
 from modeviz.optimise.trade_off import ParetoPoint, Side, chosen_sides, prepare_trade_off, sides
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
+from modeviz.viewer.session.commands.decisions import TakeRates
+from modeviz.viewer.session.design import rate_sets
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import State, rate_sets
+from modeviz.viewer.session.state import State
 from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Tell
 
 N_STARTS = 3
@@ -72,7 +74,7 @@ class FrontTask:
         state, vehicle = self._session.state, self._session.vehicle
         problem = self._problem(state)
         pair = chosen_sides(vehicle, problem, name)
-        known = (state.rates, *rate_sets(vehicle, state).values())
+        known = (state.design.rates, *rate_sets(vehicle, state.design).values())
         self._task.start(Job(Trade(problem, pair, state, known)))
 
     def cancel(self) -> None:
@@ -83,16 +85,21 @@ class FrontTask:
         """Takes over the rates of a design of the front, if there is one of that number."""
         designs = self.job.found if self.job else None
         if designs and number < len(designs):
-            self._session.change(rates=dict(designs[number].rates))
+            self._session.do(TakeRates(designs[number].rates))
 
     def _problem(self, state: State) -> Problem:
-        assert state.plan is not None
-        return planned(self._session.vehicle, state.plan)
+        assert state.design.plan is not None
+        return planned(self._session.vehicle, state.design.plan)
 
     def _find(self, job: Job[Trade, Designs], token: CancelToken, tell: Tell) -> Designs:
         trade, state, vehicle = job.asked, job.asked.state, self._session.vehicle
         trade_off = prepare_trade_off(
-            vehicle, trade.problem, trade.sides, state.rates, state.conditions.speed, state.locked
+            vehicle,
+            trade.problem,
+            trade.sides,
+            state.design.rates,
+            state.conditions.speed,
+            state.design.locked,
         )
         token.check()
 

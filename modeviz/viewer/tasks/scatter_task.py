@@ -33,7 +33,7 @@ class Build:
 
     def is_of(self, state: State) -> bool:
         """Whether they have the rates of a state, on its road at its speed."""
-        return self.rates == state.rates and self.conditions == state.conditions
+        return self.rates == state.design.rates and self.conditions == state.conditions
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,13 +82,13 @@ class ScatterTask:
             ModevizError: another one is running, or the state's plan asks for what cannot be.
         """
         state = self._session.state
-        assert state.plan is not None
-        problem = planned(self._session.vehicle, state.plan)
+        assert state.design.plan is not None
+        problem = planned(self._session.vehicle, state.design.plan)
         if problem.goal == "change":  # which no part scatters
             problem = replace(problem, goal="accelerations")
         points = tuple(point.name for point in self._session.vehicle.response_points)
         options = ScatterOptions(n_samples, Tolerance(), points=points)
-        self._task.start(Job(Build(state.rates, state.conditions, problem, options)))
+        self._task.start(Job(Build(state.design.rates, state.conditions, problem, options)))
 
     def cancel(self) -> None:
         """Ends what is running; nothing of it is kept."""
@@ -102,7 +102,7 @@ class ScatterTask:
     def shaded(self, state: State, curve: ResponseCurve) -> tuple[Floats, Floats] | None:
         """That with its frequencies, (n_freqs,)."""
         job = self.job
-        if job is None or job.found is None or state.load or not job.asked.is_of(state):
+        if job is None or job.found is None or state.charts.load or not job.asked.is_of(state):
             return None
         axis = AXIS[curve.direction]
         return job.found.scatter.frequency_hz, job.found.percentiles[:, :, curve.point, axis]
@@ -128,4 +128,4 @@ class ScatterTask:
         """Has the charts drawn again once there is a band."""
         self._changed()
         if self.job and self.job.found:
-            self._session.show_again()
+            self._session.draw_again()

@@ -1,6 +1,7 @@
 """A search for better rates in a tuning session: what it tells, and what comes of it."""
 
-from collections.abc import Callable, Mapping, Sequence
+import math
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import count
 
@@ -14,9 +15,13 @@ from modeviz.scatter.searching import SearchOptions, find_best
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.session.commands.command import Command
+from modeviz.viewer.session.commands.decisions import TakeRates
+from modeviz.viewer.session.design import rate_sets
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import State, rate_sets
+from modeviz.viewer.session.state import State
 from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Tell
 
 
@@ -77,6 +82,25 @@ class SearchStatus(Job[Sought, Optimum]):
         return () if self.progress is None else self.progress.history
 
 
+@dataclass(frozen=True, eq=False)
+class Searching(Command):
+    """What a search changes, undone as a whole."""
+
+    sought: Sought
+    change: Callable[[State], State]
+
+    @property
+    def step(self) -> Hashable:
+        return self.sought
+
+    @property
+    def within(self) -> float:
+        return math.inf
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        return self.change(state)
+
+
 class SearchTask:
     """Searches from a session's present rates, which follow the best design so far.
 
@@ -109,14 +133,14 @@ class SearchTask:
             ModevizError: another one is running, or the state's plan asks for what cannot be.
         """
         state = self._session.state
-        plan = state.plan
+        plan = state.design.plan
         assert plan is not None
         options = SearchOptions(plan.n_starts, tolerance=Tolerance() if plan.is_robust else None)
         sought = Sought(
             planned(self._session.vehicle, plan),
-            state.rates,
+            state.design.rates,
             state.conditions.speed,
-            state.locked,
+            state.design.locked,
             options,
         )
         self._task.start(SearchStatus(sought))
@@ -143,16 +167,17 @@ class SearchTask:
             return
 
         def accepted(state: State) -> State:
-            taken = rate_sets(self._session.vehicle, state)
+            taken = rate_sets(self._session.vehicle, state.design)
             name = next(n for n in (f"Optimised {i}" for i in count(1)) if n not in taken)
-            return replace(state.with_variant(name, optimum.rates), rates=dict(optimum.rates))
+            design = state.design.with_variant(name, optimum.rates)
+            return replace(state, design=replace(design, rates=dict(optimum.rates)))
 
         self._change(job.asked, accepted)
 
     def go_back(self) -> None:
         """Takes over the rates before the search again."""
         if job := self.job:
-            self._session.change(rates=dict(job.asked.before))
+            self._session.do(TakeRates(job.asked.before))
 
     def _find(self, job: SearchStatus, token: CancelToken, tell: Tell) -> Optimum:
         """The best that is found; the session goes back to the rates before if there is none."""
@@ -196,13 +221,13 @@ class SearchTask:
 
     def _go_to(self, sought: Sought, rates: Rates) -> None:
         def followed(state: State) -> State:
-            if state.rates != self._followed:
+            if state.design.rates != self._followed:
                 return state
             self._followed = rates
-            return replace(state, rates=rates)
+            return replace(state, design=replace(state.design, rates=rates))
 
         self._change(sought, followed)
 
     def _change(self, sought: Sought, change: Callable[[State], State]) -> None:
         """Changes the session's state as a part of a search, which is undone as a whole."""
-        self._session.update(change, kind=sought, within=np.inf)
+        self._session.do(Searching(sought, change))

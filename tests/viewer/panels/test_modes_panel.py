@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import viser
 from mounted_cabin import mounted_cabin
+from session_commands import Listener, altered
 
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.tracking import WEAK_MAC
@@ -17,6 +18,8 @@ from modeviz.viewer.panels.energy import MOVES_FREELY, EnergyPanel
 from modeviz.viewer.panels.ladder import MARGIN
 from modeviz.viewer.panels.modes import NONE_LISTED, ModesPanel, scale
 from modeviz.viewer.panels.side_by_side import side_by_side
+from modeviz.viewer.session.commands.decisions import TakeRates
+from modeviz.viewer.session.commands.looks import ShowMode
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
 
@@ -34,21 +37,22 @@ def gui():
 def answer():
     """Answers of a session to rates."""
     vehicle = mounted_cabin()
-    answers, failures, sessions = [], [], []
+    sessions = []
 
     def answer(rates, vehicle=vehicle, **fields):
         state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
-        session = Session(vehicle, replace(state, **fields), answers.append, failures.append)
-        sessions.append(session)
+        heard = Listener()
+        session = Session(vehicle, altered(state, **fields), heard)
+        sessions.append((session, heard))
         session.start()
-        session.set_rates(rates)
+        session.do(TakeRates(rates))
         assert session.wait(20)
-        return session, answers[-1]
+        return session, heard.answers[-1]
 
     yield answer
-    for session in sessions:
+    for session, heard in sessions:
         session.close()
-    assert not failures
+        assert not heard.failures
 
 
 def rows(html, kind):
@@ -87,7 +91,7 @@ def test_everything_is_against_the_set_compared_with(gui, answer):
     html = modes_table(gui, session, solved)
     (yaw,) = [cells for cells in rows(html, "modes") if cells[0] == "Cab yaw"]
     soft = solved.base.modes.frequency_hz[solved.base.mode_index("cab yaw")]
-    own = solved.now.modes.frequency_hz[solved.mode]
+    own = solved.now.modes.frequency_hz[solved.followed.mode]
     assert yaw[2] == f"+{own - soft:.2f}"
     assert f"Cab yaw {soft:.2f} → {own:.2f} Hz" in html
     assert "Soft" in html
@@ -113,7 +117,7 @@ def test_namesakes_are_compared_by_shape_and_what_has_no_partner_says_what_it_wa
     assert changes["~Cab lateral"] == changes[sentence_case(now.names[tramp].spoken)] == "–"
     was = f"its shape was in part the roll of Original, {frequency(base, 'roll'):.2f} Hz"
     assert f"Nothing there moves like this; {was}" in html
-    sources = [base.names[i].name for i, _ in solved.track.sources(tramp)]
+    sources = [base.names[i].name for i, _ in solved.followed.track.sources(tramp)]
     both = (f"the {n} of Original, {frequency(base, n):.2f} Hz" for n in sources)
     assert len(sources) > 1
     assert f"its shape was in part {' and '.join(both)}" in html
@@ -150,7 +154,7 @@ def rails(html):
 
 def test_a_shape_that_several_modes_share_is_joined_to_each_of_them(gui, answer):
     session, solved = answer(TWO_LATERAL)
-    track = solved.track
+    track = solved.followed.track
     low, high = scale(solved.base)
 
     def x(f):
@@ -200,7 +204,8 @@ def test_energy_is_given_now_and_before_and_adds_up(gui, answer):
     for name, label in (("cab", "Cab"), ("chassis", "Chassis")):
         (line,) = [cells for cells in table if cells[0] == label]
         now, base = (
-            r.kinetic_energy[name][i] for r, i in ((solved.now, solved.mode), (solved.base, before))
+            r.kinetic_energy[name][i]
+            for r, i in ((solved.now, solved.followed.mode), (solved.base, before))
         )
         assert line[2:] == [f"{100 * now:.0f} %", f"{100 * base:.0f} %"]
     strain = {cells[0]: cells[2] for cells in table if cells[0] not in ("Cab", "Chassis")}
@@ -220,6 +225,6 @@ def test_a_mode_that_moves_freely_says_what_to_do(gui, answer):
     loose = mounted_cabin()
     tyres = tuple(replace(t, stiffness=np.zeros(3)) for t in loose.connections)
     session, solved = answer({}, replace(loose, connections=tyres))
-    session.show_mode(solved.now.names[0].name)
+    session.do(ShowMode(solved.now.names[0].name))
     assert session.wait(20)
-    assert MOVES_FREELY in energy(gui, session, session._last)
+    assert MOVES_FREELY in energy(gui, session, session.answer)

@@ -7,6 +7,7 @@ import pytest
 import viser
 from cabin_problem import PROBLEM, cabin_search
 from mounted_cabin import mounted_cabin
+from session_commands import altered
 
 from modeviz.analysis.results import Conditions
 from modeviz.optimise.active_limits import ActiveConstraint
@@ -139,14 +140,16 @@ def test_only_what_can_be_done_is_offered(optimum):
     assert offered(replace(LOOK, phase="paused"), state) == ("Resume", "Cancel")
     ended = replace(LOOK, phase="ended", found=optimum)
     assert offered(ended, state) == ("Start", "Accept")
-    there = replace(state, rates=optimum.rates)
+    there = altered(state, rates=optimum.rates)
     assert offered(ended, there) == ("Start", "Accept", "Go back")
-    assert offered(ended, there.with_variant("Optimised 1", optimum.rates)) == ("Start",)
+    assert offered(
+        ended, replace(there, design=there.design.with_variant("Optimised 1", optimum.rates))
+    ) == ("Start",)
 
 
 def test_a_vehicle_without_response_points_says_what_it_lacks():
     vehicle = replace(mounted_cabin(), response_points=())
-    session = Session(vehicle, first_state(vehicle, vehicle.rates, FLAT), print, print)
+    session = Session(vehicle, first_state(vehicle, vehicle.rates, FLAT), print)
     server = viser.ViserServer(port=0, verbose=False)
     texts = []
     add, server.gui.add_html = server.gui.add_html, texts.append

@@ -13,7 +13,7 @@ from modeviz.analysis.exact_check import Check, ClassicError
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.viewer.panels.status import StatusPanel, _rounded
-from modeviz.viewer.session.answers import Rest
+from modeviz.viewer.session.findings import Findings
 
 
 @pytest.fixture(scope="module")
@@ -27,8 +27,8 @@ def content(now, **changes):
     values = {"check": None, "problem": "", "classic_error": None, "seconds": 0.0042, "missing": ""}
     values |= changes
     state = SimpleNamespace(classic=values["classic_error"] is not None, against="Original")
-    rest = Rest(now, check=values.pop("check"), problem=values.pop("problem"))
-    StatusPanel(page).show(SimpleNamespace(now=now, state=state, rest=rest, **values))
+    findings = Findings(now, check=values.pop("check"), problem=values.pop("problem"))
+    StatusPanel(page).show(SimpleNamespace(now=now, state=state, findings=findings, **values))
     return page.content
 
 

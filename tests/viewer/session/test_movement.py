@@ -6,14 +6,19 @@ import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
 from rounding import CABIN, assert_near
+from session_commands import Alter, Listener, altered
 
 from modeviz.analysis.deflection_shapes import complex_mode, road_shape, wheel_shape
+from modeviz.analysis.mode_tracking import follow, pair_modes
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.components import component_modes, component_shares
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.session.movement import ShownMode, movement
+from modeviz.viewer.session.commands.decisions import SetRate
+from modeviz.viewer.session.commands.looks import ShowMode
+from modeviz.viewer.session.followed_mode import FollowedMode
+from modeviz.viewer.session.movement import movement
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import ResponseCurve, first_state
 
@@ -32,7 +37,10 @@ def shown(vehicle):
     prepared = prepare(vehicle)
     now, base = solve(prepared, SOFT, FLAT), solve(prepared, {}, FLAT)
     i = now.mode_index("cab yaw")
-    return ShownMode(now, i, now.names[i], -now.modes.shapes[:, i], base, base.mode_index("cab yaw"))
+    track = follow(base, now)
+    pairs = pair_modes(base, now, track)
+    shape, same = -now.modes.shapes[:, i], base.mode_index("cab yaw")
+    return FollowedMode(now, base, i, same, now.names[i], shape, track, pairs, is_detailed=True)
 
 
 @pytest.fixture
@@ -41,7 +49,7 @@ def state(vehicle):
 
 
 def test_outlines_are_of_the_mode_that_is_compared_whatever_it_is_called(state, shown):
-    state = replace(state, ghost="compared")
+    state = altered(state, ghost="compared")
     moving = movement(state, replace(shown, same=3))
     same_up_to_phase(moving.other, shown.base.modes.shapes[:, 3])
     assert movement(state, replace(shown, same=None)).other is None
@@ -60,14 +68,14 @@ def same_up_to_phase(shape, other):
 def test_a_mode_moves_as_it_is_followed(state, shown):
     moving = movement(state, shown)
     assert moving.shape is shown.shape
-    assert moving.frequency_hz == shown.now.modes.frequency_hz[shown.index]
+    assert moving.frequency_hz == shown.now.modes.frequency_hz[shown.mode]
     assert moving.other is None
     assert moving.title == "Cab yaw"
 
 
 def test_a_damped_mode_is_the_solvers_and_in_phase_with_the_undamped(state, shown):
-    moving = movement(replace(state, motion="damped mode"), shown)
-    expected = complex_mode(shown.now, shown.index)
+    moving = movement(altered(state, kind="damped mode"), shown)
+    expected = complex_mode(shown.now, shown.mode)
     same_up_to_phase(moving.shape, expected.shape)
     assert moving.frequency_hz == expected.damped_frequency_hz
     assert f"{100 * expected.damping_ratio:.1f} %" in moving.about
@@ -77,7 +85,7 @@ def test_a_damped_mode_is_the_solvers_and_in_phase_with_the_undamped(state, show
 
 @pytest.mark.parametrize("motion", ["mode", "damped mode"])
 def test_the_shape_compared_with_moves_in_phase_and_on_the_same_scale(state, shown, motion):
-    moving = movement(replace(state, motion=motion, ghost="compared"), shown)
+    moving = movement(altered(state, kind=motion, ghost="compared"), shown)
     old = shown.base.mode_index("cab yaw")
     expected = shown.base.modes.shapes[:, old]
     if motion == "damped mode":
@@ -89,9 +97,7 @@ def test_the_shape_compared_with_moves_in_phase_and_on_the_same_scale(state, sho
 
 def test_under_the_road_the_reference_moves_as_its_spectrum_says(state, shown):
     curve = ResponseCurve(0, "vertical")
-    state = replace(
-        state, motion="operating shape", operating_hz=11.0, curves=(curve,), ghost="compared"
-    )
+    state = altered(state, kind="operating shape", operating_hz=11.0, curves=(curve,), ghost="compared")
     moving = movement(state, shown)
     assert_near(moving.shape, road_shape(shown.now, 11.0, 0, "vertical"), CABIN, lines=-1)
     assert_near(moving.other, road_shape(shown.base, 11.0, 0, "vertical"), CABIN, lines=-1)
@@ -105,7 +111,7 @@ def test_under_the_road_the_reference_moves_as_its_spectrum_says(state, shown):
 
 def test_under_a_wheel_load_points_move_as_the_wheel_response_says(vehicle, state, shown):
     load = vehicle.wheel_loads[0].name
-    state = replace(state, motion="operating shape", operating_hz=12.0, load=load)
+    state = altered(state, kind="operating shape", operating_hz=12.0, load=load)
     moving = movement(state, shown)
     assert_near(moving.shape, wheel_shape(shown.now, load, 12.0), CABIN, lines=-1)
     wheels = solve_wheels(shown.now.prepared, shown.now.rates)
@@ -116,7 +122,7 @@ def test_under_a_wheel_load_points_move_as_the_wheel_response_says(vehicle, stat
 
 
 def test_a_component_moves_alone_and_says_what_it_has_of_the_shown_mode(state, shown):
-    moving = movement(replace(state, motion="component", component="chassis", component_mode=3), shown)
+    moving = movement(altered(state, kind="component", component="chassis", component_mode=3), shown)
     system = shown.now.prepared.system
     expected = component_modes(system, "chassis").shapes[:, 3]
     np.testing.assert_allclose(moving.shape, expected, atol=1e-12)
@@ -127,33 +133,33 @@ def test_a_component_moves_alone_and_says_what_it_has_of_the_shown_mode(state, s
     assert [s.name for s in moving.shares] == [s.name for s in expected]
     assert [s.share for s in moving.shares] == pytest.approx([s.share for s in expected], abs=1e-12)
     total = sum(share.share for share in moving.shares)
-    energy = shown.now.kinetic_energy["chassis"][shown.index]
+    energy = shown.now.kinetic_energy["chassis"][shown.mode]
     assert total == pytest.approx(energy, rel=1e-9)
 
 
 @pytest.mark.parametrize(
     ("asked", "subject"),
     [
-        ({"motion": "mode"}, "cab yaw"),
-        ({"motion": "damped mode"}, "cab yaw damped"),
-        ({"motion": "operating shape", "operating_hz": 11.04}, "operating shape 11.0 Hz"),
-        ({"motion": "component", "component": "chassis", "component_mode": 3}, "Chassis roll"),
+        ({"kind": "mode"}, "cab yaw"),
+        ({"kind": "damped mode"}, "cab yaw damped"),
+        ({"kind": "operating shape", "operating_hz": 11.04}, "operating shape 11.0 Hz"),
+        ({"kind": "component", "component": "chassis", "component_mode": 3}, "Chassis roll"),
     ],
 )
 def test_files_are_named_after_what_moves(state, shown, asked, subject):
-    assert movement(replace(state, **asked), shown).subject == subject
+    assert movement(altered(state, **asked), shown).subject == subject
 
 
 def test_a_mode_number_that_a_body_does_not_have_is_its_last(state, shown):
-    moving = movement(replace(state, motion="component", component="cab", component_mode=99), shown)
+    moving = movement(altered(state, kind="component", component="cab", component_mode=99), shown)
     assert moving.title == "Cab alone: yaw"
 
 
 @pytest.fixture
 def session(vehicle, state):
-    answers, failures = [], []
-    session = Session(vehicle, state, answers.append, failures.append)
-    session.answers = answers
+    heard = Listener()
+    session = Session(vehicle, state, heard)
+    session.answers, failures = heard.answers, heard.failures
     session.start()
     assert session.wait(20)
     yield session
@@ -162,13 +168,13 @@ def session(vehicle, state):
 
 
 def test_the_operating_shape_follows_rates_and_frequency(session):
-    session.change(motion="operating shape", operating_hz=11.0)
-    session.set_rate("A", "lateral", 1e5)
+    session.do(Alter(kind="operating shape", operating_hz=11.0))
+    session.do(SetRate("A", "lateral", 1e5))
     assert session.wait(20)
     solved = session.answers[-1]
     expected = road_shape(solved.now, 11.0, 0, "lateral")
     np.testing.assert_allclose(solved.movement.shape, expected, rtol=1e-9)
-    session.change(operating_hz=12.5)
+    session.do(Alter(operating_hz=12.5))
     assert session.wait(20)
     again = session.answers[-1]
     assert again.now is solved.now
@@ -176,28 +182,28 @@ def test_the_operating_shape_follows_rates_and_frequency(session):
 
 
 def test_what_cannot_move_leaves_what_did_and_says_why(session):
-    session.change(motion="operating shape", operating_hz=11.0)
+    session.do(Alter(kind="operating shape", operating_hz=11.0))
     assert session.wait(20)
     good = session.answers[-1].movement
-    session.change(operating_hz=99.0)
-    session.set_rate("A", "lateral", 1e5)
+    session.do(Alter(operating_hz=99.0))
+    session.do(SetRate("A", "lateral", 1e5))
     assert session.wait(20)
     solved = session.answers[-1]
     assert solved.now.rates["A"].lateral == 1e5
     assert solved.movement.shape is good.shape
     assert "99 Hz" in solved.movement.problem
-    session.change(operating_hz=12.0)
+    session.do(Alter(operating_hz=12.0))
     assert session.wait(20)
     assert not session.answers[-1].movement.problem
 
 
 def test_what_is_drawn_differently_moves_on_unchanged(session):
-    session.change(motion="damped mode")
+    session.do(Alter(kind="damped mode"))
     assert session.wait(20)
     before = session.answers[-1].movement
-    session.change(coloring="displacement")
+    session.do(Alter(coloring="displacement"))
     assert session.wait(20)
     assert session.answers[-1].movement is before
-    session.show_mode("cab roll")
+    session.do(ShowMode("cab roll"))
     assert session.wait(20)
     assert session.answers[-1].movement.title == "~Cab roll"

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 from cabin_session import SOON, Watcher, open_session
+from session_commands import AlterPlan
 
 from modeviz.errors import ModevizError, VehicleError
 from modeviz.viewer.tasks import front_task as module
@@ -17,7 +18,7 @@ OFFER = "lateral against vertical"
 
 @pytest.fixture
 def session():
-    with open_session() as session:
+    with open_session() as (session, _):
         yield session
 
 
@@ -54,7 +55,7 @@ def test_a_design_is_loaded_and_undone(session, trader):
     trader.start(OFFER)
     trader.wait(lambda: not trader.job.is_running)
     trader.load(1)
-    assert session.state.rates == trader.job.found[1].rates
+    assert session.state.design.rates == trader.job.found[1].rates
     trader.load(99)
     session.undo()
     assert session.state == before
@@ -81,7 +82,7 @@ def test_cancel_keeps_the_designs_found_by_then(trader, monkeypatch):
 
 
 def test_of_a_plan_that_cannot_be_it_is_said_why(session, trader):
-    session.update(lambda state: replace(state, plan=replace(state.plan, free=frozenset())))
+    session.do(AlterPlan(free=frozenset()))
     for asked in (trader.offers, partial(trader.start, OFFER)):
         with pytest.raises(VehicleError, match="no group of mounts may change"):
             asked()
@@ -89,12 +90,8 @@ def test_of_a_plan_that_cannot_be_it_is_said_why(session, trader):
 
 def test_what_the_plan_no_longer_offers_is_refused(session, trader):
     lateral = frozenset({"lateral"})
-
-    def only_lateral(state):
-        loads = tuple(replace(load, directions=lateral) for load in state.plan.loads)
-        return replace(state, plan=replace(state.plan, loads=loads))
-
-    session.update(only_lateral)
+    loads = tuple(replace(load, directions=lateral) for load in session.state.design.plan.loads)
+    session.do(AlterPlan(loads=loads))
     assert trader.offers() == ()
     with pytest.raises(ModevizError, match="trade-off"):
         trader.start(OFFER)
@@ -102,7 +99,7 @@ def test_what_the_plan_no_longer_offers_is_refused(session, trader):
 
 
 def test_a_goal_without_sides_is_told(session, trader):
-    session.update(lambda state: replace(state, plan=replace(state.plan, goal="rating")))
+    session.do(AlterPlan(goal="rating"))
     trader.start(OFFER)
     trader.wait(lambda: not trader.job.is_running)
     assert "has no points and directions to trade" in trader.job.failure

@@ -1,15 +1,16 @@
 """Mounts that scatter, in a session."""
 
 import threading
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from cabin_session import SOON, Watcher, open_session
+from session_commands import Alter, AlterPlan
 
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError, SolveError
 from modeviz.scatter import driving
+from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.state import ResponseCurve
 from modeviz.viewer.tasks.scatter_task import ScatterTask
 
@@ -18,9 +19,8 @@ CURVE = ResponseCurve(0, "lateral")
 
 @pytest.fixture
 def session():
-    answers = []
-    with open_session(answers.append) as session:
-        session.answers = answers
+    with open_session() as (session, heard):
+        session.answers = heard.answers
         yield session
 
 
@@ -74,13 +74,13 @@ def test_a_band_is_of_its_rates_road_and_speed_only(session, scatterer):
     assert scatterer.band(session.state, CURVE) is None
     scatterer.start(400)
     scatterer.finish()
-    session.set_rate("A", "vertical", 3e5)
+    session.do(SetRate("A", "vertical", 3e5))
     assert scatterer.band(session.state, CURVE) is None
     session.undo()
     assert scatterer.band(session.state, CURVE) is not None
-    session.change(load="front left radial force")
+    session.do(Alter(load="front left radial force"))
     assert scatterer.band(session.state, CURVE) is None
-    session.change(load="", conditions=Conditions("rough", 20.0))
+    session.do(Alter(load="", conditions=Conditions("rough", 20.0)))
     assert scatterer.band(session.state, CURVE) is None
 
 
@@ -112,7 +112,7 @@ def test_a_failure_is_told(scatterer, monkeypatch):
 
 @pytest.mark.parametrize(("goal", "looked_at"), [("peak", "peak"), ("change", "accelerations")])
 def test_where_the_goal_does_not_scatter_the_accelerations_do(session, scatterer, goal, looked_at):
-    session.update(lambda state: replace(state, plan=replace(state.plan, goal=goal)))
+    session.do(AlterPlan(goal=goal))
     scatterer.start(300)
     look = scatterer.finish()
     assert look.asked.problem.goal == looked_at

@@ -2,12 +2,12 @@
 
 import threading
 import time
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from cabin_session import SOON, Watcher, open_session
 from held_search import hold_searches
+from session_commands import Alter, AlterPlan
 
 from modeviz.errors import ModevizError, SolveError
 from modeviz.optimise.goals import prepare_goal
@@ -18,6 +18,7 @@ from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.scatter.worst_case import goals
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.tasks import background_task
 from modeviz.viewer.tasks import search_task as module
@@ -29,7 +30,7 @@ ANSWERS_WITHIN = 0.5
 
 @pytest.fixture
 def session():
-    with open_session() as session:
+    with open_session() as (session, _):
         yield session
 
 
@@ -54,7 +55,7 @@ def gate(monkeypatch):
 
 
 def plan(session, **fields):
-    session.update(lambda state: replace(state, plan=replace(state.plan, **fields)))
+    session.do(AlterPlan(**fields))
 
 
 def run(optimiser):
@@ -65,18 +66,18 @@ def run(optimiser):
 
 def goal(session):
     state = session.state
-    problem = planned(session.vehicle, state.plan)
-    return prepare_goal(session.vehicle, problem, state.rates, state.conditions.speed)
+    problem = planned(session.vehicle, state.design.plan)
+    return prepare_goal(session.vehicle, problem, state.design.rates, state.conditions.speed)
 
 
 def test_it_ends_with_the_session_at_the_best_design(session, optimiser):
     plan(session, n_starts=3)
-    before, of = session.state.rates, goal(session)
+    before, of = session.state.design.rates, goal(session)
     look = run(optimiser)
     assert look.stage == "ended"
     assert look.found.converged
-    assert session.state.rates == look.found.rates != before
-    assert of.value(session.state.rates) == pytest.approx(look.found.value, rel=1e-9)
+    assert session.state.design.rates == look.found.rates != before
+    assert of.value(session.state.design.rates) == pytest.approx(look.found.value, rel=1e-9)
     assert look.original == pytest.approx(of.value({}), rel=1e-12) == 1.0
     soft = session.vehicle.rate_sets["soft"]
     assert look.reference == pytest.approx(of.value(soft), rel=1e-12)
@@ -104,7 +105,7 @@ def test_a_robust_search_is_better_for_parts_that_were_not_in_it(session, optimi
     assert look.original == pytest.approx(percentile(session, {}, 7), rel=0.02)
     assert look.history[-1][1] == look.found.value > as_drawn.value
     assert percentile(session, look.found.rates, 7) < percentile(session, as_drawn.rates, 7)
-    assert session.state.rates == look.found.rates
+    assert session.state.design.rates == look.found.rates
 
 
 def test_a_robust_search_of_what_does_not_scatter_is_refused(session, optimiser):
@@ -121,7 +122,7 @@ def test_a_robust_search_that_is_cancelled_before_it_is_robust_keeps_the_best(se
     optimiser.cancel()
     optimiser.wait(lambda: optimiser.job.stage == "ended")
     assert not optimiser.job.is_robust
-    assert session.state.rates == optimiser.job.found.rates
+    assert session.state.design.rates == optimiser.job.found.rates
 
 
 def test_the_search_is_one_step_to_undo_and_redo(session, optimiser):
@@ -131,7 +132,7 @@ def test_the_search_is_one_step_to_undo_and_redo(session, optimiser):
     session.undo()
     assert session.state == before
     session.redo()
-    assert session.state.rates == look.found.rates
+    assert session.state.design.rates == look.found.rates
 
 
 def test_what_is_accepted_is_pinned_kept_and_undone_with_the_search(session, optimiser):
@@ -139,7 +140,7 @@ def test_what_is_accepted_is_pinned_kept_and_undone_with_the_search(session, opt
     before = session.state
     found = run(optimiser).found.rates
     optimiser.accept()
-    assert session.state.variants["Optimised 1"].rates == session.state.rates == found
+    assert session.state.design.variants["Optimised 1"].rates == session.state.design.rates == found
     session.undo()
     assert session.state == before
 
@@ -150,18 +151,18 @@ def test_a_second_result_gets_a_name_of_its_own(session, optimiser):
         plan(session, is_normalised=normalised)
         run(optimiser)
         optimiser.accept()
-    assert list(session.state.variants) == ["Optimised 1", "Optimised 2"]
+    assert list(session.state.design.variants) == ["Optimised 1", "Optimised 2"]
 
 
 def test_to_go_back_brings_the_rates_before_and_can_be_undone(session, optimiser):
-    session.set_rate("A", "lateral", 2e5)
+    session.do(SetRate("A", "lateral", 2e5))
     plan(session, n_starts=1)
-    before = session.state.rates
+    before = session.state.design.rates
     found = run(optimiser).found.rates
     optimiser.go_back()
-    assert session.state.rates == before
+    assert session.state.design.rates == before
     session.undo()
-    assert session.state.rates == found
+    assert session.state.design.rates == found
 
 
 def test_cancel_answers_at_once_and_keeps_the_best(session, optimiser, gate):
@@ -174,7 +175,7 @@ def test_cancel_answers_at_once_and_keeps_the_best(session, optimiser, gate):
     look = optimiser.job
     assert look.found.reason == "cancelled"
     assert look.found.value == look.history[-1][1]
-    assert session.state.rates == look.found.rates
+    assert session.state.design.rates == look.found.rates
 
 
 @pytest.fixture
@@ -202,10 +203,10 @@ def test_it_says_when_the_full_model_is_solved_with_the_session_at_the_best(
     assert optimiser.job.is_running
     assert optimiser.job.history[-1][1] == optimiser.job.progress.value
     best = optimiser.job.progress.rates
-    assert session.state.rates == best
+    assert session.state.design.rates == best
     full_model.set()
     optimiser.wait(lambda: optimiser.job.stage == "ended")
-    assert session.state.rates == best
+    assert session.state.design.rates == best
 
 
 def test_cancel_brings_the_session_to_the_best_before_the_full_model_is_solved(
@@ -216,10 +217,10 @@ def test_cancel_brings_the_session_to_the_best_before_the_full_model_is_solved(
     deadline = time.monotonic() + SOON
     while len(optimiser.job.history) < 3 and time.monotonic() < deadline:
         time.sleep(0.01)  # nothing is told
-    assert session.state.rates == optimiser.job.asked.before
+    assert session.state.design.rates == optimiser.job.asked.before
     optimiser.cancel()
     assert optimiser.job.stage == "checking"
-    assert session.state.rates != optimiser.job.asked.before
+    assert session.state.design.rates != optimiser.job.asked.before
 
 
 def test_cancel_between_a_search_and_its_robust_one_keeps_the_best(session, optimiser, monkeypatch):
@@ -241,7 +242,7 @@ def test_cancel_between_a_search_and_its_robust_one_keeps_the_best(session, opti
     look = run(optimiser)
     assert look.stage == "ended"
     assert not look.is_robust
-    assert session.state.rates == look.found.rates
+    assert session.state.design.rates == look.found.rates
 
 
 def test_cancel_while_it_prepares_is_over_at_once_and_changes_nothing(session, optimiser, monkeypatch):
@@ -290,7 +291,7 @@ def test_a_paused_search_evaluates_nothing_until_it_goes_on(session, optimiser, 
     optimiser._task._thread.join(0.5)
     assert optimiser.job.stage == "paused"
     assert optimiser.job.progress.evaluations == paused
-    assert session.state.rates == optimiser.job.progress.rates
+    assert session.state.design.rates == optimiser.job.progress.rates
     optimiser.resume()
     optimiser.wait(lambda: not optimiser.job.is_running)
     assert optimiser.job.found.evaluations > paused
@@ -311,7 +312,7 @@ def test_a_failing_evaluation_is_told_and_leaves_the_rates_before(session, optim
 
     def fails(search, starts, budget, token, tell):
         tell(Progress(1, better, 0.5, 1, 1))
-        assert session.state.rates == better
+        assert session.state.design.rates == better
         raise SolveError("no answer with A vertical 500 N/mm")
 
     monkeypatch.setattr(searching, "optimise", fails)
@@ -340,7 +341,7 @@ def test_a_plan_that_cannot_be_is_refused_and_the_next_one_is_searched(session, 
         optimiser.start()
     assert optimiser.job is None
     plan(session, free=frozenset({"A"}), n_starts=1)
-    before = session.state.rates
+    before = session.state.design.rates
     found = run(optimiser).found.rates
     assert found["B"] == before["B"]
     assert found["A"] != before["A"]
@@ -354,9 +355,9 @@ def test_a_second_search_is_refused_while_one_runs(optimiser, gate):
 
 
 def test_locked_rates_stay(session, optimiser):
-    session.change(locked=frozenset({("A", "lateral")}))
+    session.do(Alter(locked=frozenset({("A", "lateral")})))
     plan(session, n_starts=1)
-    before = session.state.rates["A"]
+    before = session.state.design.rates["A"]
     found = run(optimiser).found.rates["A"]
     assert found.lateral == before.lateral
     assert found.vertical != before.vertical
@@ -365,13 +366,13 @@ def test_locked_rates_stay(session, optimiser):
 def test_rates_that_somebody_moves_meanwhile_are_not_taken_from_them(session, optimiser, gate):
     optimiser.start()
     optimiser.wait(lambda: optimiser.job.history)
-    session.set_rate("A", "vertical", 3.21e5)
-    mine = session.state.rates
+    session.do(SetRate("A", "vertical", 3.21e5))
+    mine = session.state.design.rates
     gate.set()
     optimiser.wait(lambda: not optimiser.job.is_running)
-    assert session.state.rates == mine
+    assert session.state.design.rates == mine
     optimiser.accept()
-    assert session.state.rates == optimiser.job.found.rates
+    assert session.state.design.rates == optimiser.job.found.rates
 
 
 def test_closing_ends_a_search(session, optimiser, gate):
@@ -383,12 +384,12 @@ def test_closing_ends_a_search(session, optimiser, gate):
 
 
 def test_a_mode_is_held_where_the_plan_wants_it(session, optimiser):
-    yaw = session._last.now.mode_index("cab yaw")
-    now_hz = float(session._last.now.modes.frequency_hz[yaw])
+    yaw = session.answer.now.mode_index("cab yaw")
+    now_hz = float(session.answer.now.modes.frequency_hz[yaw])
     plan(session, goal="change", mode="cab yaw", high_hz=0.8 * now_hz, n_starts=1)
     look = run(optimiser)
     assert session.wait(SOON)
-    solved = session._last
+    solved = session.answer
     f = solved.now.modes.frequency_hz[solved.now.mode_index("cab yaw")]
     assert 0.79 * now_hz < f <= 0.8 * now_hz
     assert look.found.verification.are_kept

@@ -1,7 +1,6 @@
 """What there is to know of the selected mount group, and to do with it beyond its rates."""
 
 from collections.abc import Sequence
-from functools import partial
 from html import escape
 
 import viser
@@ -12,9 +11,9 @@ from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
 from modeviz.viewer.page.write_back import WriteBack
-from modeviz.viewer.panels.mounts.actions import damp, link
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
 from modeviz.viewer.panels.mounts.rows import row_label
+from modeviz.viewer.session.commands.decisions import LinkRates, SetLossFactor
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
 
@@ -75,10 +74,20 @@ class Details:
                 self._is_linked(session.state),
                 hint="When one of these rates moves, the others move by the same factor",
             )
-        damped, linked = partial(damp, session, group.name), partial(link, session, group.name)
         self.bindings: tuple[Binding, ...] = (
-            Binding(self._loss, session, self._loss_factor, damped, WriteBack()),
-            Binding(self._linked, session, self._is_linked, linked),
+            Binding(
+                self._loss,
+                session,
+                self._loss_factor,
+                lambda factor: session.do(SetLossFactor(group.name, factor)),
+                WriteBack(),
+            ),
+            Binding(
+                self._linked,
+                session,
+                self._is_linked,
+                lambda linked: session.do(LinkRates(group.name, linked)),
+            ),
         )
 
     def show(self, state: State, compared: Rates, effects: Effects, mode: str, is_old: bool) -> None:
@@ -105,7 +114,7 @@ class Details:
 
     def _header(self, state: State, base: MountRates, mode: str) -> Sequence[str]:
         reset = ""
-        if state.rates[self._group.name] != base:
+        if state.design.rates[self._group.name] != base:
             reset = self._sign(RESET_GROUP, BACK, f"Group back to {state.against}")
         return (
             "+10 %",
@@ -117,12 +126,12 @@ class Details:
         )
 
     def _rows(self, state: State, base: MountRates, effects: Effects) -> list[str]:
-        rates = state.rates[self._group.name]
+        rates = state.design.rates[self._group.name]
         rows = []
         for i, (field, direction) in enumerate(zip(RATE_FIELDS, DIRECTIONS, strict=True)):
             key = self._group.name, field
             is_changed = getattr(rates, field) != getattr(base, field)
-            cells = (direction, *_cells(effects.get(key)), self._lock(i, key in state.locked))
+            cells = (direction, *_cells(effects.get(key)), self._lock(i, key in state.design.locked))
             rows.append(row([*cells, self._reset(i, state.against) if is_changed else ""]))
         return rows
 
@@ -139,10 +148,10 @@ class Details:
         return self._buttons.label(button, f'<span title="{escape(meaning)}">{picture}</span>')
 
     def _loss_factor(self, state: State) -> float:
-        return self._group.loss_factor_with(state.rates[self._group.name])
+        return self._group.loss_factor_with(state.design.rates[self._group.name])
 
     def _is_linked(self, state: State) -> bool:
-        return self._group.name in state.linked
+        return self._group.name in state.design.linked
 
 
 def _cells(effect: Effect | None) -> tuple[str, str, str]:

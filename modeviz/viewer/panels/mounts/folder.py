@@ -48,7 +48,7 @@ class GroupFolder:
             effects: of all rates, or of none as yet.
             is_old: whether the effects are those of rates that were.
         """
-        name, state, mode = self._group.name, solved.state, solved.name.spoken
+        name, state, mode = self._group.name, solved.state, solved.followed.name.spoken
         share = f"{100 * solved.strain[name]:.0f} % of strain energy"
         assign(self._folder, label=f"{name}  {self._group.label}  ·  {share}")
         for field, row in self._rows.items():

@@ -6,7 +6,7 @@ import viser
 
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.hotkeys import Hotkeys
-from modeviz.viewer.panels.mounts.actions import reset
+from modeviz.viewer.session.commands.decisions import ResetGroups
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State, compared_rates
 
@@ -29,8 +29,8 @@ class HistoryRow:
         presses: dict[str, Callable[[], None]] = {
             UNDO: session.undo,
             REDO: session.redo,
-            RESET_GROUP: lambda: reset(session, session.state.group),
-            RESET_ALL: lambda: reset(session, *session.state.rates),
+            RESET_GROUP: lambda: session.do(ResetGroups((session.state.group,))),
+            RESET_ALL: lambda: session.do(ResetGroups(tuple(session.state.design.rates))),
         }
         self._buttons.on_click(lambda _: presses[self._buttons.value]())
         hotkeys.add("Undo", "Z", lambda _: session.undo(), "cmd/ctrl")
@@ -42,8 +42,8 @@ class HistoryRow:
         idle = {
             "undo": not self._session.can_undo,
             "redo": not self._session.can_redo,
-            "group": not group or state.rates[group] == compared[group],
-            "all": dict(state.rates) == dict(compared),
+            "group": not group or state.design.rates[group] == compared[group],
+            "all": dict(state.design.rates) == dict(compared),
         }
         words = " ".join(word for word, is_idle in idle.items() if is_idle)
         assign(self._marker, content=f'<div class="mv-history" data-idle="{words}"></div>')

@@ -5,11 +5,12 @@ import viser
 from modeviz.vehicle.connections import RATE_FIELDS
 from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.html import HiddenButtons
-from modeviz.viewer.panels.mounts.actions import reset, reset_rate, toggle_lock
 from modeviz.viewer.panels.mounts.details import LOCK, N_BUTTONS, RESET
 from modeviz.viewer.panels.mounts.effects import Effects, effects
 from modeviz.viewer.panels.mounts.folder import GroupFolder
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.commands.decisions import ResetGroups, ResetRate, ToggleLock
+from modeviz.viewer.session.commands.looks import ChooseUnit
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import compared_rates
 
@@ -37,10 +38,10 @@ class MountsPanel:
             self._show_details(solved)
 
     def _show_details(self, solved: Solved) -> None:
-        sensitivity = solved.rest.sensitivity
+        sensitivity = solved.findings.sensitivity
         if sensitivity is not None:
-            self._effects = effects(self._session.vehicle, sensitivity, solved.mode)
-        elif solved.rest.problem:
+            self._effects = effects(self._session.vehicle, sensitivity, solved.followed.mode)
+        elif solved.findings.problem:
             self._effects = {}
         compared = compared_rates(self._session.vehicle, solved.state)
         for folder in self._folders:
@@ -51,14 +52,14 @@ class MountsPanel:
         unit = gui.add_dropdown(
             "Rates in", UNITS, initial_value=session.state.unit, hint="The unit of all mount rates"
         )
-        return Binding(unit, session, lambda s: s.unit, lambda value: session.change(unit=value))
+        return Binding(unit, session, lambda s: s.unit, lambda value: session.do(ChooseUnit(value)))
 
     def _press(self, button: int) -> None:
         """Does what a sign in the table of the selected group says."""
         group = self._session.state.group
         if button in LOCK:
-            toggle_lock(self._session, group, RATE_FIELDS[button - LOCK.start])
+            self._session.do(ToggleLock(group, RATE_FIELDS[button - LOCK.start]))
         elif button in RESET:
-            reset_rate(self._session, group, RATE_FIELDS[button - RESET.start])
+            self._session.do(ResetRate(group, RATE_FIELDS[button - RESET.start]))
         else:
-            reset(self._session, group)
+            self._session.do(ResetGroups((group,)))

@@ -13,8 +13,10 @@ from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.travel import Travel, travel
+from modeviz.viewer.session.commands.decisions import SetRate
+from modeviz.viewer.session.design import known_sets
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import State, compared_rates, known_sets
+from modeviz.viewer.session.state import State, compared_rates
 
 STIFFEST = 1e9
 """N/m: what is stiffer is rigid, or a slip of the finger."""
@@ -68,7 +70,7 @@ class RateRow:
             effect: what a change of this rate does, a sentence or nothing.
         """
         base = self._rate_in(compared)
-        is_locked = (self._group.name, self._field) in state.locked
+        is_locked = (self._group.name, self._field) in state.design.locked
         in_unit = written(base, factor(state.unit, "stiffness"))
         about = (
             f"{self._group.name} {self._group.label}, {self._direction} rate, {state.unit}. "
@@ -77,7 +79,7 @@ class RateRow:
         locked = " Locked: loading a set is all that moves it." if is_locked else ""
         assign(
             self._slider,
-            label=row_label(self._direction, self._rate_in(state.rates), base),
+            label=row_label(self._direction, self._rate_in(state.design.rates), base),
             hint=f"{about} {effect}{locked}",
             disabled=is_locked,
         )
@@ -92,7 +94,7 @@ class RateRow:
 
     def _widest_travel(self) -> Travel:
         """From bound to bound, with every set the vehicle comes with and the first rate between."""
-        known = [*known_sets(self._session.vehicle).values(), self._session.state.rates]
+        known = [*known_sets(self._session.vehicle).values(), self._session.state.design.rates]
         softest, stiffest = (getattr(bound, self._field) for bound in self._group.bounds)
         return travel(softest, stiffest, [self._rate_in(rates) for rates in known])
 
@@ -100,15 +102,15 @@ class RateRow:
         return getattr(rates[self._group.name], self._field)
 
     def _position(self, state: State) -> int:
-        return self._travel.position(self._rate_in(state.rates))
+        return self._travel.position(self._rate_in(state.design.rates))
 
     def _in_unit(self, state: State) -> float:
-        return written(self._rate_in(state.rates), factor(state.unit, "stiffness"))
+        return written(self._rate_in(state.design.rates), factor(state.unit, "stiffness"))
 
     def _slide(self, position: int) -> None:
         compared = compared_rates(self._session.vehicle, self._session.state)
         rate = self._travel.rate(position, self._rate_in(compared))
-        self._session.set_rate(self._group.name, self._field, rate)
+        self._session.do(SetRate(self._group.name, self._field, rate))
 
     def _type(self, value: float) -> None:
         unit = self._session.state.unit
@@ -119,7 +121,7 @@ class RateRow:
                 f"{self._group.name} {self._direction}: found {found} {unit}, "
                 f"expected 0 to {STIFFEST / per_unit:.0f} {unit}"
             )
-        self._session.set_rate(self._group.name, self._field, value * per_unit)
+        self._session.do(SetRate(self._group.name, self._field, value * per_unit))
 
 
 def row_label(direction: str, now: float, base: float) -> str:

@@ -13,6 +13,7 @@ from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block, span
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.rows import DECIMALS
+from modeviz.viewer.session.commands.decisions import ChangePlan
 from modeviz.viewer.session.planning.plan import Plan
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
@@ -42,11 +43,7 @@ class PlanControls:
 
     def change(self, change: Callable[[State, Plan], Plan]) -> None:
         """Changes the plan."""
-
-        def changed(state: State) -> State:
-            return replace(state, plan=change(state, state.plan)) if state.plan else state
-
-        self._session.update(changed)
+        self._session.do(ChangePlan(change))
 
     def put(self, **fields: Any) -> None:
         """Changes fields of the plan."""
@@ -90,7 +87,7 @@ class PlanControls:
         """Binds a widget to a value."""
 
         def read_state(state: State) -> Any:
-            return read(state, state.plan) if state.plan else widget.value
+            return read(state, state.design.plan) if state.design.plan else widget.value
 
         write_back = self._write_back if typed else None
         self._bindings.append(Binding(widget, self._session, read_state, write, write_back, typed))
@@ -98,8 +95,8 @@ class PlanControls:
 
     def _now(self, read: Read) -> Any:
         state = self._session.state
-        assert state.plan is not None
-        return read(state, state.plan)
+        assert state.design.plan is not None
+        return read(state, state.design.plan)
 
 
 class Pills:

@@ -86,10 +86,10 @@ class ProblemEditor:
     def show(self, solved: Solved) -> None:
         """Brings the controls after the state, and says what is sought."""
         state = self._session.state
-        plan = state.plan
+        plan = state.design.plan
         if plan is None:
             return
-        assign(self._mode, options=tuple(self._modes(solved.named.get(ORIGINAL, solved.base))))
+        assign(self._mode, options=tuple(self._modes(solved.named.results.get(ORIGINAL, solved.base))))
         self._controls.show()
         for widget in self._band:
             assign(widget, visible=bool(plan.mode))
@@ -102,7 +102,7 @@ class ProblemEditor:
         vehicle = self._session.vehicle
         try:
             problem = planned(vehicle, plan)
-            space = design_space(vehicle, problem.groups, state.rates, state.locked)
+            space = design_space(vehicle, problem.groups, state.design.rates, state.design.locked)
         except ModevizError as error:
             return span(escape(str(error)), "bad")
         return summary(problem, space, plan.is_robust)
@@ -164,7 +164,7 @@ class ProblemEditor:
     def _modes(self, original: Results) -> list[str]:
         """What the modes are called that can be held."""
         names = [name.name for name, _ in listed(original).values()]
-        plan = self._session.state.plan
+        plan = self._session.state.design.plan
         held = [plan.mode] if plan and plan.mode else []
         self._named = {NO_MODE: ""} | {sentence_case(name): name for name in [*held, *sorted(names)]}
         return list(self._named)
@@ -177,7 +177,7 @@ class ProblemEditor:
 
     def _save(self, event: viser.GuiEvent) -> None:
         """Gives the problem to the page that asked for it."""
-        plan, vehicle = self._session.state.plan, self._session.vehicle
+        plan, vehicle = self._session.state.design.plan, self._session.vehicle
         if event.client is None or plan is None:
             return
         try:

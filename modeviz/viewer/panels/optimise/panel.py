@@ -43,7 +43,7 @@ class OptimisePanel:
         self._session, self._optimiser = session, optimiser
         self._lock = threading.Lock()
         self._editor: ProblemEditor | None = None
-        plan = session.state.plan
+        plan = session.state.design.plan
         if plan is None:
             gui.add_html(block(span(escape(_missing(session)), "dim")))
             return
@@ -110,8 +110,8 @@ def offered(look: SearchStatus | None, state: State) -> tuple[str, ...]:
     if look is None or look.found is None:
         return OFFERED.get(look.stage, (START,)) if look else (START,)
     found = look.found.rates
-    is_pinned = any(variant.rates == found for variant in state.variants.values())
-    is_present = state.rates == found
+    is_pinned = any(variant.rates == found for variant in state.design.variants.values())
+    is_present = state.design.rates == found
     accept = () if is_pinned and is_present else (ACCEPT,)
     go_back = (GO_BACK,) if is_present and not is_pinned else ()
     return (START, *accept, *go_back)

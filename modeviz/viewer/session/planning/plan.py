@@ -5,7 +5,7 @@ may ask for what cannot be, as while somebody types; the problem that is made of
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from modeviz.errors import VehicleError
@@ -33,9 +33,9 @@ class Plan:
     loads: tuple[LoadPlan, ...]
     spare: LoadPlan
     """What is added where there is none."""
-    shown_group: str
+    shown_group: str = field(compare=False)
     """The one of which the page shows what it may become."""
-    shown_load: int = 0
+    shown_load: int = field(default=0, compare=False)
     mode: str = ""
     """The mode whose frequency is held, or none."""
     low_hz: float = 0.0

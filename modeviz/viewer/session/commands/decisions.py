@@ -1,0 +1,215 @@
+"""Commands that decide something: they can be undone."""
+
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.session.commands.command import Command
+from modeviz.viewer.session.design import free_name, known_sets, next_name, rate_sets
+from modeviz.viewer.session.planning.plan import Plan
+from modeviz.viewer.session.state import State, compared_rates
+
+
+@dataclass(frozen=True)
+class SetRate(Command):
+    """Sets a rate, unless it is locked, and selects its group; of a linked group all go along."""
+
+    group: str
+    field: str
+    """Of `MountRates`."""
+    rate: float
+    """N/m."""
+
+    @property
+    def step(self) -> Hashable:
+        return "rate", self.group, self.field
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        design = state.design.with_rate(self.group, self.field, self.rate)
+        return replace(state, design=design, group=self.group)
+
+
+@dataclass(frozen=True)
+class SetLossFactor(Command):
+    """Gives a group another loss factor, and selects it."""
+
+    group: str
+    loss_factor: float
+
+    @property
+    def step(self) -> Hashable:
+        return "loss factor", self.group
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        rates = replace(state.design.rates[self.group], loss_factor=self.loss_factor)
+        plain = vehicle.mount_group(self.group).plain(rates)
+        taken = TakeRates({self.group: plain}).apply(state, vehicle)
+        return replace(taken, group=self.group)
+
+
+@dataclass(frozen=True)
+class TakeRates(Command):
+    """Takes over the rates of some groups, locked ones too."""
+
+    rates: Rates
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        return _designed(state, rates={**state.design.rates, **self.rates})
+
+
+@dataclass(frozen=True)
+class ResetGroups(Command):
+    """Sets groups back to the rates compared with; locked ones stay."""
+
+    groups: tuple[str, ...]
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        compared = compared_rates(vehicle, state)
+        back = {group: compared[group] for group in self.groups if group}
+        return replace(state, design=state.design.with_rates(back))
+
+
+@dataclass(frozen=True)
+class ResetRate(Command):
+    """Sets one rate back to that compared with, and no other, even of a linked group."""
+
+    group: str
+    field: str
+    """Of `MountRates`."""
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        compared = getattr(compared_rates(vehicle, state)[self.group], self.field)
+        rates = replace(state.design.rates[self.group], **{self.field: compared})
+        return replace(state, design=state.design.with_rates({self.group: rates}))
+
+
+@dataclass(frozen=True)
+class LinkRates(Command):
+    """Keeps the ratios of a group's rates from now on, or no longer."""
+
+    group: str
+    linked: bool
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        others = state.design.linked - {self.group}
+        return _designed(state, linked=others | {self.group} if self.linked else others)
+
+
+@dataclass(frozen=True)
+class ToggleLock(Command):
+    """Locks a rate, or lets it move again."""
+
+    group: str
+    field: str
+    """Of `MountRates`."""
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        return _designed(state, locked=state.design.locked ^ {(self.group, self.field)})
+
+
+@dataclass(frozen=True)
+class Pin(Command):
+    """Gives a name to the present rates and keeps them.
+
+    A pinned set of that name is replaced; one that comes with the vehicle stays its own.
+    """
+
+    name: str
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        if self.name in known_sets(vehicle):
+            return state
+        return replace(state, design=state.design.with_variant(self.name, state.design.rates))
+
+
+@dataclass(frozen=True)
+class AddVariant(Command):
+    """Pins other rates, and replaces no set that there is.
+
+    Where another set is called so, this is the first free of "name 2", "name 3" ...
+    """
+
+    name: str
+    rates: Rates
+    """Of the groups that differ from the vehicle's own."""
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        every, sets = vehicle.all_rates(self.rates), rate_sets(vehicle, state.design)
+        if sets.get(self.name) == every:
+            return state
+        return replace(state, design=state.design.with_variant(free_name(self.name, sets), every))
+
+
+@dataclass(frozen=True)
+class Forget(Command):
+    """Forgets a pinned set, if there is one of that name."""
+
+    name: str
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        left = {n: variant for n, variant in state.design.variants.items() if n != self.name}
+        return _designed(state, variants=left).without_unknown_sets(vehicle)
+
+
+@dataclass(frozen=True)
+class Rename(Command):
+    """Calls a pinned set something else, unless another set is called so."""
+
+    name: str
+    new: str
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        design, name, new = state.design, self.name, self.new
+        if name not in design.variants or new in rate_sets(vehicle, design):
+            return state
+        variants = {new if n == name else n: variant for n, variant in design.variants.items()}
+        overlaid = frozenset(new if n == name else n for n in state.charts.overlaid)
+        renamed = replace(state, charts=replace(state.charts, overlaid=overlaid))
+        against = new if state.against == name else state.against
+        return replace(_designed(renamed, variants=variants), against=against)
+
+
+@dataclass(frozen=True)
+class Load(Command):
+    """Takes over the rates of a set, locked ones too, if there is one of that name."""
+
+    name: str
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        rates = rate_sets(vehicle, state.design).get(self.name)
+        return state if rates is None else _designed(state, rates=dict(rates))
+
+
+@dataclass(frozen=True)
+class Swap(Command):
+    """Changes places: the set compared with becomes the present one, and the other way round.
+
+    Rates that have no name are pinned, so that there is a way back.
+    """
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        design = state.design
+        sets = rate_sets(vehicle, design)
+        own = next((n for n, rates in sets.items() if rates == design.rates), None)
+        if own is None:
+            own = next_name(design)
+            design = design.with_variant(own, design.rates)
+        return replace(state, design=replace(design, rates=dict(sets[state.against])), against=own)
+
+
+@dataclass(frozen=True)
+class ChangePlan(Command):
+    """Changes what a search is to look for, where there is something to optimise for."""
+
+    change: Callable[[State, Plan], Plan]
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        plan = state.design.plan
+        return state if plan is None else _designed(state, plan=self.change(state, plan))
+
+
+def _designed(state: State, **fields: Any) -> State:
+    """A state with something else decided."""
+    return replace(state, design=replace(state.design, **fields))

@@ -1,0 +1,114 @@
+"""What is decided in a tuning session: rates, pinned sets, what may move and what is sought."""
+
+from collections.abc import Container, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import chain, count
+
+from modeviz.text.wording import sentence_case
+from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.session.planning.plan import Plan
+
+ORIGINAL = "Original"
+"""The name of the vehicle's own rates among the sets."""
+
+LINKED_DIGITS = 5
+"""Of a rate that follows another: as many as a number on the page has room for."""
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A pinned set of rates."""
+
+    rates: Rates
+    """Of every mount group."""
+    number: int
+    """Its own among the pinned sets while it lives: its colour goes by it."""
+
+
+@dataclass(frozen=True)
+class Design:
+    """All that is decided; `History` goes back over nothing else."""
+
+    rates: Rates
+    """Of every mount group."""
+    variants: Mapping[str, Variant] = field(default_factory=dict)
+    """The sets that were pinned, by name; see `rate_sets` for all there are."""
+    locked: frozenset[tuple[str, str]] = frozenset()
+    """Rates, (group, field of `MountRates`), that nothing moves but loading a whole set."""
+    linked: frozenset[str] = frozenset()
+    """Groups whose rates keep their ratios when one of them moves."""
+    plan: Plan | None = None
+    """What a search is to look for; None where there is nothing to optimise for."""
+
+    def with_rates(self, rates: Rates) -> "Design":
+        """Return it with other rates in the groups that are named, locked ones excepted."""
+        free = {group: self._unlocked(group, new) for group, new in rates.items()}
+        return replace(self, rates={**self.rates, **free})
+
+    def with_rate(self, group: str, direction: str, rate: float) -> "Design":
+        """Return it with another rate, N/m, in a field of `MountRates`, and all of a linked group."""
+        before = self.rates[group]
+        if (group, direction) in self.locked:
+            return self
+        old = getattr(before, direction)
+        if group in self.linked and old > 0:
+            scaled = {
+                name: float(f"{value * rate / old:.{LINKED_DIGITS}g}")
+                for name, value in zip(RATE_FIELDS, before.as_tuple(), strict=True)
+            }
+        else:
+            scaled = {}
+        return self.with_rates({group: replace(before, **{**scaled, direction: rate})})
+
+    def with_variant(self, name: str, rates: Rates) -> "Design":
+        """Return it with a pinned set; one that takes the place of another keeps its number."""
+        taken = {variant.number for variant in self.variants.values()}
+        before = self.variants.get(name)
+        number = before.number if before else next(i for i in count() if i not in taken)
+        return replace(self, variants={**self.variants, name: Variant(dict(rates), number)})
+
+    def _unlocked(self, group: str, new: MountRates) -> MountRates:
+        """New rates of a group, with its locked ones as they are."""
+        kept = {d: getattr(self.rates[group], d) for g, d in self.locked if g == group}
+        return replace(new, **kept)
+
+
+def known_sets(vehicle: Vehicle) -> dict[str, Rates]:
+    """Return the sets of rates that come with a vehicle, its own first."""
+    sets: dict[str, Rates] = {ORIGINAL: vehicle.rates}
+    for name, rates in vehicle.rate_sets.items():
+        sets.setdefault(sentence_case(name), vehicle.all_rates(rates))
+    return sets
+
+
+def rate_sets(vehicle: Vehicle, design: Design) -> dict[str, Rates]:
+    """Return every set of rates that has a name: the vehicle's, then the pinned ones."""
+    pinned = {name: variant.rates for name, variant in design.variants.items()}
+    return {**known_sets(vehicle), **pinned}
+
+
+def set_numbers(vehicle: Vehicle, design: Design) -> dict[str, int]:
+    """Return a number for each of `rate_sets`, the same whatever else is pinned or forgotten."""
+    known = {name: i for i, name in enumerate(known_sets(vehicle))}
+    return known | {name: len(known) + variant.number for name, variant in design.variants.items()}
+
+
+def variant_name(vehicle: Vehicle, design: Design) -> str:
+    """Return what the present rates are called: a set's name, or that of the next one to be pinned."""
+    for name, rates in rate_sets(vehicle, design).items():
+        if dict(rates) == dict(design.rates):
+            return name
+    return next_name(design)
+
+
+def free_name(name: str, taken: Container[str]) -> str:
+    """Return a name, or the first of "name 2", "name 3" ... that is free."""
+    numbered = (f"{name} {i}" for i in count(2))
+    return next(free for free in chain((name,), numbered) if free not in taken)
+
+
+def next_name(design: Design) -> str:
+    """Return the first of "Trial 1", "Trial 2" ... that is free."""
+    names = (f"Trial {i}" for i in count(1))
+    return next(name for name in names if name not in design.variants)

@@ -1,0 +1,28 @@
+"""What is known of an answer beyond it, found out while nothing changes."""
+
+from dataclasses import dataclass
+
+from modeviz.analysis.exact_check import Check
+from modeviz.analysis.results import Results
+from modeviz.analysis.sensitivity import Sensitivity
+from modeviz.dynamics.component_trust import ComponentTrust
+
+
+@dataclass(frozen=True, eq=False)
+class Findings:
+    """What is known of an answer."""
+
+    now: Results
+    sensitivity: Sensitivity | None = None
+    """What ten percent of each rate do, once that is known."""
+    check: Check | None = None
+    """How far `now` is from the exact answer, as far as that is known."""
+    components: tuple[ComponentTrust, ...] = ()
+    """How far the bodies are believed, once that is known."""
+    problem: str = ""
+    """Why no more will be known, if so."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether there is no more to find out."""
+        return bool(self.problem) or (self.check is not None and self.check.is_complete)

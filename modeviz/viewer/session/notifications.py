@@ -1,0 +1,29 @@
+"""What a tuning session tells: each notification is a value."""
+
+from dataclasses import dataclass
+
+from modeviz.viewer.session.answers import Solved
+
+
+@dataclass(frozen=True, eq=False)
+class Answered:
+    """There is an answer to be drawn."""
+
+    solved: Solved
+
+
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """A check has gone on of the answer that is drawn already."""
+
+    solved: Solved
+
+
+@dataclass(frozen=True, eq=False)
+class Failed:
+    """There is no answer; the last good one stays."""
+
+    error: Exception
+
+
+Notification = Answered | Checked | Failed
