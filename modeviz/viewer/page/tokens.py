@@ -87,11 +87,6 @@ class Guesses:
         self._wrong: OrderedDict[str, tuple[int, float]] = OrderedDict()
         """How many in a row, and until when that locks out."""
 
-    @property
-    def n_remembered(self) -> int:
-        """Of how many clients wrong tokens are remembered."""
-        return len(self._wrong)
-
     def note(self, client: str) -> None:
         """Counts a wrong one, and locks out who brought too many."""
         n_wrong = self._wrong.pop(client, (0, 0.0))[0] + 1

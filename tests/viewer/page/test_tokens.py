@@ -93,7 +93,10 @@ def test_the_right_token_makes_wrong_ones_forgotten():
 
 def test_few_clients_are_remembered():
     guesses = Guesses()
-    for i in range(3 * MOST_CLIENTS):
+    clients = [f"client {i}" for i in range(3 * MOST_CLIENTS)]
+    for i, client in enumerate(clients):
         for _ in range(MOST_GUESSES if i % 2 else 1):
-            guesses.note(f"client {i}")
-    assert guesses.n_remembered <= MOST_CLIENTS
+            guesses.note(client)
+    remembered = [client for client in clients if guesses.locked(client)]
+    assert 0 < len(remembered) <= MOST_CLIENTS
+    assert guesses.locked(clients[-1])
