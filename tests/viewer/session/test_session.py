@@ -14,7 +14,7 @@ from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.errors import SolveError
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.session.commands.decisions import AddVariant, Forget, Pin, SetRate, Swap, TakeRates
-from modeviz.viewer.session.commands.looks import CompareWith, Drive, ShowMode
+from modeviz.viewer.session.commands.looks import CompareWith, Drive, Overlay, ShowMode
 from modeviz.viewer.session.notifications import Answered
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
@@ -321,6 +321,19 @@ def test_a_pinned_set_is_solved_and_forgotten(session):
     assert list(session.answers[-1].named.results) == ["Original", "Soft"]
     assert session.state.against == "Original"
     assert not session.state.charts.overlaid
+
+
+def test_a_set_whose_pinning_is_undone_is_compared_with_no_longer(session):
+    session.do(SetRate("A", "lateral", 1e5))
+    session.do(Pin("Mine"))
+    session.do(CompareWith("Mine"))
+    session.do(Overlay("Mine", True))
+    session.undo()
+    assert session.state.against == "Original"
+    assert not session.state.charts.overlaid
+    session.start()
+    assert session.wait(20)
+    assert session.answers[-1].base.rates == session.vehicle.rates
 
 
 def test_pinned_sets_follow_the_road(session):

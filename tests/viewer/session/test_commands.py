@@ -1,0 +1,166 @@
+"""What every command makes of a state, without a session."""
+
+from dataclasses import fields, replace
+
+import pytest
+from mounted_cabin import mounted_cabin
+from session_commands import altered
+
+from modeviz.analysis.results import Conditions
+from modeviz.vehicle.connections import MountRates
+from modeviz.viewer.session.commands import decisions, looks
+from modeviz.viewer.session.commands.command import Command
+from modeviz.viewer.session.state import ResponseCurve, first_state
+
+VEHICLE = mounted_cabin()
+SOFT = VEHICLE.all_rates(VEHICLE.rate_sets["soft"])
+RATES = MountRates(1e5, 2e5, 3e5)
+FORE_AFT = ResponseCurve(0, "fore-aft")
+
+
+@pytest.fixture
+def state():
+    return first_state(VEHICLE, VEHICLE.rates, Conditions("flat", 20.0))
+
+
+def done(state, *commands):
+    for command in commands:
+        state = command.apply(state, VEHICLE)
+    return state
+
+
+DECISIONS = [
+    decisions.SetRate("B", "lateral", 1e5),
+    decisions.SetLossFactor("B", 0.3),
+    decisions.TakeRates({"A": RATES}),
+    decisions.LinkRates("A", True),
+    decisions.ToggleLock("A", "lateral"),
+    decisions.Pin("Mine"),
+    decisions.AddVariant("Mine", {"A": RATES}),
+    decisions.Load("Soft"),
+    decisions.ChangePlan(lambda _, plan: replace(plan, n_starts=3)),
+]
+
+LOOKS = [
+    looks.ShowMode("cab roll"),
+    looks.ChangeMotion(kind="component", component="cab", component_mode=7, operating_hz=12.0),
+    looks.ChangeCharts(load="front left radial force", decibels=False, log_frequency=True),
+    looks.ChangeLook(coloring="displacement", see_through=False, follow=True),
+    looks.ShowGhost("none"),
+    looks.ShowComparedGhost(True),
+    looks.ShowBody("cab", False),
+    looks.ChooseCurve(1, FORE_AFT),
+    looks.Overlay("Soft", True),
+    looks.CompareWith("Soft"),
+    looks.Drive(road="rough", speed=25.0),
+    looks.SelectGroup("B"),
+    looks.ChooseUnit("lbf/in"),
+    looks.ShowClassicError(True),
+]
+
+
+def name_of(command):
+    return type(command).__name__
+
+
+@pytest.mark.parametrize("command", DECISIONS, ids=name_of)
+def test_a_decision_changes_the_design(state, command):
+    assert done(state, command).design != state.design
+
+
+@pytest.mark.parametrize("command", LOOKS, ids=name_of)
+def test_a_look_changes_all_that_it_names_and_leaves_the_design(state, command):
+    after = done(state, command)
+    assert after != state
+    assert after.design == state.design
+    named = {field.name: getattr(command, field.name) for field in fields(command)}
+    known = {n: v for n, v in named.items() if name_of(command).startswith(("Change", "Drive"))}
+    parts = (after.motion, after.charts, after.look, after.conditions)
+    assert known.items() <= {n: v for part in parts for n, v in vars(part).items()}.items()
+
+
+def test_every_command_is_tried_here():
+    tried = {name_of(command) for command in (*DECISIONS, *LOOKS)}
+    tried |= {"Forget", "Rename", "Swap", "ResetGroups", "ResetRate"}
+    modules = (decisions, looks)
+    there = {
+        n for m in modules for n, v in vars(m).items() if isinstance(v, type) and issubclass(v, Command)
+    }
+    assert there - {"Command"} == tried
+
+
+def test_a_rate_and_a_loss_factor_select_their_group(state):
+    for command in (decisions.SetRate("B", "lateral", 1e5), decisions.SetLossFactor("B", 0.3)):
+        assert done(state, command).group == "B"
+
+
+def test_a_loss_factor_that_is_the_groups_own_is_none_of_its_own(state):
+    damped = done(state, decisions.SetLossFactor("A", 0.3))
+    assert damped.design.rates["A"].loss_factor == 0.3
+    own = VEHICLE.mount_group("A").loss_factor_with(VEHICLE.rates["A"])
+    assert done(damped, decisions.SetLossFactor("A", own)).design == state.design
+
+
+def test_to_reset_goes_to_the_set_compared_with_and_leaves_what_is_locked(state):
+    moved = done(
+        state,
+        decisions.TakeRates({"A": RATES, "B": RATES}),
+        decisions.ToggleLock("A", "vertical"),
+        looks.CompareWith("Soft"),
+    )
+    one = done(moved, decisions.ResetRate("A", "lateral")).design.rates
+    assert one == {"A": replace(RATES, lateral=SOFT["A"].lateral), "B": RATES}
+    group = done(moved, decisions.ResetGroups(("A",))).design.rates
+    assert group == {"A": replace(SOFT["A"], vertical=RATES.vertical), "B": RATES}
+
+
+def test_what_is_called_otherwise_is_compared_and_drawn_under_its_new_name(state):
+    there = done(
+        state,
+        decisions.Pin("Mine"),
+        looks.CompareWith("Mine"),
+        looks.Overlay("Mine", True),
+        decisions.Rename("Mine", "Yours"),
+    )
+    assert list(there.design.variants) == ["Yours"]
+    assert (there.against, there.charts.overlaid) == ("Yours", {"Yours"})
+    gone = done(there, decisions.Forget("Yours"))
+    assert (gone.against, gone.charts.overlaid) == ("Original", frozenset())
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        decisions.Pin("Original"),
+        decisions.Forget("Soft"),
+        decisions.Load("Nothing"),
+        decisions.Rename("Nothing", "Something"),
+        decisions.AddVariant("Soft", VEHICLE.rate_sets["soft"]),
+        looks.CompareWith("Nothing"),
+        looks.Overlay("Nothing", True),
+    ],
+)
+def test_what_there_is_not_or_is_the_vehicles_own_is_left_alone(state, command):
+    assert done(state, command) == state
+
+
+@pytest.mark.parametrize("before", ["none", "rest"])
+def test_outlines_of_the_compared_set_give_way_to_those_before(state, before):
+    compared = done(
+        altered(state, ghost=before), looks.ShowGhost("compared"), looks.ShowGhost("compared")
+    )
+    assert compared.look.ghost == "compared"
+    assert done(compared, looks.ShowComparedGhost(False)).look.ghost == before
+
+
+def test_a_mode_is_shown_where_something_else_moved_but_stays_damped(state):
+    for kind, then in (("component", "mode"), ("damped mode", "damped mode")):
+        shown = done(altered(state, kind=kind), looks.ShowMode("cab roll"))
+        assert (shown.motion.mode, shown.motion.kind) == ("cab roll", then)
+
+
+def test_a_drag_is_one_step_of_its_rate_alone():
+    drag = [decisions.SetRate("A", "lateral", rate).step for rate in (1e5, 2e5)]
+    assert drag[0] == drag[1] is not None
+    assert decisions.SetRate("A", "vertical", 1e5).step != drag[0]
+    assert decisions.Swap().step is None
