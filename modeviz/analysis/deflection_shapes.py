@@ -32,7 +32,7 @@ def complex_mode(results: ModalResults, mode: int) -> DampedMode:
 
 
 def road_shape(results: Results, frequency_hz: float, point: int, direction: str) -> Complexes:
-    """How the vehicle moves on its road, or under another random load, at one frequency.
+    """Return how the vehicle moves on its road, or under another random load, at one frequency.
 
     As seen from a response point.
 
@@ -61,7 +61,7 @@ def road_shape(results: Results, frequency_hz: float, point: int, direction: str
 
 
 def wheel_shape(results: Results, load: str, frequency_hz: float) -> Complexes:
-    """How the vehicle moves under one harmonic load at one frequency: a wheel's revolutions per second.
+    """Return how the vehicle moves under one harmonic load, at a wheel's revolutions per second.
 
     Args:
         results: with its rates.

@@ -84,14 +84,14 @@ class Driven:
         return H, a, b
 
     def exact_response(self, stiffness: Complexes, lines: Floats) -> Complexes:
-        """The same from the equations of motion of the full model; raises as `direct_response`."""
+        """Return the response from the full model's equations of motion, as `direct_response`."""
         prepared = self.prepared
         system = prepared.system.with_springs(stiffness - prepared.basis.mount_stiffness)
         forces = prepared.input_directions.T @ self._inputs(lines, stiffness).forces
         return direct_response(system, lines, forces, prepared.outputs)
 
     def _inputs(self, lines: Floats, stiffness: Complexes) -> Excitation:
-        """What the loads do at lines with mount rates."""
+        """Return what the loads do at lines with mount rates."""
         vehicle = self.prepared.vehicle
         return together(
             [excitation(vehicle, load, lines, self.speed, stiffness) for load in self.loads]
@@ -104,7 +104,7 @@ class Driven:
         return known if kept.all() else known.merged(self._interpolated(lines[~kept], None), kept)
 
     def _on_band(self, lines: Floats) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
-        """Which lines are of the band, and where in it."""
+        """Return which lines are of the band, and where in it."""
         place = np.minimum(np.searchsorted(self.frequency_hz, lines), len(self.frequency_hz) - 1)
         return self.frequency_hz[place] == lines, place
 
@@ -114,7 +114,7 @@ class Driven:
         return self.latest.get(key, lambda: self._interpolated(lines, springs))
 
     def _interpolated(self, lines: Floats, springs: NDArray[np.intp] | None) -> Receptances:
-        """The same, found anew."""
+        """Return the same, found anew."""
         between = self.prepared.between
         inputs = self._inputs(lines, between.known.mount_stiffness)
         used = np.flatnonzero(inputs.forces.any(axis=(0, 2)))

@@ -127,7 +127,7 @@ def _relative(found: Floats, true: Floats) -> Floats:
 
 
 def _coarse_first(n_freqs: int) -> Iterator[NDArray[np.intp]]:
-    """All lines in chunks, each spread evenly over the band."""
+    """Return all lines in chunks, each spread evenly over the band."""
     n_chunks = -(-n_freqs // LINES_AT_ONCE)
     golden = (np.sqrt(5) - 1) / 2
     for start in np.argsort(np.arange(n_chunks) * golden % 1):

@@ -93,7 +93,7 @@ class ModalResults:
         return {name: float(share[0]) for name, share in shares.items()}
 
     def mode_index(self, name: str) -> int | None:
-        """Which mode is called that; None if no mode is."""
+        """Return which mode is called that; None if no mode is."""
         return next((i for i, n in enumerate(self.names) if n.name == name), None)
 
 
@@ -114,7 +114,7 @@ def solve_modal(prepared: PreparedModes, rates: Rates, method: Method = "enriche
 def modes_of(
     prepared: PreparedModes, rates: Rates, stiffness: Complexes, method: Method
 ) -> ModalResults:
-    """The same, given the springs' complex rates, (n_springs,), N/m."""
+    """Return the modes with the springs' complex rates, (n_springs,), N/m."""
     return ModalResults(
         prepared, prepared.all_rates(rates), band_modes(prepared.basis, stiffness, method)
     )

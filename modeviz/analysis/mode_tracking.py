@@ -39,7 +39,7 @@ def solve_followed(prepared: PreparedModes, rates: Rates, method: Method = "enri
 
 
 def follow(base: ModalResults, now: ModalResults) -> Track:
-    """Where the modes of one set of rates are with another of the same vehicle."""
+    """Return where the modes of one set of rates are with another of the same vehicle."""
     return track_modes(base.momentum, base.modes, now.modes)
 
 
@@ -105,6 +105,6 @@ def _pair_namesakes(old: Sequence[int], new: Sequence[int], track: Track) -> Ite
 
 
 def _are_elsewhere(old: Sequence[int], new: Sequence[int], track: Track) -> bool:
-    """Whether one's shape clearly is, or was, a mode of another name."""
+    """Return whether one's shape clearly is, or was, a mode of another name."""
     clear = ~track.weak
     return bool(clear[list(old)].any() or np.isin(new, track.index[clear]).any())

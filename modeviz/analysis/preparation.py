@@ -137,7 +137,7 @@ class Prepared(PreparedModes):
         return placed_lines(lines, seen.frequency_hz, seen.damping_ratio)
 
     def on(self, lines: Floats) -> "Prepared":
-        """The same at other lines within its own, (n_lines,), rising, and nowhere else."""
+        """Return the same at other lines within its own, (n_lines,), rising, and nowhere else."""
         receptances = self.between.at(lines)
         return replace(
             self, receptances=receptances, between=Between(receptances, NO_POLES), is_graded=False
@@ -155,7 +155,7 @@ class Prepared(PreparedModes):
         return at.driven(inputs.forces, inputs.ground)
 
     def near(self, rates: Rates) -> "Prepared":
-        """The same with receptances at other rates, where these are soft: answers close by cost less.
+        """Return the same with receptances at other rates, where soft: answers close by cost less.
 
         To be asked of what `prepare` gave, for rounding adds up.
 
@@ -230,7 +230,7 @@ def _with_responses(
     is_graded: bool,
     progress: Callable[[float], None] | None,
 ) -> Prepared:
-    """What is ready for modes made ready for responses, too; arguments and errors as `prepare`."""
+    """Return what is ready for modes made ready for responses; arguments and errors as `prepare`."""
     vehicle = modal.vehicle
     softest = modal.system.with_rates(_soft({g.name: g.bounds[0] for g in vehicle.mount_groups}))
     inputs = input_directions(softest)
@@ -248,7 +248,7 @@ def _with_responses(
 
 
 def _soft(rates: Rates) -> dict[str, MountRates]:
-    """The same rates, but none above `STIFFEST_BASE`."""
+    """Return the same rates, but none above `STIFFEST_BASE`."""
     return {
         group: MountRates(
             *(min(rate, STIFFEST_BASE) for rate in r.as_tuple()), loss_factor=r.loss_factor

@@ -55,14 +55,14 @@ class RoadExcitation(Driven):
     latest_average: Latest[Complexes] = field(default_factory=Latest, init=False)
 
     def spectrum_at(self, frequency_hz: Floats) -> Complexes:
-        """Of the load's inputs, (n_freqs, n_inputs, n_inputs), m²/Hz of a road."""
+        """Return the spectrum of the load's inputs, (n_freqs, n_inputs, n_inputs), m²/Hz of a road."""
         return self.latest_spectrum.get(
             frequency_hz.tobytes(),
             lambda: input_spectrum(self.load, frequency_hz, self.conditions.speed),
         )
 
     def spectrum_around(self, lines: Floats) -> Complexes:
-        """The same averaged around lines, for integrals."""
+        """Return the same averaged around lines, for integrals."""
         return self.latest_average.get(
             lines.tobytes(), lambda: averaged_spectrum(self.load, lines, self.conditions.speed)
         )
@@ -121,7 +121,7 @@ class Results(ModalResults):
         return self.psd[:, point, AXIS[direction]]
 
     def peak_lines(self, point: int, direction: str) -> list[int]:
-        """Where that response has its peaks, numbers of frequencies."""
+        """Return where that response has its peaks, numbers of frequencies."""
         return peak_lines(self.response(point, direction))
 
     def peaks(
@@ -144,7 +144,7 @@ class Results(ModalResults):
     def participation(
         self, output: int, load: Load, frequency_hz: Floats, input_psd: Complexes
     ) -> Floats:
-        """That of the band's modes, of those above, and of the rest, (n_freqs, n_parts).
+        """Return the parts of the band's modes, of those above, and of the rest, (n_freqs, n_parts).
 
         Args:
             output: which row of the prepared outputs.
@@ -178,7 +178,7 @@ class Results(ModalResults):
         )
 
     def _forces(self, load: Load, frequency_hz: Floats) -> tuple[Complexes, Complexes]:
-        """What a load does, as forces on what rigid joints leave, and the motion that these are given.
+        """Return a load as forces on what rigid joints leave, and the motion that these are given.
 
         Per unit of each input, (n_freqs, n_dofs, n_inputs) both.
         """
@@ -191,7 +191,7 @@ class Results(ModalResults):
         return forces_on_rest(system, frequency_hz, actions) - pull, moved
 
     def part_name(self, part: int) -> str:
-        """What a contributor to a peak is called where it is spoken of."""
+        """Return what a contributor to a peak is called where it is spoken of."""
         if part < len(self.names):
             return self.names[part].spoken
         f = self.part_frequency(part)

@@ -151,7 +151,7 @@ class Sensitivity:
 
 
 def sensitivity(prepared: Prepared, results: Results) -> Sensitivity:
-    """What a small part of each rate does to frequencies and ride.
+    """Return what a small part of each rate does to frequencies and ride.
 
     Args:
         prepared: `results.prepared`, or the same `near` the rates of the results, which is faster.

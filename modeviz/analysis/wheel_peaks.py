@@ -10,7 +10,7 @@ from modeviz.ride.participation import Peak, peak_lines, peaks
 
 
 def wheel_peak_lines(wheels: WheelResults, load: int, point: int, direction: str) -> list[int]:
-    """Where a response to a wheel load has its peaks, numbers of frequencies; see `wheel_peaks`."""
+    """Return where a response to a wheel load has its peaks, numbers of frequencies."""
     return peak_lines(np.square(wheels.acceleration_g[:, load, point, AXIS[direction]]))
 
 

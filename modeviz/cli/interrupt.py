@@ -40,7 +40,7 @@ def ended_by_interrupt() -> Iterator[None]:
 
 
 def cancelled_by_interrupt() -> AbstractContextManager[CancelToken]:
-    """What a signal to end cancels, which is said; a second one ends the program as ever.
+    """Return what a signal to end cancels, which is said; a second one ends the program as ever.
 
     What is said stays to be read if nothing is said of a computation once it is cancelled.
     """

@@ -60,7 +60,7 @@ def _pictures(vehicle: Vehicle, sets: tuple[RateSet, RateSet], conditions: Condi
 
 
 def _name(choice: str, is_changed: bool = False) -> str:
-    """What a set of rates is called: short, for it stands above columns; the rates tell the rest."""
+    """Return a short name of a set of rates, for it stands above columns; the rates tell the rest."""
     return f"{Path(choice).name}, changed" if is_changed else Path(choice).name
 
 

@@ -134,7 +134,7 @@ class Printed(io.TextIOBase):
 
 @contextmanager
 def printed_plainly() -> Iterator[None]:
-    """All that is printed inside is cleaned: by us, by libraries and by our own mistakes."""
+    """Cleans all that is printed inside: by us, by libraries and by our own mistakes."""
     before = sys.stdout, sys.stderr
     sys.stdout, sys.stderr = Printed(before[0], "standard output"), Printed(before[1])
     try:

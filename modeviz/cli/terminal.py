@@ -12,7 +12,7 @@ from modeviz.text.time_left import TimeLeft
 
 
 def progress(what: str) -> Callable[[float], None]:
-    """What tells on a terminal how far something is, 0 to 1; nothing where errors go to a file."""
+    """Return what tells a terminal how far something is, 0 to 1; nothing where errors go to a file."""
     return partial(Teller(), what)
 
 

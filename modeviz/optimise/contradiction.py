@@ -60,7 +60,7 @@ def check_ratios(
 def _reach(
     bounds: tuple[MountRates, MountRates], base: MountRates, free: Set[str]
 ) -> dict[str, tuple[float, float]]:
-    """Between what the vertical rate and those are whose ratio can change; a rate of zero has none."""
+    """Return the ends of the vertical rate and of those whose ratio can change; zero has none."""
     ends = {}
     for field, direction in zip(RATE_FIELDS, DIRECTIONS, strict=True):
         softest, kept, stiffest = (getattr(rates, field) for rates in (bounds[0], base, bounds[1]))
@@ -74,7 +74,7 @@ def _own(ends: tuple[float, float], end: int) -> _Demand:
 
 
 def _through(direction: str, ends: tuple[float, float], end: int, ratio: float) -> _Demand:
-    """What the end of another rate and its ratio ask of the vertical one."""
+    """Return what the end of another rate and its ratio ask of the vertical one."""
     vertical = ends[end] / ratio
     return _Demand(
         vertical,

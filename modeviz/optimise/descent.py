@@ -113,7 +113,7 @@ def _smallest_largest(search: Search, evaluator: Evaluator, start: Floats) -> Op
 
 
 def _without_last(constraint: dict[str, Any]) -> dict[str, Any]:
-    """The same of all numbers but the last."""
+    """Return the same constraint of all numbers but the last."""
     return {
         "type": "ineq",
         "fun": lambda z: constraint["fun"](z[:-1]),

@@ -107,7 +107,7 @@ class DesignSpace:
         return ", ".join(texts)
 
     def _ranges(self, x: Floats) -> Mapping[int, tuple[float, float]]:
-        """What a vertical rate leaves for the numbers whose ratio to it is limited."""
+        """Return what a vertical rate leaves for the numbers whose ratio to it is limited."""
         found: dict[int, tuple[float, float]] = {}
         for limit in self.limits:
             if limit.rate is None or limit.of is None:

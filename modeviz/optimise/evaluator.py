@@ -83,11 +83,11 @@ class Evaluator:
         return value / unit, gradient / unit
 
     def parts(self, x: Floats) -> tuple[Floats, Floats]:
-        """All of which a `MinMax` is the largest, likewise; asked twice it solves once."""
+        """Return all of which a `MinMax` is the largest, likewise; asked twice it solves once."""
         return self._parts.get(x.tobytes(), lambda: self._solved_parts(x))
 
     def margins(self, x: Floats) -> tuple[Floats, Floats]:
-        """What a design has left to the ends of windows, and derivatives, see `Search.margins`.
+        """Return what a design has left to the ends of windows, and derivatives, see `Search.margins`.
 
         A solver asks for these and for their derivatives, and whoever remembers the best design asks
         whether it is one: all that is one eigenproblem.
@@ -95,7 +95,7 @@ class Evaluator:
         return self._margins.get(x.tobytes(), lambda: self._search.margins(x))
 
     def allows(self, x: Floats) -> bool:
-        """Whether all modes of the design nearest to one are where the windows want them."""
+        """Return whether all modes of the design nearest to one are where the windows want them."""
         admitted = self._search.space.admitted(x)
         # What only rounding puts within the limits is the design that the solver asks for.
         asked = x if np.allclose(x, admitted, rtol=0, atol=ROUNDING) else admitted
@@ -118,7 +118,7 @@ class Evaluator:
         return value
 
     def run(self, solve: Callable[[], OptimizeResult]) -> Descent:
-        """What a solver that asks it found, and why that ended."""
+        """Return what a solver that asks it found, and why that ended."""
         try:
             result = solve()
             reason = CONVERGED if result.success else str(result.message).lower()

@@ -36,11 +36,11 @@ class Goal(Protocol):
         ...
 
     def exact_value(self, rates: Rates) -> float:
-        """The same, from the equations of motion of the full model."""
+        """Return the same from the equations of motion of the full model."""
         ...
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
-        """That, and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
+        """Return the number and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
         ...
 
 
@@ -106,7 +106,7 @@ def exact_goal(goal: ResponseGoal, stiffness: Complexes) -> float:
 def _objective(
     vehicle: Vehicle, problem: Problem, cases: Sequence[LoadCase | BandCase]
 ) -> ResponseGoal:
-    """What the problem's goal makes of load cases, all of which weigh one."""
+    """Return what the problem's goal makes of load cases, all of which weigh one."""
     listed = [replace(case, weight=1.0) for case in cases if isinstance(case, LoadCase)]
     if not listed:
         return prepare_integral(vehicle, [case for case in cases if isinstance(case, BandCase)])
@@ -133,7 +133,7 @@ def load_cases(
 
 
 def _selected_squares(vehicle: Vehicle, problem: Problem, road: str) -> Floats:
-    """What a goal over the whole band takes of mean squares on a road, (n_points, 3)."""
+    """Return what a goal over the whole band takes of mean squares on a road, (n_points, 3)."""
     selected = np.zeros((len(vehicle.response_points), 3))
     match problem.goal:
         case "rms":

@@ -44,7 +44,7 @@ class HighestBetween(Objective):
 
 
 def _largest(term: Term, f: Floats, power: Floats) -> Floats:
-    """The same of a case, (...,), from a² (..., n_lines, n_outputs)."""
+    """Return the largest of a case, (...,), from a² (..., n_lines, n_outputs)."""
     squares = term.squares(power)
     at_lines = squares.max(axis=(-2, -1))
     if len(f) < 3:
@@ -69,7 +69,7 @@ def _at(power: Floats, lines: np.ndarray) -> Floats:
 def _deepest(
     left: tuple[Floats, Floats], at: tuple[Floats, Floats], right: tuple[Floats, Floats]
 ) -> tuple[Floats, Floats]:
-    """Where the parabolas through three places and depths are lowest between these, and how low."""
+    """Return where the parabolas through three places and depths are lowest, and how low."""
     (x0, u0), (x1, u1), (x2, u2) = left, at, right
     slope = (u1 - u0) / (x1 - x0)
     bend = ((u2 - u1) / (x2 - x1) - slope) / (x2 - x0)

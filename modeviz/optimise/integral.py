@@ -36,7 +36,7 @@ class BandCase:
     """Up to where the squares are summed up, if the band does not end before."""
 
     def on(self, vehicle: Vehicle, lines: Floats) -> LoadCase:
-        """The same as a sum over lines, as far as the road is known."""
+        """Return the case as a sum over lines, as far as the road is known."""
         load = vehicle.random_load(self.load.road)
         f = lines[known_part(load, lines, self.load.speed)]
         band = 0.0, min(self.highest_hz, vehicle.highest_frequency)
@@ -72,12 +72,12 @@ class Integral:
         return load_lines(self.prepared, self.loads)
 
     def on(self, lines: Floats) -> Objective:
-        """The same as a sum over given lines."""
+        """Return the integral as a sum over given lines."""
         cases = [case.on(self.prepared.vehicle, lines) for case in self.cases]
         return objective_on(self.prepared.on(lines), cases)
 
     def near(self, stiffness: Complexes) -> Objective:
-        """The same as a sum over the lines that mount rates want, (n_springs,), complex, N/m."""
+        """Return it as a sum over the lines that mount rates want, (n_springs,), complex, N/m."""
         resonances = resonances_at(self.prepared.basis, stiffness)
         return self.on(self.prepared.lines(resonances, self.grid))
 
@@ -86,7 +86,7 @@ class Integral:
         return float(self.values(rates).sum())
 
     def values(self, rates: Rates) -> Floats:
-        """What each case adds to F, (n_cases,); raises as `solve`."""
+        """Return what each case adds to F, (n_cases,); raises as `solve`."""
         return self.near(self.prepared.mount_stiffness(rates)).values(rates)
 
     def totals(self, stiffness: Complexes) -> Floats:
@@ -115,7 +115,7 @@ class Integral:
         return float(values.sum())
 
     def scaled(self, factors: Floats) -> "Integral":
-        """The same with other weights: each case's times a factor, (n_cases,)."""
+        """Return the integral with other weights: each case's times a factor, (n_cases,)."""
         pairs = zip(self.cases, factors.tolist(), strict=True)
         return replace(
             self, cases=tuple(replace(case, weight=factor * case.weight) for case, factor in pairs)

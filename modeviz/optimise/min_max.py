@@ -15,14 +15,14 @@ class MinMax(ABC):
 
     @abstractmethod
     def exact_value(self, rates: Rates) -> float:
-        """The same from the equations of motion; raises as `Objective.exact_response`."""
+        """Return the value from the equations of motion; raises as `Objective.exact_response`."""
 
     @abstractmethod
     def parts_and_gradients(self, rates: Rates) -> tuple[Floats, Floats]:
-        """All of which it is the largest, (n_parts,), and derivatives to rates, (n_parts, n_rates)."""
+        """Return the parts, (n_parts,), and their derivatives to rates, (n_parts, n_rates)."""
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
-        """That, and the derivatives of the largest, (n_rates,)."""
+        """Return the largest part, and its derivatives, (n_rates,)."""
         parts, gradients = self.parts_and_gradients(rates)
         largest = parts.argmax()
         return float(parts[largest]), gradients[largest]

@@ -91,7 +91,7 @@ class Criterion:
     """One for each case."""
 
     def values(self, response: Complexes) -> Floats:
-        """What each case adds to F, (..., n_cases).
+        """Return what each case adds to F, (..., n_cases).
 
         Args:
             response: (..., n_freqs, n_outputs, n_inputs), as of `Objective.driven`.
@@ -137,7 +137,7 @@ class Objective:
         return float(self.criterion.total(self.response(rates)))
 
     def values(self, rates: Rates) -> Floats:
-        """What each case adds to F, (n_cases,); raises as `solve`."""
+        """Return what each case adds to F, (n_cases,); raises as `solve`."""
         return self.criterion.values(self.response(rates))
 
     def exact_value(self, rates: Rates) -> float:
@@ -145,11 +145,11 @@ class Objective:
         return float(self.criterion.total(self.exact_response(rates)))
 
     def response(self, rates: Rates) -> Complexes:
-        """Of all outputs to all inputs, (n_freqs, n_outputs, n_inputs); raises as `solve`."""
+        """Return the response, (n_freqs, n_outputs, n_inputs); raises as `solve`."""
         return self.driven.response(self.prepared.mount_stiffness(rates))
 
     def exact_response(self, rates: Rates) -> Complexes:
-        """The same from the equations of motion of the full model, frequency by frequency.
+        """Return the response from the equations of motion of the full model, frequency by frequency.
 
         Raises:
             VehicleError: a group that the vehicle does not have.
@@ -171,7 +171,7 @@ class Objective:
         return float(self.criterion.join(values))
 
     def exact_response_of(self, system: System, stiffness: Complexes) -> Complexes:
-        """The same of a system that differs from the prepared one; raises as `direct_response`.
+        """Return the exact response of a system other than the prepared one, as `direct_response`.
 
         Args:
             system: with its mounts.
@@ -237,7 +237,7 @@ class Objective:
         return Criterion(self.driven.frequency_hz, self.terms)
 
     def scaled(self, factors: Floats) -> "Objective":
-        """The same with other weights: each case's times a factor, (n_cases,)."""
+        """Return the objective with other weights: each case's times a factor, (n_cases,)."""
         terms = tuple(
             replace(term, weights=factor * term.weights)
             for term, factor in zip(self.terms, factors, strict=True)
@@ -268,7 +268,7 @@ def lines_of(cases: Sequence[LoadCase]) -> Floats:
 def objective_on(
     prepared: Prepared, cases: Sequence[LoadCase], kind: type[Objective] = Objective
 ) -> Objective:
-    """The same for a vehicle that is prepared for the frequencies of all cases."""
+    """Return the objective of a vehicle that is prepared for the frequencies of all cases."""
     vehicle = prepared.vehicle
     loads = tuple(load_of(vehicle, case.load) for case in cases)
     widths = [2 if isinstance(load, Road) else 1 for load, _ in loads]
@@ -296,7 +296,7 @@ def pattern_of(vehicle: Vehicle, case: LoadCase) -> Floats:
 
 
 def _weights(vehicle: Vehicle, case: LoadCase) -> Floats:
-    """What each acceleration squared of a case counts, (n_freqs, 3 n_points)."""
+    """Return what each acceleration squared of a case counts, (n_freqs, 3 n_points)."""
     n_outputs = 3 * len(vehicle.response_points)
     return case.weight * pattern_of(vehicle, case).reshape(-1, n_outputs)
 
@@ -320,6 +320,6 @@ def load_of(vehicle: Vehicle, load: Conditions | HarmonicLoad) -> tuple[Load, fl
 def _inputs(
     prepared: Prepared, loads: Sequence[tuple[Load, float]], stiffness: Complexes
 ) -> Excitation:
-    """All inputs of some loads with the mount rates given."""
+    """Return all inputs of some loads with the mount rates given."""
     vehicle, f = prepared.vehicle, prepared.frequency_hz
     return together([excitation(vehicle, load, f, speed, stiffness) for load, speed in loads])

@@ -17,7 +17,7 @@ SPOKEN: dict[str, str] = dict(zip(RATE_FIELDS, DIRECTIONS, strict=True))
 
 
 def kept_ratios(space: DesignSpace) -> dict[str, dict[str, float]]:
-    """Of each group that a search changes as a whole, what its rates are of the vertical one.
+    """Return the ratios to vertical of each group whose rates a search changes together.
 
     They are those of the rates that the search starts from: `{"E": {"lateral": 0.3, "fore_aft": 0.2}}`.
     """
@@ -26,7 +26,7 @@ def kept_ratios(space: DesignSpace) -> dict[str, dict[str, float]]:
 
 
 def outside_space(space: DesignSpace, rates: Rates) -> tuple[str, ...]:
-    """Why no design of a space has some rates, "E lateral is 0.294 of vertical, kept at 0.314".
+    """Return why no design of a space has some rates, "E lateral is 0.294 of vertical, kept at 0.314".
 
     Args:
         space: of designs.
@@ -40,7 +40,7 @@ def outside_space(space: DesignSpace, rates: Rates) -> tuple[str, ...]:
 
 
 def outside_search(search: Search, rates: Rates) -> tuple[str, ...]:
-    """As `outside_space`, and which mode is where its window does not let it be."""
+    """Return the same as `outside_space`, and which mode is where its window does not let it be."""
     found = outside_space(search.space, rates)
     if search.windows is None:
         return found
@@ -52,7 +52,7 @@ def outside_search(search: Search, rates: Rates) -> tuple[str, ...]:
 
 
 def _moved(space: DesignSpace, every: Rates) -> list[str]:
-    """What differs of what a search keeps: ratios, rates and loss factors."""
+    """Return what differs of what a search keeps: ratios, rates and loss factors."""
     fixed = kept_ratios(space)
     free = {(v.group, field) for v in space.variables for field in v.fields}
     per_mm = factor("N/mm", "stiffness")
@@ -86,7 +86,7 @@ def _past(space: DesignSpace, every: Rates) -> list[str]:
 
 
 def _amount(by: float) -> str:
-    """How far a rate or ratio is past its limit; nothing of one that is zero."""
+    """Return how far a rate or ratio is past its limit; nothing of one that is zero."""
     return f" by {100 * np.expm1(by):.3g} %" if by < FAR else ""
 
 
@@ -97,7 +97,7 @@ def _log(space: DesignSpace, every: Rates, group: str, field: str) -> float:
 
 
 def _ratios(rates: MountRates) -> dict[str, float]:
-    """What the other rates are of the vertical one."""
+    """Return the ratios of the other rates to the vertical one."""
     vertical = rates.vertical or np.finfo(np.float64).tiny
     return {field: getattr(rates, field) / vertical for field in SHEAR}
 

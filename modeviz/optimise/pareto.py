@@ -108,7 +108,7 @@ def find_front(
 
 
 def largest_difference(designs: Sequence[ParetoPoint]) -> float:
-    """Of the full model's goals, relative; NaN where one is not known, 0 of no designs."""
+    """Return the largest difference from the full model's goals, relative; NaN where one is unknown."""
     differences = [np.nan if d.verification is None else d.verification.difference for d in designs]
     return float(np.max(differences, initial=0.0))
 

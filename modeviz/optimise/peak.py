@@ -67,7 +67,7 @@ class PeakCase:
         return LoadCase(self.load, tuple(lines.tolist()), self.weight, pattern, self.target)
 
     def parted(self, widest: float) -> "PeakCase":
-        """The same with no cell wider than so many Hz."""
+        """Return the same cells, none wider than so many Hz."""
         counts = np.ceil(np.diff(self.edges) / widest - CLOSE).astype(int)
         spans = zip(pairwise(self.edges.tolist()), counts.tolist(), strict=True)
         parts = [np.linspace(low, high, n, endpoint=False) for (low, high), n in spans]
@@ -116,7 +116,7 @@ class _Cells:
         return np.where(is_below, power, 1 / np.maximum(power, NO_POWER))
 
     def at_summits(self, place: Floats, depth: Floats) -> Floats:
-        """Where parts are highest, (n_parts,), from the summits in brackets."""
+        """Return where parts are highest, (n_parts,), Hz, from the summits in brackets."""
         found, part = self.frequency_hz.copy(), self.brackets.part
         deepest_last = np.argsort(-depth)
         higher = deepest_last[depth[deepest_last] < self.depth[part[deepest_last]]]
@@ -154,7 +154,7 @@ class PeakGoal(MinMax):
         return self.exact_total(self.prepared.system.with_rates(rates), stiffness)
 
     def exact_total(self, system: System, stiffness: Complexes) -> float:
-        """The same of a system with these mount rates; raises as `direct_response`."""
+        """Return the exact value of a system with these mount rates; raises as `direct_response`."""
         objective, _ = self._found(stiffness)
         return objective.exact_total(system, stiffness)
 
@@ -173,14 +173,14 @@ class PeakGoal(MinMax):
         return float(values.max())
 
     def scaled(self, factors: Floats) -> "PeakGoal":
-        """The same with other weights: each case's times a factor, (n_cases,)."""
+        """Return the goal with other weights: each case's times a factor, (n_cases,)."""
         pairs = zip(self.cases, factors.tolist(), strict=True)
         return replace(
             self, cases=tuple(replace(case, weight=factor * case.weight) for case, factor in pairs)
         )
 
     def on(self, lines: Floats) -> Objective:
-        """The same for vehicles to which some lines belong, found between these and their midpoints."""
+        """Return the goal of vehicles with these lines, found between them and their midpoints."""
         closer = np.union1d(lines, (lines[1:] + lines[:-1]) / 2)
         return self._at([self._lines(case, closer) for case in self.cases], HighestBetween)
 
@@ -267,7 +267,7 @@ class PeakGoal(MinMax):
         return np.union1d(fixed, placed[is_between])
 
     def _bends(self, case: PeakCase) -> Floats:
-        """Where within the range the load's spectrum bends."""
+        """Return where within the range the load's spectrum bends."""
         bends = table_hz(*load_of(self.prepared.vehicle, case.load))
         apart = np.abs(bends[:, None] - case.edges).min(axis=1)
         is_within = (bends > case.edges[0]) & (bends < case.edges[-1])

@@ -116,7 +116,7 @@ def optimise_on(
     token: CancelToken | None = None,
     tell: Callable[[Progress], None] = lambda _: None,
 ) -> Optimum:
-    """The same as `optimise` finds while no search runs out of its budget, side by side.
+    """Return what `optimise` finds while no search runs out of its budget, from searches side by side.
 
     Args:
         runner: where searches are computed, each from its start.
@@ -173,7 +173,7 @@ def search_globally(
 
 
 def why_ended(descents: Sequence[Descent], n_starts: int) -> str:
-    """Why searches from so many starts ended, of which the last may not have been come to."""
+    """Return why searches from so many starts ended, of which the last may not have been come to."""
     reasons = [descent.reason for descent in descents]
     if CANCELLED in reasons:
         return CANCELLED

@@ -48,7 +48,7 @@ class Search:
         return value
 
     def parts(self, x: Floats) -> tuple[Floats, Floats]:
-        """All of which a `MinMax` is the largest, (n,), and their derivatives, (n, n_variables).
+        """Return the parts of a `MinMax`, (n,), and their derivatives, (n, n_variables).
 
         Raises:
             SolveError: as `evaluate`.
@@ -62,7 +62,7 @@ class Search:
         return parts, gradients
 
     def margins(self, x: Floats) -> tuple[Floats, Floats]:
-        """What is left to the ends of windows, (n_ends,), and derivatives, (n_ends, n_variables)."""
+        """Return what is left to ends of windows, (n_ends,), and derivatives, (n_ends, n_variables)."""
         if self.windows is None:
             return np.zeros(0), np.zeros((0, self.space.n_variables))
         rates = self.space.rates(x)

@@ -24,7 +24,7 @@ best of these that take some more."""
 def start_points(
     search: Search, rates: Rates, n_starts: int, seed: int = 0, token: CancelToken | None = None
 ) -> list[Floats]:
-    """Where to search from: some rates, and the best of many spread designs after some steps down.
+    """Return where to search from: some rates, and the best of many spread designs after some steps.
 
     The goal of a spread design says little about the minimum below it: a deep one may be narrow, with
     high walls, and the best designs lie around a few wide ones. Some steps of the search say more. So
@@ -61,7 +61,7 @@ def start_points(
 
 
 def _gone_on_with(search: Search, designs: list[Floats], n: int, token: CancelToken) -> list[Floats]:
-    """Of designs, the best first, those that some steps show to be the best, or as far as that came."""
+    """Return the designs that some steps show to be the best, the best first, as far as that came."""
     for n_each, n_evaluations in ROUNDS:
         ends = []
         for x in designs[: n_each * n]:
@@ -75,7 +75,7 @@ def _gone_on_with(search: Search, designs: list[Floats], n: int, token: CancelTo
 
 
 def _best(designs: Sequence[Floats] | Floats, values: list[float]) -> list[Floats]:
-    """The same designs, the best first."""
+    """Return the same designs, the best first."""
     return [designs[i] for i in np.argsort(values, kind="stable")]
 
 

@@ -50,7 +50,7 @@ def brackets(
     highest: Indices,
     least: float,
 ) -> Brackets:
-    """Where the summits are that a curve's highest lines are beside.
+    """Return where the summits are that a curve's highest lines are beside.
 
     Args:
         frequency_hz: (n_lines,), rising.

@@ -54,7 +54,7 @@ class TradeOff:
         return ParetoPoint(x, self.searches[0].space.rates(x), (first, second))
 
     def verified(self, design: ParetoPoint) -> ParetoPoint:
-        """The same design with what the full model says of it."""
+        """Return the same design with what the full model says of it."""
         both = [
             verify(search, design.x, value)
             for search, value in zip(self.searches, design.values, strict=True)

@@ -26,7 +26,7 @@ class Verification:
 
 
 def verify(search: Search, x: Floats, value: float) -> Verification:
-    """What the full model says of a design: no receptances, no reduced basis.
+    """Return what the full model says of a design: no receptances, no reduced basis.
 
     Args:
         search: what was sought.

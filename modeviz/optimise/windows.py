@@ -59,7 +59,7 @@ class Windows:
         return [f"{window.mode}: {end}" for window in self.windows for end in _ends(window)]
 
     def margins(self, rates: Rates) -> tuple[Floats, Floats]:
-        """What is left to every end of every window, and its derivatives.
+        """Return what is left to every end of every window, and its derivatives.
 
         Returns:
             (n_limits,), relative to the frequency, below zero where a window is left; and
@@ -79,7 +79,7 @@ class Windows:
         return np.array(values), np.array(gradients).reshape(len(values), slopes.shape[1])
 
     def exact_frequencies(self, rates: Rates) -> Floats:
-        """Where the mode of each window is in the full eigenproblem, (n_windows,), Hz."""
+        """Return where the mode of each window is in the full eigenproblem, (n_windows,), Hz."""
         results = solve_modal(self.prepared, rates, "exact")
         return results.modes.frequency_hz[[held.found_in(results)[0] for held in self.held]]
 
@@ -123,7 +123,7 @@ def _ends(window: FrequencyWindow) -> list[str]:
 
 
 def _margins(window: FrequencyWindow, f: float) -> list[tuple[float, float]]:
-    """Of each end of a window what is left to it, relative, and the derivative of that to f, 1/Hz."""
+    """Return what is left to each end of a window, relative, and its derivative to f, 1/Hz."""
     low, high = window.low_hz, window.high_hz
     if not window.is_inside:
         return [max((f / high - 1 - MARGIN, 1 / high), (1 - f / low - MARGIN, -1 / low))]

@@ -110,7 +110,7 @@ def drive_many(
 
 
 def _spread(result: Scatter) -> Spread | None:
-    """What makes the goal's spread, where there are samples enough to tell."""
+    """Return what makes the goal's spread, where there are samples enough to tell."""
     try:
         return spread(result.deviations, result.goal)
     except SolveError:

@@ -70,7 +70,7 @@ class Scatter:
         return rating_of(self.rms[:, 0])
 
     def psd_percentiles(self, percent: Sequence[float] = (5, 95)) -> Floats:
-        """Of the vehicles' PSDs at each frequency, (n_percent, n_freqs, n_points, 3), g²/Hz."""
+        """Return percentiles of PSDs at each frequency, (n_percent, n_freqs, n_points, 3), g²/Hz."""
         by_line = [np.percentile(line, percent, axis=0) for line in self.psd.swapaxes(0, 1)]
         return np.stack(by_line, axis=1)
 
@@ -192,7 +192,7 @@ class _Study:
         return np.arange(0, len(self.frequency_hz), -(-len(self.frequency_hz) // MOST_KEPT))
 
     def sample(self, deviations: Floats) -> _Sampled:
-        """What vehicles of some deviations, (n, n_deviations), do."""
+        """Return what vehicles of some deviations, (n, n_deviations), do."""
         stiffness = self.parts.stiffness(deviations)
         H, kept = self.ride.responses(stiffness), self.kept
         psd = acceleration_psd(self.frequency_hz[kept], H[:, kept], self.spectrum[kept])
@@ -208,7 +208,7 @@ class _Study:
 def _study(
     given: tuple[Prepared, Conditions, Objective, Parts, NDArray[np.intp], CancelToken], seed: int
 ) -> tuple[_Study, _Sampled, tuple[float, float]]:
-    """What vehicles are solved with, what the one as drawn does, and how far PSDs and goals are off."""
+    """Return what vehicles are solved with, what the one as drawn does, and how far values are off."""
     prepared, conditions, objective, parts, points, token = given
     on_road = drive(prepared, conditions)
     outputs = (3 * points[:, None] + np.arange(3)).ravel()

@@ -46,7 +46,7 @@ class Robust:
         return float(self.weights @ np.sort(goals(self.objective, self._parts(rates), self.deviations)))
 
     def exact_value(self, rates: Rates) -> float:
-        """The same from the equations of motion, for the samples that count here.
+        """Return the value from the equations of motion, for the samples that count here.
 
         Raises:
             VehicleError: a group that the vehicle does not have.
@@ -58,7 +58,7 @@ class Robust:
         return float(weights @ exact)
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
-        """That, and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
+        """Return the value and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
         parts = self._parts(rates)
         values = goals(self.objective, parts, self.deviations)
         counted, weights = self._counted(values)
@@ -74,7 +74,7 @@ class Robust:
         return scattered_parts(self.objective.prepared, rates, self.tolerance)
 
     def _counted(self, values: Floats) -> tuple[np.ndarray, Floats]:
-        """Which samples have a weight, and that."""
+        """Return which samples have a weight, and the weights."""
         has_weight = self.weights > 0
         return np.argsort(values, kind="stable")[has_weight], self.weights[has_weight]
 
@@ -114,7 +114,7 @@ def robust(
 
 
 def robust_search(search: Search, tolerance: Tolerance, percent: float = 95.0) -> Search:
-    """The same search for a percentile over parts that scatter, to begin at the optimum as drawn.
+    """Return the search for a percentile over parts that scatter, to begin at the optimum as drawn.
 
     Raises:
         SolveError: the goal does not scatter, or as `robust`.

@@ -79,7 +79,7 @@ class Parts:
         return 2 * qmc.LatinHypercube(self.n_deviations, rng=seed).random(count) - 1
 
     def _factors(self, deviations: Floats) -> tuple[Floats, Floats]:
-        """Of hardness and loss factor of every spring, (..., n_springs) each."""
+        """Return the factors of hardness and loss factor of every spring, (..., n_springs) each."""
         hardness, loss = np.split(deviations, 2, axis=-1)
         t = self.tolerance
         return (

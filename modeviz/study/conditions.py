@@ -40,7 +40,7 @@ def road_conditions(vehicle: Vehicle, road: str | None, speed: float) -> Conditi
 
 
 def has_ride(vehicle: Vehicle) -> bool:
-    """Whether something shakes a vehicle at random, and somebody feels it."""
+    """Return whether something shakes a vehicle at random, and somebody feels it."""
     return any(map(vehicle.is_shaken_by, vehicle.random_loads)) and bool(vehicle.response_points)
 
 

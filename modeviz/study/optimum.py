@@ -133,7 +133,7 @@ class OptimiseResult(Displayed):
         return table(header, rows)
 
     def _chart(self) -> str:
-        """How the best objective fell; nothing where it was not followed."""
+        """Return the chart of how the best objective fell; nothing where it did not."""
         if len(self.history) < 2:
             return ""
         evaluations, values = self.history.T

@@ -65,7 +65,7 @@ class Page:
 
 
 def is_notebook() -> bool:
-    """Whether this runs in a notebook's kernel."""
+    """Return whether this runs in a notebook's kernel."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     return hasattr(shell, "kernel")

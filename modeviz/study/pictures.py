@@ -146,7 +146,7 @@ def report_pictures(
 
 
 def _request(options: PictureOptions) -> "RenderRequest":
-    """What is to be seen, as the viewer has it."""
+    """Return what is to be seen, as the viewer has it."""
     from modeviz.viewer.rendering import RenderRequest
 
     phase = math.radians(options.phase)

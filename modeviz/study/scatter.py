@@ -139,7 +139,7 @@ class ScatterResult(Displayed):
         )
 
     def _shares_table(self) -> str:
-        """Which mounts make the spread, those that make most first."""
+        """Return which mounts make the spread, those that make most first."""
         shares = sorted(self.contributions.items(), key=lambda pair: -sum(pair[1]))
         rows = [[title(name), *(f"{100 * share:.1f} %" for share in pair)] for name, pair in shares]
         return table(["Of the goal's spread", "Hardness", "Loss factor"], rows) if rows else ""
@@ -172,5 +172,5 @@ class ScatterResult(Displayed):
 
 
 def _spoken(name: str) -> str:
-    """What a key of the record is called."""
+    """Return what a key of the record is called."""
     return title(name.replace("_", " ").replace("rms", "RMS"))

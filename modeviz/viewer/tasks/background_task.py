@@ -139,7 +139,7 @@ class BackgroundTask(Generic[AnyJob]):
             tell(at_once=True, phase="ended", done=1.0, found=found)
 
     def _ending(self, error: Exception, token: CancelToken) -> dict[str, str]:
-        """What there is to say of a job that an error ended."""
+        """Return what there is to say of a job that an error ended."""
         if not isinstance(error, ModevizError | CancelledError):
             self._report(error)
             return {"phase": "failed", "failure": OUR_MISTAKE}

@@ -57,7 +57,7 @@ class FrontTask:
         return self._task.job
 
     def offers(self) -> tuple[str, ...]:
-        """What can be traded, as in "lateral against vertical".
+        """Return what can be traded, as in "lateral against vertical".
 
         Raises:
             VehicleError: the plan asks for what cannot be.

@@ -32,7 +32,7 @@ class Build:
     options: ScatterOptions
 
     def is_of(self, state: State) -> bool:
-        """Whether they have the rates of a state, on its road at its speed."""
+        """Return whether they have the rates of a state, on its road at its speed."""
         return self.rates == state.design.rates and self.conditions == state.conditions
 
 
@@ -95,12 +95,12 @@ class ScatterTask:
         self._task.cancel()
 
     def band(self, state: State, curve: ResponseCurve) -> Floats | None:
-        """Between what a curve scatters, (2, n_freqs), g²/Hz, if that is known for a state."""
+        """Return between what a curve scatters, (2, n_freqs), g²/Hz, if that is known for a state."""
         shaded = self.shaded(state, curve)
         return None if shaded is None else shaded[1]
 
     def shaded(self, state: State, curve: ResponseCurve) -> tuple[Floats, Floats] | None:
-        """That with its frequencies, (n_freqs,)."""
+        """Return the frequencies of that band, (n_freqs,), and the band."""
         job = self.job
         if job is None or job.found is None or state.charts.load or not job.asked.is_of(state):
             return None
