@@ -121,11 +121,11 @@ class App:
 
     @property
     def scene(self) -> Scene:
-        """What stands in the middle of every page."""
+        """The scene in the middle of every page."""
         return self._scene
 
     def pictured(self, solved: Solved) -> ColorScale | None:
-        """What the colours of a picture mean, if they mean something.
+        """Return the scale of the colours of a picture, if they mean something.
 
         Raises:
             ModevizError: there is nothing to be seen in an answer.
@@ -138,7 +138,7 @@ class App:
         return color_scale(solved)
 
     def offline(self, position: Floats, look_at: Floats) -> bytes:
-        """What is shown, in a file that needs no server, see `offline_page`.
+        """Return what is shown as a file that needs no server, see `offline_page`.
 
         Args:
             position: of the camera it opens with, m.
@@ -303,7 +303,7 @@ class App:
             self.session.do(StepMode(last, step))
 
     def _subject(self) -> str:
-        """What is to be seen: "Pickup cab yaw"."""
+        """Return the subject of a picture: "Pickup cab yaw"."""
         last = self.session.answer
         return f"{self.session.vehicle.name} {last.movement.subject if last else ''}"
 

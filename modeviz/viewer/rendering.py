@@ -53,7 +53,7 @@ WINDOW_PIXELS = 900 * 500
 
 @dataclass(frozen=True)
 class RenderRequest:
-    """What is to be seen."""
+    """A picture that is asked for."""
 
     mode: str
     """Its name; "" is the one the page would open with."""

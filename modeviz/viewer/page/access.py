@@ -62,12 +62,12 @@ class Server(viser.ViserServer):
 
     @property
     def link(self) -> str:
-        """What opens the page for everybody who can reach it, with its token."""
+        """The address of the page for everybody who can reach it, with its token."""
         return link(self._door.host, self.get_port(), self._door.token)
 
     @property
     def local_link(self) -> str:
-        """What opens the page in a browser of this machine; ready for `&name=value`."""
+        """The address of the page for a browser of this machine; ready for `&name=value`."""
         return local_link(self._door.host, self.get_port(), self._door.token)
 
     def request_share_url(self, verbose: bool = True) -> str | None:
@@ -165,7 +165,7 @@ def _guarded_by(door: Door, house: House) -> Iterator[None]:
 
 
 def _silent() -> logging.Logger:
-    """Where websockets says what is no request, such as a port scan: nobody can put that right."""
+    """Silences the words of websockets on what is no request, such as a port scan."""
     logger = logging.getLogger("modeviz.websockets")
     logger.setLevel(logging.CRITICAL)
     return logger

@@ -51,7 +51,7 @@ SOON = 0.02
 
 @dataclass
 class House:
-    """What the connections of a server share."""
+    """The limits that the connections of a server share."""
 
     notices: Notices
     turns: Turns
@@ -151,7 +151,7 @@ class PageConnection(ServerConnection):
                 return message
 
     async def _next(self) -> bytes | str:
-        """What comes next; the first must not take long."""
+        """Return the next message; the first must not take long."""
         try:
             async with asyncio.timeout(None if self._is_heard else SILENT):
                 raw = await super().recv()

@@ -67,7 +67,7 @@ class GuiUpdateMessage(_Wire):
 
 
 class ViewerCameraMessage(_Wire):
-    """Where the camera of a page is, and how large its picture."""
+    """The place of a page's camera and the size of its picture."""
 
     wxyz: Quaternion
     position: Point

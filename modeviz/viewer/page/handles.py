@@ -49,7 +49,7 @@ def mark(slider: Any, value: float | None) -> None:
 
 
 def name_of(widget: Any) -> str:
-    """What pages know a widget by."""
+    """Return the name by which pages know a widget."""
     return widget._impl.uuid
 
 

@@ -65,7 +65,7 @@ Guarded = Callable[[ServerConnection, Request], Awaitable[Response | None]]
 
 @dataclass
 class Door:
-    """What every request must pass before viser sees it."""
+    """Checks every request before viser sees it."""
 
     host: str
     """The address the server is bound to."""
@@ -104,7 +104,7 @@ class Door:
     async def _answer(
         self, inner: ProcessRequest, connection: PageConnection, request: Request
     ) -> Response | None:
-        """What a request gets; None to a websocket that may open."""
+        """Return the answer to a request; None to a websocket that may open."""
         if urlsplit(request.path).path.endswith(f"/{WHY}"):
             return self.refusal(request) or self._why(connection, request)
         if refusal := self.refusal(request) or await self._token_answer(connection, request):
@@ -175,7 +175,7 @@ class Door:
         return None if await connection.wait_to_open() else _answer(503, BUSY)
 
     def _why(self, connection: PageConnection, request: Request) -> Response:
-        """Why the websocket of a page is refused, which says where it is and what it speaks, or ""."""
+        """Return why a page's websocket is refused, which says its address and language, or ""."""
         query = _query(request)
         asked = Request(request.path, Headers(request.headers))
         _set(asked.headers, "Origin", query.get("origin", ""))
@@ -217,7 +217,7 @@ class Door:
     def _page(
         self, inner: ProcessRequest, connection: ServerConnection, request: Request
     ) -> Response | None:
-        """What viser answers; the first page with our title and icon, all with our headers."""
+        """Return the answer of viser; the first page with our title and icon, all with our headers."""
         is_first_page = urlsplit(request.path).path in ("/", "/index.html")
         zipped = "gzip" in request.headers.get("Accept-Encoding", "")
         if is_first_page:

@@ -32,7 +32,7 @@ def heading(left: str, right: str = "") -> str:
 
 
 def legend(entries: Iterable[tuple[str, str]]) -> str:
-    """What colours mean: variables of the style sheet and finished text."""
+    """Return a legend of colours: variables of the style sheet and finished text."""
     return " &nbsp; ".join(
         f'<i class="swatch" style="background:var({color})"></i>{text}' for color, text in entries
     )

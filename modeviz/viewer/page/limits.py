@@ -82,7 +82,7 @@ class Allowance:
 
 
 def most_connections() -> int:
-    """How many connections there may be at once."""
+    """Return the number of connections that there may be at once."""
     files, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
     return max(min(MOST_CONNECTIONS, files - SPARE_FILES), 10)
 

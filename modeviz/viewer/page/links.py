@@ -11,14 +11,14 @@ EVERYWHERE = {
 
 
 def local_link(host: str, port: int, token: str | None) -> str:
-    """What opens the page in a browser of this machine; ready for `&name=value`."""
+    """The address of the page for a browser of this machine; ready for `&name=value`."""
     family, _ = EVERYWHERE.get(host, (None, ""))
     here = {socket.AF_INET: "127.0.0.1", socket.AF_INET6: "::1", None: host}[family]
     return f"{_site(here, port)}/?token={token or ''}"
 
 
 def link(host: str, port: int, token: str | None) -> str:
-    """What opens the page for everybody who can reach a server that listens on `host`."""
+    """Return the address for everybody who can reach a server that listens on `host`."""
     query = f"?token={token}" if token else ""
     return f"{_site(_reachable(host), port)}/{query}"
 

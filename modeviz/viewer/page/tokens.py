@@ -79,7 +79,7 @@ def is_equal(given: str, secret: str) -> bool:
 
 
 class Guesses:
-    """How often each client has brought a wrong token."""
+    """Counts the wrong tokens of each client."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         """Starts with nobody having guessed; `clock` tells the time, s."""
@@ -100,11 +100,11 @@ class Guesses:
         self._wrong.pop(client, None)
 
     def delay(self, client: str) -> float:
-        """How long an answer to a client is to take, s."""
+        """Return the time that an answer to a client is to take, s."""
         return DELAY if self._wrong.get(client, (0, 0.0))[0] >= FREE_GUESSES else 0.0
 
     def locked(self, client: str) -> float:
-        """How long a client is still locked out, s; 0 if it is not."""
+        """Return the time for which a client is still locked out, s; 0 if it is not."""
         return max(self._wrong.get(client, (0, 0.0))[1] - self._clock(), 0.0)
 
 

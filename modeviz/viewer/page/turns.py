@@ -50,7 +50,7 @@ class Turns(ThreadPoolExecutor):
         return future
 
     def n_waiting(self, page: Hashable) -> int:
-        """How many calls of a page have not begun."""
+        """The number of calls of a page that have not begun."""
         with self._lock:
             return len(self._waiting.get(page, ()))
 

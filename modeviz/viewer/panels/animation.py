@@ -108,5 +108,5 @@ class AnimationCard:
 
 
 def _said(problem: str) -> str:
-    """Why what was asked for does not move, and what to do."""
+    """Return why what was asked for does not move, and what to do."""
     return f"{escape(sentence_case(problem))}. This moved before: choose something else."

@@ -114,7 +114,7 @@ def drawn_at(frequency_hz: Floats, lines: Floats, levels: Floats) -> Floats:
 
 
 def chart_lines(solved: Solved, responses: Responses, base: str, now: str) -> list[Line]:
-    """How the curves of a chart are drawn, the compared set's and the present ones in these colours."""
+    """Return the styles of a chart's curves, the compared and the present set's in these colours."""
     numbers = set_numbers(solved.now.prepared.vehicle, solved.state.design)
     overlaid = [set_line(name, numbers[name]) for name in responses.overlaid]
     return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
@@ -139,7 +139,7 @@ def swatch(line: Line) -> str:
 
 
 def excited_by(solved: Solved) -> str:
-    """What excites the vehicle, as page text."""
+    """Return the excitation of the vehicle as page text."""
     if solved.state.charts.load:
         return title(solved.state.charts.load)
     conditions = solved.now.conditions

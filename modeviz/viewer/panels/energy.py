@@ -91,7 +91,7 @@ class EnergyPanel:
         return self._buttons.label(i, clamped(content, f"{name} {label}"))
 
     def _other(self, name: str) -> str:
-        """What is strained but no mount group: a body that bends, or other connections."""
+        """Return the name of what is strained but no mount group: a body that bends, or connections."""
         bends = f"{self._bodies[name]} itself" if name in self._bodies else name
         return span(named(sentence_case(bends)), "dim")
 

@@ -89,5 +89,5 @@ def rates_in(name: str, content: bytes, vehicle: Vehicle) -> Rates:
 
 
 def set_name(file: str) -> str:
-    """What the rates of a file are called: as the file, on one line and not too long."""
+    """Return the name for the rates of a file: as the file, on one line and not too long."""
     return " ".join(PurePath(file).stem.split())[:LONGEST_NAME] or "Imported"

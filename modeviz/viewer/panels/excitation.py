@@ -126,7 +126,7 @@ class ExcitationPanel:
 
 
 def _about(state: State) -> str:
-    """What the choice means."""
+    """Return the meaning of the choice."""
     if state.charts.load:
         return "A force of the same size at every frequency; the road is for figures of sets only."
     return "The rear wheels meet the same road later, by wheelbase and speed."

@@ -178,7 +178,7 @@ def _band_text(solved: Solved) -> str:
 
 
 def _band_rms(results: Results) -> float:
-    """Of the driver's lateral response within `BAND`, g."""
+    """Return the RMS of the driver's lateral response within `BAND`, g."""
     return float(rms(results.frequency_hz, results.response(DRIVER, "lateral"), BAND))
 
 

@@ -23,7 +23,7 @@ Scale = tuple[int, int]
 
 @dataclass(frozen=True)
 class Rail:
-    """Where the shape of a mode went."""
+    """A line from a mode to where its shape went."""
 
     before: float
     """Its frequency with the rates compared with, Hz."""
@@ -100,7 +100,7 @@ def _rail(rail: Rail, x) -> str:
 
 
 def _tip(name: str, frequency_hz: float) -> str:
-    """What is shown where the pointer rests."""
+    """Return the text that is shown where the pointer rests."""
     return f"<title>{escape(name)} {frequency_hz:.2f} Hz</title>"
 
 

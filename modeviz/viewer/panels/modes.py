@@ -116,7 +116,7 @@ def listed(results: Results) -> dict[int, tuple[ModeName, float]]:
 
 
 def moved_by(solved: Solved, mode: int) -> str:
-    """How far a mode moved; where there is none to compare it with, what its shape was, as a hint."""
+    """Return how far a mode moved; where there is none to compare it with, a hint on its shape."""
     base, now = solved.base, solved.now
     pair = next(p for p in solved.followed.pairs if p.after == mode)
     if pair.before is None:
@@ -193,7 +193,7 @@ def _by_name(results: Results) -> dict[str, float]:
 
 
 def _old_shape(solved: Solved) -> str:
-    """What became of the shape that the shown mode is compared with, where it is not that mode."""
+    """Return what became of the shape that the shown mode is compared with, if it is another mode."""
     old = solved.followed.same
     if old is None or solved.followed.track.shares[old, solved.followed.mode] > SAME_SHAPE:
         return ""

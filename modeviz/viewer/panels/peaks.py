@@ -106,7 +106,7 @@ def strongest(responses: Responses, curve: ResponseCurve, solved: Solved) -> lis
 
 
 def _labels(curves: tuple[ResponseCurve, ...]) -> list[str]:
-    """What the charts are called beside their peaks: the direction, if that tells them apart."""
+    """Return the names of charts beside their peaks: the direction, if that tells them apart."""
     if len({curve.direction for curve in curves}) == len(curves):
         return [SHORT[curve.direction] for curve in curves]
     return [f"Chart {i}," for i in range(1, len(curves) + 1)]

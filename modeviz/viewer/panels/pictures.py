@@ -53,7 +53,7 @@ N_JOBS, N_BROWSERS = 8, 1
 
 
 class PicturePanel:
-    """What is saved, how large and on which background, and a button that does it."""
+    """Chooses what is saved, how large and on which background, and saves it."""
 
     def __init__(
         self,

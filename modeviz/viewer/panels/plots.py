@@ -34,7 +34,7 @@ SET_DASHES = ((), (7, 3), (2, 3))
 
 @dataclass(frozen=True)
 class Scale:
-    """How responses are drawn."""
+    """The unit and spacing in which responses are drawn."""
 
     quantity: LevelUnit
     decibels: bool
@@ -43,7 +43,7 @@ class Scale:
 
 @dataclass(frozen=True)
 class Line:
-    """How a set's curve is drawn."""
+    """The style of a set's curve."""
 
     label: str
     color: str
@@ -52,7 +52,7 @@ class Line:
 
 
 def set_line(label: str, number: int) -> Line:
-    """How the set of that number is drawn."""
+    """Return the style of the set of that number."""
     turn, color = divmod(number, len(SET_COLORS))
     return Line(label, SET_COLORS[color], 1.5, SET_DASHES[min(turn, len(SET_DASHES) - 1)])
 

@@ -94,7 +94,7 @@ def _text(job: Job[Build, ScatterOutcome], is_current: bool) -> list[str]:
 
 
 def _figures(problem: Problem, found: Scatter) -> str:
-    """Of the goal and the driver's ride: what 90 of 100 stay between."""
+    """Return the bounds between which 90 of 100 stay, of the goal and the driver's ride."""
     driver = found.rms[:, 0]
     goal = hinted("Goal", escape(objective_words(problem)))
     rows = [_row(goal, found.goal, found.nominal_goal)]

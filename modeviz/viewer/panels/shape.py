@@ -150,7 +150,7 @@ class ShapePanel:
         )
 
     def _share(self, i: int, share: ComponentShare, modes: ComponentModes) -> list[str]:
-        """What one of the body's modes has of the vehicle's; a click shows it alone."""
+        """Return a row on one of the body's modes in the vehicle's; a click shows it alone."""
         name, hertz = title(share.name), ""
         if share.mode is not None:
             name = self._buttons.label(i, name)
@@ -187,13 +187,13 @@ ABOUT: dict[MotionKind, str] = {
 
 
 def n_free_modes(vehicle: Vehicle, body: str) -> int:
-    """How many free modes a body has: its rigid ones, and its elastic ones."""
+    """Return the number of free modes of a body: its rigid ones, and its elastic ones."""
     its = vehicle.body(body)
     return its.n_normal if isinstance(its, FlexibleBody) else 6
 
 
 def own_mode(vehicle: Vehicle, state: State) -> int:
-    """Which of its own modes a body alone shows: the one asked for, or the last it has."""
+    """Return the own mode that a body alone shows: the one asked for, or the last it has."""
     return min(state.motion.component_mode, n_free_modes(vehicle, state.motion.component) - 1)
 
 

@@ -56,7 +56,7 @@ def _solved(solved: Solved) -> str:
 
 
 def _found(now: Results) -> str:
-    """What is known without another solve."""
+    """Return the line on what is known without another solve."""
     modes, trust = now.modes, now.trust
     band = f"{len(modes.frequency_hz)} modes below {now.prepared.basis.top_hz:.0f} Hz"
     if trust.n_missed:
@@ -67,7 +67,7 @@ def _found(now: Results) -> str:
 
 
 def _believed(rest: Findings) -> list[str]:
-    """How far the bodies are believed: the worst of them, and to read where the pointer rests all."""
+    """Return how far the bodies are believed: the worst of them, and all where the pointer rests."""
     if not rest.components:
         return []
     top_hz = rest.now.prepared.basis.top_hz
@@ -82,13 +82,13 @@ def _believed(rest: Findings) -> list[str]:
 
 
 def _compared(solved: Solved) -> str:
-    """That the set asked for has no answer, and which one stands in its place."""
+    """Return a line that the set asked for has no answer, and which one stands in its place."""
     text = f"{solved.missing} has no answer, see Variants: compared with {solved.state.against}"
     return span(escape(text), "bad")
 
 
 def _checked(rest: Findings) -> str:
-    """What the exact solve says."""
+    """Return the verdict of the exact solve."""
     check = rest.check
     if rest.problem:
         return f"not checked: {escape(rest.problem)}"
@@ -102,7 +102,7 @@ def _checked(rest: Findings) -> str:
 
 
 def _classic(solved: Solved) -> str:
-    """What the classic method would say."""
+    """Return the error of the classic method."""
     classic = solved.classic_error
     if classic is None:
         return ""

@@ -25,7 +25,7 @@ MARGIN = 0.06
 
 
 class TradeOffPanel:
-    """Which two goals, a button that finds their front, and the front."""
+    """Chooses two goals, finds their front, and shows it."""
 
     def __init__(self, gui: viser.GuiApi, session: Session, trader: FrontTask) -> None:
         """Builds the controls; nothing where nothing can be traded."""
@@ -135,7 +135,7 @@ def where(job: Job[Trade, Designs]) -> str:
 
 
 def _exactness(designs: Designs) -> str:
-    """What the full model says of them, as far as it was asked."""
+    """Return the verdict of the full model on them, as far as it was asked."""
     verifications = [design.verification for design in designs]
     if None in verifications:
         return span("Not held against the full model.", "dim")

@@ -209,7 +209,7 @@ def _figures(results: Results, solved: Solved) -> list[str]:
 
 
 def _shown_mode(results: Results, solved: Solved) -> int | None:
-    """Which mode of a set of rates the shown one is."""
+    """Return the mode of a set of rates that is the shown one."""
     if results is solved.now:
         return solved.followed.mode
     return (
@@ -231,7 +231,7 @@ def _mark(number: int, name: str, state: State) -> str:
 
 
 def _complaints(solved: Solved) -> str:
-    """Why sets have no figures."""
+    """Return why sets have no figures."""
     reasons = (f"{name} has no answer: {why}." for name, why in solved.named.unsolved.items())
     return "".join(f'<div class="bad">{escape(reason)}</div>' for reason in reasons)
 

@@ -45,7 +45,7 @@ LONGEST_SIDE = {"gif": 1280, "mp4": 1920}
 
 @dataclass(frozen=True)
 class ImageSettings:
-    """How a picture is taken."""
+    """The settings of a picture."""
 
     width: int
     """Pixels."""
@@ -83,19 +83,19 @@ class Cycle:
 
     @property
     def n_drawn(self) -> int:
-        """How many pictures differ."""
+        """The number of pictures that differ."""
         return self.n_frames // 2 + 1 if self.is_real else self.n_frames
 
     @property
     def order(self) -> list[int]:
-        """Which of them each frame shows."""
+        """The number of the picture that each frame shows."""
         n = self.n_frames
         return [min(k, n - k) if self.is_real else k for k in range(n)]
 
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """Where a camera stands and looks, whatever its page says of it later."""
+    """The place and the aim of a camera, whatever its page says of it later."""
 
     wxyz: NDArray[np.float64]
     """(4,), its orientation."""
@@ -104,7 +104,7 @@ class Pose:
 
     @classmethod
     def of(cls, camera: viser.CameraHandle) -> Self:
-        """That of a page's camera now."""
+        """Return the pose of a page's camera now."""
         return cls(camera.wxyz, camera.position)
 
 

@@ -43,11 +43,11 @@ class DrawnBody:
             driver.add(self._ghost_path, glb(ghost, theme.ghost), len(ghost.vertices))
 
     def displacement(self, coordinates: Array) -> Array:
-        """Of every vertex, (n_vertices, 3), real or complex as the body's coordinates are."""
+        """Return the displacement of every vertex, (n_vertices, 3), of the coordinates' type."""
         return displacement(self._shapes, coordinates)
 
     def points(self, shape: Array, motion: Array, other: Array | None) -> Mapping[str, Array]:
-        """What the driver is to show of the body; a rigid one travels as its motion.
+        """Return the points that the driver shows of the body; a rigid one travels as its motion.
 
         Args:
             shape: the displacement of its vertices, (n_vertices, 3).

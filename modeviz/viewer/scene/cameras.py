@@ -82,7 +82,7 @@ class Cameras:
             time.sleep(STEP_SECONDS)
 
     def _target(self, client: viser.ClientHandle) -> Pose:
-        """Where a glide ends: framed as before, or looking at the middle if somebody moved it."""
+        """Return the end of a glide: framed as before, or aimed at the middle if somebody moved it."""
         position, look_at = client.camera.position, client.camera.look_at
         view, put = self._views.get(client.client_id, (ISO, position))
         if self._is_at(position, put):

@@ -177,7 +177,7 @@ class ShapeDriver:
 
     @property
     def sought(self) -> float:
-        """What a page that has come to the last phase sought has as `__modeviz.sought`."""
+        """The value of `__modeviz.sought` on a page that has come to the last phase sought."""
         # the page seeks when this number changes, so going to the same phase again adds a whole turn
         return self._phase % (2 * np.pi) + 2 * np.pi * (self._n_seeks % 1000)
 

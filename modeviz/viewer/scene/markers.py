@@ -129,7 +129,7 @@ class MountMarker:
 
 
 class Card:
-    """What there is to say of the selected group, beside one of its mounts."""
+    """A card on the selected group, beside one of its mounts."""
 
     def __init__(self, scene: viser.SceneApi) -> None:
         """Makes an empty card."""
@@ -235,7 +235,7 @@ class Markers:
 
 
 def card_text(group: MountGroup, rates: MountRates, unit: str, share: float, mode: str) -> str:
-    """What the card of a group says: name, mounts, rates in a unit and share of a mode's energy."""
+    """Return the text of a group's card: name, mounts, rates in a unit and share of a mode's energy."""
     sides = " + ".join(mount.name.removeprefix(group.name).strip() for mount in group.mounts)
     title = f"{group.name}  {group.label}" + (f", {sides}" if sides else "")
     named = zip(DIRECTIONS, rates.as_tuple(), strict=True)
@@ -252,7 +252,7 @@ def _short_name(mount: Mount, group: MountGroup) -> str:
 
 
 def _nearest_to_us(group: MountGroup) -> int:
-    """Which mount of a group the card hangs on."""
+    """Return the mount of a group on which the card hangs."""
     return int(np.argmin([mount.center[1] for mount in group.mounts]))
 
 

@@ -81,7 +81,7 @@ class Scene:
         return all(b.name in hidden for b in self._bodies) and not self._markers.are_seen(hidden)
 
     def _framed(self, solved: Solved) -> Box:
-        """What cameras look at: the body that moves alone, what is followed, or the vehicle."""
+        """Return the box to look at: the body that moves alone, what is followed, or the vehicle."""
         state, alone = solved.state, solved.movement.bodies
         drawn = [b for b in self._vehicle.bodies if b.mesh and alone is not None and b.name in alone]
         if drawn:

@@ -98,7 +98,7 @@ class Box:
 
     @property
     def middle(self) -> Floats:
-        """Where a camera turns about it: low, for what matters are the mounts."""
+        """The point that a camera turns about: low, for what matters are the mounts."""
         low, high = np.array(self.low), np.array(self.high)
         return low + (high - low) * (0.5, 0.5, 0.4)
 
@@ -141,7 +141,7 @@ def _box(points: Sequence[Floats]) -> Box:
 
 
 def camera(box: Box, view: str, width: int, height: int) -> tuple[Floats, Floats]:
-    """Where the camera is and what it looks at, for one of `VIEWS`, m.
+    """Return the place of the camera and the point it looks at, for one of `VIEWS`, m.
 
     The box fills the picture as far as it can and stays clear of the card at the bottom.
 

@@ -56,7 +56,7 @@ class Solved:
 
     @cached_property
     def strain(self) -> Mapping[str, float]:
-        """Of the shown mode: each flexible body's and connection group's share of the strain energy."""
+        """Each flexible body's and connection group's share of the shown mode's strain energy."""
         return self.now.strain_shares(self.followed.shape)
 
 
@@ -136,7 +136,7 @@ class Answers:
         return solve_on(excitation, state.design.rates)
 
     def _movement(self, state: State, followed: FollowedMode) -> Movement:
-        """What moves; if that cannot be, what moved before, and why."""
+        """Return the motion that is asked for; if that cannot be, the one before, and why."""
         last = self._last
         if last is None:
             return movement(state, followed)
@@ -148,7 +148,7 @@ class Answers:
             return replace(last.movement, problem=str(error))
 
     def _seconds(self, now: Results, begin: float) -> float:
-        """What the solve took that began then, or the one before if it still holds."""
+        """Return the time of the solve that began then, or of the one before if it still holds."""
         last = self._last
         return last.seconds if last and last.now is now else time.perf_counter() - begin
 

@@ -28,7 +28,7 @@ Shares = Mapping[str, float]
 
 @dataclass(frozen=True)
 class ColorScale:
-    """What the colours of bodies mean: they go from nothing to `last`."""
+    """The scale of the bodies' colours: they go from nothing to `last`."""
 
     quantity: str
     """In sentence case."""
@@ -85,7 +85,7 @@ def share_colors(shares: Shares) -> Mapping[str, Color]:
 def shades(
     coloring: Coloring, drawn: Mapping[str, Array], length: float, shares: Shares
 ) -> dict[str, Shade]:
-    """How bodies are coloured, by body; without a shade they have their own colours.
+    """Return the shades of bodies, by name; without a shade they have their own colours.
 
     Displacement is relative to the largest. Kinetic energy varies over a body as `motion_shades` tells.
     Strain energy is one colour for a whole body: that of its share. Bodies that are rigid have none.

@@ -10,7 +10,7 @@ from modeviz.dynamics.component_trust import ComponentTrust
 
 @dataclass(frozen=True, eq=False)
 class Findings:
-    """What is known of an answer."""
+    """The findings on an answer."""
 
     now: Results
     sensitivity: Sensitivity | None = None

@@ -47,7 +47,7 @@ class Movement:
 
 
 def movement(state: State, shown: FollowedMode) -> Movement:
-    """What moves in the answer to a state.
+    """Return the motion in the answer to a state.
 
     Raises:
         SolveError: there is no such shape, because the mode does not vibrate, the frequency is that of

@@ -23,7 +23,7 @@ LONGEST_POINT = 26
 
 @dataclass(frozen=True)
 class LevelUnit:
-    """What is drawn."""
+    """The unit of what is drawn."""
 
     unit: str
     decibels: Callable[[Floats], Floats]
@@ -77,7 +77,7 @@ class Responses:
         return float(self._solved.wheels[name].mean(band)[self._load][at])
 
     def peak_lines(self, curve: ResponseCurve) -> list[int]:
-        """Where the present response has its peaks, numbers of frequencies."""
+        """Return the lines at which the present response has its peaks, numbers of frequencies."""
         if self._load is None:
             return self._solved.now.peak_lines(curve.point, curve.direction)
         return wheel_peak_lines(self._wheels, self._load, curve.point, curve.direction)

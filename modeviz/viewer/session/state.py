@@ -33,7 +33,7 @@ class ResponseCurve:
 
 @dataclass(frozen=True)
 class Motion:
-    """What moves in the scene, and the mode that is followed whatever moves."""
+    """The motion in the scene, and the mode that is followed whatever moves."""
 
     mode: str
     """The name of that mode with `mode_rates`; with others it may be called something else."""
@@ -50,7 +50,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Charts:
-    """What the charts show."""
+    """The choices of the charts."""
 
     load: str = ""
     """The wheel load whose response is drawn, or the road: ""."""
@@ -64,7 +64,7 @@ class Charts:
 
 @dataclass(frozen=True)
 class Look:
-    """How bodies are drawn."""
+    """The choices of how bodies are drawn."""
 
     coloring: Coloring = "bodies"
     see_through: bool = True

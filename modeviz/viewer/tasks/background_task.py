@@ -26,7 +26,7 @@ Found = TypeVar("Found")
 
 @dataclass(frozen=True, eq=False)
 class Job(Generic[Asked, Found]):
-    """What there is to know of a computation at some moment."""
+    """The state of a computation at some moment."""
 
     asked: Asked
     phase: Phase = "running"

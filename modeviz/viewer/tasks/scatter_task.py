@@ -38,7 +38,7 @@ class Build:
 
 @dataclass(frozen=True, eq=False)
 class ScatterOutcome:
-    """What these vehicles do."""
+    """The responses of these vehicles."""
 
     told: Scattered
 
@@ -48,7 +48,7 @@ class ScatterOutcome:
 
     @cached_property
     def percentiles(self) -> Floats:
-        """Of the PSDs, (2, n_freqs, n_points, 3), g²/Hz."""
+        """The band of the PSDs, (2, n_freqs, n_points, 3), g²/Hz."""
         return self.scatter.psd_percentiles(PERCENT)
 
 

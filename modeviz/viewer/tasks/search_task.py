@@ -27,7 +27,7 @@ from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Tell
 
 @dataclass(frozen=True, eq=False)
 class Sought:
-    """What a search looks for, and from where."""
+    """The problem that a search is to solve, and its start."""
 
     problem: Problem
     before: Rates
@@ -41,7 +41,7 @@ class Sought:
 
 @dataclass(frozen=True, eq=False)
 class SearchStatus(Job[Sought, Optimum]):
-    """What there is to know of a search at some moment."""
+    """The state of a search at some moment."""
 
     has_begun: bool = False
     """Whether it is prepared."""
@@ -58,7 +58,7 @@ class SearchStatus(Job[Sought, Optimum]):
 
     @property
     def stage(self) -> str:
-        """What it does while it runs: "preparing", "searching" or "checking"; else its phase."""
+        """The step it is at while it runs: "preparing", "searching" or "checking"; else its phase."""
         if self.phase == "ending":
             return "checking"
         if self.phase != "running":
@@ -78,13 +78,13 @@ class SearchStatus(Job[Sought, Optimum]):
 
     @property
     def history(self) -> History:
-        """How the best goal fell so far."""
+        """The best goals so far, by evaluation."""
         return () if self.progress is None else self.progress.history
 
 
 @dataclass(frozen=True, eq=False)
 class Searching(Command):
-    """What a search changes, undone as a whole."""
+    """A change by a search; all of one search are undone together."""
 
     sought: Sought
     change: Callable[[State], State]

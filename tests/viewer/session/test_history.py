@@ -146,6 +146,7 @@ def test_how_one_looks_at_it_is_no_step_and_stays_when_a_rate_is_undone(looks):
     bench.put(1)
     bench.history.undo()
     assert bench.state == altered(bench.state, **looks)
+    bench.look(operating_hz=12.0)
     bench.history.redo()
     assert bench.value == 1
     assert bench.state == altered(bench.state, **looks)

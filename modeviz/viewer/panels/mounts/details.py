@@ -155,7 +155,7 @@ class Details:
 
 
 def _cells(effect: Effect | None) -> tuple[str, str, str]:
-    """What a rate does, good and bad where less is better; nothing as long as it is not known."""
+    """Return the effects of a rate, good and bad where less is better; nothing until they are known."""
     if effect is None:
         return "", "", ""
     return (

@@ -13,7 +13,7 @@ TENTH = 0.1
 
 @dataclass(frozen=True)
 class Effect:
-    """What ten percent more of one rate do."""
+    """The effect of ten percent more of one rate."""
 
     frequency_hz: float
     """To the frequency of the shown mode."""

@@ -18,7 +18,7 @@ UNITS = ("N/mm", "N/cm")
 
 
 class MountsPanel:
-    """What an engineer changes."""
+    """The sliders and boxes of all mount rates."""
 
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Builds the controls of all mount groups."""

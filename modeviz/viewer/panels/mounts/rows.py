@@ -143,5 +143,5 @@ def change_in_words(now: float, base: float) -> str:
 
 
 def step_of_box(rate: float) -> float:
-    """How far an arrow key moves a number: the power of ten next below two percent of a rate."""
+    """Return the step of an arrow key: the power of ten next below two percent of a rate."""
     return 10.0 ** math.floor(math.log10(rate / 50)) if rate > 0 else 1.0

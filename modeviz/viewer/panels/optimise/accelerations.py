@@ -124,7 +124,7 @@ class AccelerationsEditor:
 
 
 def terms(plan: Plan) -> tuple[str, ...]:
-    """What the terms are called: "1 Road 1", "2 12 wheel loads"; a word where there is none."""
+    """Return the names of the terms: "1 Road 1", "2 12 wheel loads"; a word where there is none."""
     return tuple(f"{i}  {_loads(load)}" for i, load in enumerate(plan.loads, 1)) or (NONE,)
 
 

@@ -129,7 +129,7 @@ class Pills:
 
 
 def may_change_hint(may_change: bool) -> str:
-    """What a click does to a rate or a group of them."""
+    """Return a hint on what a click does to a rate or a group of them."""
     return "may change; click to hold" if may_change else "held; click to free"
 
 

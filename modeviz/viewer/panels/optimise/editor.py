@@ -108,7 +108,7 @@ class ProblemEditor:
         return summary(problem, space, plan.is_robust)
 
     def _add_goal(self) -> None:
-        """Whose problem it is, and what is to become small."""
+        """Builds the choice of a problem and of its goal."""
         choose, put = self._controls.choose, self._controls.put
         if len(known := problems(self._session.vehicle)) > 1:
             words = {sentence_case(problem.name): problem.name for problem in known}
@@ -162,7 +162,7 @@ class ProblemEditor:
         self._band = (side, band)
 
     def _modes(self, original: Results) -> list[str]:
-        """What the modes are called that can be held."""
+        """Return the names of the modes that can be held."""
         names = [name.name for name, _ in listed(original).values()]
         plan = self._session.state.design.plan
         held = [plan.mode] if plan and plan.mode else []
@@ -170,7 +170,7 @@ class ProblemEditor:
         return list(self._named)
 
     def _hints(self, plan: Plan) -> list[str]:
-        """What a click on each group does."""
+        """Return what a click on each group does, by group."""
         vehicle = self._session.vehicle
         now = {name: may_change_hint(name in plan.free) for name in self._groups}
         return [f"{vehicle.mount_group(name).label}: {hint}" for name, hint in now.items()]

@@ -61,7 +61,7 @@ def figures(look: SearchStatus) -> str:
 
 
 def exactness(optimum: Optimum) -> str:
-    """What the full model says of it."""
+    """Return the verdict of the full model on it."""
     found = optimum.verification
     if found.impossible:
         return span(f"Not checked: {escape(found.impossible)}", "bad")

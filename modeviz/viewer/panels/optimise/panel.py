@@ -118,7 +118,7 @@ def offered(look: SearchStatus | None, state: State) -> tuple[str, ...]:
 
 
 def _missing(session: Session) -> str:
-    """Why there is nothing to optimise for."""
+    """Return why there is nothing to optimise for."""
     try:
         problems(session.vehicle)
     except VehicleError as error:

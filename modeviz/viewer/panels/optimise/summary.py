@@ -18,7 +18,7 @@ FEW = 4
 
 
 def summary(problem: Problem, space: DesignSpace, is_robust: bool) -> str:
-    """What is to become small, and what may change for it."""
+    """Return the goal of a problem, and what may change for it."""
     rows = [("Reduce", title(objective_words(problem)))]
     if is_robust:
         rows.append(("", f"95th percentile of parts, {tolerance_words(Tolerance())}"))

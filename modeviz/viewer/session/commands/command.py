@@ -18,7 +18,7 @@ class Command(ABC):
 
     @property
     def within(self) -> float:
-        """How closely they have to follow each other for that, s."""
+        """The longest time between two of them for that, s."""
         return MERGE_WITHIN
 
     @abstractmethod

@@ -29,7 +29,7 @@ class GroupPlan:
     """Where these are limited, the least and the most."""
 
     def design(self, mounts: MountGroup) -> DesignGroup:
-        """What it asks of a search; what is as in the mount group is left to that.
+        """Return the design group for a search; what is as in the mount group is left to that.
 
         Raises:
             VehicleError: no direction, not all of them in fixed ratios, or limits that cannot be.

@@ -23,7 +23,7 @@ class LoadPlan:
     weight: float
 
     def performance(self, vehicle: Vehicle) -> Performance:
-        """What it asks of a search; all points are none that are named.
+        """Return the performance that a search is asked for; all points are none that are named.
 
         Raises:
             VehicleError: frequencies that cannot be read, no load, no point, or no direction.
@@ -43,7 +43,7 @@ class LoadPlan:
 
 
 def spare_load(vehicle: Vehicle) -> LoadPlan:
-    """What is added where there is none: the first road as in the paper, felt everywhere."""
+    """Return the load to add where there is none: the first road as in the paper, felt everywhere."""
     return LoadPlan(
         frozenset(road.name for road in vehicle.random_loads[:1]),
         frozenset(),
