@@ -114,7 +114,7 @@ class ProblemEditor:
             words = {sentence_case(problem.name): problem.name for problem in known}
             choose("Problem", words, lambda _, p: p.problem, self._take_problem, "Of this vehicle")
         choose(
-            "GoalKind",
+            "Goal",
             GOALS,
             lambda _, p: p.goal,
             lambda goal: put(goal=goal),
