@@ -47,3 +47,10 @@ def cabin_objective(prepare_kind=prepare_objective) -> Objective | PeakGoal:
     (load,) = vehicle.wheel_loads
     cases = [LoadCase(FLAT, (6.0, 8.0, 12.0)), LoadCase(load, (11.0,), weight=1e-3)]
     return prepare_kind(vehicle, cases)
+
+
+def worst_error(few, receptances: Receptances, stiffness: Complexes) -> float:
+    """How far its responses are from those of receptances, a part of the largest of each line."""
+    expected = receptances.responses(stiffness)
+    off = np.abs(few.responses(stiffness) - expected).max(axis=(0, 2, 3))
+    return (off / np.abs(expected).max(axis=(0, 2, 3))).max()

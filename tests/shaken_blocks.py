@@ -3,14 +3,11 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
-from differences import central_difference
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import AXIS
 from modeviz.analysis.wheel_results import solve_wheels
-from modeviz.optimise.goals import prepare_goal
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import (
@@ -24,7 +21,6 @@ from modeviz.vehicle.connections import (
     Spring,
 )
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Spectrum
-from modeviz.vehicle.problem import DesignGroup, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 F = np.arange(1, 401) / 10
@@ -124,6 +120,11 @@ def on_table(vehicle, *names):
     )
 
 
+def cabin_on_table():
+    """The cabin of which a mount stands on a table; its tyres stand on the ground."""
+    return on_table(shaken_cabin(), "grounded")
+
+
 def bolted_twice():
     """The table with a second bolt, though one would do."""
     vehicle = on_table(shaken_block(SHAKER))
@@ -134,19 +135,3 @@ def bolted_twice():
 def bolted_apart():
     """The same, but only one of the bolts is moved."""
     return replace(bolted_twice(), base_motions=(replace(SHAKER, connections=("bolt",)),))
-
-
-def check_derivative_of_goal(vehicle, performance):
-    """That by the first group's vertical rate, and the goal itself, against solving again."""
-    groups = tuple(DesignGroup(g.name) for g in vehicle.mount_groups)
-    goal = prepare_goal(vehicle, Problem("p", groups, (performance,)), vehicle.rates, 20.0)
-    rates = changed(vehicle)
-    value, gradient = goal.value_and_gradient(rates)
-    assert goal.exact_value(rates) == pytest.approx(value, rel=1e-8)
-    group = vehicle.mount_groups[0].name
-    expected = central_difference(
-        lambda k: goal.value({**rates, group: replace(rates[group], vertical=k)}),
-        rates[group].vertical,
-        step=1e-3,
-    )
-    assert gradient[0] == pytest.approx(expected, rel=1e-6)

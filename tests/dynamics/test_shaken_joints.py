@@ -16,18 +16,14 @@ from shaken_blocks import (
     Z,
     bolted_apart,
     bolted_twice,
-    changed,
-    check_derivative_of_goal,
+    cabin_on_table,
     on_table,
     shaken_block,
-    shaken_cabin,
     softer,
     stiffness_of,
     vertical_peaks,
 )
 
-from modeviz.analysis.deflection_shapes import road_shape, wheel_shape
-from modeviz.analysis.exact_check import check_exactly
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import AXIS, Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
@@ -40,13 +36,7 @@ from modeviz.ride.excitation import excitation, generalised_forces, input_direct
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.connections import GROUND, Rod, Spring
 from modeviz.vehicle.loads import BaseMotion, ResponsePoint
-from modeviz.vehicle.problem import Performance
 from modeviz.vehicle.vehicle import Vehicle
-
-
-def cabin_on_table():
-    """The cabin of which a mount stands on a table; its tyres stand on the ground."""
-    return on_table(shaken_cabin(), "grounded")
 
 
 @pytest.mark.parametrize("rate", [RATE, 4e4, 9e5])
@@ -143,43 +133,6 @@ def test_modes_and_receptances_answer_a_shaken_joint_as_the_equations_of_motion_
     inputs = excitation(system.vehicle, POSTS, LINES, 20.0, np.zeros(0, complex)).forces
     found = receptances(system, LINES, rows)[:, :6, 6:] @ inputs
     assert np.abs(found - expected).max() < 1e-8 * np.abs(expected).max()
-
-
-@pytest.mark.parametrize("near", [False, True])
-def test_every_way_to_solve_agrees_where_the_ground_moves_joints_and_mounts(near):
-    vehicle = cabin_on_table()
-    rates = changed(vehicle)
-    prepared = prepare(vehicle).near(rates) if near else prepare(vehicle)
-    system = assemble(vehicle.with_rates(rates))
-    wheels = solve_wheels(prepared, rates)
-    found, f = wheels.acceleration_g, wheels.frequency_hz
-    for i, load in enumerate(vehicle.harmonic_loads):
-        actions = generalised_forces(system, load, f, vehicle.speed)
-        H = direct_response(system, f, actions, prepared.outputs)[:, :, 0]
-        expected = np.abs(H) * (2 * np.pi * f[:, None]) ** 2 / STANDARD_GRAVITY
-        assert np.abs(found[:, i].reshape(len(f), -1) - expected).max() < 1e-9 * expected.max()
-    *_, check = check_exactly(solve(prepared, rates, Conditions("random floor", 20.0)))
-    assert check.error < 1e-8
-
-
-def test_what_is_shown_moving_is_what_the_response_is_of():
-    vehicle = cabin_on_table()
-    rates = changed(vehicle)
-    prepared = prepare(vehicle, vehicle.frequency_hz)
-    results = solve(prepared, rates, Conditions("random floor", 20.0))
-    omega, line = 2 * np.pi * 9.0, 89
-    shapes = road_shape(results, 9.0, 0, "vertical"), wheel_shape(results, "floor", 9.0)
-    at_random, harmonic = (np.abs(omega**2 * prepared.outputs @ x) / STANDARD_GRAVITY for x in shapes)
-    psd = results.response(0, "vertical")[line]
-    assert at_random[AXIS["vertical"]] ** 2 == pytest.approx(psd, rel=1e-8)
-    number = [load.name for load in vehicle.harmonic_loads].index("floor")
-    peaks = solve_wheels(prepared, rates).acceleration_g[line, number].ravel()
-    np.testing.assert_allclose(harmonic, peaks, rtol=1e-8, atol=1e-10 * peaks.max())
-
-
-def test_a_goal_under_shaken_joints_has_its_true_derivatives():
-    performance = Performance(np.arange(2.0, 20.0), ("random floor",), ("floor", "fan"), ("seat",))
-    check_derivative_of_goal(cabin_on_table(), performance)
 
 
 def test_many_sets_of_rates_at_once_are_each_alone():
