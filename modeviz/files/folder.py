@@ -177,7 +177,7 @@ def _record_of_flexible(body: FlexibleBody, stem: str, folder: Path) -> Flexible
 
 
 def _mesh_file(body: Body, stem: str, folder: Path) -> str | None:
-    """Where the body's mesh is, now that it is written."""
+    """The file of the body's mesh, now that it is written."""
     if not body.mesh:
         return None
     name = f"meshes/{stem}.glb"
@@ -194,7 +194,7 @@ def _road_records(roads: tuple[Road, ...], folder: Path) -> list[RoadRecord]:
 
 
 def _spectrum_files(vehicle: Vehicle, folder: Path) -> dict[str, str]:
-    """Where the spectrum of each random load is, by its name, now that it is written."""
+    """The files of the spectra of random loads, by the loads' names, now that they are written."""
     random = [
         (load.name, load.amplitude)
         for load in (*vehicle.forces, *vehicle.base_motions)

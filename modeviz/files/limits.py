@@ -1,4 +1,4 @@
-"""How much of anything is read, checked before it takes memory or time."""
+"""Limits on what is read, checked before it takes memory or time."""
 
 import os
 
@@ -30,12 +30,12 @@ def check_size(what: str, found: int, most: int) -> None:
 
 
 def most_allowed(most: int) -> int:
-    """How many of something are read that are usually at most so many."""
+    """The number of something that is read, of which there are usually at most so many."""
     return int(most * _factor())
 
 
 def _advice(found: int, most: int) -> str:
-    """How more than usual is allowed, as far as it can be."""
+    """A sentence on how more than usual is allowed, as far as it can be."""
     needed = -(-found // most)
     if needed <= LARGEST_FACTOR:
         return f"{VARIABLE}={needed} in the environment would allow them"

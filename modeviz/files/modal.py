@@ -29,7 +29,7 @@ def _shapes(array: np.ndarray, conventions: Conventions) -> np.ndarray:
 
 @dataclass(frozen=True)
 class ArrayKind:
-    """What an array of the file is."""
+    """The kind of an array of the file."""
 
     kind: str
     """As `dtype.kind` has it."""

@@ -56,7 +56,7 @@ def parse_rates(text: str, file_format: RatesFormat, vehicle: Vehicle) -> Rates:
 
 
 def rates_text(rates: Rates, file_format: RatesFormat) -> str:
-    """What `parse_rates` reads, to the last bit; rates in N/mm."""
+    """Rates in N/mm as text that `parse_rates` reads, to the last bit."""
     return {"csv": _to_csv, "json": _to_json}[file_format](rates)
 
 

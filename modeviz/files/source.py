@@ -40,7 +40,7 @@ class Source:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What there is to say, see `Vehicle.notes`; of very much the first `MOST_NOTES`."""
+        """The notes made so far, see `Vehicle.notes`; of very many the first `MOST_NOTES`."""
         more = len(self._notes) - MOST_NOTES
         rest = (f"{more} more notes of this kind",) if more > 0 else ()
         return (*self._notes[:MOST_NOTES], *rest)
@@ -63,7 +63,7 @@ class Source:
         check_size("bytes of modes", sum(self._reserved), LARGEST_ARRAYS)
 
     def once(self, what: Hashable, read: Callable[[], T]) -> T:
-        """What is read of a file, which is done once however often it is named.
+        """The content of a file, which is read once however often it is named.
 
         Args:
             what: file and kind of content.

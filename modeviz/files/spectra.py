@@ -23,7 +23,7 @@ COLUMNS = (FREQUENCY, "psd")
 
 @dataclass(frozen=True, eq=False)
 class SpectrumTable:
-    """What such a table has, without a line at 0 Hz."""
+    """The columns of such a table, without a line at 0 Hz."""
 
     rows: tuple[Row, ...]
     frequency_hz: Floats
@@ -108,7 +108,7 @@ def _above_zero(rows: tuple[Row, ...], where: str, note: Callable[[str], None]) 
 
 
 def _unit(column: str, unit: str, quantity: QuantityName, conventions: Conventions) -> float:
-    """What one unit of a column is in SI."""
+    """One unit of a column in SI."""
     if not unit:
         return conventions.unit(quantity) ** 2
     with located(f"column {column}"):

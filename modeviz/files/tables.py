@@ -104,7 +104,7 @@ def _check_lengths(lines: list[str]) -> None:
 
 
 def _separator(header: str) -> str:
-    """What separates the cells of a header: names have neither semicolons nor tabs."""
+    """The character that separates the cells of a header: names have neither semicolons nor tabs."""
     return next((mark for mark in ";\t" if mark in header), ",")
 
 
@@ -152,7 +152,7 @@ def _header(
 
 
 def _name_and_unit(cell: str, known: Sequence[str]) -> tuple[str, str]:
-    """Which of the known columns a header means, and its unit: "Frequency (Hz)" is frequency_hz."""
+    """The known column that a header means, and its unit: "Frequency (Hz)" is frequency_hz."""
     match = _NAME_AND_UNIT.fullmatch(cell)
     name, unit = match.groups() if match else (cell, "")
     name, unit = re.sub(r"[\s-]+", "_", name.strip().lower()), unit.strip()

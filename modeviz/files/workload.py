@@ -1,4 +1,4 @@
-"""How much memory and work the responses of a vehicle take, estimated before they are computed."""
+"""Estimates of the memory and work that the responses of a vehicle take, made beforehand."""
 
 from dataclasses import dataclass
 
@@ -38,7 +38,7 @@ def check_workload(vehicle: Vehicle) -> None:
 
 @dataclass(frozen=True)
 class Counts:
-    """How many there are of what multiplies, see `dynamics.receptance`."""
+    """Counts of all that multiplies, see `dynamics.receptance`."""
 
     lines: int
     """Of the band."""
@@ -61,7 +61,7 @@ class Counts:
 
     @property
     def receptances(self) -> int:
-        """Those kept at the lines, and those at work at once."""
+        """The receptances kept at the lines, and those at work at once."""
         kept = self.springs * self.rows + self.outputs * self.inputs
         return self.lines * kept + AT_ONCE * (self.joints + self.rows) ** 2
 
@@ -74,7 +74,7 @@ class Counts:
 
     @property
     def responses(self) -> int:
-        """What the loads do to inputs, springs and outputs."""
+        """The responses of inputs, springs and outputs to the loads."""
         each = 2 * (self.inputs + self.springs) + self.springs + self.outputs
         return self.lines * self.loads * each
 
@@ -100,14 +100,14 @@ def counted(vehicle: Vehicle) -> Counts:
 
 
 def _n_joined(connection: Connection) -> int:
-    """How many motions a connection joins."""
+    """The number of motions that a connection joins."""
     along = connection.stiffness + connection.damping
     about = connection.rotational_stiffness + connection.rotational_damping
     return int(np.count_nonzero([*along, *about])) + len(connection.rigid)
 
 
 def _n_moved(vehicle: Vehicle) -> int:
-    """How many connections have a ground end that a base motion moves, at most."""
+    """The number of connections, at most, whose ground end a base motion moves."""
     if all(motion.connections for motion in vehicle.base_motions):
         return len({name for motion in vehicle.base_motions for name in motion.connections})
     return sum(connection.bodies[1] == GROUND for connection in vehicle.all_connections)

@@ -83,7 +83,7 @@ def _roots(document: Document) -> list[int]:
 
 
 def _matrix(node: NodeRecord) -> Floats:
-    """What takes a node's coordinates to its parent's, (4, 4)."""
+    """The matrix that takes a node's coordinates to its parent's, (4, 4)."""
     if node.matrix is not None:
         return np.array(node.matrix).reshape(4, 4).T  # column by column
     matrix = np.eye(4)
@@ -120,7 +120,7 @@ def _check_sizes(document: Document, placed: list[Placed]) -> None:
 
 
 def _n_corners(document: Document, primitive: Primitive) -> int:
-    """How many corners of triangles a primitive has."""
+    """The number of corners of triangles that a primitive has."""
     index = primitive.indices if primitive.indices is not None else primitive.attributes.get("POSITION")
     if index is None:
         return 0

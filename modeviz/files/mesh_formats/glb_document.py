@@ -71,7 +71,7 @@ def item(items: Sequence[T], index: int, key: str) -> T:
 
 
 def read_document(content: bytes) -> Glb:
-    """What a file says and holds.
+    """The document and the binary data of a file.
 
     Raises:
         VehicleError: it is cut or damaged, or requires what is not read.

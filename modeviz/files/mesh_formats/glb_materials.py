@@ -31,7 +31,7 @@ class Materials:
         self._n_pixels = 0
 
     def of(self, primitive: Primitive, vertices: Array) -> Material:
-        """What a primitive looks like as a whole.
+        """The look of a primitive as a whole.
 
         Args:
             primitive: of the file.

@@ -35,7 +35,7 @@ class BufferView(Part):
 
 
 class SparseIndices(Part):
-    """Which rows of an accessor are replaced."""
+    """The rows of an accessor that are replaced."""
 
     buffer_view: Natural
     component_type: Literal[5121, 5123, 5125]
@@ -43,7 +43,7 @@ class SparseIndices(Part):
 
 
 class SparseValues(Part):
-    """What they are replaced by."""
+    """The values that replace rows of an accessor."""
 
     buffer_view: Natural
     byte_offset: Natural = 0
@@ -104,7 +104,7 @@ class SceneRecord(Part):
 
 
 class TextureReference(Part):
-    """Which texture."""
+    """The texture of a material."""
 
     index: Natural
 

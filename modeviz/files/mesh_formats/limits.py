@@ -1,4 +1,4 @@
-"""How large a display mesh may be, checked before it takes memory or time."""
+"""Limits on the size of a display mesh, checked before it takes memory or time."""
 
 from modeviz.files.limits import VARIABLE as VARIABLE
 from modeviz.files.limits import check_size as check_size

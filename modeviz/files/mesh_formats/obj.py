@@ -40,7 +40,7 @@ def read_obj(content: bytes, plain: Material) -> list[RawPart]:
 
 
 def _lines(text: bytes) -> tuple[list[bytes], list[bytes], list[int]]:
-    """What is said of vertices and of faces, and for each face how many vertices stand before it."""
+    """The lines of vertices and of faces, and for each face how many vertices stand before it."""
     vertices: list[bytes] = []
     faces: list[bytes] = []
     n_before: list[int] = []

@@ -1,4 +1,4 @@
-"""From the triangles of a file to the parts of a display mesh."""
+"""Parts of a display mesh, made of the triangles of a file."""
 
 import warnings
 from collections import defaultdict
@@ -16,7 +16,7 @@ from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 
 @dataclass(frozen=True, eq=False)
 class RawPart:
-    """What a file has of one material."""
+    """The triangles that a file has of one material."""
 
     name: str
     vertices: Array

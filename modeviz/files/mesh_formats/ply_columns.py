@@ -76,7 +76,7 @@ def read_columns(elements: Sequence[Element], body: Bytes, lines: Places | None)
 
 
 def _even(element: Element, body: Bytes, place: int) -> Places | None:
-    """Where items begin and the last ends, if all lists have the length that the first one has."""
+    """The places where items begin and the last ends, if all lists are as long as the first one."""
     if not element.count:
         return np.array([place])
     end = np.array([len(body)])
@@ -92,7 +92,7 @@ def _even(element: Element, body: Bytes, place: int) -> Places | None:
 
 
 def _walked(element: Element, body: Bytes, place: int) -> Places:
-    """Where items begin and the last ends, item by item."""
+    """The places where items begin and the last ends, found item by item."""
     steps, tail = _steps(element)
     begins = [place]
     for i in range(element.count):

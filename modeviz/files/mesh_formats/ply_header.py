@@ -33,7 +33,7 @@ ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">", "ascii": ""}
 
 @dataclass(frozen=True)
 class Property:
-    """What every item of an element has: a number, or a list of them with its length before."""
+    """A property of every item of an element: a number, or a list of them with its length before."""
 
     name: str
     kind: np.dtype

@@ -24,7 +24,7 @@ from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Rol
 
 
 class BodyRecord(Record, kw_only=True):
-    """What flexible and rigid bodies have in common."""
+    """The fields that flexible and rigid bodies have in common."""
 
     name: Name
     role: Role = "other"
@@ -39,7 +39,7 @@ class BodyRecord(Record, kw_only=True):
 
     @property
     def spoken(self) -> str:
-        """What a person calls it."""
+        """Its label, or else its name, for people."""
         return self.label or self.name
 
     def read_mesh(self, source: Source) -> Mesh:

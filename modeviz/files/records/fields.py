@@ -1,4 +1,4 @@
-"""What the fields of records hold: numbers with their bounds and quantities, and how they turn."""
+"""Types of the fields of records: numbers with their bounds and quantities, and how they turn."""
 
 from typing import Annotated, Literal
 

@@ -1,4 +1,4 @@
-"""What all records of `vehicle.toml` are made of."""
+"""The base of all records of `vehicle.toml`."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
@@ -43,7 +43,7 @@ class RecordError(VehicleError):
 
 
 def built(records: Iterable[R], key: str, build: Callable[[R], P]) -> tuple[P, ...]:
-    """What each record builds; an error names every record that builds nothing, and what it is in."""
+    """The things that records build; an error names every record that builds nothing, and what it is in."""
     parts: list[P] = []
     errors: list[RecordError] = []
     for index, record in enumerate(records):

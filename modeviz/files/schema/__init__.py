@@ -1,1 +1,1 @@
-"""How plain data becomes records: what a field may hold, its units and axes, and how errors read."""
+"""Plain data turned into records: the types, units and axes of fields, and how errors read."""

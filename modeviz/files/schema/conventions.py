@@ -13,7 +13,7 @@ from modeviz.vehicle.arrays import Floats
 
 @dataclass(frozen=True, eq=False)
 class Conventions:
-    """What the numbers of a file mean; SI and our axes, if nothing is said."""
+    """The units and axes of a file's numbers; SI and our axes, if nothing is said."""
 
     units: Mapping[str, str] = field(default_factory=lambda: {"length": "m", "mass": "kg"})
     """Quantity to unit."""
@@ -21,7 +21,7 @@ class Conventions:
     """(3, 3), see `axes_of`."""
 
     def with_units(self, units: Mapping[str, str], key: str) -> Self:
-        """The same, with a file's own units in place of some.
+        """These conventions with a file's own units in place of some.
 
         Raises:
             VehicleError: no such quantity or unit; the text begins with the key that says it.
@@ -32,7 +32,7 @@ class Conventions:
         return replace(self, units={**self.units, **units})
 
     def unit(self, quantity: str) -> float:
-        """What one unit of a quantity is in SI; raises VehicleError if none is said."""
+        """One unit of a quantity in SI; raises VehicleError if none is said."""
         return unit_in_si(quantity, self.units)
 
     def positions(self, positions: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""What the type hints of records say of a key, and data changed by what they say."""
+"""Type hints of records, read key by key, and data changed by what they say."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -23,7 +23,7 @@ def is_record(kind: Any) -> bool:
 
 
 def alternatives(hint: Any) -> list[Any]:
-    """What a value that is there may be, each with its annotations."""
+    """The types that a value that is there may have, each with its annotations."""
     if get_origin(hint) in (Union, UnionType):
         return [inner for kind in get_args(hint) for inner in alternatives(kind)]
     if get_origin(hint) is Annotated and len(inner := alternatives(get_args(hint)[0])) > 1:
@@ -103,6 +103,6 @@ def each_annotated(
 
 
 def _table_kind(hint: Any) -> Any:
-    """What a table is, whatever else its key may be."""
+    """The type of a table, whatever else its key may be."""
     kinds = [plain(kind) for kind in alternatives(hint)] or [hint]
     return next(filter(is_record, kinds), kinds[0])

@@ -1,4 +1,4 @@
-"""What of plain data does not fit a type, in a sentence: where it is, what is there, what is right.
+"""Sentences on plain data that does not fit a type: where it is, what is there, what is right.
 
 msgspec only says whether a value fits; the words and the path of its errors are no part of its
 contract, and are not looked at. The place is found by asking again for the parts of what does not fit,
@@ -121,7 +121,7 @@ def _fits(value: Any, hint: Any) -> bool:
 
 
 def _broken_bound(value: Any, hint: Any) -> str | None:
-    """In words, the bound of its type that a value breaks."""
+    """Words for the bound of its type that a value breaks."""
     if _is_fixed(plain(hint)):
         length = len(get_args(plain(hint)))
         return f"of length {length}" if len(value) != length else None
@@ -140,7 +140,7 @@ def _is_fixed(kind: Any) -> bool:
 
 
 def _plain_types(hint: Any) -> tuple[type, ...]:
-    """What plain data have for one type."""
+    """The types that plain data have for one type."""
     kind = plain(hint)
     if get_origin(kind) is Literal:
         return tuple(map(type, get_args(kind)))

@@ -1,4 +1,4 @@
-"""What the numbers of a field are: each field of a record that holds any has one of these annotations.
+"""Quantities of the numbers of a field: each field of a record that holds any has one of these.
 
 A number of which nothing is said would pass for one without a unit, whatever its file says of units;
 so a record with such a field cannot be made.
@@ -33,7 +33,7 @@ class Quantity:
         return (self.name,) if self.name else tuple(self.by_kind.values())
 
     def named(self, table: Mapping[str, Any]) -> QuantityName:
-        """What the quantity is in a table."""
+        """The name of the quantity in a table."""
         return self.name or self.by_kind[table["kind"]]
 
 

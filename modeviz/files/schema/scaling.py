@@ -61,7 +61,7 @@ def to_si(data: Any, kind: type, units: Mapping[str, str]) -> Any:
 
 
 def unit_in_si(quantity: str, units: Mapping[str, str]) -> float:
-    """What one unit of a quantity is in SI.
+    """One unit of a quantity in SI.
 
     Args:
         quantity: a key of `units` tables.
@@ -92,7 +92,7 @@ def written(value: float, unit: float) -> float:
 
 
 def _factor(quantity: str, unit: str) -> float:
-    """What one unit is in SI."""
+    """One unit in SI."""
     if quantity not in UNITS:
         raise VehicleError("units: " + unknown("quantity", quantity, UNITS))
     with located(f"units.{quantity}"):
