@@ -43,7 +43,7 @@ class RecordError(VehicleError):
 
 
 def built(records: Iterable[R], key: str, build: Callable[[R], P]) -> tuple[P, ...]:
-    """The things that records build; an error names every record that builds nothing, and what it is in."""
+    """The values that records build; an error names every record that builds none, and its table."""
     parts: list[P] = []
     errors: list[RecordError] = []
     for index, record in enumerate(records):
