@@ -17,7 +17,9 @@ class TunedVehicle:
 
     def __init__(self, vehicle: Vehicle, tell: Tell) -> None:
         """Begins with the vehicle's own rates and speed; `tell` is told how far a preparation is."""
-        self.vehicle, self.rates, self._tell = vehicle, StudyRates(vehicle), tell
+        self.vehicle: Vehicle = vehicle
+        self.rates: StudyRates = StudyRates(vehicle)
+        self._tell = tell
         self._speed = vehicle.speed
         self._prepared: PreparedModes | None = None
 
