@@ -83,11 +83,12 @@ class SearchStatus(Job[Sought, Optimum]):
 
 
 @dataclass(frozen=True, eq=False)
-class Searching(Command):
-    """A change by a search; all of one search are undone together."""
+class SearchStep(Command):
+    """A part of a search, which is undone as a whole."""
 
     sought: Sought
-    change: Callable[[State], State]
+    rates: Rates
+    """Of every group, to be taken over."""
 
     @property
     def step(self) -> Hashable:
@@ -97,8 +98,29 @@ class Searching(Command):
     def within(self) -> float:
         return math.inf
 
+
+@dataclass(frozen=True, eq=False)
+class FollowSearch(SearchStep):
+    """Take over the design that a search is at, unless somebody moved a rate meanwhile."""
+
+    last: Rates
+    """The design that it was at before."""
+
     def apply(self, state: State, vehicle: Vehicle) -> State:
-        return self.change(state)
+        if state.design.rates != self.last:
+            return state
+        return replace(state, design=replace(state.design, rates=self.rates))
+
+
+@dataclass(frozen=True, eq=False)
+class AcceptOptimum(SearchStep):
+    """Take over the design that was found, and pin it as the first free of "Optimised 1" ..."""
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        taken = rate_sets(vehicle, state.design)
+        name = next(n for n in (f"Optimised {i}" for i in count(1)) if n not in taken)
+        design = state.design.with_variant(name, self.rates)
+        return replace(state, design=replace(design, rates=dict(self.rates)))
 
 
 class SearchTask:
@@ -163,16 +185,8 @@ class SearchTask:
 
     def accept(self) -> None:
         """Takes over the design that was found, and pins it as the first free of "Optimised 1" ..."""
-        if (job := self.job) is None or (optimum := job.found) is None:
-            return
-
-        def accepted(state: State) -> State:
-            taken = rate_sets(self._session.vehicle, state.design)
-            name = next(n for n in (f"Optimised {i}" for i in count(1)) if n not in taken)
-            design = state.design.with_variant(name, optimum.rates)
-            return replace(state, design=replace(design, rates=dict(optimum.rates)))
-
-        self._change(job.asked, accepted)
+        if (job := self.job) and job.found:
+            self._session.do(AcceptOptimum(job.asked, job.found.rates))
 
     def go_back(self) -> None:
         """Takes over the rates before the search again."""
@@ -220,14 +234,8 @@ class SearchTask:
         self._changed()
 
     def _go_to(self, sought: Sought, rates: Rates) -> None:
-        def followed(state: State) -> State:
-            if state.design.rates != self._followed:
-                return state
+        """Brings the session to rates, if it still has those that the search brought it to."""
+        session = self._session
+        session.do(FollowSearch(sought, rates, self._followed))
+        if session.state.design.rates == rates:
             self._followed = rates
-            return replace(state, design=replace(state.design, rates=rates))
-
-        self._change(sought, followed)
-
-    def _change(self, sought: Sought, change: Callable[[State], State]) -> None:
-        """Changes the session's state as a part of a search, which is undone as a whole."""
-        self._session.do(Searching(sought, change))
