@@ -110,8 +110,8 @@ def retained_up_to(matrices: Matrices, frequency_hz: float, always: Sequence[int
     First six that carry the mass in rigid motion. Then, again and again, as many as there are modes
     with these held below the frequency: those in which such modes, weighed by mass, are the most
     independent (QR with pivoting). The frequency is then about what `GuyanReduction.omitted_hz` says:
-    three times that of a mode leaves 5 % of its frequency in doubt, and rarely 1 % in error. The
-    pickup's cab needs 79 of 18 420 for 200 Hz, and a minute.
+    three times that of a mode leaves 5 % of its frequency in doubt. The pickup's cab needs 78 of 18 420
+    for 200 Hz; its modes at a third of that are then 1 to 2 % too high.
 
     Args:
         matrices: of the body.
