@@ -12,7 +12,7 @@ import scipy.linalg as sl
 import scipy.sparse as sp
 import scipy.sparse.linalg as spl
 
-from modeviz.errors import SolveError
+from modeviz.errors import SolveError, quoted
 from modeviz.fem.free import N_RIGID, ModalBasis, factorised, most_independent, rigid_modes
 from modeviz.fem.matrices import Matrices
 from modeviz.vehicle.arrays import Floats
@@ -142,7 +142,7 @@ def _check_retained(matrices: Matrices, retained: np.ndarray) -> None:
         or not np.isin(retained, np.arange(matrices.n_dofs)).all()
     ):
         raise SolveError(
-            f"retained: found {retained.tolist()}, expected different indices from 0 to "
+            f"retained: found {quoted(retained.tolist())}, expected different indices from 0 to "
             f"{matrices.n_dofs - 1}"
         )
     shown = rigid_modes(matrices)[retained]
