@@ -1,8 +1,9 @@
 """Signals as on a terminal, also where tests run behind a script or `nohup` that has them ignored."""
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from modeviz.cli.interrupt import ENDINGS
 
@@ -17,3 +18,14 @@ def usual_signals() -> Iterator[None]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def interrupting(told: list[Any], ending: int, after: int = 1) -> Callable[[Any, Any], None]:
+    """Stands for what tells of progress: notes it, and after so many times raises a signal."""
+
+    def interrupt(_: Any, progress: Any) -> None:
+        told.append(progress)
+        if len(told) == after:
+            signal.raise_signal(ending)
+
+    return interrupt

@@ -3,7 +3,6 @@
 import csv
 import json
 import re
-import signal
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 from cabin_problem import PROBLEM
 from mounted_cabin import mounted_cabin
 from rounding import SEARCHED_X
-from usual_signals import usual_signals
+from usual_signals import interrupting, usual_signals
 
 from modeviz.cli import front as command
 from modeviz.cli import main
@@ -93,13 +92,7 @@ def test_its_tables_say_the_same_in_print_and_in_a_file(capsys, cabin, tmp_path)
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_a_signal_to_end_keeps_the_designs_so_far(monkeypatch, printed_json, cabin, ending):
     told = []
-
-    def interrupt(_, progress):
-        told.append(progress)
-        if len(told) == 1:
-            signal.raise_signal(ending)
-
-    monkeypatch.setattr(command, "_tell", interrupt)
+    monkeypatch.setattr(command, "_tell", interrupting(told, ending))
     with usual_signals():
         record = printed_json("optimise", cabin, "--front", OFFER, "--starts", "1")
     assert record["reason"] == "cancelled"

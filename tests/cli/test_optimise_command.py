@@ -13,7 +13,7 @@ import pytest
 from cabin_problem import PROBLEM, cabin_search
 from mounted_cabin import mounted_cabin
 from rounding import SEARCHED, SEARCHED_X
-from usual_signals import usual_signals
+from usual_signals import interrupting, usual_signals
 
 from modeviz.cli import front as front_command
 from modeviz.cli import main
@@ -230,13 +230,7 @@ def signals():
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_an_interrupt_keeps_the_best_so_far(monkeypatch, capsys, cabin, tmp_path, ending):
     told = []
-
-    def interrupt(_, progress):
-        told.append(progress)
-        if len(told) == 5:
-            signal.raise_signal(ending)
-
-    monkeypatch.setattr(command, "_tell", interrupt)
+    monkeypatch.setattr(command, "_tell", interrupting(told, ending, after=5))
     before = signal.getsignal(ending)
     path = tmp_path / "rates.csv"
     assert main(["optimise", cabin, "--output", str(path), "--json"]) == 0
@@ -329,13 +323,7 @@ def test_an_interrupt_before_the_robust_search_keeps_the_best_as_drawn(
     monkeypatch, printed_json, cabin
 ):
     told = []
-
-    def interrupt(_, progress):
-        told.append(progress)
-        if len(told) == 1:
-            signal.raise_signal(signal.SIGINT)
-
-    monkeypatch.setattr(command, "_tell", interrupt)
+    monkeypatch.setattr(command, "_tell", interrupting(told, signal.SIGINT))
     record = printed_json("optimise", cabin, "--robust")
     assert record["reason"] == "cancelled"
     assert record["percentile"] is None

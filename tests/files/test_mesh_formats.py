@@ -388,13 +388,7 @@ def test_what_is_no_binary_gltf_is_explained(complaint, content):
     ],
 )
 def test_a_damaged_texture_is_explained(complaint, content, words):
-    glb = GlbFile()
-    image = glb.add("images", {"bufferView": glb.view(content)})
-    material = paint(1, 1, 1, 1)
-    texture = glb.add("textures", {"source": image})
-    material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": texture}
-    glb.surface(glb.square(material))
-    assert words in complaint(glb.content())
+    assert words in complaint(textured(content))
 
 
 @pytest.mark.parametrize(
@@ -405,15 +399,20 @@ def test_a_damaged_texture_is_explained(complaint, content, words):
     ],
 )
 def test_a_texture_of_very_many_pixels_is_refused_before_it_is_decoded(complaint, side, words):
-    glb = GlbFile()
     header = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
     png = b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", bytes(9))
-    image = glb.add("images", {"bufferView": glb.view(png)})
+    assert words in complaint(textured(png))
+
+
+def textured(image: bytes) -> bytes:
+    """A file with a square that has an image for its texture."""
+    glb = GlbFile()
+    source = glb.add("images", {"bufferView": glb.view(image)})
     material = paint(1, 1, 1, 1)
-    texture = glb.add("textures", {"source": image})
+    texture = glb.add("textures", {"source": source})
     material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": texture}
     glb.surface(glb.square(material))
-    assert words in complaint(glb.content())
+    return glb.content()
 
 
 def png_chunk(kind: bytes, content: bytes) -> bytes:
