@@ -17,6 +17,7 @@ LAYERS = [
     {"units", "text", "compute"},
     {"vehicle"},
     {"files", "fem", "shapes", "dynamics"},
+    {"formats"},
     {"ride"},
     {"analysis"},
     {"optimise"},

@@ -1,4 +1,7 @@
-"""The command line: `modeviz [view|modes|psd|wheels|render|report|optimise|scatter] [VEHICLE]`."""
+"""The command line.
+
+`modeviz [view|modes|psd|wheels|render|report|optimise|scatter] [VEHICLE]`, `modeviz import FILE`.
+"""
 
 import sys
 from collections.abc import Sequence

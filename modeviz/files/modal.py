@@ -90,7 +90,7 @@ def read_flexible_body(
     with located(path):
         body = FlexibleBody(
             name=name,
-            omega_n_squared=_with_zeros(arrays["omega_n_squared"], f"body {name!r}", source.note),
+            omega_n_squared=_zeros_noted(arrays["omega_n_squared"], f"body {name!r}", source.note),
             n_residuals=int(arrays["n_residuals"]),
             attachments=tuple(map(Attachment, names.tolist(), positions, _with_six_rows(shapes))),
             nodes=arrays["nodes"],
@@ -117,21 +117,31 @@ def write_flexible_body(path: Path, body: FlexibleBody) -> None:
     )
 
 
-def _with_zeros(omega_n_squared: Floats, where: str, note: Callable[[str], None]) -> Floats:
-    """ω² with zeros for the rigid modes, to which solvers give 1e-4 Hz, or ω² a little below zero."""
+def with_zeros(omega_n_squared: Floats) -> tuple[Floats, int]:
+    """ω² with zeros for the rigid modes, and of how many it was near zero but not zero.
+
+    Solvers give rigid modes 1e-4 Hz, or ω² a little below zero.
+    """
     frequency_hz = np.sqrt(np.abs(omega_n_squared)) / (2 * np.pi)
     lowest_elastic = frequency_hz[FlexibleBody.N_RIGID : FlexibleBody.N_RIGID + 1]
     limit = max(NEAR_ZERO_HZ, NEAR_ZERO * float(lowest_elastic.max(initial=0.0)))
     rigid = frequency_hz[: FlexibleBody.N_RIGID]
     near = np.flatnonzero((rigid > 0) & (rigid < limit))
-    if not near.size:
-        return omega_n_squared
-    note(
-        f"{where}: omega_n_squared: {len(near)} of the first {len(rigid)} modes are near zero, up to "
-        f"{rigid[near].max():.1g} Hz; taken for zero, as rigid modes"
-    )
     result = omega_n_squared.copy()
     result[near] = 0
+    return result, len(near)
+
+
+def _zeros_noted(omega_n_squared: Floats, where: str, note: Callable[[str], None]) -> Floats:
+    """The same, with a note if there were any."""
+    result, n_near = with_zeros(omega_n_squared)
+    if n_near:
+        near = omega_n_squared[result != omega_n_squared]
+        n_first = len(omega_n_squared[: FlexibleBody.N_RIGID])
+        note(
+            f"{where}: omega_n_squared: {n_near} of the first {n_first} modes are near zero, up to "
+            f"{np.sqrt(np.abs(near).max()) / (2 * np.pi):.1g} Hz; taken for zero, as rigid modes"
+        )
     return result
 
 

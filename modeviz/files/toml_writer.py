@@ -22,7 +22,7 @@ def _lines(table: Mapping[str, Any], path: str) -> Iterator[str]:
     blocks = {key: value for key, value in table.items() if _is_block(value)}
     for key, value in table.items():
         if key not in blocks:
-            yield f"{_key(key)} = {_value(value)}"
+            yield f"{_key(key)} = {toml_value(value)}"
     for key, value in blocks.items():
         name = f"{path}{_key(key)}"
         header = f"[[{name}]]" if isinstance(value, list) else f"[{name}]"
@@ -40,14 +40,15 @@ def _is_block(value: Any) -> bool:
 
 
 def _key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _value(key)
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else toml_value(key)
 
 
-def _value(value: Any) -> str:
+def toml_value(value: Any) -> str:
+    """Return text, a number, a truth value, a list or a table of such, on one line."""
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, list):
-        return f"[{', '.join(map(_value, value))}]"
+        return f"[{', '.join(map(toml_value, value))}]"
     if isinstance(value, dict):
-        return f"{{ {', '.join(f'{_key(k)} = {_value(v)}' for k, v in value.items())} }}"
+        return f"{{ {', '.join(f'{_key(k)} = {toml_value(v)}' for k, v in value.items())} }}"
     return str(value).lower()

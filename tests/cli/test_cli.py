@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
+from modeviz.cli.importing import IMPORT
 from modeviz.cli.parser import COMMANDS, parse
 from modeviz.cli.render import RENDER
 from modeviz.cli.scatter import ScatterCommandOptions
@@ -185,12 +186,17 @@ def test_a_wrong_option_is_status_2_too(capsys):
     assert end.value.code == 2
 
 
+NEEDED = {
+    RENDER.name: (["--output", "x.png"], {"output": Path("x.png")}),
+    IMPORT.name: (["x.unv"], {"files": (Path("x.unv"),)}),
+}
+"""What a command cannot do without, as it is typed and as an option."""
+
+
 def test_what_is_not_given_is_as_the_options_of_a_command_say():
     for command in COMMANDS:
-        needed = {"output": "x.png"} if command is RENDER else {}
-        given = [part for name, value in needed.items() for part in (f"--{name}", value)]
-        paths = {name: Path(value) for name, value in needed.items()}
-        assert parse([command.name, *given]).args == (command.options(**paths),)
+        given, needed = NEEDED.get(command.name, ([], {}))
+        assert parse([command.name, *given]).args == (command.options(**needed),)
 
 
 def test_options_are_read_by_the_names_and_types_of_their_fields():

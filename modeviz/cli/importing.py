@@ -1,0 +1,153 @@
+"""The command that puts a component out of another program's files into a vehicle folder."""
+
+from argparse import ArgumentParser
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from modeviz.cli.command import Command
+from modeviz.cli.results import check_printable, print_result
+from modeviz.cli.terminal import remark
+from modeviz.errors import ModevizError, located
+from modeviz.formats.body import (
+    Found,
+    chosen_units,
+    find_attachments,
+    flexible_body,
+    parse_place,
+    uncoupled_because,
+)
+from modeviz.formats.component import UNIT_SYSTEMS, Component
+from modeviz.formats.into_folder import add_body
+from modeviz.formats.reading import read_component
+from modeviz.report.tables import table
+from modeviz.vehicle.bodies import FlexibleBody
+
+UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImportOptions:
+    """What `modeviz import` is asked for."""
+
+    files: tuple[Path, ...]
+    """Of one component."""
+    output: Path | None = None
+    """The vehicle folder to put it into; None: it is only listed."""
+    units: str | None = None
+    """One of `UNIT_SYSTEMS`; None: as the files say."""
+    name: str | None = None
+    """Of the body; None: that of the first file."""
+    attach: tuple[str, ...] = ()
+    """Places, as `parse_place` reads them."""
+
+
+def import_component(options: ImportOptions) -> None:
+    """Lists what files have of a component, and puts it into a vehicle folder if there is one."""
+    check_printable()
+    component = read_component(options.files)
+    for note in component.notes:
+        remark(f"{component.source}: {note}")
+    if options.output is None:
+        if options.attach or options.name or options.units:
+            raise ModevizError(
+                "--attach, --name and --units are of a body that is written; say where with --output"
+            )
+        print_result(listing(component))
+        return
+    name = options.name or options.files[0].stem
+    units = chosen_units(component, options.units)
+    with located("--attach"):
+        found = find_attachments(component, [parse_place(text) for text in options.attach], units)
+    body, remarks = flexible_body(component, units, name, found)
+    vehicle = add_body(body, options.output, component.source)
+    for note in (*remarks, *vehicle.notes):
+        remark(note)
+    print_result(summary(body, found, options.output))
+
+
+def listing(component: Component) -> str:
+    """Return the modes of a component as a table, and what it is made of."""
+    counts = [f"{len(corners)} {kind}s" for kind, corners in component.elements.items()]
+    known = component.units.name if component.units else UNKNOWN
+    reason = uncoupled_because(component)
+    lines = [
+        f"{component.source}: {len(component.node_ids)} nodes, {', '.join(counts) or 'no elements'}; "
+        f"units {known}",
+        f"It cannot be coupled to others: {reason}." if reason else "It can be coupled to others.",
+    ]
+    if not component.n_modes:
+        return "\n".join(lines)
+    modes = component.modes
+    rows = [
+        [str(number + 1), f"{frequency:.5g}", _known(mass, "{:.5g}"), _known(100 * ratio, "{:.2f}")]
+        for number, (frequency, mass, ratio) in enumerate(
+            zip(modes.frequency_hz, modes.modal_mass, modes.damping_ratio, strict=True)
+        )
+    ]
+    return "\n".join([*lines, "", table(["mode", "Hz", "modal mass", "damping %"], rows)])
+
+
+def _known(value: float, form: str) -> str:
+    return form.format(value) if np.isfinite(value) else UNKNOWN
+
+
+def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) -> str:
+    """Return what an engineer can compare with what they know of a body that was written."""
+    _, inertia = body.rigid_fit.mass_about_center_of_gravity
+    m = body.rigid_fit.mass
+    center = np.array([m[1, 5], m[2, 3], m[0, 4]]) / body.mass
+    elastic = body.natural_frequency_hz[body.n_rigid :][:5]
+    n_elastic = body.n_modes - body.n_rigid
+    lines = [
+        f"{folder}: body {body.name!r}, {body.n_rigid} rigid and {n_elastic} elastic modes",
+        f"mass {body.mass:.5g} kg, centre of gravity {_places(center)} m, "
+        f"moments of inertia {_places(np.diag(inertia))} kg m²",
+        f"first elastic modes {', '.join(f'{f:.4g}' for f in elastic) or 'none'} Hz",
+    ]
+    for found, attachment in zip(attachments, body.attachments, strict=True):
+        far = f", {1000 * found.distance:.3g} mm from where it was asked for" if found.distance else ""
+        lines.append(f"attachment {found.name!r} at {_places(attachment.position)} m{far}")
+    if not attachments:
+        lines.append("no attachments, so nothing can hold on to it: import it with --attach")
+    return "\n".join(lines)
+
+
+def _places(values: np.ndarray) -> str:
+    return f"[{', '.join(f'{value:.4g}' for value in values)}]"
+
+
+def _add_options(command: ArgumentParser) -> None:
+    command.add_argument(
+        "files",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help="of one component; its geometry and its modes may be in several",
+    )
+    command.add_argument(
+        "--output", type=Path, metavar="FOLDER", help="vehicle folder to put it into, new or there"
+    )
+    command.add_argument(
+        "--units",
+        metavar="NAME",
+        help=f"of the files, where they do not say: {', '.join(UNIT_SYSTEMS)}",
+    )
+    command.add_argument("--name", metavar="NAME", help="of the body (default: the first file's)")
+    command.add_argument(
+        "--attach",
+        action="append",
+        metavar="PLACE",
+        help="where others hold on to it: a node's number, NAME=NODE, or NAME=X,Y,Z in the file's "
+        "units for the nearest node; may be repeated",
+    )
+
+
+IMPORT = Command(
+    "import",
+    "a component out of other programs' files into a vehicle folder",
+    ImportOptions,
+    _add_options,
+    import_component,
+)

@@ -1,0 +1,246 @@
+"""A component as a flexible body in SI, as far as its files say enough for that."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeviz.errors import VehicleError, listed, quoted
+from modeviz.files.modal import with_zeros
+from modeviz.formats.component import UNIT_SYSTEMS, Component, UnitSystem
+from modeviz.formats.surface import display_mesh
+from modeviz.vehicle.arrays import Array, Floats
+from modeviz.vehicle.bodies import Attachment, FlexibleBody, Role
+from modeviz.vehicle.rigid_fit import fit_rigid
+
+USUAL_DAMPING_RATIO = 0.01
+"""Of a component whose file has none."""
+
+MOST_NODES_TIMES_MODES = 8_000_000
+"""Of a body that is written, 190 MB: more nodes are thinned out, since they only carry the drawing."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where an attachment is to be."""
+
+    name: str
+    node: int | None = None
+    """The node it is at."""
+    position: tuple[float, float, float] | None = None
+    """Instead, in the file's units: it is at the nearest node."""
+
+
+def parse_place(text: str) -> Place:
+    """Return the place that is written as "NAME=NODE", "NODE", or "NAME=X,Y,Z".
+
+    Raises:
+        VehicleError: it is written otherwise.
+    """
+    name, _, where = text.rpartition("=")
+    parts = [part.strip() for part in where.split(",")]
+    try:
+        if len(parts) == 1 and re.fullmatch(r"\d{1,18}", parts[0]):
+            return Place(name.strip() or parts[0], node=int(parts[0]))
+        x, y, z = map(float, parts)
+    except ValueError:
+        pass
+    else:
+        if name.strip() and np.isfinite([x, y, z]).all():
+            return Place(name.strip(), position=(x, y, z))
+    raise VehicleError(
+        f"found {quoted(text)}, expected a node's number, NAME=NODE, or NAME=X,Y,Z in the file's units"
+    )
+
+
+@dataclass(frozen=True)
+class Found:
+    """The node that an attachment is at."""
+
+    name: str
+    row: int
+    distance: float
+    """m, from where it was asked for."""
+
+
+def chosen_units(component: Component, name: str | None) -> UnitSystem:
+    """Return the units that a component is in: those that its files say, or else those of a name.
+
+    Raises:
+        VehicleError: neither says them, both do and differ, or there are none of that name.
+    """
+    if name is not None and name not in UNIT_SYSTEMS:
+        raise VehicleError(f"found the units {quoted(name)}, expected one of {', '.join(UNIT_SYSTEMS)}")
+    said, asked = component.units, UNIT_SYSTEMS.get(name or "")
+    if (
+        said
+        and asked
+        and not np.allclose([said.length, said.mass], [asked.length, asked.mass], rtol=1e-3)
+    ):
+        raise VehicleError(
+            f"{component.source}: the file says that it is in {said.name!r} (a length of "
+            f"{said.length:g} m, a mass of {said.mass:g} kg), which {asked.name} is not"
+        )
+    if chosen := said or asked:
+        return chosen
+    raise VehicleError(
+        f"{component.source}: the file doesn't say its units, and they are not guessed; "
+        f"say them, one of {', '.join(UNIT_SYSTEMS)}"
+    )
+
+
+def uncoupled_because(component: Component) -> str | None:
+    """Return why a component cannot be coupled to others, in one sentence; None if it can."""
+    modes = component.modes
+    if not component.n_modes:
+        return "it has no modes"
+    if component.is_complex:
+        return "its shapes are complex, those of a damped structure; expected normal modes"
+    unknown = np.flatnonzero(~(modes.modal_mass > 0))
+    if len(unknown):
+        return (
+            f"the modal mass of {len(unknown)} of its {component.n_modes} modes is not in the file, "
+            f"such as that at {modes.frequency_hz[unknown[0]]:.4g} Hz; without it nobody knows what "
+            "force moves them"
+        )
+    if not component.has_place.any():
+        return "none of the nodes that it moves has a place; give the file with the geometry too"
+    zeros, _ = with_zeros((2 * np.pi * modes.frequency_hz) ** 2)
+    n_rigid = int((zeros == 0).sum())
+    if n_rigid not in (FlexibleBody.N_RIGID - 1, FlexibleBody.N_RIGID):
+        return (
+            f"{n_rigid} of its modes are near zero Hz (the lowest is at {modes.frequency_hz[0]:.4g} "
+            "Hz), expected the six rigid ones of a free structure: solve it without supports and "
+            "with all modes from zero up"
+        )
+    return None
+
+
+def find_attachments(
+    component: Component, places: Sequence[Place], units: UnitSystem
+) -> tuple[Found, ...]:
+    """Return the nodes at or nearest to places.
+
+    Raises:
+        VehicleError: there is no such node, or two places have the same name.
+    """
+    placed = np.flatnonzero(component.has_place)
+    names = [place.name for place in places]
+    if repeated := {name for name in names if names.count(name) > 1}:
+        raise VehicleError(f"attachment {quoted(min(repeated))}: two have that name")
+    found = []
+    for place in places:
+        if place.position is None:
+            row, distance = _row_of(component, place), 0.0
+        else:
+            apart = np.linalg.norm(component.nodes[placed] - place.position, axis=1)
+            row, distance = int(placed[apart.argmin()]), float(apart.min()) * units.length
+        found.append(Found(place.name, row, distance))
+    return tuple(found)
+
+
+def _row_of(component: Component, place: Place) -> int:
+    row = int(np.searchsorted(component.node_ids, place.node or 0))
+    there = component.node_ids[row : row + 1].tolist() == [place.node]
+    if not (there and component.has_place[row]):
+        raise VehicleError(
+            f"attachment {quoted(place.name)}: there is no node {place.node} with a place and a "
+            f"motion; there are {listed(component.node_ids[component.has_place][:5].tolist())} and "
+            "others"
+        )
+    return row
+
+
+def flexible_body(
+    component: Component,
+    units: UnitSystem,
+    name: str,
+    attachments: Sequence[Found],
+    role: Role = "other",
+) -> tuple[FlexibleBody, tuple[str, ...]]:
+    """Return a component as a body in SI, mass-normalised, and what there is to know of that.
+
+    Mass-normalised shapes are those of the file over the root of their modal mass.
+
+    Args:
+        component: of normal modes with their modal masses.
+        units: that it is in.
+        name: of the body.
+        attachments: where others hold on to it.
+        role: in the vehicle.
+
+    Raises:
+        VehicleError: it cannot be coupled; the text says why.
+    """
+    if reason := uncoupled_because(component):
+        raise VehicleError(f"{component.source}: cannot be coupled to others: {reason}")
+    modes = component.modes
+    omega_n_squared, n_near_zero = with_zeros((2 * np.pi * modes.frequency_hz) ** 2)
+    normalised = modes.shapes / np.sqrt(modes.modal_mass * units.mass)
+    normalised[:, 3:] /= units.length
+    places = component.nodes * units.length
+    is_turned = _with_rigid_rotations(normalised, places, component.has_place, omega_n_squared == 0)
+    mesh = display_mesh(component, units.length)
+    kept, thinned = _carriers(component, len(omega_n_squared))
+    body = FlexibleBody(
+        name=name,
+        role=role,
+        label=name,
+        omega_n_squared=omega_n_squared,
+        n_residuals=0,
+        damping_ratio=_damping(modes.damping_ratio[omega_n_squared > 0]),
+        attachments=tuple(Attachment(a.name, places[a.row], normalised[a.row]) for a in attachments),
+        nodes=places[kept],
+        shapes=normalised[kept],
+        mesh=mesh,
+    )
+    at_solids = [a.name for a in attachments if is_turned[a.row]]
+    return body, tuple(_remarks(n_near_zero, modes.frequency_hz, at_solids, thinned))
+
+
+def _with_rigid_rotations(shapes: Floats, places: Floats, placed: Array, is_rigid: Array) -> Array:
+    """Gives nodes that have no rotations those of the rigid modes, in place; which nodes they were."""
+    fit = fit_rigid(
+        np.zeros((0, 3)),
+        np.zeros((0, 6, is_rigid.sum())),
+        places[placed],
+        shapes[placed][:, :, is_rigid],
+    )
+    without = placed & ~shapes[:, 3:].any(axis=(1, 2))
+    turning = np.where(without[:, None, None], fit.motions[3:], shapes[:, 3:, is_rigid])
+    shapes[:, 3:, is_rigid] = turning
+    return without
+
+
+def _carriers(component: Component, n_modes: int) -> tuple[Array, int]:
+    """Rows of the nodes that carry the drawing, and how many others would have."""
+    used = np.unique(np.concatenate([[], *(c.ravel() for c in component.elements.values())]))
+    rows = used.astype(int)
+    rows = rows[component.has_place[rows]]
+    if not len(rows):
+        rows = np.flatnonzero(component.has_place)
+    step = -(-len(rows) * n_modes // MOST_NODES_TIMES_MODES)
+    return rows[::step], len(rows) - len(rows[::step])
+
+
+def _damping(ratios: Floats) -> float | tuple[float, ...]:
+    """Those of the file, if it says all of them."""
+    if len(ratios) and np.isfinite(ratios).all():
+        return tuple(ratios.tolist())
+    return USUAL_DAMPING_RATIO
+
+
+def _remarks(n_near_zero: int, frequency_hz: Floats, solid: list[str], thinned: int) -> Iterator[str]:
+    if n_near_zero:
+        yield (
+            f"{n_near_zero} modes are near zero, up to {frequency_hz[:n_near_zero].max():.1g} Hz; "
+            "taken for the rigid ones"
+        )
+    if solid:
+        yield (
+            f"the nodes of {listed(solid)} have no rotations in the file: taken to turn as the body "
+            "does in its rigid modes, and not as it deforms"
+        )
+    if thinned:
+        yield f"{thinned:,} nodes are left out of what moves the drawing, which its neighbours carry"

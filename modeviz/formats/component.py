@@ -1,0 +1,125 @@
+"""What every reader returns: a structure as another program's files have it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from modeviz.errors import VehicleError
+from modeviz.units import UNITS
+from modeviz.vehicle.arrays import Array, Floats
+
+ElementKind = Literal["line", "triangle", "quad", "tetra", "pyramid", "wedge", "hexa"]
+
+CORNERS: Mapping[ElementKind, int] = {
+    "line": 2, "triangle": 3, "quad": 4, "tetra": 4, "pyramid": 5, "wedge": 6, "hexa": 8,
+}  # fmt: skip
+"""How many corners an element has; nodes between them are left out."""
+
+
+@dataclass(frozen=True)
+class UnitSystem:
+    """The units in which a program computed; time is in seconds in all."""
+
+    name: str
+    """As `--units` has it, or as a file says."""
+    length: float
+    """m of one."""
+    mass: float
+    """kg of one."""
+
+
+def _system(name: str, length: str, mass: str) -> UnitSystem:
+    return UnitSystem(name, UNITS["length"][length], UNITS["mass"][mass])
+
+
+UNIT_SYSTEMS = {
+    system.name: system
+    for system in (
+        _system("m-kg-s", "m", "kg"),
+        _system("mm-t-s", "mm", "t"),
+        _system("mm-kg-mN", "mm", "kg"),
+        _system("in-lbf-s", "in", "lbf s²/in"),
+        _system("ft-lbf-s", "ft", "slug"),
+    )
+}
+"""By name: those in which modes are usually computed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Natural modes in the basic coordinates, in the file's units and as it has them normalised."""
+
+    frequency_hz: Floats
+    """(n_modes,), zero or a little off it for rigid ones."""
+    modal_mass: Floats
+    """(n_modes,), not a number where the file does not say it."""
+    damping_ratio: Floats
+    """(n_modes,), not a number where the file does not say it."""
+    shapes: Array
+    """(n_nodes, 6, n_modes), real or complex: motions, and rotations or zeros."""
+
+
+@dataclass(frozen=True, eq=False)
+class Component:
+    """A structure in the basic coordinates and the units of its files."""
+
+    node_ids: Array
+    """(n_nodes,), rising."""
+    nodes: Floats
+    """(n_nodes, 3); not numbers where only a motion is known of a node."""
+    elements: Mapping[ElementKind, Array]
+    """By kind (n_elements, n_corners), rows of `nodes`."""
+    modes: Modes
+    units: UnitSystem | None = None
+    """None: the files do not say."""
+    notes: tuple[str, ...] = ()
+    """What was left out or taken otherwise than it stands, a sentence each."""
+    source: str = field(default="", kw_only=True)
+    """The files, to say so."""
+
+    def __post_init__(self) -> None:
+        if not np.isfinite(self.modes.shapes).all():
+            raise VehicleError("the shapes have values that are not finite numbers")
+        if np.isinf(self.nodes).any():
+            raise VehicleError("a node is at no finite place")
+        if len(repeated := _repeated(self.node_ids)):
+            raise VehicleError(f"node {repeated[0]} is there twice")
+
+    @property
+    def n_modes(self) -> int:
+        """How many modes it has."""
+        return len(self.modes.frequency_hz)
+
+    @property
+    def is_complex(self) -> bool:
+        """Whether its shapes are complex."""
+        return np.iscomplexobj(self.modes.shapes)
+
+    @property
+    def has_place(self) -> Array:
+        """Whether each node has a place, (n_nodes,)."""
+        return np.asarray(np.isfinite(self.nodes).all(axis=1))
+
+    def rows(self, ids: Array) -> Array:
+        """Return the rows of nodes of those ids; raises VehicleError for one that is not there."""
+        return rows_of(self.node_ids, ids)
+
+
+def rows_of(node_ids: Array, ids: Array) -> Array:
+    """Return where ids stand among rising ones.
+
+    Raises:
+        VehicleError: one is not among them.
+    """
+    rows: Array = np.searchsorted(node_ids, np.asarray(ids))
+    there: Array = rows < len(node_ids)
+    there[there] = node_ids[rows[there]] == ids[there]
+    if not there.all():
+        raise VehicleError(f"node {ids[~there].flat[0]} is named, but it is not there")
+    return rows
+
+
+def _repeated(rising: Array) -> Array:
+    return rising[1:][rising[1:] == rising[:-1]]

@@ -1,0 +1,39 @@
+"""Files of other programs, read by the format that their names tell."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from modeviz.errors import VehicleError, quoted
+from modeviz.formats.component import Component
+from modeviz.formats.universal import SUFFIXES as UNIVERSAL
+from modeviz.formats.universal import read_universal
+
+Reader = Callable[[Sequence[Path]], Component]
+
+READERS: Mapping[str, Reader] = {
+    **dict.fromkeys(UNIVERSAL, read_universal),
+}
+"""By the ending of a file's name."""
+
+
+def read_component(paths: Sequence[Path]) -> Component:
+    """Return what files of one structure have of it, such as its geometry and its modes.
+
+    Raises:
+        VehicleError: a file cannot be read, or they are of different formats.
+    """
+    readers = {_reader(path) for path in paths}
+    if len(readers) != 1:
+        raise VehicleError(
+            f"found {', '.join(path.name for path in paths)}, expected files of one format at a time"
+        )
+    component = readers.pop()(paths)
+    return replace(component, source=", ".join(path.name for path in paths))
+
+
+def _reader(path: Path) -> Reader:
+    suffix = path.suffix.lower()
+    if suffix not in READERS:
+        raise VehicleError(f"{path}: found {quoted(suffix)}, expected one of {', '.join(READERS)}")
+    return READERS[suffix]

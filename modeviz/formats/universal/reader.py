@@ -1,0 +1,195 @@
+"""A universal file as a component."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from modeviz.errors import VehicleError, listed, located
+from modeviz.files.disk import read_bytes
+from modeviz.formats.component import Component, ElementKind, Modes, UnitSystem, rows_of
+from modeviz.formats.frames import BASIC, Frame, basic_places, turn_to_basic
+from modeviz.formats.limits import LARGEST_FILE, check_shapes
+from modeviz.formats.universal.blocks import Block, blocks
+from modeviz.formats.universal.geometry import (
+    grouped,
+    read_elements,
+    read_frames_18,
+    read_frames_2420,
+    read_lines,
+    read_nodes_15,
+    read_nodes_2411,
+    read_units,
+)
+from modeviz.formats.universal.shapes import Shape, read_mode
+from modeviz.vehicle.arrays import Array, Floats
+
+SUFFIXES = (".unv", ".uff", ".uf", ".uf5", ".ufb")
+
+SILENT = {"151", "2400"}
+"""Data sets that have only titles and dates."""
+
+
+@dataclass
+class _Content:
+    """What the data sets of all files say, as it is gathered."""
+
+    labels: list[Array] = field(default_factory=list)
+    systems: list[Array] = field(default_factory=list)
+    coordinates: list[Floats] = field(default_factory=list)
+    lines: list[Array] = field(default_factory=list)
+    elements: list[tuple[ElementKind | None, list[int]]] = field(default_factory=list)
+    frames: dict[int, tuple[int, Frame]] = field(default_factory=dict)
+    """By number, each with the number of that which it is given in."""
+    units: UnitSystem | None = None
+    shapes: list[Shape] = field(default_factory=list)
+    unread: Counter[str] = field(default_factory=Counter)
+    """Data sets that are not a component's, by their numbers."""
+
+    def add(self, block: Block) -> None:
+        """Takes in what a data set has."""
+        kind = block.kind
+        if kind in ("15", "2411"):
+            labels, systems, coordinates = (
+                read_nodes_15(block) if kind == "15" else read_nodes_2411(block)
+            )
+            self.labels.append(labels)
+            self.systems.append(systems)
+            self.coordinates.append(coordinates)
+        elif kind == "82":
+            self.lines.append(read_lines(block))
+        elif kind == "2412":
+            self.elements += read_elements(block)
+        elif kind in ("18", "2420"):
+            self.frames |= read_frames_18(block) if kind == "18" else read_frames_2420(block)
+        elif kind == "164":
+            self.units = read_units(block)
+        elif kind in ("55", "2414") and (shape := read_mode(block)):
+            self.shapes.append(shape)
+        elif kind not in SILENT:
+            self.unread[kind] += 1
+
+
+def read_universal(paths: Sequence[Path]) -> Component:
+    """Return the component of universal files, which may have the geometry and the shapes apart.
+
+    Raises:
+        VehicleError: a file is none, is cut, or says what cannot be.
+    """
+    content = _Content()
+    for path in paths:
+        with located(path):
+            for block in blocks(_without_zeros(read_bytes(path, LARGEST_FILE))):
+                with located("" if block.kind in ("55", "2414") else block.where):
+                    content.add(block)
+    with located(", ".join(map(str, paths))):
+        return _component(content)
+
+
+def _without_zeros(content: bytes) -> bytes:
+    """The content of a file that is text."""
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        raise VehicleError("found text in UTF-16, expected plain text; save it anew")
+    return content
+
+
+def _component(content: _Content) -> Component:
+    labels, systems, coordinates = _nodes(content)
+    frames, notes = _basic_frames(content.frames), []
+    missing = sorted(set(np.unique(systems).tolist()) - {0, *frames})
+    if missing:
+        notes.append(
+            f"the nodes name the coordinate systems {listed(missing)}, which the file does not have; "
+            "taken for the basic one"
+        )
+        frames |= dict.fromkeys(missing, BASIC)
+    known = len(labels)
+    every = _with_unplaced(labels, content.shapes)
+    if len(every) > known:
+        notes.append(
+            f"{len(every) - known} nodes are moved but stand nowhere in the file; give the file with "
+            "the geometry too"
+        )
+    rows = rows_of(every, labels)
+    nodes = np.full((len(every), 3), np.nan)
+    nodes[rows] = basic_places(frames, systems[:, 0], coordinates)
+    motion_systems = np.zeros(len(every), np.int64)
+    motion_systems[rows] = systems[:, 1]
+    modes = _modes(every, content.shapes)
+    placed = np.nan_to_num(nodes)
+    turn_to_basic(frames, motion_systems, placed, modes.shapes)
+    unknown = sum(kind is None for kind, _ in content.elements)
+    if unknown:
+        notes.append(f"{unknown} elements are springs, masses or of kinds unknown, and are not drawn")
+    if content.unread:
+        skipped = (f"{number} of {kind}" for kind, number in content.unread.items())
+        notes.append(f"data sets left out, which are no part of modes: {', '.join(skipped)}")
+    return Component(every, nodes, _elements(content, every), modes, content.units, tuple(notes))
+
+
+def _nodes(content: _Content) -> tuple[Array, Array, Floats]:
+    """Labels, rising, systems and coordinates of all nodes that have a place."""
+    labels = np.concatenate([np.zeros(0, np.int64), *content.labels])
+    systems = np.concatenate([np.zeros((0, 2), np.int64), *content.systems])
+    coordinates = np.concatenate([np.zeros((0, 3)), *content.coordinates])
+    order = np.argsort(labels, kind="stable")
+    labels, systems, coordinates = labels[order], systems[order], coordinates[order]
+    again = np.flatnonzero(labels[1:] == labels[:-1]) + 1
+    differs = (coordinates[again] != coordinates[again - 1]).any(axis=1)
+    if differs.any():
+        raise VehicleError(f"node {labels[again[differs][0]]} is there twice, at different places")
+    kept = np.delete(np.arange(len(labels)), again)
+    return labels[kept], systems[kept], coordinates[kept]
+
+
+def _basic_frames(frames: Mapping[int, tuple[int, Frame]]) -> dict[int, Frame]:
+    """Coordinate systems in the basic one, of those that may be given in others."""
+    basic: dict[int, Frame] = {}
+
+    def resolved(number: int, depth: int) -> Frame:
+        if number == 0 or number not in frames:
+            return BASIC
+        if depth > len(frames):
+            raise VehicleError(f"coordinate system {number} is given in itself")
+        if number not in basic:
+            reference, frame = frames[number]
+            outer = resolved(reference, depth + 1)
+            origin = outer.places(frame.origin[None])
+            axes = outer.directions(origin)[0] @ frame.axes
+            basic[number] = Frame(frame.kind, origin[0], axes)
+        return basic[number]
+
+    return {number: resolved(number, 0) for number in frames}
+
+
+def _with_unplaced(labels: Array, shapes: Sequence[Shape]) -> Array:
+    return np.unique(np.concatenate([labels, *(shape.labels for shape in shapes)]))
+
+
+def _modes(labels: Array, shapes: Sequence[Shape]) -> Modes:
+    """The modes, the slowest first."""
+    ordered = sorted(shapes, key=lambda shape: shape.frequency_hz)
+    check_shapes(len(labels), len(ordered))
+    is_complex = any(np.iscomplexobj(shape.values) for shape in ordered)
+    array = np.zeros((len(labels), 6, len(ordered)), np.complex128 if is_complex else np.float64)
+    for column, shape in enumerate(ordered):
+        if len(np.unique(shape.labels)) < len(shape.labels):
+            raise VehicleError(f"the mode at {shape.frequency_hz:g} Hz moves a node twice")
+        rows = rows_of(labels, shape.labels)
+        array[rows, : shape.values.shape[1], column] = shape.values
+    return Modes(
+        np.array([shape.frequency_hz for shape in ordered]),
+        np.array([shape.modal_mass for shape in ordered]),
+        np.array([shape.damping_ratio for shape in ordered]),
+        array,
+    )
+
+
+def _elements(content: _Content, labels: Array) -> dict[ElementKind, Array]:
+    """Elements and trace lines, by rows of the nodes."""
+    lines = (("line", pair.tolist()) for pair in chain.from_iterable(content.lines))
+    both: Iterator[tuple[ElementKind | None, list[int]]] = chain(content.elements, lines)  # type: ignore[arg-type]
+    return {kind: rows_of(labels, corners) for kind, corners in grouped(both).items()}

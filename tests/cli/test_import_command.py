@@ -1,0 +1,278 @@
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from free_network import CORNERS, HEXA, LABELS, MASSES, free_network, held_frequencies
+from universal_files import elements_2412, nodes_2411, shape_55, shape_2414, units_164
+
+from modeviz.cli import main
+from modeviz.files import read_vehicle
+from modeviz.units import INCH, POUND, STANDARD_GRAVITY
+
+SHARED = Path(__file__).parents[3] / "shared/data/s2_uff_test_models"
+
+
+def network_file(modal_masses=None, units="", write=shape_2414, n_modes=24, first=0) -> str:
+    """A universal file of the free network, in mm and t."""
+    network = free_network()
+    masses = np.ones(24) if modal_masses is None else modal_masses
+    text = units + nodes_2411(LABELS, CORNERS) + elements_2412((115, HEXA))
+    for mode in range(first, n_modes):
+        shape = network.shapes[:, :, mode] * np.sqrt(masses[mode])
+        frequency = network.frequency_hz[mode]
+        text += write(LABELS, shape, frequency, masses[mode], mode=mode + 1)
+    return text
+
+
+@pytest.fixture
+def file(tmp_path):
+    def file(text, name="block.unv"):
+        path = tmp_path / name
+        path.write_text(text)
+        return str(path)
+
+    return file
+
+
+def refused(capsys, *arguments):
+    """The sentence with which a command is refused."""
+    capsys.readouterr()
+    assert main(["import", *map(str, arguments)]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert "Traceback" not in "".join(lines)
+    return lines[-1]
+
+
+def uncommented(path: Path) -> None:
+    """Takes the "#" off every table that is there to be filled in."""
+    lines = path.read_text().splitlines()
+    kept = [line.removeprefix("#") if not line.startswith("# ") else line for line in lines]
+    path.write_text("\n".join(line for line in kept if not line.startswith("axes")))
+
+
+@pytest.mark.parametrize("write", [shape_55, shape_2414])
+def test_an_imported_body_on_springs_has_the_frequencies_of_its_full_matrices(
+    tmp_path, file, printed_json, write
+):
+    """All its modes are kept, so that only the file's six digits are between them."""
+    masses = np.geomspace(0.1, 10, 24)
+    folder = tmp_path / "vehicle"
+    attach = ["--attach", "left=11", "--attach", "rear=24", "--attach", "14"]
+    path = file(network_file(masses, write=write))
+    main(["import", path, "--output", str(folder), "--units", "mm-t-s", *attach])
+    springs = {11: 30.0, 24: 50.0, 14: 80.0}
+    with (folder / "vehicle.toml").open("a") as toml:
+        for name, (label, stiffness) in enumerate(springs.items()):
+            place = CORNERS[np.flatnonzero(label == LABELS)[0]] / 1000
+            toml.write(
+                f'[[spring]]\nname = "{name}"\nbodies = ["block", "ground"]\n'
+                f"at = {place.tolist()}\nstiffness = {[stiffness] * 3}\n"
+            )
+    record = printed_json("modes", str(folder), "--below", "1000")
+    found = [mode["frequency_hz"] for mode in record["modes"]]
+    expected = held_frequencies(free_network(), springs)
+    np.testing.assert_allclose(found, expected[: len(found)], rtol=1e-4)
+    assert len(found) == 24
+
+
+def test_mass_and_centre_of_gravity_are_those_of_the_structure(tmp_path, file, capsys):
+    folder = tmp_path / "vehicle"
+    arguments = [file(network_file()), "--output", str(folder), "--units", "mm-t-s"]
+    assert main(["import", *arguments]) == 0
+    (body,) = read_vehicle(folder).bodies
+    assert body.mass == pytest.approx(1000 * MASSES.sum(), rel=1e-4)
+    m = body.rigid_fit.mass
+    center = MASSES @ CORNERS / MASSES.sum() / 1000
+    np.testing.assert_allclose(np.array([m[1, 5], m[2, 3], m[0, 4]]) / body.mass, center, atol=1e-4)
+    said = capsys.readouterr().out
+    assert f"mass {1000 * MASSES.sum():.3g}" in said
+    assert ", ".join(f"{v:.4g}" for v in center) in said
+
+
+@pytest.mark.parametrize(
+    ("name", "length", "mass"),
+    [
+        ("m-kg-s", 1.0, 1.0),
+        ("mm-t-s", 1e-3, 1e3),
+        ("mm-kg-mN", 1e-3, 1.0),
+        ("in-lbf-s", INCH, POUND * STANDARD_GRAVITY / INCH),
+        ("ft-lbf-s", 12 * INCH, POUND * STANDARD_GRAVITY / (12 * INCH)),
+    ],
+)
+def test_units_that_are_named_are_those_of_the_body(tmp_path, file, name, length, mass):
+    folder = tmp_path / "vehicle"
+    main(["import", file(network_file()), "--output", str(folder), "--units", name, "--attach", "a=24"])
+    (body,) = read_vehicle(folder).bodies
+    assert body.mass == pytest.approx(MASSES.sum() * mass, rel=1e-4)
+    np.testing.assert_allclose(body.attachment("a").position, CORNERS[-1] * length)
+
+
+def test_units_that_a_file_says_need_not_be_named_and_are_held_against_the_name(tmp_path, file, capsys):
+    path = file(network_file(units=units_164(9, "USER_DEFINED", 1000.0, 1.0)))
+    folder = tmp_path / "vehicle"
+    assert main(["import", path, "--output", str(folder)]) == 0
+    assert read_vehicle(folder).bodies[0].mass == pytest.approx(1000 * MASSES.sum(), rel=1e-4)
+    other = refused(capsys, path, "--output", tmp_path / "other", "--units", "in-lbf-s")
+    assert "which in-lbf-s is not" in other
+
+
+def test_units_are_asked_for_and_not_guessed(tmp_path, file, capsys):
+    text = refused(capsys, file(network_file()), "--output", tmp_path / "vehicle")
+    assert "doesn't say its units" in text
+    assert "mm-t-s" in text
+    unknown = refused(
+        capsys, file(network_file()), "--output", tmp_path / "vehicle", "--units", "furlong"
+    )
+    assert "found the units 'furlong'" in unknown
+    assert not (tmp_path / "vehicle").exists()
+
+
+def test_attachments_by_node_by_name_and_at_the_nearest_node(tmp_path, file, capsys):
+    folder = tmp_path / "vehicle"
+    attach = ["--attach", "22", "--attach", "seat=14", "--attach", "left rear = 990, 4, 3"]
+    main(["import", file(network_file()), "--output", str(folder), "--units", "mm-t-s", *attach])
+    (body,) = read_vehicle(folder).bodies
+    positions = {a.name: (1000 * a.position).round(9).tolist() for a in body.attachments}
+    assert positions == {
+        "22": [1000, 0, 400],
+        "seat": [1000, 700, 0],
+        "left rear": [1000, 0, 0],
+    }
+    distance = np.linalg.norm([10, 4, 3])
+    assert f"attachment 'left rear' at [1, 0, 0] m, {distance:.3g} mm" in capsys.readouterr().out
+
+
+def test_what_is_to_be_filled_in_reads_as_it_stands(tmp_path, file):
+    folder = tmp_path / "vehicle"
+    arguments = [file(network_file()), "--output", str(folder), "--units", "mm-t-s", "--attach", "11"]
+    main(["import", *arguments])
+    assert tomllib.loads((folder / "vehicle.toml").read_text())["name"] == "vehicle"
+    uncommented(folder / "vehicle.toml")
+    vehicle = read_vehicle(folder)
+    assert [g.name for g in vehicle.mount_groups] == ["M1"]
+    assert [p.name for p in vehicle.response_points] == ["seat"]
+    assert {b.name for b in vehicle.bodies} == {"block", "engine"}
+
+
+def test_a_second_import_adds_a_body_and_leaves_what_was_written(tmp_path, file):
+    folder = tmp_path / "vehicle"
+    first = [file(network_file()), "--output", str(folder), "--units", "mm-t-s"]
+    main(["import", *first, "--name", "frame"])
+    written = (folder / "vehicle.toml").read_text() + "# mine\n"
+    (folder / "vehicle.toml").write_text(written)
+    (folder / "notes.txt").write_text("kept")
+    main(["import", *first, "--name", "Frame"])
+    assert (folder / "vehicle.toml").read_text().startswith(written)
+    assert (folder / "notes.txt").read_text() == "kept"
+    assert [body.name for body in read_vehicle(folder).bodies] == ["frame", "Frame"]
+    assert len(list((folder / "bodies").iterdir())) == 2
+
+
+def test_a_body_whose_name_is_taken_is_refused_and_nothing_changes(tmp_path, file, capsys):
+    folder = tmp_path / "vehicle"
+    arguments = [file(network_file()), "--output", str(folder), "--units", "mm-t-s"]
+    main(["import", *arguments])
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    assert "has a body 'block' already" in refused(capsys, *arguments)
+    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["block.unv", "vehicle"]
+
+
+def test_a_vehicle_that_cannot_be_read_is_left_as_it_was(tmp_path, file, capsys):
+    folder = tmp_path / "vehicle"
+    folder.mkdir()
+    (folder / "vehicle.toml").write_text('name = "x"\nwrong = 1\n')
+    arguments = [file(network_file()), "--output", str(folder), "--units", "mm-t-s"]
+    text = refused(capsys, *arguments)
+    assert f"{folder}/vehicle.toml: wrong: unknown key" in text
+    assert [path.name for path in folder.iterdir()] == ["vehicle.toml"]
+
+
+def test_a_folder_of_something_else_is_left_alone(tmp_path, file, capsys):
+    (tmp_path / "photos").mkdir()
+    (tmp_path / "photos" / "a.png").write_text("")
+    text = refused(capsys, file(network_file()), "--output", tmp_path / "photos", "--units", "mm-t-s")
+    assert "is no vehicle folder" in text
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (network_file(np.zeros(24)), "the modal mass of 24 of its 24 modes is not in the file"),
+        (network_file(first=6), "0 of its modes are near zero Hz"),
+        (network_file(first=2), "4 of its modes are near zero Hz"),
+        (nodes_2411(LABELS, CORNERS), "it has no modes"),
+        (shape_55([1], np.ones((1, 3)), 0.0), "none of the nodes that it moves has a place"),
+        (
+            nodes_2411([1], CORNERS[:1]) + shape_2414([1], np.ones((1, 3)) * 1j, 0.0, eigenvalue=1j),
+            "its shapes are complex",
+        ),
+    ],
+)
+def test_what_cannot_be_coupled_is_listed_and_not_written(tmp_path, file, capsys, text, words):
+    path = file(text)
+    assert main(["import", path]) == 0
+    assert f"It cannot be coupled to others: {words}" in capsys.readouterr().out
+    said = refused(capsys, path, "--output", tmp_path / "vehicle", "--units", "mm-t-s")
+    assert f"cannot be coupled to others: {words}" in said
+    assert not (tmp_path / "vehicle").exists()
+
+
+@pytest.mark.shared
+def test_a_test_systems_modes_are_listed_with_what_is_unknown(capsys):
+    assert main(["import", str(SHARED / "uff55_translation.uff")]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()[5:]]
+    assert rows == [[str(n), f, "unknown", "unknown"] for n, f in enumerate(["10", "12", "13"], 1)]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--attach", "99"], "--attach: attachment '99': there is no node 99"),
+        (["--attach", "x"], "--attach: found 'x', expected a node's number"),
+        (["--attach", "a=1,2"], "--attach: found 'a=1,2', expected a node's number"),
+        (["--attach", "a=nan,2,3"], "--attach: found 'a=nan,2,3'"),
+        (["--attach", "1,2,3"], "--attach: found '1,2,3'"),
+        (["--attach", "11", "--attach", "11=12"], "--attach: attachment '11': two have that name"),
+    ],
+)
+def test_wrong_attachments_are_refused(tmp_path, file, capsys, arguments, words):
+    folder = tmp_path / "vehicle"
+    common = [file(network_file()), "--output", folder, "--units", "mm-t-s"]
+    assert words in refused(capsys, *common, *arguments)
+    assert not folder.exists()
+
+
+def test_options_of_a_body_that_is_not_written_are_refused(file, capsys):
+    assert "say where with --output" in refused(capsys, file(network_file()), "--attach", "11")
+
+
+def test_files_of_no_known_format_are_refused(tmp_path, capsys):
+    (tmp_path / "a.doc").write_text("")
+    assert "found '.doc', expected one of" in refused(capsys, tmp_path / "a.doc")
+    assert "there is no such file" in refused(capsys, tmp_path / "b.unv")
+
+
+def test_an_imported_solid_is_drawn_by_its_outer_faces_and_moves_with_its_nodes(tmp_path, file):
+    folder = tmp_path / "vehicle"
+    main(["import", file(network_file()), "--output", str(folder), "--units", "mm-t-s"])
+    (body,) = read_vehicle(folder).bodies
+    (surface,) = body.mesh
+    assert len(surface.faces) == 12
+    assert len(surface.vertices) == len(body.nodes) == 8
+    turning = body.shapes[:, 3:, : body.n_rigid]
+    np.testing.assert_allclose(turning - turning[:1], 0, atol=1e-6 * np.abs(turning).max())
+    assert np.abs(turning).max() > 0
+
+
+def test_damping_ratios_of_the_file_are_the_bodys(tmp_path, file):
+    network = free_network()
+    text = nodes_2411(LABELS, CORNERS)
+    for mode in range(10):
+        damping = 0.001 * (mode + 1)
+        text += shape_55(LABELS, network.shapes[:, :, mode], network.frequency_hz[mode], 1.0, damping)
+    folder = tmp_path / "vehicle"
+    main(["import", file(text), "--output", str(folder), "--units", "mm-t-s"])
+    body = read_vehicle(folder).bodies[0]
+    assert body.damping_ratio == pytest.approx((0.007, 0.008, 0.009, 0.010))
