@@ -1,6 +1,7 @@
 """A tuning session of the small cabin, and somebody who waits for what runs beside it."""
 
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -39,5 +40,8 @@ class Watcher:
             self._told.notify_all()
 
     def wait(self, reached, timeout=SOON):
+        """Waits until it is told that something is reached, which it may not find out by itself."""
+        begin = time.monotonic()
         with self._told:
             assert self._told.wait_for(reached, timeout)
+        assert time.monotonic() - begin < timeout

@@ -1,5 +1,6 @@
 """A long computation beside a tuning session: one at a time, told of, held, cancelled at once."""
 
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -81,7 +82,6 @@ class BackgroundTask(Generic[AnyJob]):
         self._lock = threading.Lock()
         self._token = CancelToken()
         self._thread: threading.Thread | None = None
-        self._told = 0.0
         self.job: AnyJob | None = None
         """The newest; None before the first."""
 
@@ -125,10 +125,13 @@ class BackgroundTask(Generic[AnyJob]):
             self._thread.join(PATIENCE)
 
     def _run(self, job: AnyJob, token: CancelToken) -> None:
+        told = -math.inf  # then it was last said how far it is
+
         def tell(at_once: bool = False, **news: Any) -> None:
-            is_due = at_once or time.monotonic() - self._told > TELL_EVERY
-            if self._keep(token, **news) and is_due:
-                self._told = time.monotonic()
+            nonlocal told
+            is_due = time.monotonic() - told > TELL_EVERY
+            if self._keep(token, **news) and (is_due or at_once):
+                told = told if at_once else time.monotonic()
                 self._changed()
 
         try:

@@ -128,3 +128,19 @@ def test_what_is_awaited_ends_after_it_was_cancelled_with_what_it_found():
     may_end.set()
     task.close()
     assert (task.job.phase, task.job.found) == ("ended", "best")
+
+
+def test_the_first_word_on_how_far_it_is_does_not_wait_for_what_was_told_at_once():
+    may_begin, done = threading.Event(), []
+
+    def work(job, token, tell):
+        assert may_begin.wait(SOON)
+        tell(at_once=True, done=0.1)
+        for part in (0.2, 0.3):
+            tell(done=part)
+
+    task = BackgroundTask("work", work, lambda: done.append(task.job.done), print)
+    thread = started(task, None)
+    may_begin.set()
+    thread.join(SOON)
+    assert done == [0.0, 0.1, 0.2, 1.0]
