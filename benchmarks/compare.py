@@ -6,7 +6,7 @@ from benchmarks import measure
 from benchmarks.peers import METHODS, Answer
 from benchmarks.report import MethodRow
 from benchmarks.work import Work, largest_difference
-from modeviz.analysis.preparation import FREQUENCY_HZ, prepare
+from modeviz.analysis.preparation import prepare
 from modeviz.files import builtin_vehicle, read_vehicle
 
 OURS, REFERENCE, GEMM = "modeviz", "numpy direct", "gemm"
@@ -31,8 +31,8 @@ def compare(n_freqs: int, n_rounds: int) -> Comparison:
         n_rounds: how often each method has its turn.
     """
     vehicle = read_vehicle(builtin_vehicle())
-    lines = FREQUENCY_HZ[:: len(FREQUENCY_HZ) // n_freqs]
-    work = Work(prepare(vehicle, lines), vehicle.rate_sets[RATES])
+    lines = vehicle.frequency_hz
+    work = Work(prepare(vehicle, lines[:: len(lines) // n_freqs]), vehicle.rate_sets[RATES])
     answers, missing = _installed(work)
     reference = answers[REFERENCE]()
     differences = {name: largest_difference(call(), reference) for name, call in answers.items()}

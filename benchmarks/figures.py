@@ -14,7 +14,7 @@ from benchmarks.report import SizeRow
 from benchmarks.scaled_vehicle import Size, scaled_vehicle
 from benchmarks.work import Work
 from modeviz.analysis.batch import solve_many
-from modeviz.analysis.preparation import FREQUENCY_HZ, Prepared, prepare
+from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions, drive, solve_on
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.files import builtin_vehicle, read_vehicle
@@ -41,8 +41,9 @@ def figures(size: Size | None, n_freqs: int, top_hz: float = TOP_HZ) -> SizeRow:
     """
     vehicle = scaled_vehicle(size) if size else read_vehicle(builtin_vehicle())
     begin = time.perf_counter()
-    every = len(FREQUENCY_HZ) // n_freqs
-    prepared = prepare(vehicle, FREQUENCY_HZ[::every] if every > 1 else None, top_hz=top_hz)
+    lines = vehicle.frequency_hz
+    every = len(lines) // n_freqs
+    prepared = prepare(vehicle, lines[::every] if every > 1 else None, top_hz=top_hz)
     prepare_s = time.perf_counter() - begin
     work = Work(prepared, _stiffer(vehicle))
     response_ms = _median_ms(lambda: work.receptances.response(work.mount_stiffness))

@@ -4,7 +4,7 @@ import time
 
 from benchmarks.measure import peak_bytes
 from benchmarks.report import ScatterFigures
-from modeviz.analysis.preparation import FREQUENCY_HZ, prepare
+from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.optimise.goals import prepare_goal
@@ -21,7 +21,8 @@ def scatter_figures(n_samples: int, n_freqs: int) -> ScatterFigures:
         n_freqs: how many frequencies, spread over the band.
     """
     vehicle = read_vehicle(builtin_vehicle())
-    prepared = prepare(vehicle, FREQUENCY_HZ[:: len(FREQUENCY_HZ) // n_freqs])
+    lines = vehicle.frequency_hz
+    prepared = prepare(vehicle, lines[:: len(lines) // n_freqs])
     goal = prepare_goal(vehicle, vehicle.problems[0], vehicle.rates, vehicle.speed)
     assert isinstance(goal, Objective)
     road = Conditions(vehicle.roads[0].name, vehicle.speed)

@@ -28,7 +28,7 @@ def definitions(tree: ast.Module) -> Iterator[str]:
 def used(tree: ast.Module) -> Iterator[str]:
     """Names that a module uses, also in strings of one word; an import alone is no use."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Name):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
             yield node.id
         elif isinstance(node, ast.Attribute):
             yield node.attr

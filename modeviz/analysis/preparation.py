@@ -25,10 +25,6 @@ from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
-FREQUENCY_HZ = np.arange(1, 401) / 10
-"""The band of the paper's RMS values, 0 to 40 Hz, without zero."""
-
-
 STIFFEST_BASE = 5e6
 """N/m: receptances are taken at no stiffer rates. From a rigid spring there is no way back to a soft
 one: what it lets through is the small difference of large numbers."""

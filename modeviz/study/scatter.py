@@ -169,8 +169,3 @@ class ScatterResult(Displayed):
 
     def _point(self, name: str) -> int:
         return number_of("response point", name, self.points)
-
-
-def _spoken(name: str) -> str:
-    """Return what a key of the record is called."""
-    return title(name.replace("_", " ").replace("rms", "RMS"))

@@ -7,7 +7,7 @@ from rounding import EPSILON
 from small_systems import block
 
 from modeviz.analysis.modal_results import solve_modal
-from modeviz.analysis.preparation import FREQUENCY_HZ, prepare, prepare_modes
+from modeviz.analysis.preparation import prepare, prepare_modes
 from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.assembly import mount_stiffness
@@ -108,7 +108,7 @@ def test_a_vehicle_without_mounts_rides_as_it_is():
 def test_a_vehicle_without_response_points_has_modes_and_no_responses():
     results = solve(prepare(replace(mounted_cabin(), response_points=())), SOFT, FLAT)
     assert len(results.names) == 12
-    assert results.psd.shape == (len(FREQUENCY_HZ), 0, 3)
+    assert results.psd.shape == (len(results.vehicle.frequency_hz), 0, 3)
     assert results.rms.shape == (0, 3)
 
 
