@@ -77,7 +77,7 @@ def check_unique(kind: str, names: Iterable[str]) -> None:
 
 
 def reason(error: BaseException) -> str:
-    """What an error of the system or a library says, never nothing."""
+    """The words of an error of the system or a library, never none."""
     said = getattr(error, "strerror", None) or str(error)
     return said or type(error).__name__
 

@@ -90,7 +90,7 @@ def spoken(quantity: QuantityName) -> str:
 
 
 def factor(unit: str, quantity: QuantityName) -> float:
-    """What one `unit` of `quantity` is in SI.
+    """One `unit` of `quantity` in SI.
 
     Raises:
         ModevizError: the unit is not one of that quantity's.
@@ -102,7 +102,7 @@ def factor(unit: str, quantity: QuantityName) -> float:
 
 
 def psd_factor(unit: str, quantity: QuantityName) -> float:
-    """What one unit of the PSD of a quantity is in SI: of mm²/Hz, or (m/s²)²/Hz, or m²/s⁴/Hz.
+    """One unit of the PSD of a quantity in SI: of mm²/Hz, or (m/s²)²/Hz, or m²/s⁴/Hz.
 
     Raises:
         ModevizError: the unit is not the square of one of that quantity's per Hz.

@@ -133,7 +133,7 @@ def _ending(problem: Problem, search: Search, optimum: Optimum) -> str:
 
 
 def compared_outside(problem: Problem, search: Search) -> dict[str, tuple[str, ...]]:
-    """Why the rates that a search is compared with could not be found, by their name."""
+    """The reasons why rates that a search is compared with could not be found, by their name."""
     sets: dict[str, Rates] = {"original": {}}
     if problem.reference:
         sets[problem.reference] = search.space.vehicle.rate_sets[problem.reference]

@@ -9,7 +9,7 @@ ROUNDING = 1e-3
 
 
 def impossible(inertia: Floats, tolerance: float = ROUNDING) -> str:
-    """Why no body has that inertia, in words; nothing if one may.
+    """A sentence on why no body has that inertia; nothing if one may.
 
     Of the three principal moments no one is larger than the two others together, because
     I_1 + I_2 - I_3 = 2 ∫ x_3² dm.

@@ -41,7 +41,7 @@ def decode(data: Any, kind: type[T], where: str = "") -> T:
 
 
 def unreadable(error: ValueError | RecursionError) -> str:
-    """Why a text is not TOML or JSON, by the error of who read it."""
+    """The reason why a text is not TOML or JSON, by the error of who read it."""
     if isinstance(error, RecursionError):
         return "it is nested too deeply"
     if isinstance(error, UnicodeDecodeError):
