@@ -30,7 +30,9 @@ ANSWERS_WITHIN = 0.5
 
 @pytest.fixture
 def session():
+    """One whose searches have few starts, unless a test wants others."""
     with open_session() as (session, _):
+        plan(session, n_starts=2)
         yield session
 
 
