@@ -294,7 +294,7 @@ DRAWN_NEXT = """async () => {
 
 def test_labels_of_a_page_beside_are_placed_for_its_camera_as_soon_as_it_stands(app):
     def photographed():
-        with HeadlessPage(app.server, 600, 400, bare=True) as studio:
+        with HeadlessPage(lambda: app.server, 600, 400, bare=True) as studio:
             seen = camera(box(app.session.vehicle), "Side", 600, 400)
             studio.client.camera.position, studio.client.camera.look_at = seen
             studio.stand(1.0)
@@ -310,27 +310,46 @@ def test_labels_of_a_page_beside_are_placed_for_its_camera_as_soon_as_it_stands(
     assert max(off) < 0.5
 
 
+SHADOWED = """() => {
+  const widths = [];
+  window.__viserMutable.scene.traverse(({ isLight, castShadow, shadow }) => {
+    if (isLight && castShadow) widths.push(shadow.camera.right - shadow.camera.left);
+  });
+  return Math.max(...widths);
+}"""
+"""How wide the space is whose shadows are drawn in one map, m."""
+
+ANEW = """() => {
+  const { camera } = window.__viserMutable;
+  camera._reversedDepth = false;
+  camera.updateProjectionMatrix();
+}"""
+"""Makes the camera one that has drawn nothing yet."""
+
+
 def test_a_page_that_nobody_sees_draws_only_pictures_and_the_first_as_well_as_any(app):
     shot = ImageSettings(300, 200, "white", LIGHT, FIELD_OF_VIEW)
     side, iso = (camera(box(app.session.vehicle), view, 600, 400) for view in ("Side", "Iso"))
 
     def photographed():
-        with HeadlessPage(app.server, 600, 400, bare=True) as studio:
+        with HeadlessPage(lambda: app.server, 600, 400, bare=True) as studio:
             drawn = []
+            studio._page.evaluate(ANEW)
             for seen in (side, iso, iso, iso):  # shadows follow the camera, some frames later
                 pose = studio.look(*seen)
                 studio.stand(1.0)
                 drawn.append(np.asarray(picture(studio.client, shot, pose), int))
-                is_drawn = studio._page.evaluate(DRAWN_NEXT)
-            return is_drawn, drawn
+                is_drawn, width = map(studio._page.evaluate, (DRAWN_NEXT, SHADOWED))
+            return is_drawn, width, drawn
 
     app.scene.driver.drive(running=False)  # two pages that move are more than two cores draw
     app.scene._stage._key.cast_shadow = True
     with ThreadPoolExecutor(1) as beside:  # where Playwright has no other page
-        is_drawn, (_, first, *later) = beside.submit(photographed).result()
+        is_drawn, width, (_, first, *later) = beside.submit(photographed).result()
     app.scene._stage._key.cast_shadow = False
     app.scene.driver.drive(running=True)
     assert not is_drawn
+    assert width < 25  # viser lets shadows reach 20 m, and draws those of a kilometre without an edge
     assert (first < 250).mean() > 0.1
     for other in later:
         assert np.abs(other - first).mean() < 0.01

@@ -267,7 +267,9 @@
       const viewer = window.__viserMutable;
       update(viewer, window.__viserSceneTree.getState(), 0);
       const isPicture = viewer.getRenderRequestState === "capture";
-      viewer.scene.visible = isPicture || !window.__modevizUnseen;
+      // A camera that has drawn nothing yet has near and far the other way round, which shadows go by.
+      const isNew = renderer.capabilities.reversedDepthBuffer && !viewer.camera.reversedDepth;
+      viewer.scene.visible = isPicture || isNew || !window.__modevizUnseen;
       viewer.backgroundMaterial.visible = !isPicture;
       if (isPicture) {
         ratio ??= renderer.getPixelRatio();
