@@ -42,7 +42,6 @@ from modeviz.viewer.panels.view import ViewPanel
 from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import DARK, LIGHT
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.coloring import ColorScale, color_scale
 from modeviz.viewer.session.commands.decisions import Swap
 from modeviz.viewer.session.commands.looks import SelectGroup
 from modeviz.viewer.session.design import variant_name
@@ -124,19 +123,6 @@ class App:
         """The scene in the middle of every page."""
         return self._scene
 
-    def pictured(self, solved: Solved) -> ColorScale | None:
-        """Return the scale of the colours of a picture, if they mean something.
-
-        Raises:
-            ModevizError: there is nothing to be seen in an answer.
-        """
-        if self._scene.is_empty(solved):
-            raise ModevizError(
-                "there is nothing to draw: no body that is shown has a mesh, and there are no mounts, "
-                "tyres or response points"
-            )
-        return color_scale(solved)
-
     def offline(self, position: Floats, look_at: Floats) -> bytes:
         """Return what is shown as a file that needs no server, see `offline_page`.
 
@@ -202,7 +188,7 @@ class App:
                 theme,
                 self._subject,
                 lambda: self._scene.driver.is_real,
-                lambda: self.pictured(self._solved()),
+                lambda: self._scene.color_scale(self._solved()),
                 self.offline,
                 self._illustrated_report,
             )

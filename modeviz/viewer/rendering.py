@@ -1,11 +1,11 @@
-"""Pictures without a page: the whole app opens where nobody looks, for as long as one file takes."""
+"""Pictures without a page: a scene opens where nobody looks, for as long as one file takes."""
 
 import math
 import secrets
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal, TypeVar, get_args
@@ -17,8 +17,8 @@ from modeviz.report.html import Picture
 from modeviz.report.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.app import App
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.offline import offline_page
+from modeviz.viewer.page.access import Server, open_server
 from modeviz.viewer.panels.modes import listed
 from modeviz.viewer.pictures.headless import HeadlessPage
 from modeviz.viewer.pictures.pictures import (
@@ -29,12 +29,15 @@ from modeviz.viewer.pictures.pictures import (
     cycle_pictures,
     picture,
 )
+from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import box, camera
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.coloring import ColorScale
 from modeviz.viewer.session.commands.decisions import TakeRates
 from modeviz.viewer.session.commands.looks import ChangeLook, SelectGroup, ShowMode
-from modeviz.viewer.session.state import Coloring
+from modeviz.viewer.session.design import variant_name
+from modeviz.viewer.session.notifications import Answered, Notification
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import Coloring, first_state
 
 T = TypeVar("T")
 Kind = Literal["png", "gif", "mp4", "html"]
@@ -93,24 +96,27 @@ def render(
     """
     if kind == "mp4":
         check_films()
-    with _app(vehicle, rates, conditions, shot.theme.is_dark) as app:
-        size = OFFLINE_SIZE if kind == "html" else (shot.width, shot.height)
-        seen = camera(box(vehicle), wish.view, *(100 * side for side in size))  # the card hides nothing
+    size = OFFLINE_SIZE if kind == "html" else (shot.width, shot.height)
+    seen = camera(box(vehicle), wish.view, *(100 * side for side in size))  # the card hides nothing
+    sets = (RateSet("", rates),)
+    with _opening(vehicle, rates, conditions, shot.theme.is_dark) as scenery:
         if kind == "html":
-            _first_answer(app, wish, tell)
-            return app.offline(*seen)
+            (solved,) = scenery().answers(sets, wish, tell)
+            name = variant_name(vehicle, solved.state.design)
+            return offline_page(scenery().server, solved, name, shot.theme.is_dark, *seen)
         with (
-            _beside(lambda: _first_answer(app, wish, tell)) as scale,
-            HeadlessPage(app.server, *_window(shot), bare=True) as studio,
+            _beside(lambda: scenery().answers(sets, wish, tell)) as answers,
+            HeadlessPage(lambda: scenery().server, *_window(shot), bare=True) as studio,
         ):
-            shot = replace(shot, scale=scale())
+            (solved,), scene = answers(), scenery().scene
+            shot = replace(shot, scale=scene.color_scale(solved))
             tell("drawing", 0.0)
-            studio.follow(app.scene.driver)
+            studio.follow(scene.driver)
             pose = studio.look(*seen)
             studio.stand(wish.phase)
             if kind == "png":
                 return png_bytes(picture(studio.client, shot, pose, PATIENCE))
-            cycle = Cycle(wish.n_frames, app.scene.driver.is_real)
+            cycle = Cycle(wish.n_frames, scene.driver.is_real)
             frames = cycle_pictures(
                 studio.client,
                 studio.hold,
@@ -136,55 +142,89 @@ def photographs(
     """A still of a mode with each of several sets of rates; arguments and errors as `render`."""
     first = vehicle.all_rates(sets[0].rates)
     with (
-        _app(vehicle, first, conditions, shot.theme.is_dark) as app,
-        _beside(lambda: _first_answer(app, wish, tell)) as scale,
-        HeadlessPage(app.server, *_window(shot), bare=True) as studio,
+        _opening(vehicle, first, conditions, shot.theme.is_dark) as scenery,
+        _beside(lambda: scenery().answers(sets, wish, tell)) as answers,
+        HeadlessPage(lambda: scenery().server, *_window(shot), bare=True) as studio,
     ):
-        with located(sets[0].name):
-            shot = replace(shot, scale=scale())
+        scene = scenery().scene
+        shot = replace(shot, scale=scene.color_scale(answers()[0]))
         seen = camera(box(vehicle), wish.view, 100 * shot.width, 100 * shot.height)
         pose = studio.look(*seen)
         pictures = []
-        for done, rate_set in enumerate(sets):
+        for done, (rate_set, solved) in enumerate(zip(sets, answers(), strict=True)):
             tell("drawing", done / len(sets))
-            app.session.do(TakeRates(vehicle.all_rates(rate_set.rates)))
-            with located(rate_set.name):
-                movement = _show(app, wish).movement
-            studio.follow(app.scene.driver)
+            scene.show(solved)
+            studio.follow(scene.driver)
             studio.stand(wish.phase)
+            movement = solved.movement
             caption = f"{movement.title}, {movement.frequency_hz:.2f} Hz, {rate_set.name}"
             pictures.append(Picture(caption, png_bytes(picture(studio.client, shot, pose, PATIENCE))))
         return pictures
 
 
+class Scenery:
+    """A tuning session and its scene without panels, on a port that nobody knows, with a token."""
+
+    def __init__(self, vehicle: Vehicle, rates: Rates, conditions: Conditions, dark: bool) -> None:
+        """Nothing is solved yet; arguments as of `App`."""
+        self.session = Session(vehicle, first_state(vehicle, rates, conditions), self._hear)
+        self.server: Server = open_server(port=0, token=secrets.token_urlsafe())
+        self.server.gui.configure_theme(dark_mode=dark)
+        self.scene = Scene(self.server, vehicle, dark, on_select=lambda _: None)
+
+    def answers(
+        self, sets: Sequence[RateSet], wish: RenderRequest, tell: Callable[[str, float], None]
+    ) -> list[Solved]:
+        """Prepare the vehicle, and return what is wished with each set; the scene shows the last.
+
+        No more is asked of the session, which would check answers while pictures are drawn.
+
+        Raises:
+            ModevizError: as `render`.
+        """
+        self.session.start(lambda fraction: tell("preparing", fraction))
+        self.session.do(ChangeLook(coloring=wish.coloring))
+        self.session.do(SelectGroup(""))
+        self.scene.driver.drive(amplitude=wish.amplitude)
+        answers = []
+        for rate_set in sets:
+            with located(rate_set.name) if rate_set.name else nullcontext():
+                answers.append(self._answer(rate_set.rates, wish.mode))
+        self.session.close()
+        tell("opening", 0.0)
+        return answers
+
+    def close(self) -> None:
+        """Ends the session and the server."""
+        self.session.close()
+        self.server.stop()
+
+    def _answer(self, rates: Rates, mode: str) -> Solved:
+        self.session.do(TakeRates(self.session.vehicle.all_rates(rates)))
+        if mode:
+            self.session.do(ShowMode(mode))
+        solved = self.session.wait_for_answer(PATIENCE)
+        now = solved.now
+        if mode and now.mode_index(mode) is None:
+            names = ", ".join(name.name for name, _ in listed(now).values())
+            raise ModevizError(f"unknown mode {quoted(mode)}: there are {names}")
+        return solved
+
+    def _hear(self, notification: Notification) -> None:
+        if isinstance(notification, Answered):
+            self.scene.show(notification.solved)
+
+
 @contextmanager
-def _app(
-    vehicle: Vehicle,
-    rates: Rates,
-    conditions: Conditions,
-    dark: bool,
-) -> Iterator[App]:
-    """The app on a port that nobody knows, with a token."""
-    server = open_server(port=0, token=secrets.token_urlsafe())
-    try:
-        app = App(vehicle, rates, conditions, server, dark)
-    except ModevizError:
-        server.stop()
-        raise
-    try:
-        yield app
-    finally:
-        app.close()
-
-
-def _first_answer(
-    app: App, wish: RenderRequest, tell: Callable[[str, float], None]
-) -> ColorScale | None:
-    """Prepares the app and shows what is wished; gives the scale of its colours, see `App.pictured`."""
-    app.start(lambda fraction: tell("preparing", fraction))
-    scale = app.pictured(_show(app, wish))
-    tell("opening", 0.0)
-    return scale
+def _opening(
+    vehicle: Vehicle, rates: Rates, conditions: Conditions, dark: bool
+) -> Iterator[Callable[[], Scenery]]:
+    """Waits for the scenery, which opens beside."""
+    with _beside(lambda: Scenery(vehicle, rates, conditions, dark)) as scenery:
+        try:
+            yield scenery
+        finally:
+            scenery().close()
 
 
 @contextmanager
@@ -198,7 +238,7 @@ def _beside(work: Callable[[], T]) -> Iterator[Callable[[], T]]:
     def run() -> None:
         try:
             future.set_result(work())
-        except Exception as error:
+        except BaseException as error:  # whoever waits is to hear of any
             future.set_exception(error)
 
     threading.Thread(target=run, name="preparing", daemon=True).start()
@@ -213,18 +253,3 @@ def _window(shot: ImageSettings) -> tuple[int, int]:
     """A window in which labels are as far apart as in the picture: of the same proportions, pixels."""
     scale = math.sqrt(WINDOW_PIXELS / (shot.width * shot.height))
     return round(scale * shot.width), round(scale * shot.height)
-
-
-def _show(app: App, wish: RenderRequest) -> Solved:
-    """Has the app show what is wished; raises ModevizError as `render`."""
-    app.session.do(ChangeLook(coloring=wish.coloring))
-    app.session.do(SelectGroup(""))
-    if wish.mode:
-        app.session.do(ShowMode(wish.mode))
-    app.scene.driver.drive(amplitude=wish.amplitude)
-    shown = app.session.wait_for_answer(PATIENCE)
-    now = shown.now
-    if wish.mode and now.mode_index(wish.mode) is None:
-        names = ", ".join(name.name for name, _ in listed(now).values())
-        raise ModevizError(f"unknown mode {quoted(wish.mode)}: there are {names}")
-    return shown

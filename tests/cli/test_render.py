@@ -68,7 +68,7 @@ def test_missing_chromium_or_playwright_is_told_with_what_to_install(
 
 def test_missing_pyav_is_told_before_anything_is_solved(capsys, folder, tmp_path, monkeypatch):
     monkeypatch.setattr("modeviz.report.images.find_spec", lambda name: None)
-    monkeypatch.setattr("modeviz.viewer.rendering.App", None)
+    monkeypatch.setattr("modeviz.viewer.rendering.Scenery", None)
     assert main(["render", folder, "--output", str(tmp_path / "yaw.mp4")]) == 2
     assert "MP4 needs PyAV" in capsys.readouterr().err
 
@@ -77,7 +77,7 @@ def test_interrupting_leaves_nothing_behind(folder, tmp_path, monkeypatch):
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("modeviz.viewer.rendering._show", interrupt)
+    monkeypatch.setattr("modeviz.viewer.rendering.Scenery.answers", interrupt)
     assert main(["render", folder, "--output", str(tmp_path / "yaw.html")]) == 130
     assert not list(tmp_path.iterdir())
 

@@ -190,7 +190,7 @@ class PicturePanel:
         def tick() -> None:
             tell(1 - math.exp(-next(done) / 100))  # nobody knows how long
 
-        with turn(self._browsers, tell), HeadlessPage(self._server, tick=tick) as studio:
+        with turn(self._browsers, tell), HeadlessPage(lambda: self._server, tick=tick) as studio:
             return studio.page_png(like=client)
 
     def _html(self, client: viser.ClientHandle, tell: Progress) -> bytes:

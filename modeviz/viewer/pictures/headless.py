@@ -105,7 +105,7 @@ class HeadlessPage:
 
     def __init__(
         self,
-        server: Server,
+        server: Callable[[], Server],
         width: int = 900,
         height: int = 500,
         bare: bool = False,
@@ -114,7 +114,7 @@ class HeadlessPage:
         """Nothing is started yet.
 
         Args:
-            server: an open one.
+            server: gives an open one, for which the browser does not wait to be started.
             width: of the window, pixels.
             height: of the window, pixels.
             bare: whether the 3-D view has the window for itself, and is drawn in no frame but pictures.
@@ -141,7 +141,7 @@ class HeadlessPage:
             self._page.on("console", self._note)
             if self._is_bare:
                 self._page.add_init_script(UNSEEN)
-            self._page.goto(f"{self._server.local_link}&fixedDpr=1")
+            self._page.goto(f"{self._server().local_link}&fixedDpr=1")
             self.client = self._find_client()
             if self._is_bare:
                 self._page.add_style_tag(content=BARE)
@@ -226,7 +226,7 @@ class HeadlessPage:
         """The page as the server sees it: each page is told its number, and this one asked for its."""
 
         def client() -> viser.ClientHandle | None:
-            clients = self._server.get_clients()
+            clients = self._server().get_clients()
             for number, page in clients.items():
                 scripts.say(page, f"window.{MARK} = {number};")
             return clients.get(self._page.evaluate(f"window.{MARK} ?? null"))
@@ -234,7 +234,7 @@ class HeadlessPage:
         return self._until(client)
 
     def _wait_drawn(self) -> None:
-        every = nodes(self._server.scene).items()
+        every = nodes(self._server().scene).items()
         # Their parents, which viser adds, stand at zero.
         meshes = [node for name, node in every if name.startswith(PREFIX + "/") and node.position[1]]
         self._wait(DRAWN, len(meshes))

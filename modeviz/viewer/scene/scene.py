@@ -6,6 +6,7 @@ import numpy as np
 import viser
 
 from modeviz.dynamics.assembly import System
+from modeviz.errors import ModevizError
 from modeviz.shapes.motion import default_amplitude
 from modeviz.text.wording import within_sentence
 from modeviz.vehicle.arrays import Array
@@ -18,7 +19,9 @@ from modeviz.viewer.scene.stage import DARK, LIGHT, Box, Stage, bodies_box, box
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import (
     Coloring,
+    ColorScale,
     Shares,
+    color_scale,
     energy_shares,
     shades,
     share_colors,
@@ -75,10 +78,19 @@ class Scene:
                 )
         self._cameras.frame(self._framed(solved))
 
-    def is_empty(self, solved: Solved) -> bool:
-        """Whether nothing is drawn of an answer but the ground."""
+    def color_scale(self, solved: Solved) -> ColorScale | None:
+        """Return the scale of the colours of a picture, if they mean something.
+
+        Raises:
+            ModevizError: there is nothing to be seen in an answer but the ground.
+        """
         hidden = self._hidden(solved)
-        return all(b.name in hidden for b in self._bodies) and not self._markers.are_seen(hidden)
+        if all(b.name in hidden for b in self._bodies) and not self._markers.are_seen(hidden):
+            raise ModevizError(
+                "there is nothing to draw: no body that is shown has a mesh, and there are no mounts, "
+                "tyres or response points"
+            )
+        return color_scale(solved)
 
     def _framed(self, solved: Solved) -> Box:
         """Return the box to look at: the body that moves alone, what is followed, or the vehicle."""
