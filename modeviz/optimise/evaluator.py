@@ -78,8 +78,9 @@ class Evaluator:
             SolveError: as `Search.evaluate`.
         """
         self._count()
-        value, gradient = self._search.evaluate(self._search.space.admitted(x))
-        unit = self._found(x, value)
+        design = self._search.space.admitted(x)
+        value, gradient = self._search.evaluate(design)
+        unit = self._found(design, x, value)
         return value / unit, gradient / unit
 
     def parts(self, x: Floats) -> tuple[Floats, Floats]:
@@ -96,10 +97,7 @@ class Evaluator:
 
     def allows(self, x: Floats) -> bool:
         """Return whether all modes of the design nearest to one are where the windows want them."""
-        admitted = self._search.space.admitted(x)
-        # What only rounding puts within the limits is the design that the solver asks for.
-        asked = x if np.allclose(x, admitted, rtol=0, atol=ROUNDING) else admitted
-        return bool((self.margins(asked)[0] >= -SLACK).all())
+        return self._allows(self._search.space.admitted(x), x)
 
     def value(self, x: Floats) -> float:
         """The goal of a design; of one that leaves a window `FORBIDDEN` and more, the farther it is.
@@ -130,8 +128,9 @@ class Evaluator:
 
     def _solved_parts(self, x: Floats) -> tuple[Floats, Floats]:
         self._count()
-        parts, gradients = self._search.parts(self._search.space.admitted(x))
-        unit = self._found(x, float(parts.max()))
+        design = self._search.space.admitted(x)
+        parts, gradients = self._search.parts(design)
+        unit = self._found(design, x, float(parts.max()))
         return parts / unit, gradients / unit
 
     def _count(self) -> None:
@@ -142,12 +141,19 @@ class Evaluator:
             raise OutOfBudgetError
         self._n_evaluations += 1
 
-    def _found(self, x: Floats, value: float) -> float:
-        """Remembers the design nearest to one, windows asked; returns the first one's goal."""
-        is_best = value < self._value and self.allows(x)
-        self._remember(self._search.space.admitted(x), value, is_best)
+    def _found(self, design: Floats, asked: Floats, value: float) -> float:
+        """Remembers the design nearest to what is asked for; returns the first one's goal."""
+        self._remember(design, value, value < self._value and self._allows(design, asked))
         self._unit = self._unit or abs(value) or 1.0
         return self._unit
+
+    def _allows(self, design: Floats, asked: Floats) -> bool:
+        """Return whether a design keeps to the windows, which what is asked for is near to."""
+        if self._search.windows is None:
+            return True
+        # What only rounding puts within the limits is the design that the solver asks for.
+        is_asked = np.allclose(design, asked, rtol=0, atol=ROUNDING)
+        return bool((self.margins(asked if is_asked else design)[0] >= -SLACK).all())
 
     def _remember(self, x: Floats, value: float, is_best: bool) -> None:
         if is_best:
