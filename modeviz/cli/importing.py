@@ -69,7 +69,10 @@ def import_component(options: ImportOptions) -> None:
 
 def listing(component: Component) -> str:
     """Return the modes of a component as a table, and what it is made of."""
-    counts = [f"{len(corners)} {kind}s" for kind, corners in component.elements.items()]
+    counts = [
+        f"{len(corners)} {kind}{'s' if len(corners) != 1 else ''}"
+        for kind, corners in component.elements.items()
+    ]
     known = component.units.name if component.units else UNKNOWN
     reason = uncoupled_because(component)
     lines = [

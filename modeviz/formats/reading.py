@@ -6,6 +6,8 @@ from pathlib import Path
 
 from modeviz.errors import VehicleError, quoted
 from modeviz.formats.component import Component
+from modeviz.formats.nastran import SUFFIXES as NASTRAN
+from modeviz.formats.nastran import read_nastran
 from modeviz.formats.universal import SUFFIXES as UNIVERSAL
 from modeviz.formats.universal import read_universal
 
@@ -13,6 +15,7 @@ Reader = Callable[[Sequence[Path]], Component]
 
 READERS: Mapping[str, Reader] = {
     **dict.fromkeys(UNIVERSAL, read_universal),
+    **dict.fromkeys(NASTRAN, read_nastran),
 }
 """By the ending of a file's name."""
 

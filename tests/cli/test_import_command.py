@@ -4,6 +4,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from free_network import CORNERS, HEXA, LABELS, MASSES, free_network, held_frequencies
+from network_op2 import network_op2
+from op2_files import Op2
 from universal_files import elements_2412, nodes_2411, shape_55, shape_2414, units_164
 
 from modeviz.cli import main
@@ -29,7 +31,7 @@ def network_file(modal_masses=None, units="", write=shape_2414, n_modes=24, firs
 def file(tmp_path):
     def file(text, name="block.unv"):
         path = tmp_path / name
-        path.write_text(text)
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
         return str(path)
 
     return file
@@ -51,16 +53,25 @@ def uncommented(path: Path) -> None:
     path.write_text("\n".join(line for line in kept if not line.startswith("axes")))
 
 
-@pytest.mark.parametrize("write", [shape_55, shape_2414])
+MODAL_MASSES = np.geomspace(0.1, 10, 24)
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("block.unv", network_file(MODAL_MASSES, write=shape_55)),
+        ("block.unv", network_file(MODAL_MASSES, write=shape_2414)),
+        ("block.op2", network_op2(Op2(), masses=MODAL_MASSES)),
+        ("block.op2", network_op2(Op2(">", 8), masses=MODAL_MASSES)),
+    ],
+)
 def test_an_imported_body_on_springs_has_the_frequencies_of_its_full_matrices(
-    tmp_path, file, printed_json, write
+    tmp_path, file, printed_json, name, content
 ):
     """All its modes are kept, so that only the file's six digits are between them."""
-    masses = np.geomspace(0.1, 10, 24)
     folder = tmp_path / "vehicle"
     attach = ["--attach", "left=11", "--attach", "rear=24", "--attach", "14"]
-    path = file(network_file(masses, write=write))
-    main(["import", path, "--output", str(folder), "--units", "mm-t-s", *attach])
+    main(["import", file(content, name), "--output", str(folder), "--units", "mm-t-s", *attach])
     springs = {11: 30.0, 24: 50.0, 14: 80.0}
     with (folder / "vehicle.toml").open("a") as toml:
         for name, (label, stiffness) in enumerate(springs.items()):

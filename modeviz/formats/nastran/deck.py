@@ -1,0 +1,105 @@
+"""The geometry of a Nastran input file."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from modeviz.errors import VehicleError, located
+from modeviz.formats.component import CORNERS, ElementKind
+from modeviz.formats.nastran.bulk import Card, cards
+from modeviz.formats.nastran.model import CORNERS_OF, FRAME_CARDS, FrameCard, Model, sorted_grids
+from modeviz.vehicle.arrays import Array
+
+FRAMES = frozenset(f"CORD{n}{kind}" for n in "12" for kind in FRAME_CARDS)
+NAMES = frozenset({"GRID", "GRDSET", "EIGRL", "EIGR", "PARAM", *FRAMES, *CORNERS_OF})
+"""The cards that are read."""
+
+AFTER_ID = frozenset({"CONROD", "PLOTEL"})
+"""Elements without a property: their grids follow their number."""
+
+
+def read_deck(path: Path) -> Model:
+    """Return the geometry of an input file and of those it includes.
+
+    Raises:
+        VehicleError: a file is missing, a card is wrong, or there is no GRID.
+    """
+    with located(path):
+        return _model(cards(path, NAMES))
+
+
+def _model(every: Iterator[Card]) -> Model:
+    grids: list[Card] = []
+    usual = Card("GRDSET", [])
+    frames: dict[int, FrameCard] = {}
+    elements: dict[ElementKind, list[list[int]]] = {}
+    norms: list[str] = []
+    notes: list[str] = []
+    for card in every:
+        if card.name == "GRID":
+            grids.append(card)
+        elif card.name == "GRDSET":
+            usual = card
+        elif card.name in FRAMES:
+            frames.update(_frames(card))
+        elif card.name in ("EIGRL", "EIGR"):
+            norms.append(_norm(card))
+        elif card.name == "PARAM":
+            notes += _parameter(card)
+        elif corners := _corners(card):
+            elements.setdefault(CORNERS_OF[card.name], []).append(corners)
+    if not grids:
+        raise VehicleError("found no GRID, so it has no geometry; is it the whole input?")
+    ids = np.array([card.whole(0) for card in grids], np.int64)
+    systems = np.array(
+        [(card.whole(1, usual.whole(1, 0)), card.whole(5, usual.whole(5, 0))) for card in grids],
+        np.int64,
+    )
+    coordinates = np.array([[card.real(i) for i in (2, 3, 4)] for card in grids])
+    return Model(
+        *sorted_grids(ids, systems, coordinates),
+        frames,
+        {kind: _rows(kind, corners) for kind, corners in elements.items()},
+        is_mass_normalised=bool(norms) and set(norms) == {"MASS"},
+        notes=tuple(notes),
+    )
+
+
+def _rows(kind: ElementKind, corners: list[list[int]]) -> Array:
+    return np.array(corners, np.int64).reshape(-1, CORNERS[kind])
+
+
+def _corners(card: Card) -> list[int]:
+    """The grids at an element's corners; none of one that is tied to nothing at an end."""
+    first = 1 if card.name in AFTER_ID else 2
+    n_corners = CORNERS[CORNERS_OF[card.name]]
+    corners = [card.whole(first + i, 0) for i in range(n_corners)]
+    return corners if all(corners) else []
+
+
+def _frames(card: Card) -> Iterator[tuple[int, FrameCard]]:
+    kind = FRAME_CARDS[card.name[-1]]
+    if card.name[4] == "2":
+        points = np.array([card.real(2 + i) for i in range(9)]).reshape(3, 3)
+        yield card.whole(0), FrameCard(kind, card.whole(1, 0), points)
+        return
+    for start in (0, 4):  # two to a card
+        if card.text(start):
+            grids = tuple(card.whole(start + i) for i in (1, 2, 3))
+            yield card.whole(start), FrameCard(kind, 0, grids=grids)
+
+
+def _norm(card: Card) -> str:
+    """By what modes are normalised: MASS, unless the card says otherwise."""
+    texts = [field.upper() for field in card.fields[6 if card.name == "EIGRL" else 8 :]]
+    return next((t for t in texts if t in ("MASS", "MAX", "POINT", "AF")), "MASS")
+
+
+def _parameter(card: Card) -> Iterator[str]:
+    """A sentence if masses are given as weights."""
+    if card.text(0).upper() == "WTMASS" and card.real(1) != 1:
+        yield (
+            f"PARAM,WTMASS is {card.text(1)}: its masses are given otherwise than modal masses, "
+            "which are in the units of force, length and seconds; --units are those"
+        )

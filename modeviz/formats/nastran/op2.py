@@ -1,0 +1,281 @@
+"""Modes and geometry of an OP2 file.
+
+After MSC Nastran's DMAP Programmer's Guide, "Data Blocks": OUG, LAMA, GEOM1 and GEOM2. Tables whose
+names begin with B have their motions in the basic system, the others in the systems of the grids' CD.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from modeviz.errors import VehicleError, located
+from modeviz.formats.component import CORNERS, ElementKind
+from modeviz.formats.nastran.model import CORNERS_OF, FrameCard, FrameKind, Model, grouped, sorted_grids
+from modeviz.formats.nastran.op2_records import Table
+from modeviz.vehicle.arrays import Array, Floats
+
+SHAPES = ("OUGV1", "OUG1", "OUGV2", "OUG2", "OPHIG", "BOUGV1", "BOPHIG", "OUGV1PAT")
+"""Tables that can have shapes, the first that has any is taken."""
+
+EIGENVALUES = ("LAMA", "BLAMA", "LAMAS", "LAMAF", "CLAMA")
+
+NORMAL, COMPLEX = 2, 9
+"""Kinds of analysis that have modes."""
+
+GRID_POINT = 1
+"""What a row of a shape is that is no scalar point."""
+
+GRID_KEY, GRID_KEY_DOUBLE = (4501, 45), 1120001
+FRAME_KEYS: dict[tuple[int, int], tuple[FrameKind, bool]] = {
+    (1701, 17): ("cylindrical", False), (1801, 18): ("rectangular", False),
+    (1901, 19): ("spherical", False), (2001, 20): ("cylindrical", True),
+    (2101, 21): ("rectangular", True), (2201, 22): ("spherical", True),
+}  # fmt: skip
+"""Of CORD1 and CORD2 cards: the kind, and whether it is given by points."""
+
+ELEMENT_KEYS: dict[tuple[int, int], tuple[str, tuple[int, ...]]] = {
+    (3001, 30): ("CROD", (4,)), (1601, 16): ("CONROD", (8,)), (3701, 37): ("CTUBE", (4,)),
+    (2408, 24): ("CBAR", (16,)), (5408, 54): ("CBEAM", (18, 19)), (2608, 26): ("CBUSH", (14,)),
+    (5201, 52): ("PLOTEL", (3,)), (5959, 59): ("CTRIA3", (13, 14)), (4801, 48): ("CTRIA6", (16, 17)),
+    (9200, 92): ("CTRIAR", (13, 14)), (2958, 51): ("CQUAD4", (14, 15)),
+    (4701, 47): ("CQUAD8", (17, 18)), (8009, 80): ("CQUADR", (14, 15)),
+    (3101, 31): ("CSHEAR", (6,)), (5508, 55): ("CTETRA", (12,)),
+    (17200, 172): ("CPYRAM", (15, 16)), (4108, 41): ("CPENTA", (17,)), (7308, 73): ("CHEXA", (22,)),
+}  # fmt: skip
+"""The element of each record of GEOM2, and how many words one may have, by version."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """A mode as the file has it."""
+
+    subcase: int
+    mode: int
+    eigenvalue: complex
+    """ω² of a normal mode, s of a complex one."""
+    ids: Array
+    """(n,), of the grids."""
+    motions: Array
+    """(n, 6)."""
+    is_complex: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Shapes:
+    """The modes of a file, of its first subcase that has any."""
+
+    modes: list[Shape]
+    is_basic: bool
+    """Whether motions are in the basic system."""
+    n_scalar: int
+    """How many scalar points there are, which no one can see move."""
+    n_other: int
+    """How many modes other subcases have."""
+
+
+def read_shapes(tables: Sequence[Table], path: Path) -> Shapes | None:
+    """Return the modes of a file; None if it has none.
+
+    Raises:
+        VehicleError: a table is damaged.
+    """
+    for name in SHAPES:
+        found: list[tuple[Shape, int]] = []
+        for table in tables:
+            if table.name == name:
+                with located(f"{path}: table {name}"):
+                    found += _shapes(table)
+        if found:
+            first = found[0][0].subcase
+            chosen = [shape for shape, _ in found if shape.subcase == first]
+            return Shapes(chosen, name.startswith("B"), found[0][1], len(found) - len(chosen))
+    return None
+
+
+def _shapes(table: Table) -> Iterator[tuple[Shape, int]]:
+    """The modes of a table, each with how many scalar points it leaves out."""
+    for number in range(1, len(table.records) - 1, 2):
+        whole, real = table.whole(number), table.real(number)
+        if len(whole) < 10:
+            return
+        analysis, sort = int(whole[0]) // 10, int(whole[1]) // 1000
+        if analysis not in (NORMAL, COMPLEX):
+            continue
+        if sort >= 2:
+            raise VehicleError(
+                "its modes are sorted by grid (SORT2), expected by mode; write them with SORT1"
+            )
+        yield _shape(table, number + 1, whole, real)
+
+
+def _shape(table: Table, number: int, whole: Array, real: Floats) -> tuple[Shape, int]:
+    """The mode whose header is in those words, and the number of scalar points in it."""
+    is_complex = int(whole[0]) // 10 == COMPLEX
+    width = int(whole[9])
+    if width != (14 if is_complex else 8):
+        raise VehicleError(f"found {width} words for each grid of a mode, expected 8, or 14 if complex")
+    rows = table.whole(number)
+    if len(rows) % width:
+        raise VehicleError(f"found {len(rows)} words in a mode, expected a multiple of {width}")
+    rows, values = rows.reshape(-1, width), table.real(number).reshape(-1, width)[:, 2:]
+    is_grid = rows[:, 1] == GRID_POINT
+    motions = values if is_grid.all() else values[is_grid]
+    if is_complex:
+        motions = _complex(motions[:, :6], motions[:, 6:], int(whole[8]))
+    if not np.isfinite(motions).all():
+        raise VehicleError(f"mode {whole[4]} has motions that are not finite numbers")
+    eigenvalue = complex(real[5], real[6] if is_complex else 0.0)
+    if not np.isfinite(eigenvalue):
+        raise VehicleError(f"mode {whole[4]} has an eigenvalue that is no finite number")
+    ids = rows[is_grid, 0].astype(np.int64) // 10
+    shape = Shape(int(whole[3]), int(whole[4]), eigenvalue, ids, motions, is_complex)
+    return shape, int(np.sum(~is_grid))
+
+
+def _complex(first: Floats, second: Floats, form: int) -> Array:
+    """Complex numbers of their parts, or of magnitude and phase in degrees."""
+    if form == 3:
+        return first * np.exp(1j * np.radians(second))
+    return first + 1j * second
+
+
+def modal_masses(tables: Sequence[Table], modes: Sequence[Shape], path: Path) -> Floats:
+    """Return the generalised mass of each mode, (n_modes,); not a number where no table says it.
+
+    Rows of tables of eigenvalues belong to the mode of the same number and eigenvalue; what they say of
+    hertz is not asked for.
+    """
+    known: dict[int, list[tuple[float, float]]] = {}
+    for table in tables:
+        if table.name not in EIGENVALUES:
+            continue
+        with located(f"{path}: table {table.name}"):
+            for number in range(2, len(table.records), 2):
+                whole, real = table.whole(number), table.real(number)
+                n_rows = len(whole) // 7
+                columns = real[: 7 * n_rows].reshape(-1, 7)
+                for mode, row in zip(whole[: 7 * n_rows : 7].tolist(), columns, strict=True):
+                    known.setdefault(mode, []).append((float(row[2]), float(row[5])))
+    masses = np.full(len(modes), np.nan)
+    for i, shape in enumerate(modes):
+        scale = abs(shape.eigenvalue)
+        for eigenvalue, mass in known.get(shape.mode, []):
+            is_same = abs(eigenvalue - shape.eigenvalue) <= 1e-5 * max(scale, 1e-3)
+            if is_same and not shape.is_complex and np.isfinite(mass) and mass > 0:
+                masses[i] = mass
+    return masses
+
+
+def read_model(tables: Sequence[Table], path: Path) -> Model | None:
+    """Return the geometry of a file; None if it has none.
+
+    Raises:
+        VehicleError: a table is damaged.
+    """
+    by_name = {table.name: table for table in reversed(tables)}
+    first = by_name.get("GEOM1") or by_name.get("GEOM1S")
+    second = by_name.get("GEOM2") or by_name.get("GEOM2S")
+    if first is None:
+        return None
+    with located(f"{path}: table {first.name}"):
+        grids, frames = _geometry(first)
+        if grids is None:
+            return None
+        ids, systems, coordinates = sorted_grids(*grids)
+    if second is None:
+        return Model(ids, systems, coordinates, frames, {})
+    with located(f"{path}: table {second.name}"):
+        elements, notes = _elements(second, ids)
+    return Model(ids, systems, coordinates, frames, elements, notes=notes)
+
+
+def _geometry(
+    table: Table,
+) -> tuple[tuple[Array, Array, Floats] | None, dict[int, FrameCard]]:
+    grids: list[tuple[Array, Array, Floats]] = []
+    frames: dict[int, FrameCard] = {}
+    for number in range(1, len(table.records)):
+        whole, real = table.whole(number), table.real(number)
+        if len(whole) <= 3:
+            continue
+        key = int(whole[0]), int(whole[1])
+        if key == GRID_KEY:
+            grids.append(_grids(whole, real))
+        elif key in FRAME_KEYS:
+            frames.update(_frames(*FRAME_KEYS[key], whole[3:], real[3:]))
+    if not grids:
+        return None, frames
+    ids, systems, coordinates = (np.concatenate(parts) for parts in zip(*grids, strict=True))
+    return (ids, systems, coordinates), frames
+
+
+def _grids(whole: Array, real: Array) -> tuple[Array, Array, Floats]:
+    """Ids, systems and coordinates of a record of grids, in single or double precision."""
+    is_double = int(whole[2]) == GRID_KEY_DOUBLE and whole.dtype.itemsize == 4
+    width = 11 if is_double else 8
+    rows = _in_rows(whole[3:], width, "GRID")
+    if is_double:
+        halves = np.ascontiguousarray(_in_rows(real[3:], width, "GRID")[:, 2:8])
+        coordinates = halves.view(f"{real.dtype.str[0]}f8")
+    else:
+        coordinates = _in_rows(real[3:], width, "GRID")[:, 2:5]
+    cd = 8 if is_double else 5
+    return (
+        rows[:, 0].astype(np.int64),
+        rows[:, [1, cd]].astype(np.int64),
+        coordinates.astype(np.float64),
+    )
+
+
+def _frames(
+    kind: FrameKind, by_points: bool, whole: Array, real: Array
+) -> Iterator[tuple[int, FrameCard]]:
+    rows = _in_rows(whole, 13 if by_points else 6, "coordinate system")
+    values = real.reshape(rows.shape)
+    for row, numbers in zip(rows.tolist(), values, strict=True):
+        if by_points:
+            points = numbers[4:].astype(np.float64).reshape(3, 3)
+            if not np.isfinite(points).all():
+                raise VehicleError(f"coordinate system {row[0]}: its points are not finite numbers")
+            yield row[0], FrameCard(kind, row[3], points)
+        else:
+            yield row[0], FrameCard(kind, 0, grids=tuple(row[3:]))
+
+
+def _in_rows(words: Array, width: int, what: str) -> Array:
+    if len(words) % width:
+        raise VehicleError(f"found {len(words)} words of {what}, expected a multiple of {width}")
+    return words.reshape(-1, width)
+
+
+def _elements(table: Table, ids: Array) -> tuple[dict[ElementKind, Array], tuple[str, ...]]:
+    """Corners of elements by kind, and what could not be read of them."""
+    lots: dict[ElementKind, list[Array]] = {}
+    notes: list[str] = []
+    for number in range(1, len(table.records)):
+        whole = table.whole(number)
+        if len(whole) <= 3 or (key := (int(whole[0]), int(whole[1]))) not in ELEMENT_KEYS:
+            continue
+        name, widths = ELEMENT_KEYS[key]
+        kind = CORNERS_OF[name]
+        corners = _corners(whole[3:], name, widths, ids)
+        if corners is None:
+            notes.append(f"its {name} elements are written as by no version known, and are not drawn")
+        else:
+            lots.setdefault(kind, []).append(corners)
+    return grouped(lots), tuple(notes)
+
+
+def _corners(words: Array, name: str, widths: tuple[int, ...], ids: Array) -> Array | None:
+    """The grids at corners of elements, for the width with which all of them are grids; else None."""
+    first = 1 if name in ("CONROD", "PLOTEL") else 2
+    n_corners = CORNERS[CORNERS_OF[name]]
+    for width in widths:
+        if len(words) % width == 0:
+            corners = words.reshape(-1, width)[:, first : first + n_corners].astype(np.int64)
+            corners = corners[(corners != 0).all(axis=1)]
+            if np.isin(corners, ids).all():
+                return corners
+    return None

@@ -1,0 +1,362 @@
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from free_network import CORNERS, HEXA, LABELS, free_network
+from network_op2 import network_op2
+from op2_files import COMPLEX_MODES, MODES, Op2
+
+from modeviz.errors import VehicleError
+from modeviz.formats.nastran import read_nastran
+
+SHARED = Path(__file__).parents[3] / "shared/data/s1_msc_modes_bdf_op2_f06"
+NAME = "mode_solid_shell_bar"
+ELEMENTS = {"line": 4, "triangle": 8, "quad": 4, "tetra": 2, "wedge": 2, "hexa": 1}
+SQUARE = [(1, 0, (0, 0, 0), 0), (2, 0, (1, 0, 0), 0), (3, 0, (1, 1, 0), 0), (4, 0, (0, 1, 0), 0)]
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read(op2=None, deck=None, **others):
+        paths = []
+        for name, content in {"a.op2": op2, "a.bdf": deck}.items():
+            if content is not None:
+                paths.append(tmp_path / name)
+                raw = content if isinstance(content, bytes) else content.encode("latin-1")
+                paths[-1].write_bytes(raw)
+        for name, text in others.items():
+            (tmp_path / name).write_text(text)
+        return read_nastran(paths)
+
+    return read
+
+
+def printed_shapes() -> dict[int, dict[int, list[float]]]:
+    """Every eigenvector that the F06 file prints: by mode, by grid."""
+    shapes: dict[int, dict[int, list[float]]] = {}
+    mode = 0
+    for line in (SHARED / f"{NAME}.f06").read_text("latin-1").splitlines():
+        if found := re.search(r"E I G E N V E C T O R   N O \.\s+(\d+)", line):
+            mode = int(found[1])
+        elif line.startswith("1 "):
+            mode = 0
+        elif mode and (row := re.match(r"\s+(\d+)\s+G\s+(.*)", line)):
+            shapes.setdefault(mode, {})[int(row[1])] = [float(v) for v in row[2].split()]
+    return shapes
+
+
+@pytest.mark.shared
+@pytest.mark.parametrize("endings", [(".bdf", ".op2"), (".op2",)])
+def test_modes_of_msc_nastran_are_those_it_prints(endings):
+    component = read_nastran([SHARED / (NAME + ending) for ending in endings])
+    np.testing.assert_allclose(component.modes.frequency_hz, [71.26832, 75.95746, 125.7872], rtol=1e-6)
+    printed = printed_shapes()
+    assert {mode: len(grids) for mode, grids in printed.items()} == {1: 25, 2: 25, 3: 25}
+    for mode, grids in printed.items():
+        found = component.modes.shapes[component.rows(np.array(list(grids))), :, mode - 1]
+        np.testing.assert_allclose(found, list(grids.values()), rtol=1e-6, atol=1e-9)
+    (row,) = component.rows(np.array([13]))
+    np.testing.assert_allclose(
+        component.modes.shapes[row, :3, 0], [-0.36347, -1.34799, 0.00767], atol=5e-6
+    )
+
+
+@pytest.mark.shared
+@pytest.mark.parametrize("endings", [(".bdf", ".op2"), (".op2",), (".bdf",)])
+def test_geometry_of_msc_nastran_is_in_either_file_and_in_what_it_includes(endings):
+    component = read_nastran([SHARED / (NAME + ending) for ending in endings])
+    assert len(component.node_ids) == 25
+    assert {kind: len(corners) for kind, corners in component.elements.items()} == ELEMENTS
+    places = component.nodes[component.rows(np.array([13, 22, 4]))]
+    np.testing.assert_array_equal(places, [[0.5, 0.5, 3], [0, 0, -3], [0, 1, 0]])
+
+
+@pytest.mark.shared
+def test_without_a_table_of_eigenvalues_the_input_says_the_modal_masses():
+    alone = read_nastran([SHARED / f"{NAME}.op2"])
+    assert np.isnan(alone.modes.modal_mass).all()
+    both = read_nastran([SHARED / f"{NAME}.op2", SHARED / f"{NAME}.bdf"])
+    np.testing.assert_array_equal(both.modes.modal_mass, 1)
+    assert any("no table of eigenvalues" in note for note in both.notes)
+
+
+@pytest.mark.shared
+def test_a_frequency_response_has_geometry_and_no_modes():
+    component = read_nastran([SHARED / "freq_solid_shell_bar.op2"])
+    assert component.n_modes == 0
+    assert "the OP2 file has no modes" in component.notes
+    assert len(component.node_ids) == 25
+
+
+@pytest.mark.parametrize("order", ["<", ">"])
+@pytest.mark.parametrize("size", [4, 8])
+@pytest.mark.parametrize("most", [7, 10_000])
+def test_words_of_either_order_and_size_in_parts_of_any_length(read, order, size, most):
+    network = free_network()
+    component = read(network_op2(Op2(order, size, most)))
+    np.testing.assert_array_equal(component.node_ids, LABELS)
+    np.testing.assert_allclose(component.nodes, CORNERS)
+    np.testing.assert_allclose(component.modes.shapes[:, :3], network.shapes, rtol=1e-5, atol=1e-5)
+    np.testing.assert_allclose(component.modes.frequency_hz, network.frequency_hz, rtol=1e-5, atol=1e-2)
+    assert component.node_ids[component.elements["hexa"]].tolist() == [list(HEXA)]
+
+
+def test_hertz_are_those_of_the_eigenvalue_whatever_stands_for_them(read):
+    network = free_network()
+    wrong = np.sqrt(np.abs(network.omega_n_squared))  # rad/s, as some versions write
+    component = read(network_op2(Op2(), hertz=wrong))
+    np.testing.assert_allclose(component.modes.frequency_hz[6:], network.frequency_hz[6:], rtol=1e-5)
+
+
+def test_modal_masses_are_those_of_the_table_of_eigenvalues_and_zero_is_unknown(read):
+    masses = np.geomspace(0.1, 10, 24)
+    np.testing.assert_allclose(read(network_op2(Op2(), masses=masses)).modes.modal_mass, masses, 1e-6)
+    op2 = Op2()
+    zero = op2.table("LAMA", *op2.eigenvalues((1, 400.0, 0.0, 0.0)))
+    shape = op2.table("OUGV1", op2.header(MODES, 1, 400.0), op2.shape([1, 2, 3, 4], np.ones((4, 6))))
+    content = op2.file(op2.table("GEOM1", op2.grids(SQUARE)), zero, shape)
+    assert np.isnan(read(content).modes.modal_mass).all()
+
+
+def test_rows_of_eigenvalues_that_are_another_analysis_are_not_the_modes(read):
+    op2 = Op2()
+    buckling = op2.table("LAMA", *op2.eigenvalues((1, 1.7, 0.0, 5.0)))
+    shape = op2.table("OUGV1", op2.header(MODES, 1, 400.0), op2.shape([1, 2, 3, 4], np.ones((4, 6))))
+    content = op2.file(op2.table("GEOM1", op2.grids(SQUARE)), buckling, shape)
+    assert np.isnan(read(content).modes.modal_mass).all()
+
+
+@pytest.mark.parametrize("in_deck", [False, True])
+def test_motions_are_turned_out_of_the_systems_of_their_grids(read, in_deck):
+    """By hand: at (0, 2, 0) r is y and θ is -x; at (0, 0, 2) θ of the sphere is x, φ is y."""
+    op2 = Op2()
+    points = np.array([[0, 0, 0], [0, 0, 1], [1, 0, 0]])
+    turned = np.array([[5, 5, 5], [5, 5, 6], [5, 6, 5]])  # its x is y, its y is -x
+    grids = [(1, 0, (0, 2, 0), 10), (2, 0, (0, 0, 2), 20), (3, 0, (7, 7, 7), 30), (4, 0, (1, 2, 3), 0)]
+    frames = [op2.frame("C", 10, points), op2.frame("S", 20, points), op2.frame("R", 30, turned)]
+    motion = np.tile([1.0, 2, 3, 4, 5, 6], (4, 1))
+    shape = op2.table("OUGV1", op2.header(MODES, 1, 400.0), op2.shape([1, 2, 3, 4], motion))
+    geometry = [] if in_deck else [op2.table("GEOM1", op2.grids(grids), *frames)]
+    deck = (
+        "CORD2C,10,0,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+        "CORD2S        20       0      0.      0.      0.      0.      0.      1.\n"
+        "              1.      0.      0.\n"
+        "CORD2R*               30               0              5.              5.\n"
+        "*                     5.              5.              5.              6.\n"
+        "*                     5.              6.              5.\n"
+        "GRID,1,,0.,2.,0.,10\nGRID,2,,0.,0.,2.,20\nGRID,3,,7.,7.,7.,30\nGRID,4,,1.,2.,3.\n"
+    )
+    component = read(op2.file(*geometry, shape), deck if in_deck else None)
+    expected = [[-2, 1, 3, -5, 4, 6], [2, 3, 1, 5, 6, 4], [-2, 1, 3, -5, 4, 6], [1, 2, 3, 4, 5, 6]]
+    np.testing.assert_allclose(component.modes.shapes[:, :, 0], expected, atol=1e-6)
+
+
+def test_motions_in_tables_of_the_basic_system_are_not_turned(read):
+    op2 = Op2()
+    grids = [(1, 0, (0, 2, 0), 10), *SQUARE[1:]]
+    frame = op2.frame("C", 10, [[0, 0, 0], [0, 0, 1], [1, 0, 0]])
+    motion = np.tile([1.0, 2, 3, 4, 5, 6], (4, 1))
+    shape = op2.table("BOUGV1", op2.header(MODES, 1, 400.0), op2.shape([1, 2, 3, 4], motion))
+    component = read(op2.file(op2.table("GEOM1", op2.grids(grids), frame), shape))
+    np.testing.assert_allclose(component.modes.shapes[:, :, 0], motion)
+
+
+def test_grids_in_double_precision(read):
+    op2 = Op2(">")
+    rows = [(7, 0, (0.1, -2.0, 3e5), 0), (8, 0, (1, 2, 3), 0)]
+    table = op2.table("GEOM1S", op2.grids_in_double_precision(rows))
+    np.testing.assert_array_equal(read(op2.file(table)).nodes, [rows[0][2], rows[1][2]])
+
+
+def test_scalar_points_are_left_out_and_told(read):
+    op2 = Op2()
+    shape = op2.shape([1, 2, 3, 4, 900], np.ones((5, 6)), [1, 1, 1, 1, 2])
+    table = op2.table("OUGV1", op2.header(MODES, 1, 400.0), shape)
+    component = read(op2.file(op2.table("GEOM1", op2.grids(SQUARE)), table))
+    assert component.node_ids.tolist() == [1, 2, 3, 4]
+    assert any("1 scalar points" in note for note in component.notes)
+
+
+def test_other_subcases_are_left_out_and_told(read):
+    op2 = Op2()
+    shape = op2.shape([1, 2, 3, 4], np.ones((4, 6)))
+    records = [part for n in (1, 2) for part in (op2.header(MODES, 1, 100.0 * n, subcase=n), shape)]
+    component = read(op2.file(op2.table("GEOM1", op2.grids(SQUARE)), op2.table("OUGV1", *records)))
+    assert component.n_modes == 1
+    assert any("1 modes of other subcases than 1" in note for note in component.notes)
+
+
+def test_complex_modes_have_damping_and_no_modal_mass(read):
+    op2 = Op2()
+    header = op2.header(COMPLEX_MODES, 1, complex(-3.0, 100.0), width=14)
+    motion = np.hstack([np.ones((4, 6)), 2 * np.ones((4, 6))])
+    table = op2.table("OUGV1", header, op2.shape([1, 2, 3, 4], motion))
+    modes = read(op2.file(op2.table("GEOM1", op2.grids(SQUARE)), table)).modes
+    size = abs(complex(-3, 100))
+    np.testing.assert_allclose(modes.frequency_hz, size / (2 * np.pi))
+    np.testing.assert_allclose(modes.damping_ratio, 3 / size)
+    np.testing.assert_array_equal(modes.shapes, 1 + 2j)
+
+
+def test_fields_of_every_form_and_numbers_without_an_e(read):
+    deck = (
+        "SOL 103\nCEND\nMETHOD=1\nBEGIN BULK\n"
+        "$ GRID,99,,1.,1.,1.\n"
+        "GRID           1             1.5    -2.+  3.-1$ small\n"
+        "GRID*                  2                        1.5D+1           2.5E1\n"
+        "*                    -.5               0\n"
+        "grid,3,0,1.+1,,7\n"
+        "GRID\t4\t\t1.\t2.\t3.\n"
+        "GRID*,5,,1.,2.\n*,3.,\n"
+        "ENDDATA\nGRID,100,,0.,0.,0.\n"
+    ).replace("    -2.+  3.-1", "   -2.+1    3.-1")
+    component = read(deck=deck)
+    assert component.node_ids.tolist() == [1, 2, 3, 4, 5]
+    expected = [[1.5, -20, 0.3], [15, 25, -0.5], [10, 0, 7], [1, 2, 3], [1, 2, 3]]
+    np.testing.assert_allclose(component.nodes, expected)
+
+
+def test_what_grdset_says_holds_where_a_grid_says_nothing(read):
+    frame = "CORD2R,5,,10.,0.,0.,10.,0.,1.\n,11.,0.,0.\n"
+    deck = f"GRDSET,,5,,,,5\n{frame}GRID,1,,1.,0.,0.\nGRID,2,0,1.,0.,0.,0\n"
+    np.testing.assert_allclose(read(deck=deck).nodes, [[11, 0, 0], [1, 0, 0]])
+
+
+def test_systems_given_by_grids_that_stand_in_other_systems(read):
+    """x along y of the outer system, which is turned by 90° about z: along -x of the basic one."""
+    deck = (
+        "CORD2R,1,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\n"
+        "GRID,1,1,0.,0.,0.\nGRID,2,1,0.,0.,1.\nGRID,3,1,0.,1.,0.\n"
+        "CORD1R,2,1,2,3\nGRID,4,2,1.,0.,0.\n"
+    )
+    np.testing.assert_allclose(read(deck=deck).nodes[3], [-1, 0, 0], atol=1e-12)
+
+
+def test_files_that_are_included_are_found_beside_those_that_include_them(tmp_path):
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "a.bdf").write_text("BEGIN BULK\ninclude 'parts/\n  b.bdf'\nENDDATA\n")
+    (tmp_path / "parts" / "b.bdf").write_text('GRID,1,,1.,1.,1.\nINCLUDE "..\\c.bdf"\n')
+    (tmp_path / "c.bdf").write_text("GRID,2,,2.,2.,2.\n")
+    assert read_nastran([tmp_path / "a.bdf"]).node_ids.tolist() == [1, 2]
+
+
+def test_corners_of_elements(read):
+    grids = "".join(f"GRID,{i},,{i}.,0.,0.\n" for i in range(1, 31))
+    deck = grids + (
+        "CHEXA,1,1,1,2,3,4,5,6,+A\n+A,7,8,9,10,11,12,13,14,+B\n+B,15,16,17,18,19,20\n"
+        "CPENTA,2,1,1,2,3,4,5,6\nCTETRA,3,1,1,2,3,4,5,6\n,7,8,9,10\nCPYRAM,4,1,1,2,3,4,5\n"
+        "CQUAD8,5,1,1,2,3,4,5,6\n,7,8\nCTRIA6,6,1,1,2,3,4,5,6\n"
+        "CBAR,7,1,1,2,0.,0.,1.\nCONROD,8,3,4,1,1.\nPLOTEL,9,5,6\nCBUSH,10,1,7\nCELAS2,11,1.,1,1\n"
+    )
+    component = read(deck=deck)
+    found = {k: component.node_ids[c].tolist() for k, c in component.elements.items()}
+    assert found == {
+        "hexa": [[1, 2, 3, 4, 5, 6, 7, 8]],
+        "wedge": [[1, 2, 3, 4, 5, 6]],
+        "tetra": [[1, 2, 3, 4]],
+        "pyramid": [[1, 2, 3, 4, 5]],
+        "quad": [[1, 2, 3, 4]],
+        "triangle": [[1, 2, 3]],
+        "line": [[1, 2], [3, 4], [5, 6]],
+    }
+
+
+@pytest.mark.parametrize(
+    ("norm", "is_known"),
+    [("EIGRL,1,,,10", True), ("EIGRL,1,,,10,,,,MAX", False), ("EIGR,1,LAN,,,,10\n,MASS", True),
+     ("EIGR,1,LAN,,,,10\n,MAX", False), ("$", False)],
+)  # fmt: skip
+def test_only_modes_normalised_to_mass_have_a_modal_mass_without_a_table(read, norm, is_known):
+    op2 = Op2()
+    table = op2.table("OUGV1", op2.header(MODES, 1, 400.0), op2.shape([1, 2], np.ones((2, 6))))
+    component = read(op2.file(table), f"GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n{norm}\n")
+    assert np.isfinite(component.modes.modal_mass).all() == is_known
+
+
+def test_a_factor_of_masses_is_told(read):
+    (note, _) = read(deck="PARAM,WTMASS,.00259\nGRID,1,,0.,0.,0.\n").notes
+    assert note.startswith("PARAM,WTMASS is .00259")
+
+
+OP2 = Op2()
+GEOMETRY = OP2.table("GEOM1", OP2.grids(SQUARE))
+
+
+def placed(*records: bytes) -> bytes:
+    """A file with these records of geometry."""
+    return OP2.file(OP2.table("GEOM1", *records))
+
+
+def shaped(header: bytes, motion: float = 1.0, ids=(1, 2, 3, 4)) -> bytes:
+    """A file with one mode."""
+    shape = OP2.shape(ids, np.full((4, 6), motion))
+    return OP2.file(GEOMETRY, OP2.table("OUGV1", header, shape))
+
+
+WHOLE = shaped(OP2.header(MODES, 1, 400.0))
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "the file is empty"),
+        (b"hello, this is no OP2 file at all", "does not begin as an OP2 file"),
+        (WHOLE[:-20], "cut"),
+        (WHOLE[:-27], "cut"),
+        (WHOLE[: len(WHOLE) // 4], "the file ends within the table 'GEOM1'"),
+        (WHOLE[: len(WHOLE) // 2], "the file ends within the table 'OUGV1'"),
+        (WHOLE[:300] + b"\r" + WHOLE[300:], "the file is damaged"),
+        (WHOLE.replace(OP2.words(4501, 45, 1), OP2.words(4501, 45, 1)[:8]), "damaged"),
+        (shaped(OP2.header(MODES, 1, np.nan)), "no finite number"),
+        (shaped(OP2.header(MODES, 1, 4.0), np.nan), "mode 1 has motions that are not finite"),
+        (shaped(OP2.header(MODES, 1, 4.0, width=2_000_000_000)), "2000000000"),
+        (shaped(OP2.header(MODES, 1, 4.0, sort=2)), "SORT1"),
+        (shaped(OP2.header(MODES, 1, 4.0)).replace(GEOMETRY, b""), "no geometry (GEOM1)"),
+        (placed(OP2.grids([*SQUARE, (1, 0, (9, 9, 9), 0)])), "GRID 1: is there twice"),
+        (placed(OP2.grids([(1, 0, (np.inf, 0, 0), 0)])), "not finite"),
+        (placed(OP2.grids([(1, 77, (0, 0, 0), 0)])), "coordinate systems 77"),
+        (placed(OP2.grids(SQUARE)[:-8]), "expected a multiple of 8"),
+        (placed(OP2.grids(SQUARE), OP2.frame("R", 5, np.zeros((3, 3)))), "system 5: the three points"),
+        (placed(OP2.grids(SQUARE), OP2.frame("R", 5, np.eye(3), 5)), "coordinate systems 5"),
+        (shaped(OP2.header(MODES, 1, 4.0), ids=[1, 2, 2, 4]), "moves grid 2 twice"),
+    ],
+)
+def test_damaged_op2_files_are_refused_in_a_sentence(read, content, words):
+    with pytest.raises(VehicleError) as caught:
+        read(content)
+    assert words in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("deck", "words"),
+    [
+        ("", "found no GRID"),
+        ("GRID,1,,0.,0.,0.\nGRID,1,,0.,0.,1.\n", "GRID 1: is there twice"),
+        ("GRID,x,,0.,0.,0.\n", "GRID x: found 'x', expected a whole number"),
+        ("GRID,1,,0.,y,0.\n", "GRID 1: found 'y', expected a number"),
+        ("GRID,1,,nan,0.,0.\n", "GRID 1: its coordinates are not finite"),
+        ("GRID,1,9,0.,0.,0.\n", "coordinate systems 9: are named but not there"),
+        ("GRID,1,,0.,0.,0.\nCORD2R,2,3,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", "coordinate systems 2"),
+        ("GRID,1,,0.,0.,0.\nCORD1R,2,1,7,8\n", "one is missing"),
+        ("GRID,1,,0.,0.,0.\nPLOTEL,1,1,5\n", "node 5 is named"),
+        ("INCLUDE 'nowhere.bdf'\n", "nowhere.bdf: there is no such file"),
+        ("INCLUDE 'a.bdf'\n", "is included by what it includes"),
+        ("INCLUDE 'a.bdf\n", "its quote does not end"),
+        ("INCLUDE '/dev/zero'\n", "cannot be read"),
+        ("GRID,1\0\0\n", "found no text"),
+    ],
+)
+def test_damaged_decks_are_refused_in_a_sentence(read, deck, words):
+    with pytest.raises(VehicleError) as caught:
+        read(deck=deck)
+    assert words in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_two_decks_are_refused(tmp_path):
+    for name in ("a.bdf", "b.dat"):
+        (tmp_path / name).write_text("GRID,1,,0.,0.,0.\n")
+    with pytest.raises(VehicleError, match=r"a\.bdf, b\.dat, expected one input file"):
+        read_nastran([tmp_path / "a.bdf", tmp_path / "b.dat"])
