@@ -61,7 +61,7 @@ def test_its_gradient_is_central_differences(search, goal):
 
 def test_of_a_peak_it_is_the_percentile_of_the_samples_peaks():
     search = cabin_search(goal="peak")
-    robustly = replace(search, goal=robust(search.goal, TOLERANCE, n_samples=40))
+    robustly = replace(search, goal=robust(search.goal, TOLERANCE, n_samples=20))
     x = search.space.samples(3, 1)[2]
     parts = scattered_parts(search.goal.prepared, search.space.rates(x), TOLERANCE)
     stiffness = parts.stiffness(robustly.goal.deviations)

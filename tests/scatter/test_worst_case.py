@@ -26,7 +26,7 @@ def test_the_worst_corner_is_the_worst_of_all(prepared, objective, tolerance):
     parts = scattered_parts(prepared, {}, tolerance)
     every = np.array(list(product((-1.0, 1.0), repeat=8)))
     values = goals(objective, parts, every)
-    samples = parts.samples(200, 0)
+    samples = parts.samples(60, 0)
     bad = samples[goals(objective, parts, samples).argmax()]
     found = worst_corner(objective, parts, bad)
     assert found.goal == pytest.approx(values.max(), rel=1e-12)
