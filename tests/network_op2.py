@@ -5,11 +5,13 @@ from free_network import CORNERS, HEXA, LABELS, free_network
 from op2_files import MODES, Op2
 
 
-def network_op2(op2: Op2, hertz=None, masses=None) -> bytes:
-    """An OP2 file of all modes, with what it calls hertz and with modal masses."""
+def network_op2(op2: Op2, hertz=None, masses=None, unstable=None) -> bytes:
+    """An OP2 file of all modes, with what it calls hertz, modal masses, and a mode with ω² < 0."""
     network = free_network()
     grids = [(i, 0, place, 0) for i, place in zip(LABELS, CORNERS, strict=True)]
-    w2 = network.omega_n_squared
+    w2 = network.omega_n_squared.copy()
+    if unstable is not None:
+        w2[unstable] *= -1
     masses = np.ones(24) if masses is None else masses
     records, rows = [], []
     for mode in range(24):

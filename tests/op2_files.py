@@ -72,6 +72,10 @@ class Op2:
         key, code = {"R": ((2101, 21, 8), 1), "C": ((2001, 20, 9), 2), "S": ((2201, 22, 10), 3)}[kind]
         return self.words(*key, number, code, 2, reference, *map(float, np.ravel(points)))
 
+    def frame_in_double_precision(self, number: int, points) -> bytes:
+        doubles = np.array(points, f"{self.order}f8").tobytes()
+        return self.words(2101, 21, 2220008, number, 1, 2, 0) + doubles
+
     def header(
         self, analysis: int, mode: int, eigenvalue: complex, subcase=1, width=8, hertz=0.0, sort=0
     ):

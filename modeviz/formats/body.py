@@ -106,7 +106,12 @@ def uncoupled_because(component: Component) -> str | None:
         )
     if not component.has_place.any():
         return "none of the nodes that it moves has a place; give the file with the geometry too"
-    zeros, _ = with_zeros((2 * np.pi * modes.frequency_hz) ** 2)
+    zeros, _ = with_zeros(_omega_n_squared(modes.frequency_hz))
+    if (zeros < 0).any():
+        return (
+            f"{int(np.sum(zeros < 0))} of its modes are unstable, down to an ω² of {zeros.min():.3g} "
+            "rad²/s²"
+        )
     n_rigid = int((zeros == 0).sum())
     if n_rigid not in (FlexibleBody.N_RIGID - 1, FlexibleBody.N_RIGID):
         return (
@@ -115,6 +120,11 @@ def uncoupled_because(component: Component) -> str | None:
             "with all modes from zero up"
         )
     return None
+
+
+def _omega_n_squared(frequency_hz: Floats) -> Floats:
+    """ω² with the sign of the frequency."""
+    return (2 * np.pi) ** 2 * frequency_hz * np.abs(frequency_hz)
 
 
 def find_attachments(
@@ -176,7 +186,7 @@ def flexible_body(
     if reason := uncoupled_because(component):
         raise VehicleError(f"{component.source}: cannot be coupled to others: {reason}")
     modes = component.modes
-    omega_n_squared, n_near_zero = with_zeros((2 * np.pi * modes.frequency_hz) ** 2)
+    omega_n_squared, n_near_zero = with_zeros(_omega_n_squared(modes.frequency_hz))
     normalised = modes.shapes / np.sqrt(modes.modal_mass * units.mass)
     normalised[:, 3:] /= units.length
     places = component.nodes * units.length
@@ -233,10 +243,8 @@ def _damping(ratios: Floats) -> float | tuple[float, ...]:
 
 def _remarks(n_near_zero: int, frequency_hz: Floats, solid: list[str], thinned: int) -> Iterator[str]:
     if n_near_zero:
-        yield (
-            f"{n_near_zero} modes are near zero, up to {frequency_hz[:n_near_zero].max():.1g} Hz; "
-            "taken for the rigid ones"
-        )
+        largest = np.abs(frequency_hz[:n_near_zero]).max()
+        yield (f"{n_near_zero} modes are near zero, up to {largest:.1g} Hz; taken for the rigid ones")
     if solid:
         yield (
             f"the nodes of {listed(solid)} have no rotations in the file: taken to turn as the body "

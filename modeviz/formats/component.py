@@ -52,7 +52,7 @@ class Modes:
     """Natural modes in the basic coordinates, in the file's units and as it has them normalised."""
 
     frequency_hz: Floats
-    """(n_modes,), zero or a little off it for rigid ones."""
+    """(n_modes,), zero or a little off it for rigid ones, below zero where ω² is: an unstable mode."""
     modal_mass: Floats
     """(n_modes,), not a number where the file does not say it."""
     damping_ratio: Floats

@@ -214,6 +214,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, file, capsys):
         (network_file(first=6), "0 of its modes are near zero Hz"),
         (network_file(first=2), "4 of its modes are near zero Hz"),
         (nodes_2411(LABELS, CORNERS), "it has no modes"),
+        (network_op2(Op2(), unstable=20), "1 of its modes are unstable"),
         (shape_55([1], np.ones((1, 3)), 0.0), "none of the nodes that it moves has a place"),
         (
             nodes_2411([1], CORNERS[:1]) + shape_2414([1], np.ones((1, 3)) * 1j, 0.0, eigenvalue=1j),
@@ -222,7 +223,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, file, capsys):
     ],
 )
 def test_what_cannot_be_coupled_is_listed_and_not_written(tmp_path, file, capsys, text, words):
-    path = file(text)
+    path = file(text, "block.op2" if isinstance(text, bytes) else "block.unv")
     assert main(["import", path]) == 0
     assert f"It cannot be coupled to others: {words}" in capsys.readouterr().out
     said = refused(capsys, path, "--output", tmp_path / "vehicle", "--units", "mm-t-s")

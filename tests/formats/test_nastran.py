@@ -164,9 +164,35 @@ def test_motions_in_tables_of_the_basic_system_are_not_turned(read):
 
 def test_grids_in_double_precision(read):
     op2 = Op2(">")
-    rows = [(7, 0, (0.1, -2.0, 3e5), 0), (8, 0, (1, 2, 3), 0)]
-    table = op2.table("GEOM1S", op2.grids_in_double_precision(rows))
-    np.testing.assert_array_equal(read(op2.file(table)).nodes, [rows[0][2], rows[1][2]])
+    rows = [(7, 0, (0.1, -2.0, 3e5), 0), (8, 5, (1, 2, 3), 0)]
+    frame = op2.frame_in_double_precision(5, [[0.1, 0, 0], [0.1, 0, 1], [1.1, 0, 0]])
+    table = op2.table("GEOM1S", op2.grids_in_double_precision(rows), frame)
+    np.testing.assert_allclose(read(op2.file(table)).nodes, [rows[0][2], [1.1, 2, 3]], rtol=1e-15)
+
+
+def test_matrices_between_the_tables_are_gone_over(read):
+    """In double precision, so that a key says how many numbers, and not words, a column has."""
+    op2 = Op2()
+    name = op2.words("KHH     ")
+    matrix = op2.record(name) + op2.key(-1) + op2.record(op2.words(101, *[0] * 6)) + op2.key(-2)
+    matrix += op2.record(op2.words(0)) + op2.record(name) + op2.key(-3)
+    for number in (1, 2):
+        column = op2.words(1) + np.array([1.5, 2.5], "<f8").tobytes()
+        matrix += op2.record(op2.words(1)) + op2.key(3) + op2.fortran(column) + op2.key(-3 - number)
+    matrix += op2.record(op2.words(0)) + op2.key(0)
+    assert len(read(op2.file(matrix, GEOMETRY)).node_ids) == 4
+
+
+def test_an_op2_file_without_geometry_is_listed(read):
+    component = read(shaped(OP2.header(MODES, 1, 400.0)).replace(GEOMETRY, b""))
+    assert component.n_modes == 1
+    assert not component.has_place.any()
+    assert component.notes == ("the OP2 file has no geometry (GEOM1): give the input file too",)
+
+
+def test_an_unstable_mode_has_a_frequency_below_zero(read):
+    component = read(shaped(OP2.header(MODES, 1, -400.0)))
+    assert component.modes.frequency_hz == pytest.approx([-20 / (2 * np.pi)])
 
 
 def test_scalar_points_are_left_out_and_told(read):
@@ -209,12 +235,13 @@ def test_fields_of_every_form_and_numbers_without_an_e(read):
         "grid,3,0,1.+1,,7\n"
         "GRID\t4\t\t1.\t2.\t3.\n"
         "GRID*,5,,1.,2.\n*,3.,\n"
+        "CORD2C,1,0, 0.,0.,0., 0.,0.,1., 0.,1.,0.\nGRID,6,1,2.,0.,1.\n"
         "ENDDATA\nGRID,100,,0.,0.,0.\n"
     ).replace("    -2.+  3.-1", "   -2.+1    3.-1")
     component = read(deck=deck)
-    assert component.node_ids.tolist() == [1, 2, 3, 4, 5]
-    expected = [[1.5, -20, 0.3], [15, 25, -0.5], [10, 0, 7], [1, 2, 3], [1, 2, 3]]
-    np.testing.assert_allclose(component.nodes, expected)
+    assert component.node_ids.tolist() == [1, 2, 3, 4, 5, 6]
+    expected = [[1.5, -20, 0.3], [15, 25, -0.5], [10, 0, 7], [1, 2, 3], [1, 2, 3], [0, 2, 1]]
+    np.testing.assert_allclose(component.nodes, expected, atol=1e-12)
 
 
 def test_what_grdset_says_holds_where_a_grid_says_nothing(read):
@@ -312,7 +339,7 @@ WHOLE = shaped(OP2.header(MODES, 1, 400.0))
         (shaped(OP2.header(MODES, 1, 4.0), np.nan), "mode 1 has motions that are not finite"),
         (shaped(OP2.header(MODES, 1, 4.0, width=2_000_000_000)), "2000000000"),
         (shaped(OP2.header(MODES, 1, 4.0, sort=2)), "SORT1"),
-        (shaped(OP2.header(MODES, 1, 4.0)).replace(GEOMETRY, b""), "no geometry (GEOM1)"),
+        (OP2.file(), "has neither geometry (GEOM1) nor modes"),
         (placed(OP2.grids([*SQUARE, (1, 0, (9, 9, 9), 0)])), "GRID 1: is there twice"),
         (placed(OP2.grids([(1, 0, (np.inf, 0, 0), 0)])), "not finite"),
         (placed(OP2.grids([(1, 77, (0, 0, 0), 0)])), "coordinate systems 77"),

@@ -108,11 +108,16 @@ def _fields(lines: list[str]) -> list[str]:
 
 
 def _line_fields(line: str) -> list[str]:
-    """The fields of a line between its first and its last, eight, or four of a large one."""
-    if "," in line[:16] or "," in line:
-        is_large = "*" in line.split(",", 1)[0]
-        n_fields = 4 if is_large else 8
-        fields = [part.strip() for part in line.split(",")[1 : 1 + n_fields]]
+    """The fields of a line between its first and its last, eight, or four of a large one.
+
+    A free line may go on beyond its tenth field, as if it were several.
+    """
+    if "," in line:
+        name, *fields = (part.strip() for part in line.split(","))
+        n_fields = 4 if "*" in name else 8
+        if len(fields) == n_fields + 1:  # with the mark of a continuation
+            fields.pop()
+        n_fields = -(-len(fields) // n_fields) * n_fields
     else:
         line = line.expandtabs(8)
         is_large = "*" in line[:8]

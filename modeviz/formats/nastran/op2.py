@@ -27,7 +27,9 @@ NORMAL, COMPLEX = 2, 9
 GRID_POINT = 1
 """What a row of a shape is that is no scalar point."""
 
-GRID_KEY, GRID_KEY_DOUBLE = (4501, 45), 1120001
+GRID_KEY = (4501, 45)
+DOUBLE = 1_000_000
+"""The third number of a record's key is above this if its real numbers take two words of four bytes."""
 FRAME_KEYS: dict[tuple[int, int], tuple[FrameKind, bool]] = {
     (1701, 17): ("cylindrical", False), (1801, 18): ("rectangular", False),
     (1901, 19): ("spherical", False), (2001, 20): ("cylindrical", True),
@@ -38,13 +40,20 @@ FRAME_KEYS: dict[tuple[int, int], tuple[FrameKind, bool]] = {
 ELEMENT_KEYS: dict[tuple[int, int], tuple[str, tuple[int, ...]]] = {
     (3001, 30): ("CROD", (4,)), (1601, 16): ("CONROD", (8,)), (3701, 37): ("CTUBE", (4,)),
     (2408, 24): ("CBAR", (16,)), (5408, 54): ("CBEAM", (18, 19)), (2608, 26): ("CBUSH", (14,)),
-    (5201, 52): ("PLOTEL", (3,)), (5959, 59): ("CTRIA3", (13, 14)), (4801, 48): ("CTRIA6", (16, 17)),
+    (5201, 52): ("PLOTEL", (3,)), (5959, 59): ("CTRIA3", (13, 14)), (4801, 48): ("CTRIA6", (13, 14)),
     (9200, 92): ("CTRIAR", (13, 14)), (2958, 51): ("CQUAD4", (14, 15)),
-    (4701, 47): ("CQUAD8", (17, 18)), (8009, 80): ("CQUADR", (14, 15)),
+    (4701, 47): ("CQUAD8", (16, 17, 18)), (8009, 80): ("CQUADR", (14, 15)),
     (3101, 31): ("CSHEAR", (6,)), (5508, 55): ("CTETRA", (12,)),
     (17200, 172): ("CPYRAM", (15, 16)), (4108, 41): ("CPENTA", (17,)), (7308, 73): ("CHEXA", (22,)),
+    (4601, 46): ("CBEND", (13,)), (15301, 153): ("CTRIAR", (13, 14)),
+    (15401, 154): ("CQUADR", (14, 15)),
+    (15801, 158): ("CTRIA6", (13, 14)), (15901, 159): ("CQUAD8", (16, 17, 18)),
+    (7409, 74): ("CHEXA", (22,)), (7509, 75): ("CPENTA", (17,)), (7609, 76): ("CTETRA", (12,)),
+    (7909, 79): ("CPYRAM", (15, 16)),
 }  # fmt: skip
-"""The element of each record of GEOM2, and how many words one may have, by version."""
+"""The element of each record of GEOM2, and how many words one may have, by version.
+
+Some have a second record for a variant, such as of solids as pressure, or of nonlinear analyses."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,7 +213,7 @@ def _geometry(
         if key == GRID_KEY:
             grids.append(_grids(whole, real))
         elif key in FRAME_KEYS:
-            frames.update(_frames(*FRAME_KEYS[key], whole[3:], real[3:]))
+            frames.update(_frames(*FRAME_KEYS[key], whole, real))
     if not grids:
         return None, frames
     ids, systems, coordinates = (np.concatenate(parts) for parts in zip(*grids, strict=True))
@@ -213,35 +222,38 @@ def _geometry(
 
 def _grids(whole: Array, real: Array) -> tuple[Array, Array, Floats]:
     """Ids, systems and coordinates of a record of grids, in single or double precision."""
-    is_double = int(whole[2]) == GRID_KEY_DOUBLE and whole.dtype.itemsize == 4
-    width = 11 if is_double else 8
+    width, last = (11, 8) if _is_double(whole) else (8, 5)
     rows = _in_rows(whole[3:], width, "GRID")
+    coordinates = _numbers(_in_rows(real[3:], width, "GRID")[:, 2:last], _is_double(whole))
+    return rows[:, 0].astype(np.int64), rows[:, [1, last]].astype(np.int64), coordinates
+
+
+def _is_double(whole: Array) -> bool:
+    """Whether a record has its real numbers in two words each."""
+    return int(whole[2]) > DOUBLE and whole.dtype.itemsize == 4
+
+
+def _numbers(words: Array, is_double: bool) -> Floats:
+    """The numbers in rows of words."""
     if is_double:
-        halves = np.ascontiguousarray(_in_rows(real[3:], width, "GRID")[:, 2:8])
-        coordinates = halves.view(f"{real.dtype.str[0]}f8")
-    else:
-        coordinates = _in_rows(real[3:], width, "GRID")[:, 2:5]
-    cd = 8 if is_double else 5
-    return (
-        rows[:, 0].astype(np.int64),
-        rows[:, [1, cd]].astype(np.int64),
-        coordinates.astype(np.float64),
-    )
+        words = np.ascontiguousarray(words).view(f"{words.dtype.str[0]}f8")
+    return words.astype(np.float64)
 
 
 def _frames(
     kind: FrameKind, by_points: bool, whole: Array, real: Array
 ) -> Iterator[tuple[int, FrameCard]]:
-    rows = _in_rows(whole, 13 if by_points else 6, "coordinate system")
-    values = real.reshape(rows.shape)
-    for row, numbers in zip(rows.tolist(), values, strict=True):
-        if by_points:
-            points = numbers[4:].astype(np.float64).reshape(3, 3)
-            if not np.isfinite(points).all():
-                raise VehicleError(f"coordinate system {row[0]}: its points are not finite numbers")
-            yield row[0], FrameCard(kind, row[3], points)
-        else:
+    if not by_points:
+        for row in _in_rows(whole[3:], 6, "coordinate system").tolist():
             yield row[0], FrameCard(kind, 0, grids=tuple(row[3:]))
+        return
+    width = 22 if _is_double(whole) else 13
+    rows = _in_rows(whole[3:], width, "coordinate system")
+    values = _numbers(_in_rows(real[3:], width, "coordinate system")[:, 4:], _is_double(whole))
+    for (number, _, _, reference), points in zip(rows[:, :4].tolist(), values, strict=True):
+        if not np.isfinite(points).all():
+            raise VehicleError(f"coordinate system {number}: its points are not finite numbers")
+        yield number, FrameCard(kind, reference, points.reshape(3, 3))
 
 
 def _in_rows(words: Array, width: int, what: str) -> Array:

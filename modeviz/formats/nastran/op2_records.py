@@ -135,11 +135,11 @@ class _Chain:
             raise VehicleError(f"{self.path}: {self._damaged()}")
         return int(self.words.read([span], "i")[0])
 
-    def chunk(self, n_words: int) -> Span:
-        """Return the bytes of so many words."""
+    def chunk(self, n_words: int, is_matrix: bool = False) -> Span:
+        """Return the bytes of so many words, of a column of a matrix those of a number for each."""
         before = self.at
         span = self.next()
-        if span[1] != n_words * self.words.size:
+        if span[1] != n_words * self.words.size and not is_matrix:
             self.at = before
             raise VehicleError(f"{self.path}: {self._damaged()}")
         return span
@@ -182,17 +182,22 @@ def _skip_label(chain: _Chain) -> None:
 
 
 def _records(chain: _Chain) -> Iterator[list[Span]]:
-    """Yield the records of a table that has begun, without the words that say of what kind they are."""
-    number = 0
+    """Yield the records of a table that has begun; those of a matrix are gone over.
+
+    After the name and the trailer each begins with a word, zero for a table and above it for a column.
+    """
+    number, is_matrix = 0, False
     spans: list[Span] = []
     while (key := chain.key()) != 0:
         if key > 0:
-            spans.append(chain.chunk(key))
+            spans.append(chain.chunk(key, is_matrix))
+            if number >= 2 and len(spans) == 1:
+                is_matrix = chain.words.read(spans, "i")[0] > 0
             continue
-        if number >= 2:  # after the name and the trailer
+        if number >= 2 and not is_matrix:
             yield spans[1:]
         number += 1
-        spans = []
+        spans, is_matrix = [], False
 
 
 def _text(words: Words, start: int, n_bytes: int) -> str:

@@ -1,7 +1,7 @@
 """Nastran's files as a component."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -50,7 +50,7 @@ def read_nastran(paths: Sequence[Path]) -> Component:
     if model is None:
         model = read_model(results[0].tables, results[0].path)
     if model is None:
-        raise VehicleError(f"{others[0]}: has no geometry (GEOM1); give the input file too")
+        return _without_geometry(results[0])
     with located(", ".join(map(str, paths))):
         places, frames = basic_geometry(model)
         if not results or results[0].shapes is None:
@@ -61,6 +61,16 @@ def read_nastran(paths: Sequence[Path]) -> Component:
 def _read_results(path: Path) -> _Results:
     tables = read_tables(path)
     return _Results(path, tables, read_shapes(tables, path))
+
+
+def _without_geometry(results: _Results) -> Component:
+    nothing = Model(np.zeros(0, np.int64), np.zeros((0, 2), np.int64), np.zeros((0, 3)), {}, {})
+    if results.shapes is None:
+        raise VehicleError(f"{results.path}: has neither geometry (GEOM1) nor modes")
+    with located(results.path):
+        component = _component(nothing, np.zeros((0, 3)), {}, results)
+    note = "the OP2 file has no geometry (GEOM1): give the input file too"
+    return replace(component, notes=(note,))
 
 
 def _without_modes(model: Model, places: Floats, has_results: bool) -> Component:
@@ -137,7 +147,8 @@ def _frequencies(modes: Sequence[Shape]) -> tuple[Floats, Floats]:
     if modes[0].is_complex:
         real = np.array([shape.eigenvalue.real for shape in modes])
         return size / (2 * np.pi), np.divide(-real, size, out=unknown, where=size > 0)
-    return np.sqrt(size) / (2 * np.pi), unknown
+    sign = np.sign([shape.eigenvalue.real for shape in modes])
+    return sign * np.sqrt(size) / (2 * np.pi), unknown
 
 
 def _elements(model: Model, ids: Array) -> dict[ElementKind, Array]:
