@@ -167,10 +167,10 @@ class Scenery:
 
     def __init__(self, vehicle: Vehicle, rates: Rates, conditions: Conditions, dark: bool) -> None:
         """Nothing is solved yet; arguments as of `App`."""
-        self.session = Session(vehicle, first_state(vehicle, rates, conditions), self._hear)
+        self.session: Session = Session(vehicle, first_state(vehicle, rates, conditions), self._hear)
         self.server: Server = open_server(port=0, token=secrets.token_urlsafe())
         self.server.gui.configure_theme(dark_mode=dark)
-        self.scene = Scene(self.server, vehicle, dark, on_select=lambda _: None)
+        self.scene: Scene = Scene(self.server, vehicle, dark, on_select=lambda _: None)
 
     def answers(
         self, sets: Sequence[RateSet], wish: RenderRequest, tell: Callable[[str, float], None]
