@@ -64,7 +64,7 @@ def builtin_vehicle() -> Path:
     Raises:
         VehicleError: it is in neither place.
     """
-    package = Path(__file__).parents[2]
+    package = Path(__file__).parents[1]
     for home in (package, package.parent):
         if (home / "assets" / "truck" / VEHICLE_FILE).is_file():
             return home / "assets" / "truck"

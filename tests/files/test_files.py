@@ -16,7 +16,8 @@ from builtin_truck import builtin_truck
 from folders import flexible_body, one_of_everything, part
 
 from modeviz.errors import VehicleError
-from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files import folder as folder_module
 from modeviz.files.meshes import read_mesh, write_mesh
 from modeviz.files.schema.scaling import written
 from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
@@ -126,6 +127,15 @@ def test_bytes_do_not_depend_on_how_arrays_lie_in_memory(folder, tmp_path):
     cab = replace(flexible_body(), shapes=np.asfortranarray(flexible_body().shapes))
     write_vehicle(replace(vehicle, bodies=(cab, vehicle.bodies[1])), tmp_path / "x")
     assert content(tmp_path / "x") == content(folder)
+
+
+@pytest.mark.parametrize("home", ["site/modeviz", "site"])
+def test_the_truck_is_found_in_an_installed_package_and_in_a_checkout(monkeypatch, tmp_path, home):
+    truck = tmp_path / home / "assets" / "truck"
+    truck.mkdir(parents=True)
+    (truck / "vehicle.toml").touch()
+    monkeypatch.setattr(folder_module, "__file__", str(tmp_path / "site/modeviz/files/folder.py"))
+    assert builtin_vehicle() == truck
 
 
 def test_builtin_truck_is_a_vehicle_folder():
