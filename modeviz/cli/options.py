@@ -69,7 +69,7 @@ class RoadOptions(SpeedOptions):
     """On which road, and how fast."""
 
     road: str | None = None
-    """Name of a road or another random load; None: the vehicle's first."""
+    """Name of a road or another random load, or one of ISO 8608, "ISO C"; None: the vehicle's first."""
 
     def conditions(self, vehicle: Vehicle) -> Conditions:
         """Return the road and the speed chosen, or the vehicle's; raises as `road_conditions`."""
@@ -159,7 +159,10 @@ def add_speed(command: ArgumentParser) -> None:
 def add_road(command: ArgumentParser) -> None:
     """Reads `RoadOptions`."""
     command.add_argument(
-        "--road", metavar="NAME", help="or another random load; default: the vehicle's first road"
+        "--road",
+        metavar="NAME",
+        help='or another random load, or a road of ISO 8608: "ISO C", "ISO 100 cm³, waviness 2.3"; '
+        "default: the vehicle's first, or else ISO C",
     )
     add_speed(command)
 

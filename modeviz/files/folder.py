@@ -142,7 +142,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
     flexible = [b for b in vehicle.bodies if isinstance(b, FlexibleBody)]
     rigid = [b for b in vehicle.bodies if isinstance(b, RigidBody)]
     return VehicleRecord(
-        units=dict(WRITTEN_UNITS.items()),
+        units=_units(vehicle),
         name=vehicle.name,
         speed=vehicle.speed,
         highest_frequency=vehicle.highest_frequency,
@@ -170,6 +170,12 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
     )
 
 
+def _units(vehicle: Vehicle) -> dict[str, str]:
+    """The units of the vehicle's file, without that of roads which it does not have."""
+    of_surfaces = any(road.roughness for road in vehicle.roads)
+    return {key: unit for key, unit in WRITTEN_UNITS.items() if of_surfaces or key != "roughness"}
+
+
 def _record_of_flexible(body: FlexibleBody, stem: str, folder: Path) -> FlexibleBodyRecord:
     modes = f"bodies/{stem}.npz"
     write_flexible_body(folder / modes, body)
@@ -189,7 +195,8 @@ def _road_records(roads: tuple[Road, ...], folder: Path) -> list[RoadRecord]:
     stems = file_stems(road.name for road in roads)
     records = [RoadRecord.of(road, f"roads/{stems[road.name]}.csv") for road in roads]
     for road, record in zip(roads, records, strict=True):
-        write_road(folder / record.file, road)
+        if record.file:
+            write_road(folder / record.file, road)
     return records
 
 

@@ -175,10 +175,12 @@ def _selected(
 
 
 def _roads(vehicle: Vehicle, problem: Problem) -> list[str]:
-    """The roads that the problem names, each once, else the vehicle's first."""
+    """The roads that the problem names, each once, else the one that usually shakes the vehicle."""
     named = list(dict.fromkeys(road for p in problem.performance for road in p.roads))
-    if not named and not vehicle.random_loads:
+    usual = vehicle.usual_load
+    if not named and not usual:
         raise VehicleError(
-            f"problem {problem.name!r}: goal {problem.goal!r} needs a [[road]] or another random load"
+            f"problem {problem.name!r}: goal {problem.goal!r} needs a [[tyre]] or another random load "
+            "than a road"
         )
-    return named or [vehicle.random_loads[0].name]
+    return named or [usual.name]

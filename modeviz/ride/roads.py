@@ -70,8 +70,7 @@ def track_shares(tyre: Tyre) -> tuple[float, float]:
 
     That of its side, left where y < 0; between the tracks the mean of both.
     """
-    side = "both" if tyre.is_in_the_middle else "left" if tyre.points[1, 1] < 0 else "right"
-    return {"left": (1.0, 0.0), "right": (0.0, 1.0), "both": (0.5, 0.5)}[tyre.track or side]
+    return {"left": (1.0, 0.0), "right": (0.0, 1.0), "both": (0.5, 0.5)}[tyre.side]
 
 
 def lag(tyre: Tyre, tyres: tuple[Tyre, ...], speed: float) -> float:

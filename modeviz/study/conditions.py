@@ -16,20 +16,25 @@ EVEN_HZ = np.array([1e-3, 1e3])
 
 
 def road_conditions(vehicle: Vehicle, road: str | None, speed: float) -> Conditions:
-    """Return a road, or the first that shakes the vehicle, and the speed on it.
+    """Return a road, or the one that usually shakes the vehicle, and the speed on it.
 
     Args:
         vehicle: that is to be shaken.
-        road: name of a road or another random load; None: the vehicle's.
+        road: name of a road or another random load, or a class of ISO 8608, "ISO C"; None: the
+            vehicle's first or, if it has none, the usual class.
         speed: m/s.
 
     Raises:
         ModevizError: there is no such road, or nothing to drive or to feel it with.
     """
-    need(vehicle, "road", vehicle.random_loads)
+    usual = vehicle.usual_load or next(iter(vehicle.random_loads), None)
+    if usual is None:
+        raise ModevizError(
+            f"vehicle {vehicle.name!r} has no road: give its vehicle.toml a [[tyre]] with stiffness "
+            "along z, which can be driven over roads of ISO 8608 at once, or another random load"
+        )
     need(vehicle, "response point", vehicle.response_points)
-    shaking = [load.name for load in vehicle.random_loads if vehicle.is_shaken_by(load)]
-    load = vehicle.random_load(road or (*shaking, vehicle.random_loads[0].name)[0])
+    load = usual if road is None else vehicle.random_load(road)
     if not vehicle.is_shaken_by(load):
         raise ModevizError(
             f"road {load.name!r} does not shake vehicle {vehicle.name!r}: give its vehicle.toml a "
@@ -41,7 +46,7 @@ def road_conditions(vehicle: Vehicle, road: str | None, speed: float) -> Conditi
 
 def has_ride(vehicle: Vehicle) -> bool:
     """Return whether something shakes a vehicle at random, and somebody feels it."""
-    return any(map(vehicle.is_shaken_by, vehicle.random_loads)) and bool(vehicle.response_points)
+    return vehicle.usual_load is not None and bool(vehicle.response_points)
 
 
 def on_even_road(vehicle: Vehicle) -> tuple[Vehicle, Conditions]:

@@ -121,7 +121,8 @@ class Study(StudyOutput):
         """Return the ride on a road, or under another random load.
 
         Args:
-            road: its name; None: the first that shakes the vehicle.
+            road: its name, or one of ISO 8608: "ISO C", "ISO 100 cm³, waviness 2.3"; None: the first
+                that shakes the vehicle, or else ISO C.
 
         Raises:
             ModevizError: there is no such road, or nothing to drive or to feel it with.

@@ -213,6 +213,12 @@ class Tyre(Connection):
         """Whether it stands between the tracks, on neither side."""
         return abs(float(self.points[1, 1])) < MIDDLE
 
+    @property
+    def side(self) -> Track:
+        """The track in which it runs: the one it says, else that of its side, left where y < 0."""
+        on_side = "left" if self.points[1, 1] < 0 else "right"
+        return self.track or ("both" if self.is_in_the_middle else on_side)
+
 
 def _along(rod: str, first: Floats, second: Floats) -> Floats:
     """Axes (3, 3) whose x runs from the first end of a rod to the second.

@@ -10,6 +10,31 @@ from modeviz.vehicle.arrays import Complexes, Floats, frozen, frozen_places
 
 WheelLoadKind = Literal["unbalance", "radial force", "lateral force"]
 
+WAVINESS = (1.2, 4.0)
+"""From where to where a road's may be: towards 1 a track has no spectrum that falls off; measured roads
+have 1.5 to 3."""
+
+
+@dataclass(frozen=True)
+class Roughness:
+    """The level of a road surface alike in all directions, as ISO 8608 has it, see `iso_8608`."""
+
+    level: float
+    """G_d(n₀), m³, at n₀ = 0.1 cycles/m."""
+    waviness: float = 2.0
+    """w of G_d(n) = G_d(n₀) (n/n₀)^-w."""
+    track_width: float = 0.0
+    """m: between the two tracks."""
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.level) and self.level > 0):
+            raise VehicleError(f"roughness: found {self.level:g} m³, expected more than 0")
+        low, high = WAVINESS
+        if not low <= self.waviness <= high:
+            raise VehicleError(f"waviness: found {self.waviness:g}, expected {low:g} to {high:g}")
+        if not (np.isfinite(self.track_width) and self.track_width >= 0):
+            raise VehicleError(f"track_width: found {self.track_width:g} m, expected zero or more")
+
 
 @dataclass(frozen=True, eq=False)
 class Road:
@@ -27,6 +52,8 @@ class Road:
     """(n_freqs,), rising, above zero."""
     spectrum: Complexes
     """(n_freqs, 2, 2) complex, m²/Hz, Hermitian: left and right track, S_lr = E[L R*]."""
+    roughness: Roughness | None = None
+    """Of which the spectra were made; None: they are a table's."""
 
     def __post_init__(self) -> None:
         where = f"road {self.name!r}"

@@ -1,6 +1,6 @@
 """The vehicle: bodies, what joins them, what shakes them and where that is felt; checked as a whole."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -22,6 +22,7 @@ from modeviz.vehicle.connections import (
     Spring,
     Tyre,
 )
+from modeviz.vehicle.iso_8608 import CLASSES, USUAL_ROAD, named_road
 from modeviz.vehicle.loads import (
     BaseMotion,
     Force,
@@ -165,12 +166,36 @@ class Vehicle:
 
     def is_shaken_by(self, load: RandomLoad) -> bool:
         """Whether a load gets into the vehicle: a road does through tyres with rates along their z."""
-        through = any(tyre.stiffness[2] or tyre.damping[2] for tyre in self.tyres)
-        return through or not isinstance(load, Road)
+        return self.has_driven_tyres or not isinstance(load, Road)
+
+    @property
+    def has_driven_tyres(self) -> bool:
+        """Whether a road gets into it: some tyre has stiffness or damping along its z."""
+        return any(tyre.stiffness[2] or tyre.damping[2] for tyre in self.tyres)
+
+    @cached_property
+    def offered_loads(self) -> tuple[RandomLoad, ...]:
+        """Its random loads and, where it stands on tyres, roads of the classes of ISO 8608."""
+        own = {load.name for load in self.random_loads}
+        classes = [f"ISO {name}" for name in CLASSES if f"ISO {name}" not in own]
+        roads = [self.random_load(name) for name in classes if self.has_driven_tyres]
+        return (*self.random_loads, *roads)
+
+    @property
+    def usual_load(self) -> RandomLoad | None:
+        """The first random load that gets into it, else a usual road; None: it has no tyres."""
+        own = next(filter(self.is_shaken_by, self.random_loads), None)
+        return own or (self.random_load(USUAL_ROAD) if self.has_driven_tyres else None)
 
     def random_load(self, name: str) -> RandomLoad:
-        """The road or other random load of that name; raises VehicleError as `body` does."""
-        return _named("random load", name, self.random_loads)
+        """The road or other random load of that name, else the road of ISO 8608 that it means.
+
+        Raises:
+            VehicleError: there is none, with the names there are; or ISO 8608 has no such road.
+        """
+        own = next((load for load in self.random_loads if load.name == name), None)
+        found = own or named_road(name, track_width(self.tyres))
+        return found or _named("random load", name, self.offered_loads)
 
     def harmonic_load(self, name: str) -> HarmonicLoad:
         """The wheel load or other harmonic load of that name; raises VehicleError as `body` does."""
@@ -313,6 +338,15 @@ class Vehicle:
                 f"{what}: {position.tolist()} is {distance:.2f} m from the nearest attachment of "
                 f"{body_name!r}, {nearest.name!r}; at most {REACH} m is allowed"
             )
+
+
+def track_width(tyres: Sequence[Tyre]) -> float:
+    """The distance, m, of the mean of the tyres in the left track from that of those in the right one.
+
+    Zero where all are in one track.
+    """
+    left, right = ([t.points[1, 1] for t in tyres if t.side == side] for side in ("left", "right"))
+    return abs(float(np.mean(right) - np.mean(left))) if left and right else 0.0
 
 
 def _named(kind: str, name: str, items: Iterable):

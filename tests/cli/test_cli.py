@@ -16,7 +16,7 @@ from modeviz.cli.parser import COMMANDS, parse
 from modeviz.cli.render import RENDER
 from modeviz.cli.scatter import ScatterCommandOptions
 from modeviz.files import write_vehicle
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.connections import MountRates, Tyre
 
 
 def test_modes_prints_a_table(capsys, folder):
@@ -107,6 +107,7 @@ def test_tables_name_points_and_directions(capsys, folder, command):
         (["modes", "{}", "--set", "A.lateral=-5 N/mm"], "zero or more"),
         (["modes", "{}", "--set", "A.lateral=nan N/mm"], "expected a number"),
         (["psd", "{}", "--road", "moon"], "unknown random load 'moon'"),
+        (["psd", "{}", "--road", "ISO K"], "road 'ISO K': found 'K', expected a class from A to H"),
         (["psd", "{}", "--speed", "0 km/h"], "more than zero"),
         (["psd", "{}", "--speed", "fast"], "--speed: found 'fast'"),
         (["psd", "{}", "--speed", "9000000 km/h"], "its table holds"),
@@ -129,7 +130,6 @@ def test_what_the_user_can_put_right_is_one_message_and_status_2(capsys, folder,
 @pytest.mark.parametrize(
     ("command", "field", "message"),
     [
-        ("psd", "roads", "has no road: give its vehicle.toml a [[road]]"),
         ("psd", "response_points", "has no response point"),
         ("wheels", "response_points", "has no response point"),
         ("wheels", "wheel_loads", "has no wheel load: give its vehicle.toml a [[wheel_load]]"),
@@ -139,6 +139,26 @@ def test_a_vehicle_without_what_a_command_shows_is_refused(tmp_path, capsys, com
     write_vehicle(replace(mounted_cabin(), **{field: ()}), tmp_path / "bare")
     assert main([command, str(tmp_path / "bare")]) == 2
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("arguments", [[], ["--road", "ISO A"]])
+def test_a_vehicle_without_roads_is_driven_over_those_of_iso_8608(tmp_path, printed_json, arguments):
+    """Class C, unless asked otherwise, whose spectra are 16 times those of class A."""
+    write_vehicle(replace(mounted_cabin(), roads=()), tmp_path / "bare")
+    usual = printed_json("psd", str(tmp_path / "bare"), "--road", "ISO 8608 256 cm³")
+    found = printed_json("psd", str(tmp_path / "bare"), *arguments)
+    assert found["road"] == (arguments[-1] if arguments else "ISO C")
+    ratio = 0.25 if arguments else 1.0
+    for response, expected in zip(found["responses"], usual["responses"], strict=True):
+        assert response["rms_g"] == pytest.approx(ratio * expected["rms_g"], rel=1e-6)
+
+
+def test_a_vehicle_without_tyres_is_told_what_it_needs_to_be_driven(tmp_path, capsys):
+    cabin = mounted_cabin()
+    rest = tuple(c for c in cabin.connections if not isinstance(c, Tyre))
+    write_vehicle(replace(cabin, roads=(), wheel_loads=(), connections=rest), tmp_path / "bare")
+    assert main(["psd", str(tmp_path / "bare"), "--road", "ISO C"]) == 2
+    assert "has no road: give its vehicle.toml a [[tyre]]" in capsys.readouterr().err
 
 
 def test_a_reader_that_has_enough_is_no_error(folder):

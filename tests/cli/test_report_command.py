@@ -125,4 +125,4 @@ def test_a_road_is_not_passed_over_where_there_is_none(capsys, tmp_path):
     write_vehicle(replace(mounted_cabin(), roads=()), tmp_path / "bare")
     arguments = ["report", str(tmp_path / "bare"), "--road", "flat", "--output", str(tmp_path / "a")]
     assert main(arguments) == 2
-    assert "has no road" in capsys.readouterr().err
+    assert "unknown random load 'flat': there are ISO A" in capsys.readouterr().err

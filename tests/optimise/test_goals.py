@@ -15,7 +15,7 @@ from modeviz.errors import VehicleError
 from modeviz.optimise.goals import prepare_goal
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.connections import MountRates, Tyre
 from modeviz.vehicle.problem import Performance
 
 RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4), "B": MountRates(9e5, 4e5, 2e5)}
@@ -158,6 +158,8 @@ def test_a_case_that_is_silent_with_the_original_rates_counts_as_it_is():
 def test_names_that_are_not_there_and_missing_roads_are_errors():
     with pytest.raises(VehicleError, match="unknown random load 'moon'"):
         goal_of(performance=(Performance(np.array([9.0]), ("moon",)),))
-    bare = replace(mounted_cabin(), roads=())
-    with pytest.raises(VehicleError, match=r"goal 'rating' needs a \[\[road\]\]"):
+    cabin = mounted_cabin()
+    rigid = tuple(c for c in cabin.connections if not isinstance(c, Tyre))
+    bare = replace(cabin, roads=(), connections=rigid, wheel_loads=())
+    with pytest.raises(VehicleError, match=r"goal 'rating' needs a \[\[tyre\]\]"):
         goal_of(bare, goal="rating", performance=())

@@ -10,13 +10,19 @@ from session_commands import Alter
 from modeviz.cli import main
 from modeviz.cli.options import RoadOptions
 from modeviz.files import write_vehicle
+from modeviz.vehicle.connections import Spring, Tyre
 from modeviz.viewer.app import App
 from modeviz.viewer.page.access import open_server
 
+NO_TYRES = tuple(
+    Spring(c.name, c.group, c.bodies, c.points, stiffness=c.stiffness) if isinstance(c, Tyre) else c
+    for c in mounted_cabin().connections
+)
+NO_ROAD = {"roads": (), "connections": NO_TYRES, "wheel_loads": ()}
 LACKING = {
-    "road": {"roads": ()},
+    "road": NO_ROAD,
     "response point": {"response_points": (), "wheel_loads": ()},
-    "both": {"roads": (), "response_points": (), "wheel_loads": ()},
+    "both": {**NO_ROAD, "response_points": ()},
 }
 
 

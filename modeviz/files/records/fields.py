@@ -24,6 +24,8 @@ Frequency = Annotated[float, Meta(gt=0), FixedUnit("Hz")]
 LowestFrequency = Annotated[float, Meta(ge=0), FixedUnit("Hz")]
 
 Speed = Annotated[float, Meta(gt=0), Quantity("speed")]
+RoadLevel = Annotated[float, Meta(gt=0), Quantity("roughness")]
+TrackWidth = Annotated[float, Meta(ge=0), Quantity("length")]
 Mass = Annotated[float, Meta(gt=0), Quantity("mass")]
 Length = Annotated[float, Quantity("length")]
 Position = Annotated[Vector, Quantity("length"), Turns(turn_vectors)]

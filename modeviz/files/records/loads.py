@@ -1,7 +1,7 @@
 """The tables of `vehicle.toml` that say what shakes the vehicle, in SI."""
 
 from dataclasses import replace
-from typing import Self
+from typing import Literal, Self
 
 import numpy as np
 
@@ -16,7 +16,10 @@ from modeviz.files.records.fields import (
     ForcePsd,
     Name,
     Position,
+    Ratio,
+    RoadLevel,
     Speed,
+    TrackWidth,
     WheelLoadAmplitude,
 )
 from modeviz.files.records.record import Record
@@ -26,34 +29,90 @@ from modeviz.files.source import Source
 from modeviz.files.spectra import read_spectrum
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
-from modeviz.vehicle.loads import BaseMotion, Force, Road, Spectrum, WheelLoad, WheelLoadKind
+from modeviz.vehicle.iso_8608 import CLASSES, rough_road
+from modeviz.vehicle.loads import (
+    BaseMotion,
+    Force,
+    Road,
+    Roughness,
+    Spectrum,
+    WheelLoad,
+    WheelLoadKind,
+)
 
 
 class RoadRecord(Record, kw_only=True):
-    """[[road]]."""
+    """[[road]]: with a file it is a table's, else of a class or a level of ISO 8608."""
 
     name: Name
     label: str = ""
     """The name, if not given."""
-    file: str
+    file: str | None = None
     """A file of the folder, .csv."""
-    speed: Speed
+    speed: Speed | None = None
+    """At which the table was met."""
+    iso_8608: Literal["A", "B", "C", "D", "E", "F", "G", "H"] | None = None
+    roughness: RoadLevel | None = None
+    """G_d(n₀)."""
+    waviness: Ratio | None = None
+    """2, if not given."""
+    track_width: TrackWidth | None = None
+    """The vehicle's, if not given."""
 
     @classmethod
     def of(cls, road: Road, file: str) -> Self:
-        return cls(name=road.name, label=road.label, file=file, speed=road.speed)
+        if road.roughness is None:
+            return cls(name=road.name, label=road.label, file=file, speed=road.speed)
+        level, waviness = road.roughness.level, road.roughness.waviness
+        known = next((name for name, mean in CLASSES.items() if mean == level), None)
+        return cls(
+            name=road.name,
+            label=road.label,
+            iso_8608=known,
+            roughness=None if known else level,
+            waviness=waviness,
+            track_width=road.roughness.track_width,
+        )
 
-    def build(self, source: Source) -> Road:
+    def build(self, source: Source, track_width: float) -> Road:
+        """The road under a vehicle of that track width, m."""
+        keys = ("file", "iso_8608", "roughness")
+        given = _the_one({key: getattr(self, key) for key in keys})
+        self._check_keys(given)
+        return self._of_file(source) if given == "file" else self._of_surface(source, track_width)
+
+    def _check_keys(self, given: str) -> None:
+        """Raises VehicleError for a key that does nothing beside the one that is given."""
+        if given == "file" and self.speed is None:
+            raise VehicleError("speed: missing, expected that at which the file's spectra were met")
+        idle = ("waviness", "track_width") if given == "file" else ("speed",)
+        for key in idle:
+            if getattr(self, key) is not None:
+                raise VehicleError(f"{key}: does nothing beside {given}, leave it out")
+
+    def _of_surface(self, source: Source, track_width: float) -> Road:
+        level = self.roughness if self.iso_8608 is None else CLASSES[self.iso_8608]
+        waviness = 2.0 if self.waviness is None else self.waviness
+        width = track_width if self.track_width is None else self.track_width
+        assert level is not None
+        road = rough_road(self.name, self.label or self.name, Roughness(level, waviness, width))
+        source.count_lines(len(road.frequency_hz))
+        return road
+
+    def _of_file(self, source: Source) -> Road:
+        assert self.file is not None
+        speed = self.speed
+        assert speed is not None
         with located("file"):
             path = source.path(self.file)
         label = self.label or self.name
         road = source.once(
             (path, "road"),
-            lambda: read_road(path, self.name, label, self.speed, source.conventions, source.note),
+            lambda: read_road(path, self.name, label, speed, source.conventions, source.note),
         )
         if not source.count_lines(len(road.frequency_hz)):
             return road  # no copy of what is refused once all are counted
-        return replace(road, name=self.name, label=label, speed=self.speed)
+        return replace(road, name=self.name, label=label, speed=speed)
 
 
 class WheelLoadRecord(Record, kw_only=True):

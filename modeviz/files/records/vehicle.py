@@ -44,7 +44,7 @@ from modeviz.vehicle.connections import (
 )
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mode_damping import ModeDamping
-from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle
+from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle, track_width
 
 MOST_TABLES = 2_000
 """Of a kind."""
@@ -137,7 +137,8 @@ class VehicleRecord(FileRecord, kw_only=True):
             built(getattr(self, key), key, lambda r, kind=kind: r.build(kind))
             for key, kind in CONNECTION_KINDS.items()
         ]
-        roads = built(self.road, "road", lambda r: r.build(source))
+        tyres = [c for c in chain(*connections) if isinstance(c, Tyre)]
+        roads = built(self.road, "road", lambda r: r.build(source, track_width(tyres)))
         forces = built(self.force, "force", lambda r: r.build(source))
         base_motions = built(self.base_motion, "base_motion", lambda r: r.build(source))
         source.check_lines()

@@ -20,6 +20,7 @@ WRITTEN_UNITS: Mapping[QuantityName, str] = {
     "acceleration": "m/s²",
     "unbalance": "g m",
     "speed": "km/h",
+    "roughness": "cm³",
 }
 """The units of the files we write."""
 
@@ -31,6 +32,7 @@ _BOUNDS: Mapping[QuantityName, tuple[float, float]] = {
     "mass": (1e-9, 1e9),
     "inertia": (1e-15, BEYOND_ANY_VEHICLE),
     "speed": (1e-6, 1e6),
+    "roughness": (1e-15, 1e3),
 }
 """The least that is not zero and the most of a quantity, in SI: beyond it nothing can be computed."""
 

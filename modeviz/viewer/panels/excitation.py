@@ -48,8 +48,8 @@ class ExcitationPanel:
         self._add_choice(
             gui,
             "Road",
-            told_apart(vehicle.random_loads),
-            "What is driven over, or another random load",
+            told_apart(vehicle.offered_loads),
+            "What is driven over, a class of road of ISO 8608, or another random load",
             lambda state: state.conditions.road,
             lambda road: session.do(Drive(road=road)),
         )

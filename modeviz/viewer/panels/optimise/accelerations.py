@@ -33,7 +33,7 @@ class AccelerationsEditor:
         """
         vehicle = self._vehicle = session.vehicle
         self._gui, self._controls = gui, PlanControls(gui, session)
-        self._roads = [road.name for road in vehicle.random_loads]
+        self._roads = [road.name for road in vehicle.offered_loads]
         self._wheel_loads = [load.name for load in vehicle.harmonic_loads]
         self._points = [point.name for point in vehicle.response_points]
         with gui.add_folder("Loads and points", expand_by_default=False):

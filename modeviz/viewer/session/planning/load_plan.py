@@ -33,7 +33,7 @@ class LoadPlan:
         points = tuple(p.name for p in vehicle.response_points)
         return Performance(
             parse_frequencies(self.frequencies),
-            tuple(road.name for road in vehicle.random_loads if road.name in self.roads),
+            _in_order(self.roads, vehicle),
             tuple(load.name for load in vehicle.harmonic_loads if load.name in self.wheel_loads),
             () if self.points >= set(points) else tuple(p for p in points if p in self.points),
             tuple(d for d in reversed(DIRECTIONS) if d in self.directions),
@@ -42,10 +42,17 @@ class LoadPlan:
         )
 
 
+def _in_order(roads: frozenset[str], vehicle: Vehicle) -> tuple[str, ...]:
+    """Return names of random loads as the vehicle offers them, others of ISO 8608 after these."""
+    offered = [load.name for load in vehicle.offered_loads]
+    return (*(name for name in offered if name in roads), *sorted(roads - set(offered)))
+
+
 def spare_load(vehicle: Vehicle) -> LoadPlan:
     """Return the load to add where there is none: the first road as in the paper, felt everywhere."""
+    usual = vehicle.usual_load
     return LoadPlan(
-        frozenset(road.name for road in vehicle.random_loads[:1]),
+        frozenset([usual.name] if usual else []),
         frozenset(),
         "6 to 14 by 1/3",
         frozenset(point.name for point in vehicle.response_points),
