@@ -1,19 +1,18 @@
-"""What is computed once for a vehicle, so that any mount rates are answered at once."""
+"""A vehicle made ready once, to be answered at any mount rates: its basis, names and receptances."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import scipy.linalg
-from numpy.typing import NDArray
 
-from modeviz.dynamics.actions import directions
-from modeviz.dynamics.assembly import System, assemble, mount_stiffness, mounts_of_springs
+from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.basis import EnrichedBasis, prepare_basis
-from modeviz.dynamics.between import Between, modified_between, prepare_between
 from modeviz.dynamics.component_trust import ComponentTrust, component_trust
+from modeviz.dynamics.inputs import directions
+from modeviz.dynamics.interpolation import Between, modified_between, prepare_between
 from modeviz.dynamics.mode_damping import with_mode_damping
+from modeviz.dynamics.mount_rates import MountSprings
 from modeviz.dynamics.naming import Namer, prepare_names
 from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
 from modeviz.dynamics.receptance import receptances_along
@@ -62,35 +61,12 @@ class PreparedModes:
 
     def mount_stiffness(self, rates: Rates) -> Complexes:
         """Complex rates k (1 + jg) of every mount spring, (n_springs,); raises as `all_rates`."""
-        every = self.all_rates(rates)
-        along = [every[g.name].local() for g in self.vehicle.mount_groups for _ in g.mounts]
-        return np.concatenate([np.ravel(along), self._rotational]) * self.loss(rates)
-
-    def loss(self, rates: Rates) -> Complexes:
-        """1 + jg of every mount spring, (n_springs,); raises as `all_rates`."""
-        every = self.all_rates(rates)
-        factors = [
-            g.loss_factor_with(every[g.name]) for g in self.vehicle.mount_groups for _ in g.mounts
-        ]
-        return 1 + 1j * np.array(factors)[self._mounts]
+        return self.springs.stiffness(rates)
 
     @cached_property
-    def has_rate(self) -> Floats:
-        """(n_springs, 3 n_groups): one where a spring has a rate of a group, else zero."""
-        of_mount = np.transpose([MountRates(*unit).local() for unit in np.eye(3)])
-        per_group = [np.tile(of_mount, (len(g.mounts), 1)) for g in self.vehicle.mount_groups]
-        along = np.asarray(scipy.linalg.block_diag(np.zeros((0, 0)), *per_group))
-        return np.pad(along, ((0, len(self._rotational)), (0, 0)))
-
-    @cached_property
-    def _mounts(self) -> NDArray[np.intp]:
-        """The number of each spring's mount, (n_springs,)."""
-        return mounts_of_springs(self.vehicle)
-
-    @cached_property
-    def _rotational(self) -> Floats:
-        """The rates of the springs about an axis, which are not tuned."""
-        return mount_stiffness(self.vehicle)[3 * len(self.vehicle.mounts) :].real.astype(np.float64)
+    def springs(self) -> MountSprings:
+        """The springs of the mounts, at any rates."""
+        return MountSprings(self.vehicle)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,9 +10,9 @@ from modeviz.analysis.driven import Driven, driven, load_lines
 from modeviz.analysis.latest import Latest
 from modeviz.analysis.modal_results import ModalResults, modes_of
 from modeviz.analysis.preparation import Prepared
-from modeviz.dynamics.actions import forces_on_rest, led
 from modeviz.dynamics.band import Method, modes_above
 from modeviz.dynamics.basis import REACH
+from modeviz.dynamics.inputs import forces_on_rest, led
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.resonances import Resonances
 from modeviz.dynamics.response import modal_coordinates

@@ -33,9 +33,9 @@ def rate_variables(vehicle: Vehicle) -> tuple[RateVariable, ...]:
 def spring_shares(prepared: PreparedModes, rates: Rates) -> Complexes:
     """∂(spring rate)/∂(rate), (n_springs, n_variables): 1 + jg where a spring has that rate.
 
-    Arguments and errors as `prepared.loss`.
+    Arguments and errors as `MountSprings.loss`.
     """
-    return prepared.loss(rates)[:, None] * prepared.has_rate
+    return prepared.springs.loss(rates)[:, None] * prepared.springs.has_rate
 
 
 def frequency_sensitivity(results: ModalResults) -> Floats:

@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.mount_rates import mount_stiffness, turning_axes
 from modeviz.dynamics.rigid_joints import RigidJoints, rigid_joints
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Array, Complexes, Floats
@@ -201,29 +202,6 @@ def assemble(vehicle: Vehicle) -> System:
 def _is_rigid(vehicle: Vehicle) -> NDArray[np.bool_]:
     """A mask of the relative motions of all connections that are held, (6 n_connections,)."""
     return np.array([m in c.rigid for c in vehicle.all_connections for m in MOTIONS], bool)
-
-
-def mount_stiffness(vehicle: Vehicle) -> Complexes:
-    """Complex rates k (1 + jg) of every mount spring, (n_springs,).
-
-    Those along the local axes of each mount come first, N/m, then those about axes in which a mount has
-    rotational stiffness, N m/rad: that is not tuned, but damps with the mount's loss factor.
-    """
-    k = np.array([(m.stiffness, m.rotational_stiffness) for m in vehicle.mounts]).reshape(-1, 2, 3)
-    loss = 1 + 1j * np.array([m.loss_factor for m in vehicle.mounts])
-    rates = k * loss[:, None, None]
-    return np.concatenate([rates[:, 0].ravel(), rates[:, 1][turning_axes(vehicle)]])
-
-
-def mounts_of_springs(vehicle: Vehicle) -> NDArray[np.intp]:
-    """The number of the mount of every mount spring, (n_springs,)."""
-    turns = turning_axes(vehicle)
-    return np.concatenate([np.repeat(np.arange(len(turns)), 3), turns.nonzero()[0]])
-
-
-def turning_axes(vehicle: Vehicle) -> NDArray[np.bool_]:
-    """About which of its local axes each mount has rotational stiffness, (n_mounts, 3)."""
-    return np.array([m.rotational_stiffness for m in vehicle.mounts]).reshape(-1, 3) > 0
 
 
 def _number(vehicle: Vehicle) -> dict[str, slice]:

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 import scipy.linalg
 
-from modeviz.dynamics.assembly import mounts_of_springs
 from modeviz.dynamics.basis import REACH, EnrichedBasis
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes, damping_ratio
+from modeviz.dynamics.mount_rates import mounts_of_springs
 from modeviz.dynamics.trust import EDGE, ErrorEstimate, count_below, frequency_error, gap_error, missed
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats

@@ -13,8 +13,9 @@ from functools import cached_property
 import numpy as np
 import scipy.linalg
 
-from modeviz.dynamics.assembly import System, mount_stiffness
+from modeviz.dynamics.assembly import System
 from modeviz.dynamics.modes import rounding, solve_modes
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.vehicle.arrays import Complexes, Floats
 
 TOP_HZ = 40.0

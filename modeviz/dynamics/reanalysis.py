@@ -21,8 +21,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.actions import directions
-from modeviz.dynamics.assembly import System, mount_stiffness
+from modeviz.dynamics.assembly import System
+from modeviz.dynamics.inputs import directions
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.dynamics.receptance import receptance_lines
 from modeviz.dynamics.response import drowned
 from modeviz.vehicle.arrays import Array, Complexes, Floats

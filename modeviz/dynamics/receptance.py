@@ -21,8 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeviz.compute.threads import thread_pool
-from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import System, connection_coefficients, modal_coefficients
+from modeviz.dynamics.inputs import directions
 from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats

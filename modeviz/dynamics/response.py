@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from modeviz.dynamics.actions import forces_on_rest, led
 from modeviz.dynamics.assembly import System
+from modeviz.dynamics.inputs import forces_on_rest, led
 from modeviz.dynamics.modes import Modes
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats

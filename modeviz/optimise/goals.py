@@ -8,7 +8,7 @@ import numpy as np
 
 from modeviz.analysis.results import AXIS, Conditions
 from modeviz.analysis.sensitivity import rate_variables
-from modeviz.dynamics.assembly import mount_stiffness
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.errors import VehicleError
 from modeviz.optimise.integral import BandCase, Integral, prepare_integral
 from modeviz.optimise.objective import LoadCase, Objective, prepare_objective

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.dynamics.actions import directions
-from modeviz.dynamics.assembly import System, connection_coefficients, mount_stiffness
+from modeviz.dynamics.assembly import System, connection_coefficients
+from modeviz.dynamics.inputs import directions
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.errors import VehicleError
 from modeviz.ride.roads import (
     held,

@@ -12,8 +12,8 @@ from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import AXIS, Conditions, drive
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import HERE, Runner
+from modeviz.dynamics.few_lines import FewLines, few_lines
 from modeviz.dynamics.galerkin import reduced
-from modeviz.dynamics.lines import FewLines, few_lines
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.resonances import resonances_at, swept
 from modeviz.errors import SolveError, VehicleError, unknown
@@ -89,7 +89,7 @@ def scatter(
 ) -> Scatter:
     """Rides and goals of vehicles whose mounts are evenly spread within their tolerance.
 
-    Responses are solved at as few frequencies as tell the others (`dynamics.lines`), there from as few
+    Responses are solved at as few lines as tell the others (`dynamics.few_lines`), there from as few
     stretches as tell the others (`dynamics.galerkin`). On the built-in truck, for which 90 of 400
     frequencies and 17 of 27 stretches do, PSDs are 0.5 % off at worst, 0.2 % in 999 of 1000 cases, and
     RMS values 0.02 %; the result says what they are off here. Memory beside the result: 100 MB.

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.analysis.preparation import PreparedModes
-from modeviz.dynamics.assembly import mounts_of_springs
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
@@ -92,6 +91,6 @@ def scattered_parts(prepared: PreparedModes, rates: Rates, tolerance: Tolerance)
     """The parts of a vehicle with some rates; raises VehicleError for a group it does not have."""
     stiffness = prepared.mount_stiffness(rates)
     names = tuple(mount.name for mount in prepared.vehicle.mounts)
-    mounts = mounts_of_springs(prepared.vehicle)
-    loss_factor = prepared.loss(rates).imag.astype(np.float64)
+    mounts = prepared.springs.mounts
+    loss_factor = prepared.springs.loss(rates).imag.astype(np.float64)
     return Parts(names, mounts, stiffness.real.astype(np.float64), loss_factor, tolerance)

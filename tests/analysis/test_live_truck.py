@@ -17,9 +17,10 @@ from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.sensitivity import frequency_sensitivity, rate_variables, ride_sensitivity
 from modeviz.dynamics import basis as enriched
-from modeviz.dynamics.assembly import System, assemble, mount_stiffness
+from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.band import band_modes
 from modeviz.dynamics.modes import solve_modes
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.dynamics.response import direct_response
 from modeviz.dynamics.trust import count_below
 from modeviz.optimise.goals import load_cases

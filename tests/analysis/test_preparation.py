@@ -10,7 +10,7 @@ from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare, prepare_modes
 from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
-from modeviz.dynamics.assembly import mount_stiffness
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.errors import SolveError, VehicleError
 from modeviz.vehicle.connections import GROUND, MountRates, Spring
 from modeviz.vehicle.vehicle import Vehicle
@@ -52,7 +52,7 @@ def test_a_loss_factor_is_that_of_the_groups_springs(prepared, loss_factor):
 
 
 def test_a_group_that_is_not_there_is_an_error(prepared):
-    for use in (prepared.all_rates, prepared.mount_stiffness, prepared.loss, prepared.near):
+    for use in (prepared.all_rates, prepared.mount_stiffness, prepared.springs.loss, prepared.near):
         with pytest.raises(VehicleError, match=r"unknown mount group 'C'.*there are A, B"):
             use({"C": MountRates(1.0, 1.0, 1.0)})
 

@@ -8,9 +8,10 @@ from mounted_cabin import mounted_cabin
 from oracles import Beam
 from small_systems import mass_on_a_string
 
-from modeviz.dynamics.assembly import assemble, mount_stiffness
+from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.band import band_modes, natural_frequencies
 from modeviz.dynamics.basis import prepare_basis
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.errors import SolveError
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
 from modeviz.vehicle.vehicle import Vehicle

@@ -4,9 +4,10 @@ from mounted_cabin import SOFT, mounted_cabin, twisted_cabin
 from oracles import Beam
 from small_systems import mass_on_a_string, spring
 
-from modeviz.dynamics.assembly import assemble, mount_stiffness
+from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import solve_modes
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.vehicle.bodies import AddedMass
 from modeviz.vehicle.connections import Spring
 from modeviz.vehicle.vehicle import Vehicle

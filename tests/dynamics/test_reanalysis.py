@@ -5,7 +5,8 @@ import pytest
 from mounted_cabin import mounted_cabin
 from small_systems import resonant_rate, two_masses
 
-from modeviz.dynamics.assembly import assemble, mount_stiffness
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.dynamics.reanalysis import BLOCK, Receptances, prepare_receptances
 from modeviz.errors import SolveError
 

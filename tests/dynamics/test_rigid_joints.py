@@ -8,10 +8,11 @@ from mounted_cabin import mounted_cabin
 from oracles import Beam
 from small_systems import block, joined_beams
 
-from modeviz.dynamics.assembly import assemble, mount_stiffness
+from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.band import band_modes
 from modeviz.dynamics.basis import prepare_basis
 from modeviz.dynamics.modes import solve_modes
+from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle

@@ -27,8 +27,8 @@ from shaken_blocks import (
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import AXIS, Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
-from modeviz.dynamics.actions import directions
 from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.inputs import directions
 from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response, modal_response
 from modeviz.errors import VehicleError

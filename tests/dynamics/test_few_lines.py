@@ -4,7 +4,7 @@ from rounding import CABIN, assert_near
 from scattered_cabin import cabin_parts, cabin_receptances, drawn_and_sampled, worst_error
 from small_systems import resonant_rate, two_masses
 
-from modeviz.dynamics.lines import few_lines
+from modeviz.dynamics.few_lines import few_lines
 from modeviz.dynamics.reanalysis import prepare_receptances
 from modeviz.errors import SolveError
 

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from modeviz.dynamics.actions import directions
 from modeviz.dynamics.basis import EnrichedBasis
+from modeviz.dynamics.inputs import directions
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.poles import poles_near, ritz_poles
 from modeviz.dynamics.reanalysis import Receptances

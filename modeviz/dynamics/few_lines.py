@@ -1,4 +1,4 @@
-"""Responses at all frequencies out of a few: an interpolation that some of them teach.
+"""Responses at all lines from those at a few, by an interpolation made from samples.
 
 When mount rates change a little, the responses at hundreds of frequencies stay close to a space of few
 dimensions, for they share their poles. So responses at a few well-chosen frequencies tell all others:
