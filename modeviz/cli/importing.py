@@ -10,14 +10,8 @@ from modeviz.cli.command import Command
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
-from modeviz.formats.body import (
-    Found,
-    chosen_units,
-    find_attachments,
-    flexible_body,
-    parse_place,
-    uncoupled_because,
-)
+from modeviz.formats.attachments import Found, find_attachments, parse_place
+from modeviz.formats.body import chosen_units, flexible_body, uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
 from modeviz.formats.into_folder import add_body
 from modeviz.formats.reading import read_component

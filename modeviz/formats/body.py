@@ -1,13 +1,12 @@
 """A component as a flexible body in SI, as far as its files say enough for that."""
 
-import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from modeviz.errors import VehicleError, listed, quoted
 from modeviz.files.modal import with_zeros
+from modeviz.formats.attachments import Found
 from modeviz.formats.component import UNIT_SYSTEMS, Component, UnitSystem
 from modeviz.formats.surface import display_mesh
 from modeviz.vehicle.arrays import Array, Floats
@@ -17,51 +16,8 @@ from modeviz.vehicle.rigid_fit import fit_rigid
 USUAL_DAMPING_RATIO = 0.01
 """Of a component whose file has none."""
 
-MOST_NODES_TIMES_MODES = 8_000_000
-"""Of a body that is written, 190 MB: more nodes are thinned out, since they only carry the drawing."""
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where an attachment is to be."""
-
-    name: str
-    node: int | None = None
-    """The node it is at."""
-    position: tuple[float, float, float] | None = None
-    """Instead, in the file's units: it is at the nearest node."""
-
-
-def parse_place(text: str) -> Place:
-    """Return the place that is written as "NAME=NODE", "NODE", or "NAME=X,Y,Z".
-
-    Raises:
-        VehicleError: it is written otherwise.
-    """
-    name, _, where = text.rpartition("=")
-    parts = [part.strip() for part in where.split(",")]
-    try:
-        if len(parts) == 1 and re.fullmatch(r"\d{1,18}", parts[0]):
-            return Place(name.strip() or parts[0], node=int(parts[0]))
-        x, y, z = map(float, parts)
-    except ValueError:
-        pass
-    else:
-        if name.strip() and np.isfinite([x, y, z]).all():
-            return Place(name.strip(), position=(x, y, z))
-    raise VehicleError(
-        f"found {quoted(text)}, expected a node's number, NAME=NODE, or NAME=X,Y,Z in the file's units"
-    )
-
-
-@dataclass(frozen=True)
-class Found:
-    """The node that an attachment is at."""
-
-    name: str
-    row: int
-    distance: float
-    """m, from where it was asked for."""
+MOST_NODES_TIMES_MODES = 2_000_000
+"""Of a body that is written, 48 MB: more nodes are thinned out, since they only carry the drawing."""
 
 
 def chosen_units(component: Component, name: str | None) -> UnitSystem:
@@ -127,41 +83,6 @@ def _omega_n_squared(frequency_hz: Floats) -> Floats:
     return (2 * np.pi) ** 2 * frequency_hz * np.abs(frequency_hz)
 
 
-def find_attachments(
-    component: Component, places: Sequence[Place], units: UnitSystem
-) -> tuple[Found, ...]:
-    """Return the nodes at or nearest to places.
-
-    Raises:
-        VehicleError: there is no such node, or two places have the same name.
-    """
-    placed = np.flatnonzero(component.has_place)
-    names = [place.name for place in places]
-    if repeated := {name for name in names if names.count(name) > 1}:
-        raise VehicleError(f"attachment {quoted(min(repeated))}: two have that name")
-    found = []
-    for place in places:
-        if place.position is None:
-            row, distance = _row_of(component, place), 0.0
-        else:
-            apart = np.linalg.norm(component.nodes[placed] - place.position, axis=1)
-            row, distance = int(placed[apart.argmin()]), float(apart.min()) * units.length
-        found.append(Found(place.name, row, distance))
-    return tuple(found)
-
-
-def _row_of(component: Component, place: Place) -> int:
-    row = int(np.searchsorted(component.node_ids, place.node or 0))
-    there = component.node_ids[row : row + 1].tolist() == [place.node]
-    if not (there and component.has_place[row]):
-        raise VehicleError(
-            f"attachment {quoted(place.name)}: there is no node {place.node} with a place and a "
-            f"motion; there are {listed(component.node_ids[component.has_place][:5].tolist())} and "
-            "others"
-        )
-    return row
-
-
 def flexible_body(
     component: Component,
     units: UnitSystem,
@@ -187,12 +108,13 @@ def flexible_body(
         raise VehicleError(f"{component.source}: cannot be coupled to others: {reason}")
     modes = component.modes
     omega_n_squared, n_near_zero = with_zeros(_omega_n_squared(modes.frequency_hz))
-    normalised = modes.shapes / np.sqrt(modes.modal_mass * units.mass)
-    normalised[:, 3:] /= units.length
+    kind = modes.shapes.dtype.type
+    normalised = modes.shapes / np.sqrt(modes.modal_mass * units.mass).astype(kind)
+    normalised[:, 3:] /= kind(units.length)
     places = component.nodes * units.length
     is_turned = _with_rigid_rotations(normalised, places, component.has_place, omega_n_squared == 0)
-    mesh = display_mesh(component, units.length)
-    kept, thinned = _carriers(component, len(omega_n_squared))
+    mesh, drawn = display_mesh(component, units.length)
+    kept, thinned = _carriers(component, drawn)
     body = FlexibleBody(
         name=name,
         role=role,
@@ -215,7 +137,7 @@ def _with_rigid_rotations(shapes: Floats, places: Floats, placed: Array, is_rigi
         np.zeros((0, 3)),
         np.zeros((0, 6, is_rigid.sum())),
         places[placed],
-        shapes[placed][:, :, is_rigid],
+        shapes[:, :, is_rigid][placed],
     )
     without = placed & ~shapes[:, 3:].any(axis=(1, 2))
     turning = np.where(without[:, None, None], fit.motions[3:], shapes[:, 3:, is_rigid])
@@ -223,14 +145,13 @@ def _with_rigid_rotations(shapes: Floats, places: Floats, placed: Array, is_rigi
     return without
 
 
-def _carriers(component: Component, n_modes: int) -> tuple[Array, int]:
-    """Rows of the nodes that carry the drawing, and how many others would have."""
-    used = np.unique(np.concatenate([[], *(c.ravel() for c in component.elements.values())]))
-    rows = used.astype(int)
-    rows = rows[component.has_place[rows]]
-    if not len(rows):
-        rows = np.flatnonzero(component.has_place)
-    step = -(-len(rows) * n_modes // MOST_NODES_TIMES_MODES)
+def _carriers(component: Component, drawn: Array) -> tuple[Array, int]:
+    """Rows of the nodes that carry the drawing, and how many others would have.
+
+    They are those that are drawn; of a component without elements all that have a place.
+    """
+    rows = drawn if len(drawn) else np.flatnonzero(component.has_place)
+    step = -(-len(rows) * component.n_modes // MOST_NODES_TIMES_MODES)
     return rows[::step], len(rows) - len(rows[::step])
 
 

@@ -27,8 +27,8 @@ FACES: Mapping[ElementKind, tuple[tuple[int, ...], ...]] = {
 SHELLS = ("triangle", "quad")
 
 
-def display_mesh(component: Component, length: float) -> Mesh:
-    """Return the parts to draw of a component, in m: its surface, and its lines.
+def display_mesh(component: Component, length: float) -> tuple[Mesh, Array]:
+    """Return the parts to draw of a component, in m, its surface and its lines, and the nodes in them.
 
     Elements with a corner that has no place are left out.
 
@@ -42,16 +42,18 @@ def display_mesh(component: Component, length: float) -> Mesh:
     }
     nodes = component.nodes * length
     material = Material(COLOR)
-    parts = []
+    parts, drawn = [], [np.zeros(0, int)]
     if len(faces := outer_triangles(elements)):
         used, compact = np.unique(faces, return_inverse=True)
+        drawn.append(used)
         parts.append(MeshPart("surface", nodes[used], compact.reshape(-1, 3), material))
     lines = elements.get("line", np.zeros((0, 2), int))
     lines = lines[np.linalg.norm(nodes[lines[:, 0]] - nodes[lines[:, 1]], axis=1) > 0]
     if len(lines):
         radius = TUBE * float(np.ptp(nodes[placed], axis=0).max())
+        drawn.append(lines.ravel())
         parts.append(MeshPart("lines", *tubes(nodes[lines], radius), material))
-    return tuple(parts)
+    return tuple(parts), np.unique(np.concatenate(drawn))
 
 
 def outer_triangles(elements: Mapping[ElementKind, Array]) -> Array:

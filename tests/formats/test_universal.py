@@ -296,6 +296,7 @@ def test_what_pyuff_writes_is_read(tmp_path):
         (frame_18(1, 0, 0, [0, 0, 0], [1, 0, 0], [2, 0, 0]), "on a line"),
         (frame_18(1, 7, 0, [0, 0, 0], [1, 0, 0], [0, 0, 1]), "of kind 7"),
         (frame_18(1, 0, 1, [0, 0, 0], [1, 0, 0], [0, 0, 1]), "is given in itself"),
+        (frame_18(1, 0, 0, [0] * 6, [0] * 9, [1] * 3), "18 numbers of a coordinate system"),
         (frame_2420(1, 0, 2 * np.eye(3), [0, 0, 0]), "not at right angles"),
         (units_164(9, "NONE", 0.0, 1.0), "above zero"),
     ],

@@ -12,7 +12,8 @@ from modeviz.formats.frames import turn_to_basic
 from modeviz.formats.limits import check_shapes
 from modeviz.formats.nastran.deck import read_deck
 from modeviz.formats.nastran.model import Model, basic_geometry
-from modeviz.formats.nastran.op2 import Shape, Shapes, modal_masses, read_model, read_shapes
+from modeviz.formats.nastran.op2_geometry import read_model
+from modeviz.formats.nastran.op2_modes import Shape, Shapes, modal_masses, read_shapes
 from modeviz.formats.nastran.op2_records import Table, read_tables
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -104,7 +105,9 @@ def _component(model: Model, places: Floats, frames: dict, results: _Results) ->
             "since the input asks for modes normalised to MASS"
         )
     order = np.argsort(frequency, kind="stable")
-    modes = Modes(frequency[order], masses[order], damping[order], array[:, :, order])
+    if (np.diff(order) != 1).any():
+        array = array[:, :, order]
+    modes = Modes(frequency[order], masses[order], damping[order], array)
     return Component(ids, placed, _elements(model, ids), modes, notes=tuple(notes))
 
 
@@ -120,9 +123,9 @@ def _common_ids(modes: Sequence[Shape]) -> Array:
 
 
 def _array(ids: Array, modes: Sequence[Shape]) -> Array:
-    """The shapes, (n_nodes, 6, n_modes)."""
+    """The shapes, (n_nodes, 6, n_modes), in the precision of the file."""
     check_shapes(len(ids), len(modes))
-    dtype = np.complex128 if modes[0].is_complex else np.float64
+    dtype = np.result_type(*(shape.motions for shape in modes)).newbyteorder("=")
     array = np.zeros((len(ids), 6, len(modes)), dtype)
     for column, shape in enumerate(modes):
         array[rows_of(ids, shape.ids), :, column] = shape.motions

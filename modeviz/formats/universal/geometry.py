@@ -114,10 +114,17 @@ def read_frames_18(block: Block) -> dict[int, tuple[int, Frame]]:
         if len(lines) < start + 4:
             raise VehicleError("found a coordinate system that is not whole")
         number, kind, reference = whole_numbers(lines[start], 3)[:3]
-        points = table(f"{lines[start + 2]} {lines[start + 3]}".encode("latin-1"), 9, "system")
-        origin, on_x, in_xz = points.reshape(3, 3)
+        origin, on_x, in_xz = _rows_of_three(lines[start + 2 : start + 4], 3)
         frames[number] = reference, _frame_on_x(_frame_kind(kind), origin, on_x, in_xz)
     return frames
+
+
+def _rows_of_three(lines: list[str], n_rows: int) -> Floats:
+    """The numbers of lines, (n_rows, 3)."""
+    rows = table(" ".join(lines).encode("latin-1"), 3, "place")
+    if len(rows) != n_rows:
+        raise VehicleError(f"found {rows.size} numbers of a coordinate system, expected {3 * n_rows}")
+    return rows
 
 
 def _frame_on_x(kind: FrameKind, origin: Floats, on_x: Floats, in_xz: Floats) -> Frame:
@@ -136,8 +143,7 @@ def read_frames_2420(block: Block) -> dict[int, tuple[int, Frame]]:
         if len(lines) < start + 6:
             raise VehicleError("found a coordinate system that is not whole")
         number, kind = whole_numbers(lines[start], 2)[:2]
-        rows = table("\n".join(lines[start + 2 : start + 6]).encode("latin-1"), 12, "system")
-        axes = rows.reshape(4, 3)
+        axes = _rows_of_three(lines[start + 2 : start + 6], 4)
         if not np.allclose(axes[:3] @ axes[:3].T, np.eye(3), atol=1e-4):
             raise VehicleError(f"coordinate system {number}: its axes are not at right angles")
         frames[number] = 0, Frame(_frame_kind(kind), axes[3], axes[:3].T)
