@@ -17,16 +17,20 @@ what a force there gives is the joint's own force.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
-from modeviz.compute.threads import thread_pool
+from modeviz.compute.threads import in_turn, thread_pool
 from modeviz.dynamics.assembly import System, connection_coefficients, modal_coefficients
 from modeviz.dynamics.inputs import directions
 from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
+
+AT_ONCE = 8
+"""Lines that a thread solves before it is given others."""
 
 SOFT = 1e-4
 """A coordinate is kept where by itself it is softer than this part of the stiffness its joints give
@@ -63,8 +67,10 @@ def receptance_lines(
     """
     check_frequencies(frequency_hz)
     parts = _disassemble(system, rows)
+    stretches = np.split(frequency_hz, range(AT_ONCE, len(frequency_hz), AT_ONCE))
     with thread_pool() as pool:
-        for i, G in enumerate(pool.map(parts.receptance, frequency_hz)):
+        found = in_turn(pool, parts.receptances, stretches)
+        for i, G in enumerate(chain.from_iterable(found)):
             yield G
             if progress:
                 progress((i + 1) / len(frequency_hz))
@@ -125,11 +131,19 @@ class _Disassembled:
     """(n_directions, n_dofs)."""
     given: Floats
     """(n_rows, n_held): what motion each row gives to the rigid joints."""
-    moved: tuple[tuple[slice, np.ndarray], ...]
-    """The coordinates of each body, and which directions they move."""
+    moved: tuple[tuple[slice, Floats, tuple[np.ndarray, ...]], ...]
+    """The coordinates of each body, the motions of the directions that they move, and where a square
+    matrix of all directions has those of these."""
+    squares: Floats
+    """(n_joints + n_rigid, n_dofs), of the motions of joints."""
+    behind: Floats
+    """(n_joints + n_rigid,), what the elastic modes behind a joint yield, m/N."""
 
-    def receptance(self, frequency_hz: float) -> Complexes:
-        """G at one frequency, as accurate as promised."""
+    def receptances(self, frequency_hz: Floats) -> list[Complexes]:
+        """G at each of some frequencies, as accurate as promised."""
+        return [self._receptance(f) for f in frequency_hz]
+
+    def _receptance(self, frequency_hz: float) -> Complexes:
         S, X, G = self.solution(frequency_hz)
         parts = np.abs(S)
         np.fill_diagonal(parts, 1)
@@ -153,8 +167,8 @@ class _Disassembled:
         """The matrix of u, λ and rows, and what scales the parts of its diagonal to one for u and λ."""
         compliance = self.joints.compliance(omega)
         Z = self.omega_n_squared - omega**2 + 1j * (omega * self.damping + self.structural_damping)
-        squares = self.motions[: len(compliance)] ** 2
-        kept = np.abs(Z) < SOFT * (self.omega_n_squared + self._held_by(compliance, squares))
+        squares = self.squares
+        kept = np.abs(Z) < SOFT * (self.omega_n_squared + self._held_by(compliance))
         per_force = np.divide(1, Z, out=np.zeros_like(Z), where=~kept)
         n_kept = np.count_nonzero(kept)
         matrix = np.zeros((n_kept + len(self.motions),) * 2, complex)
@@ -174,24 +188,20 @@ class _Disassembled:
         joint_parts[rigid] += squares[np.ix_(rigid, kept)] @ (1 / own_parts[kept])
         return matrix, 1 / np.sqrt(np.concatenate([own_parts[kept], joint_parts]))
 
-    def _held_by(self, compliance: Complexes, squares: Floats) -> Floats:
+    def _held_by(self, compliance: Complexes) -> Floats:
         """The stiffness with which joints hold each coordinate, (n_dofs,), rad²/s².
 
         A rigid joint holds as the elastic modes behind it do, and without any there is no limit.
         """
-        omega_n_squared = self.omega_n_squared
-        elastic = np.divide(
-            1, omega_n_squared, out=np.zeros_like(omega_n_squared), where=omega_n_squared > 0
-        )
-        yielding = np.where(compliance == 0, squares @ elastic, np.abs(compliance))
-        return (1 / np.maximum(yielding, RIGID)) @ squares
+        yielding = np.where(compliance == 0, self.behind, np.abs(compliance))
+        return (1 / np.maximum(yielding, RIGID)) @ self.squares
 
     def _flexibility(self, per_force: Complexes) -> Complexes:
         """R_e Z_e⁻¹ R_eᵀ, (n_directions, n_directions), from the diagonal of Z_e⁻¹."""
         A = np.zeros((len(self.motions), len(self.motions)), complex)
-        for own, moved in self.moved:
-            Q, d = self.motions[moved, own], per_force[own]
-            A[np.ix_(moved, moved)] += (Q * d.real) @ Q.T + 1j * ((Q * d.imag) @ Q.T)
+        for own, Q, places in self.moved:
+            d = per_force[own]
+            A[places] += (Q * d.real) @ Q.T + 1j * ((Q * d.imag) @ Q.T)
         return A
 
 
@@ -206,8 +216,25 @@ def _disassemble(system: System, rows: Floats) -> _Disassembled:
         own = system.dofs[body.name]
         motions[:, own] = motions[:, own] @ _normalising(body)
     damping, omega_n_squared, structural = np.hstack([_modal_coefficients(b) for b in bodies])
-    moved = [(own, np.flatnonzero(motions[:, own].any(axis=1))) for own in system.dofs.values()]
-    return _Disassembled(joints, omega_n_squared, damping, structural, motions, given, tuple(moved))
+    moved = []
+    for own in system.dofs.values():
+        directions_moved = np.flatnonzero(motions[:, own].any(axis=1))
+        places = np.ix_(directions_moved, directions_moved)
+        moved.append((own, motions[directions_moved, own], places))
+    squares = motions[: len(joined)] ** 2
+    is_elastic = omega_n_squared > 0
+    elastic = np.divide(1, omega_n_squared, out=np.zeros_like(omega_n_squared), where=is_elastic)
+    return _Disassembled(
+        joints,
+        omega_n_squared,
+        damping,
+        structural,
+        motions,
+        given,
+        tuple(moved),
+        squares,
+        squares @ elastic,
+    )
 
 
 def _joints(system: System) -> tuple[Floats, _Joints]:

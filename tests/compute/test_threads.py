@@ -4,7 +4,7 @@ import pytest
 import scipy.linalg  # its BLAS is another than NumPy's
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from modeviz.compute.threads import N_THREADS, one_thread, thread_pool
+from modeviz.compute.threads import N_THREADS, in_turn, one_thread, thread_pool
 
 
 def n_threads():
@@ -56,3 +56,17 @@ def test_tasks_side_by_side_have_one_thread_each():
         found = list(pool.map(lambda _: n_threads(), range(2 * N_THREADS)))
     assert found == [{1}] * (2 * N_THREADS)
     assert n_threads() == {2}
+
+
+def test_no_more_is_done_ahead_than_somebody_takes_soon():
+    begun = []
+
+    def work(item):
+        begun.append(item)
+        return item
+
+    with thread_pool() as pool:
+        results = in_turn(pool, work, range(100))
+        assert next(results) == 0
+        assert len(begun) <= 2 * N_THREADS + 1
+        assert list(results) == list(range(1, 100))
