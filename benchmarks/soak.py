@@ -30,7 +30,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
-from modeviz.viewer.page.access import Server, open_server
+from modeviz.viewer.page.server import Server, open_server
 from modeviz.viewer.pictures.headless import chromium
 from modeviz.viewer.session.commands.looks import ChangeCharts, ChangeMotion, ChooseCurve
 from modeviz.viewer.session.session import Session

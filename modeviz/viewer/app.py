@@ -16,10 +16,10 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.offline import offline_page
 from modeviz.viewer.page import scripts
-from modeviz.viewer.page.access import Server, open_server
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
+from modeviz.viewer.page.server import Server, open_server
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.energy import EnergyPanel
@@ -78,7 +78,7 @@ class App:
             vehicle: with the rates that all is compared with.
             rates: to start with.
             conditions: to start with.
-            server: an open one, see `access.open_server`.
+            server: an open one, see `page.server.open_server`.
             dark: whether the page is dark.
         """
         self.server: Server = server

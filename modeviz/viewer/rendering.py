@@ -18,7 +18,7 @@ from modeviz.report.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.offline import offline_page
-from modeviz.viewer.page.access import Server, open_server
+from modeviz.viewer.page.server import Server, open_server
 from modeviz.viewer.panels.modes import listed
 from modeviz.viewer.pictures.headless import HeadlessPage
 from modeviz.viewer.pictures.pictures import (

@@ -11,7 +11,7 @@ from benchmarks.websocket import open_websocket
 from modeviz.analysis.results import Conditions
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.app import App
-from modeviz.viewer.page.access import Server
+from modeviz.viewer.page.server import Server
 
 SOLVE_S = 60
 

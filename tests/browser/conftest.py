@@ -4,7 +4,7 @@ import pytest
 from pages import wait_for
 from playwright.sync_api import Browser, Page
 
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.pictures.headless import chromium
 
 TIMEOUT_MS = 60_000

@@ -7,7 +7,7 @@ from pages import wait_for
 from small_proxy import proxy
 from visitors import TOKEN
 
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 
 NOTICE = "document.getElementById('modeviz-connection')?.textContent"
 

@@ -6,7 +6,7 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 
 from pages import wait_until
 
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 
 
 def notebook_at(link: str) -> HTTPServer:

@@ -23,7 +23,7 @@ from modeviz.shapes.gltf import glb
 from modeviz.shapes.surface import surface
 from modeviz.vehicle.bodies import Material, MeshPart
 from modeviz.viewer.app import App
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.pictures.headless import HeadlessPage
 from modeviz.viewer.pictures.pictures import (
     N_CYCLES,

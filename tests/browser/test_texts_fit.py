@@ -7,7 +7,7 @@ from apps import open_solved_cabin
 from mounted_cabin import mounted_cabin
 from pages import CLOSE_NOTICES, has_beside, wait_for, wait_still, wait_until
 
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import SetRate
 
 LONG = "Donaudampfschifffahrtsgesellschaftskapitän with a second, third and fourth name"

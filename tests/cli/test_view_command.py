@@ -12,7 +12,7 @@ import pytest
 from usual_signals import usual_signals
 
 from modeviz.cli import main
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 
 LINK = re.compile(r"(\S+) is at (http://\S+)  \(Ctrl\+C ends\)\n")
 

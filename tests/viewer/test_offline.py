@@ -10,7 +10,7 @@ from session_commands import Alter
 from modeviz.analysis.results import Conditions
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.viewer.app import App
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 
 WIDTH = 420 - 62 - 14
 """Of the frame of a chart, in its own units."""

@@ -11,7 +11,7 @@ from session_commands import Become
 from modeviz.analysis.results import Conditions
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.app import App
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import LinkRates, ResetRate, SetLossFactor, ToggleLock
 from modeviz.viewer.session.commands.looks import Drive
 

@@ -12,7 +12,7 @@ from modeviz.cli.options import RoadOptions
 from modeviz.files import write_vehicle
 from modeviz.vehicle.connections import Spring, Tyre
 from modeviz.viewer.app import App
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 
 NO_TYRES = tuple(
     Spring(c.name, c.group, c.bodies, c.points, stiffness=c.stiffness) if isinstance(c, Tyre) else c

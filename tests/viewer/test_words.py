@@ -7,7 +7,7 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.results import Conditions
 from modeviz.viewer.app import App
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 
 OF_THE_PROGRAM = re.compile(r"[a-z][A-Z]\w*[a-z]{2}|\b[a-z]+_[a-z]+\b")
 """CamelCase and snake_case, but not "kN/mm"."""

@@ -1,4 +1,4 @@
-"""How messages of pages are read: each against what its kind may hold, before anything is made of it.
+"""The first check of a message, on its bytes, before viser: is it of a kind that we use?
 
 msgspec looks at the number of items before it makes any, and goes no deeper than the types here do.
 What viser reads afterwards is written anew, so that it cannot find anything else in it.

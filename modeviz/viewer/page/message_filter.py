@@ -1,4 +1,4 @@
-"""What a page may say: every message from a browser is checked before viser acts on it.
+"""The second check of a message, inside viser: is the value one that its widget can have?
 
 Values from a page are anybody's: viser stores 1e9 and NaN, and lets a page set any attribute of a
 widget. `decoding` lets only kinds through that we use; here a value must be one that its widget can

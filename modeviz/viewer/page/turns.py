@@ -1,4 +1,4 @@
-"""The pool of threads in which viser calls us: pages take turns there, however much each has to do."""
+"""The threads in which viser calls us: pages take turns there, however much each has to do."""
 
 import threading
 from collections import Counter, OrderedDict, deque

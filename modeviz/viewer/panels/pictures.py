@@ -13,9 +13,9 @@ from modeviz.report.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.text.time_left import TimeLeft
 from modeviz.text.wording import file_name
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page.access import Server
 from modeviz.viewer.page.connection import MOST_PAGES
 from modeviz.viewer.page.limits import Places
+from modeviz.viewer.page.server import Server
 from modeviz.viewer.pictures.headless import HeadlessPage
 from modeviz.viewer.pictures.pictures import (
     CYCLE_S,

@@ -23,11 +23,11 @@ from visitors import (
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.frames import Frame, Opcode
 
-from modeviz.viewer.page import access as doors
 from modeviz.viewer.page import connection, tokens
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page import server as doors
 from modeviz.viewer.page.connection import MOST_BYTES, MOST_PAGES_OF_ONE, MOST_WRONG
 from modeviz.viewer.page.decoding import PART
+from modeviz.viewer.page.server import open_server
 
 
 @contextmanager

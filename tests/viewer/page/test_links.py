@@ -3,8 +3,8 @@ import socket
 
 import pytest
 
-from modeviz.viewer.page.access import open_server
 from modeviz.viewer.page.links import link, local_link
+from modeviz.viewer.page.server import open_server
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.pictures import pictures
 from modeviz.viewer.pictures.pictures import Cycle, ImageSettings, Pose, cycle_pictures
 from modeviz.viewer.scene.driver import ShapeDriver

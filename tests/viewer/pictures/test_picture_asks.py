@@ -13,7 +13,7 @@ from visitors import CAMERA, encoded, update, visit, wait_until
 
 from benchmarks.page_client import messages as decoded
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.panels import pictures as panel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.pictures.headless import MOST_PIXELS, _bounded, _launched

@@ -8,7 +8,7 @@ from modeviz.analysis.preparation import prepare
 from modeviz.vehicle.arrays import FARTHEST
 from modeviz.vehicle.bodies import FlexibleBody, Material, MeshPart
 from modeviz.vehicle.loads import ResponsePoint
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.scene.body_view import DrawnBody
 from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import LIGHT

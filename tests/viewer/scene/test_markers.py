@@ -7,7 +7,7 @@ from small_vehicles import tyre, wheel
 from modeviz.vehicle.connections import Mount, MountGroup, MountRates
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.scene.markers import CARD_LETTERS, Markers, MountMarker, card_text
 from modeviz.viewer.scene.stage import LIGHT
 

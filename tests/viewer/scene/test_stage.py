@@ -4,7 +4,7 @@ from small_vehicles import tyre, wheel
 
 from modeviz.vehicle.bodies import Material, MeshPart, RigidBody
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page.access import open_server
+from modeviz.viewer.page.server import open_server
 from modeviz.viewer.scene.cameras import Cameras
 from modeviz.viewer.scene.stage import (
     CARD_FRACTION,

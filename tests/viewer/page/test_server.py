@@ -15,8 +15,8 @@ from websockets.exceptions import InvalidStatus
 
 from benchmarks.page_client import messages as decoded
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.access import open_server
 from modeviz.viewer.page.handshake import WHY
+from modeviz.viewer.page.server import open_server
 
 
 @pytest.fixture(scope="module")

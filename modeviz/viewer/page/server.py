@@ -1,7 +1,7 @@
-"""Who gets in: viser's server behind our handshake, limits and gate, silent on the terminal.
+"""viser's server, opened behind our handshake, limits and message filter, silent on the terminal.
 
 Its web server is built inside `ViserServer.__init__`, so these are put in while that runs.
-tests/viewer/page/test_access.py fails when viser changes.
+tests/viewer/page/test_server.py fails when viser changes.
 """
 
 import asyncio
