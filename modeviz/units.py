@@ -117,6 +117,31 @@ def psd_factor(unit: str, quantity: QuantityName) -> float:
     raise ModevizError(f"found the unit {quoted(unit)}, expected one of {', '.join(squares)}")
 
 
+def spatial_psd_factor(unit: str, is_angular: bool) -> float:
+    """One unit of a spectrum over cycles by length in m²/(cycle/m): of m³, mm²/(cycle/m), m³/rad.
+
+    Args:
+        unit: of lengths to the third power, by cycle or by rad.
+        is_angular: whether it is by rad, where it says neither.
+
+    Raises:
+        ModevizError: it is not such a unit.
+    """
+    unnested = re.sub(r"/\s*\(\s*(\w+)\s*/\s*(\w+)\s*\)", r" \2/\1", _level(unit))
+    powers = _powers(unnested)
+    counted = {part: powers.pop(part) for part in ("cycle", "cycles", "rad") if part in powers}
+    lengths = UNITS["length"]
+    if counted not in ({}, {"cycle": -1}, {"cycles": -1}, {"rad": -1}) or (
+        not set(powers) <= set(lengths) or sum(powers.values()) != 3
+    ):
+        raise ModevizError(
+            f"found the unit {quoted(unit)}, expected such as m³, mm²/(cycle/m) or m²/(rad/m)"
+        )
+    per_radian = is_angular if not counted else "rad" in counted
+    length = math.prod(lengths[part] ** power for part, power in powers.items())
+    return length * (2 * math.pi if per_radian else 1.0)
+
+
 def _psd_powers(unit: str) -> Counter[str]:
     """The power of each part of a unit that should be a square per Hz; none of another's."""
     level = _level(unit)

@@ -8,7 +8,7 @@ unit in brackets if they have one: "left (mm²/Hz)".
 import csv
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from modeviz.errors import VehicleError, located, unknown
@@ -66,13 +66,19 @@ class Table:
     rows: tuple[Row, ...]
 
 
-def read_table(text: str, columns: Sequence[str], optional: Sequence[str] = ()) -> Table:
+def read_table(
+    text: str,
+    columns: Sequence[str],
+    optional: Sequence[str] = (),
+    check: Callable[[dict[str, str]], object] | None = None,
+) -> Table:
     """The table in a text.
 
     Args:
         text: header and lines.
         columns: those that must be there.
         optional: those that may be.
+        check: given the unit of each column; raises VehicleError for a header that does not do.
 
     Raises:
         VehicleError: not such a table; the text names line and column.
@@ -88,6 +94,9 @@ def read_table(text: str, columns: Sequence[str], optional: Sequence[str] = ()) 
     found = _cells(lines, first, separator)
     header_line, header = next(found, (1, []))
     units = _header(header_line, header, columns, optional)
+    if check:
+        with located(f"line {header_line}"):
+            check(units)
     rows = tuple(
         Row(line, _by_column(line, cells, list(units)), separator != ",") for line, cells in found
     )

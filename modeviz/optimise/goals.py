@@ -177,10 +177,12 @@ def _selected(
 def _roads(vehicle: Vehicle, problem: Problem) -> list[str]:
     """The roads that the problem names, each once, else the one that usually shakes the vehicle."""
     named = list(dict.fromkeys(road for p in problem.performance for road in p.roads))
+    if named:
+        return named
     usual = vehicle.usual_load
-    if not named and not usual:
+    if usual is None:
         raise VehicleError(
             f"problem {problem.name!r}: goal {problem.goal!r} needs a [[tyre]] or another random load "
             "than a road"
         )
-    return named or [usual.name]
+    return [usual.name]

@@ -10,18 +10,21 @@ J. Sound Vib. 57, 1978).
 
 import re
 from functools import lru_cache
+from typing import Literal, get_args
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located, quoted
 from modeviz.units import UNITS, parse, parse_number
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.loads import Road, Roughness
+from modeviz.vehicle.loads import WAVINESS, Road, Roughness
 
 REFERENCE = 0.1
 """n₀, cycles/m."""
 
-CLASSES = {name: 16e-6 * 4**i for i, name in enumerate("ABCDEFGH")}
+RoadClass = Literal["A", "B", "C", "D", "E", "F", "G", "H"]
+
+CLASSES: dict[RoadClass, float] = {name: 16e-6 * 4**i for i, name in enumerate(get_args(RoadClass))}
 """G_d(n₀), m³: the geometric mean of each class, whose limits are half and twice that."""
 
 USUAL_ROAD = "ISO C"
@@ -74,6 +77,15 @@ def track_spectrum(roughness: Roughness, spatial_frequency: Floats) -> Floats:
     return roughness.level * (n / REFERENCE) ** -roughness.waviness
 
 
+def fitted_waviness(frequency: Floats, power: Floats) -> float:
+    """The waviness of the power law nearest to a spectrum on logarithmic axes, within `WAVINESS`."""
+    seen = power > 0
+    if seen.sum() < 2:
+        return 2.0
+    slope = np.polyfit(np.log(frequency[seen]), np.log(power[seen]), 1)[0]
+    return float(np.clip(-slope, *WAVINESS))
+
+
 def rough_road(name: str, label: str, roughness: Roughness) -> Road:
     """The road of a roughness: two tracks with the same spectrum, a track width apart.
 
@@ -84,7 +96,7 @@ def rough_road(name: str, label: str, roughness: Roughness) -> Road:
     S = track_spectrum(roughness, n)
     rough = np.maximum(n, FLAT_BELOW)
     S_lr = S * isotropic_coherence(rough, roughness.track_width, roughness.waviness)
-    spectrum = np.array([[S, S_lr], [S_lr, S]]).transpose(2, 0, 1)
+    spectrum = np.array([[S, S_lr], [S_lr, S]], complex).transpose(2, 0, 1)
     return Road(name, label, 1.0, n, spectrum, roughness)
 
 
@@ -115,8 +127,9 @@ def _level(text: str) -> float:
     Raises:
         ModevizError: it is neither.
     """
-    if text.upper() in CLASSES:
-        return CLASSES[text.upper()]
+    by_class = next((mean for name, mean in CLASSES.items() if name == text.upper()), None)
+    if by_class is not None:
+        return by_class
     if text[0].isalpha():
         units = ", ".join(UNITS["roughness"])
         raise VehicleError(

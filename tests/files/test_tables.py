@@ -48,7 +48,8 @@ AS_LEFT_BY = {
 
 def road(path: Path, notes: list[str] | None = None, units: dict[str, str] | None = None) -> Road:
     told = [] if notes is None else notes
-    return read_road(path, "r", "r", 20.0, Conventions(units or {"length": "m"}), told.append)
+    table = read_road(path, Conventions(units or {"length": "m"}), told.append)
+    return table.road("r", "r", 20.0, 1.6, told.append)
 
 
 @pytest.mark.parametrize("case", AS_LEFT_BY)

@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 
 from modeviz.cli import main
+from modeviz.files import read_vehicle
 from modeviz.files.modal import ARRAYS
 from modeviz.files.records.vehicle import VehicleRecord
-from modeviz.files.roads import COLUMNS
+from modeviz.files.road_columns import COLUMNS
 from modeviz.files.schema.hints import annotation, fields_of
 from modeviz.files.schema.quantities import FixedUnit, Quantity
 from modeviz.units import UNITS
@@ -152,6 +153,22 @@ def test_the_smallest_vehicle_of_the_page_runs(tmp_path, printed_json):
     assert len(modes) == 6
     bounce = min(abs(mode["frequency_hz"] - np.sqrt(4e5 / 100) / (2 * np.pi)) for mode in modes)
     assert bounce < 1e-9
+
+
+def test_the_roads_of_the_page_are_roads(tmp_path):
+    """That without data, and the table of a profilometer with its row at zero."""
+    text = PAGE.partition("```toml\n")[2].partition("```")[0]
+    gravel = '[[road]]\nname = "gravel"' + PAGE.partition('name = "gravel"')[2].partition("```")[0]
+    measured = '[[road]]\nname = "measured"\nfile = "measured.csv"\n'
+    table = PAGE.partition('`file = "measured.csv"`:\n\n```\n')[2].partition("```")[0]
+    (tmp_path / "vehicle.toml").write_text(f"{text}\n{gravel}\n{measured}", encoding="utf-8")
+    (tmp_path / "measured.csv").write_text(table, encoding="utf-8")
+    vehicle = read_vehicle(tmp_path)
+    assert [road.name for road in vehicle.roads] == ["gravel", "measured"]
+    assert vehicle.roads[1].frequency_hz.tolist() == [0.02, 0.5, 4.0]
+    notes = "; ".join(vehicle.notes)
+    assert "n = 0 is left out" in notes
+    assert "without a cross spectrum" in notes
 
 
 def test_the_smallest_vehicle_of_the_page_can_lose_no_key(tmp_path, capsys):

@@ -1,7 +1,7 @@
 """The tables of `vehicle.toml` that say what shakes the vehicle, in SI."""
 
 from dataclasses import replace
-from typing import Literal, Self
+from typing import Self
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from modeviz.files.source import Source
 from modeviz.files.spectra import read_spectrum
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS
-from modeviz.vehicle.iso_8608 import CLASSES, rough_road
+from modeviz.vehicle.iso_8608 import CLASSES, RoadClass, rough_road
 from modeviz.vehicle.loads import (
     BaseMotion,
     Force,
@@ -51,7 +51,7 @@ class RoadRecord(Record, kw_only=True):
     """A file of the folder, .csv."""
     speed: Speed | None = None
     """At which the table was met."""
-    iso_8608: Literal["A", "B", "C", "D", "E", "F", "G", "H"] | None = None
+    iso_8608: RoadClass | None = None
     roughness: RoadLevel | None = None
     """G_d(n₀)."""
     waviness: Ratio | None = None
@@ -64,7 +64,7 @@ class RoadRecord(Record, kw_only=True):
         if road.roughness is None:
             return cls(name=road.name, label=road.label, file=file, speed=road.speed)
         level, waviness = road.roughness.level, road.roughness.waviness
-        known = next((name for name, mean in CLASSES.items() if mean == level), None)
+        known: RoadClass | None = next((k for k, mean in CLASSES.items() if mean == level), None)
         return cls(
             name=road.name,
             label=road.label,
@@ -79,40 +79,45 @@ class RoadRecord(Record, kw_only=True):
         keys = ("file", "iso_8608", "roughness")
         given = _the_one({key: getattr(self, key) for key in keys})
         self._check_keys(given)
-        return self._of_file(source) if given == "file" else self._of_surface(source, track_width)
+        return (
+            self._of_file(source, track_width)
+            if given == "file"
+            else self._of_surface(source, track_width)
+        )
 
     def _check_keys(self, given: str) -> None:
         """Raises VehicleError for a key that does nothing beside the one that is given."""
-        if given == "file" and self.speed is None:
-            raise VehicleError("speed: missing, expected that at which the file's spectra were met")
-        idle = ("waviness", "track_width") if given == "file" else ("speed",)
+        idle = ("waviness",) if given == "file" else ("speed",)
         for key in idle:
             if getattr(self, key) is not None:
                 raise VehicleError(f"{key}: does nothing beside {given}, leave it out")
 
     def _of_surface(self, source: Source, track_width: float) -> Road:
         level = self.roughness if self.iso_8608 is None else CLASSES[self.iso_8608]
-        waviness = 2.0 if self.waviness is None else self.waviness
-        width = track_width if self.track_width is None else self.track_width
         assert level is not None
-        road = rough_road(self.name, self.label or self.name, Roughness(level, waviness, width))
+        waviness = 2.0 if self.waviness is None else self.waviness
+        roughness = Roughness(level, waviness, self._width(track_width))
+        road = rough_road(self.name, self.label or self.name, roughness)
         source.count_lines(len(road.frequency_hz))
         return road
 
-    def _of_file(self, source: Source) -> Road:
+    def _of_file(self, source: Source, track_width: float) -> Road:
         assert self.file is not None
-        speed = self.speed
-        assert speed is not None
         with located("file"):
             path = source.path(self.file)
-        label = self.label or self.name
+        table = source.once((path, "road"), lambda: read_road(path, source.conventions, source.note))
+        width, label = self._width(track_width), self.label or self.name
         road = source.once(
-            (path, "road"),
-            lambda: read_road(path, self.name, label, speed, source.conventions, source.note),
+            (path, "road", self.speed, width),
+            lambda: table.road(self.name, label, self.speed, width, source.note),
         )
         if not source.count_lines(len(road.frequency_hz)):
             return road  # no copy of what is refused once all are counted
-        return replace(road, name=self.name, label=label, speed=speed)
+        return replace(road, name=self.name, label=label)
+
+    def _width(self, track_width: float) -> float:
+        """Its own track width, or else the vehicle's."""
+        return track_width if self.track_width is None else self.track_width
 
 
 class WheelLoadRecord(Record, kw_only=True):
