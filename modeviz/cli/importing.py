@@ -11,11 +11,12 @@ from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
 from modeviz.formats.attachments import Found, find_attachments, parse_place
-from modeviz.formats.body import chosen_units, flexible_body, uncoupled_because
+from modeviz.formats.body import chosen_units, flexible_body, static_stiffness, uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
 from modeviz.formats.into_folder import add_body
 from modeviz.formats.reading import read_component
 from modeviz.report.tables import table
+from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody
 
 UNKNOWN = "unknown"
@@ -105,7 +106,11 @@ def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) ->
     ]
     for found, attachment in zip(attachments, body.attachments, strict=True):
         far = f", {1000 * found.distance:.3g} mm from where it was asked for" if found.distance else ""
-        lines.append(f"attachment {found.name!r} at {_places(attachment.position)} m{far}")
+        stiffness = static_stiffness(body, attachment) / factor("N/mm", "stiffness")
+        lines.append(
+            f"attachment {found.name!r} at {_places(attachment.position)} m{far}; its modes are "
+            f"{_places(stiffness)} N/mm stiff there"
+        )
     if not attachments:
         lines.append("no attachments, so nothing can hold on to it: import it with --attach")
     return "\n".join(lines)

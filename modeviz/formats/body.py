@@ -7,7 +7,7 @@ import numpy as np
 from modeviz.errors import VehicleError, listed, quoted
 from modeviz.files.modal import with_zeros
 from modeviz.formats.attachments import Found
-from modeviz.formats.component import UNIT_SYSTEMS, Component, UnitSystem
+from modeviz.formats.component import LARGEST, UNIT_SYSTEMS, Component, UnitSystem
 from modeviz.formats.surface import display_mesh
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Role
@@ -53,7 +53,7 @@ def uncoupled_because(component: Component) -> str | None:
         return "it has no modes"
     if component.is_complex:
         return "its shapes are complex, those of a damped structure; expected normal modes"
-    unknown = np.flatnonzero(~(modes.modal_mass > 0))
+    unknown = np.flatnonzero(~((modes.modal_mass > 1 / LARGEST) & (modes.modal_mass < LARGEST)))
     if len(unknown):
         return (
             f"the modal mass of {len(unknown)} of its {component.n_modes} modes is not in the file, "
@@ -76,6 +76,17 @@ def uncoupled_because(component: Component) -> str | None:
             "with all modes from zero up"
         )
     return None
+
+
+def static_stiffness(body: FlexibleBody, attachment: Attachment) -> Floats:
+    """Return how stiff a body's modes make an attachment along x, y and z, (3,), N/m.
+
+    1 / Σ φ²/ω² over the elastic modes: a force there deforms the free body while it accelerates as a
+    rigid one. Modes that are left out would only make it softer, so that the body itself is no stiffer.
+    """
+    phi, omega_n_squared = attachment.shapes[:3, body.n_rigid :], body.omega_n_squared[body.n_rigid :]
+    compliance = np.sum(phi**2 / omega_n_squared, axis=1)
+    return np.divide(1.0, compliance, out=np.full(3, np.inf), where=compliance > 0)
 
 
 def _omega_n_squared(frequency_hz: Floats) -> Floats:

@@ -18,6 +18,10 @@ CORNERS: Mapping[ElementKind, int] = {
 """How many corners an element has; nodes between them are left out."""
 
 
+LARGEST = 1e15
+"""Of shapes and modal masses, which are never less than one over it: no file has such in any units."""
+
+
 @dataclass(frozen=True)
 class UnitSystem:
     """The units in which a program computed; time is in seconds in all."""
@@ -80,8 +84,10 @@ class Component:
     """The files, to say so."""
 
     def __post_init__(self) -> None:
-        if not np.isfinite(self.modes.shapes).all():
-            raise VehicleError("the shapes have values that are not finite numbers")
+        if not _largest(self.modes.shapes) < LARGEST:
+            raise VehicleError(
+                f"the shapes have values that are not finite numbers, or are beyond {LARGEST:g}"
+            )
         if np.isinf(self.nodes).any():
             raise VehicleError("a node is at no finite place")
         if len(repeated := _repeated(self.node_ids)):
@@ -119,6 +125,13 @@ def rows_of(node_ids: Array, ids: Array) -> Array:
     if not there.all():
         raise VehicleError(f"node {ids[~there].flat[0]} is named, but it is not there")
     return rows
+
+
+def _largest(shapes: Array) -> float:
+    """The largest size of a number in shapes, not a number if any is none; no copy is made of them."""
+    parts = (np.real(shapes), np.imag(shapes)) if np.iscomplexobj(shapes) else (shapes,)
+    ends = [end for part in parts for end in (part.max(initial=0), -part.min(initial=0))]
+    return float(np.max(ends))
 
 
 def _repeated(rising: Array) -> Array:

@@ -1,3 +1,4 @@
+import re
 import tomllib
 from pathlib import Path
 
@@ -99,6 +100,23 @@ def test_mass_and_centre_of_gravity_are_those_of_the_structure(tmp_path, file, c
     said = capsys.readouterr().out
     assert f"mass {1000 * MASSES.sum():.3g}" in said
     assert ", ".join(f"{v:.4g}" for v in center) in said
+
+
+def test_how_stiff_its_modes_make_an_attachment_is_that_of_a_free_body_under_a_force(
+    tmp_path, file, capsys
+):
+    """By the pseudoinverse of K with inertia relief, not by modes; all of them are kept."""
+    network = free_network()
+    M, K = network.mass, network.stiffness
+    R = network.shapes.reshape(24, 24)[:, :6]
+    P = np.eye(24) - M @ R @ R.T
+    compliance = P.T @ np.linalg.pinv(K, rcond=1e-10) @ P
+    row = 3 * int(np.flatnonzero(LABELS == 23)[0])
+    expected = 1 / np.diag(compliance)[row : row + 3]
+    folder = str(tmp_path / "vehicle")
+    main(["import", file(network_file()), "--output", folder, "--units", "mm-t-s", "--attach", "23"])
+    found = re.search(r"modes are \[(.*)\] N/mm stiff there", capsys.readouterr().out)[1]
+    np.testing.assert_allclose([float(v) for v in found.split(", ")], expected, rtol=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -214,6 +232,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, file, capsys):
         (network_file(first=6), "0 of its modes are near zero Hz"),
         (network_file(first=2), "4 of its modes are near zero Hz"),
         (nodes_2411(LABELS, CORNERS), "it has no modes"),
+        (network_file(np.full(24, 1e-30)), "the modal mass of 24 of its 24 modes"),
         (network_op2(Op2(), unstable=20), "1 of its modes are unstable"),
         (shape_55([1], np.ones((1, 3)), 0.0), "none of the nodes that it moves has a place"),
         (

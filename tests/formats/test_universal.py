@@ -281,6 +281,8 @@ def test_what_pyuff_writes_is_read(tmp_path):
         (nodes_15([1], [[0.0, 0, 0]])[:-8], "the file is cut"),
         (shape_55([1, 2], np.ones((2, 3)), 10.0)[:-30], "the file is cut"),
         (shape_55([1], np.full((1, 3), np.nan), 10.0), "not finite"),
+        (shape_55([1], np.full((1, 3), -1e20), 10.0), "beyond 1e+15"),
+        (shape_55([1], np.full((1, 3), 1e20j), [1.0] * 6, analysis=3), "beyond 1e+15"),
         (shape_55([1], np.ones((1, 3)), np.inf), "a mode of inf Hz"),
         (shape_55([1], np.ones((1, 3)), -1.0), "a mode of -1 Hz"),
         (shape_55([1, 1], np.ones((2, 3)), 5.0), "moves a node twice"),
