@@ -40,10 +40,12 @@ from modeviz.vehicle.connections import MountRates as MountRates
 from modeviz.vehicle.connections import Rod as Rod
 from modeviz.vehicle.connections import Spring as Spring
 from modeviz.vehicle.connections import Tyre as Tyre
+from modeviz.vehicle.iso_8608 import rough_road as rough_road
 from modeviz.vehicle.loads import BaseMotion as BaseMotion
 from modeviz.vehicle.loads import Force as Force
 from modeviz.vehicle.loads import ResponsePoint as ResponsePoint
 from modeviz.vehicle.loads import Road as Road
+from modeviz.vehicle.loads import Roughness as Roughness
 from modeviz.vehicle.loads import Spectrum as Spectrum
 from modeviz.vehicle.loads import WheelLoad as WheelLoad
 from modeviz.vehicle.mode_damping import ModeDamping as ModeDamping

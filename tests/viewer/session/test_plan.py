@@ -145,6 +145,16 @@ def test_a_problem_without_accelerations_gets_some_if_asked(vehicle):
     assert plan.with_one_more_load().without_load() == plan
 
 
+def test_roads_of_iso_8608_are_chosen_and_kept_as_a_problem_has_them(vehicle):
+    """Those the page offers, in their order, and others that a file names."""
+    plan = first_plan(vehicle)
+    roads = frozenset({"ISO C", "flat", "ISO A", "ISO 100 cm³"})
+    changed = replace(plan, loads=(replace(plan.load, roads=roads),))
+    problem = planned(vehicle, changed)
+    assert problem.performance[0].roads == ("flat", "ISO A", "ISO C", "ISO 100 cm³")
+    assert first_plan(replace(vehicle, problems=(problem,))).load.roads == roads
+
+
 def test_some_of_the_points_are_named_and_all_are_not(vehicle):
     seat = vehicle.response_points[0]
     vehicle = replace(vehicle, response_points=(seat, replace(seat, name="toe")))
