@@ -68,10 +68,11 @@ class RoadTable:
             cross = np.sqrt(left * right) * isotropic_coherence(
                 self.frequency / speed, track_width, waviness
             )
-            note(
-                f"{self.file}: without a cross spectrum the tracks are taken as two of a surface alike "
-                f"in all directions, {track_width:.3g} m apart, of waviness {waviness:.2g}"
-            )
+            if track_width:
+                note(
+                    f"{self.file}: without a cross spectrum the tracks are taken as two of a surface "
+                    f"alike in all directions, {track_width:.3g} m apart, of waviness {waviness:.2g}"
+                )
         spectrum = np.array([[left, cross], [np.conj(cross), right]], complex).transpose(2, 0, 1)
         with located(self.file):
             return Road(name, label, speed, self.frequency, spectrum)

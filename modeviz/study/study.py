@@ -90,7 +90,7 @@ class Study(StudyOutput):
 
     @property
     def roads(self) -> tuple[str, ...]:
-        """The names of the roads and other random loads."""
+        """The names of its own roads and other random loads; those of ISO 8608 need not be its own."""
         return tuple(load.name for load in self.vehicle.random_loads)
 
     @property

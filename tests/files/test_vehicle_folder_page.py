@@ -159,7 +159,7 @@ def test_the_roads_of_the_page_are_roads(tmp_path):
     """That without data, and the table of a profilometer with its row at zero."""
     text = PAGE.partition("```toml\n")[2].partition("```")[0]
     gravel = '[[road]]\nname = "gravel"' + PAGE.partition('name = "gravel"')[2].partition("```")[0]
-    measured = '[[road]]\nname = "measured"\nfile = "measured.csv"\n'
+    measured = '[[road]]\nname = "measured"\nfile = "measured.csv"\ntrack_width = 1500.0\n'
     table = PAGE.partition('`file = "measured.csv"`:\n\n```\n')[2].partition("```")[0]
     (tmp_path / "vehicle.toml").write_text(f"{text}\n{gravel}\n{measured}", encoding="utf-8")
     (tmp_path / "measured.csv").write_text(table, encoding="utf-8")

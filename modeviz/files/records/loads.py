@@ -106,6 +106,8 @@ class RoadRecord(Record, kw_only=True):
         with located("file"):
             path = source.path(self.file)
         table = source.once((path, "road"), lambda: read_road(path, source.conventions, source.note))
+        if self.track_width is not None and table.cross is not None:
+            raise VehicleError("track_width: does nothing beside a cross spectrum, leave it out")
         width, label = self._width(track_width), self.label or self.name
         road = source.once(
             (path, "road", self.speed, width),

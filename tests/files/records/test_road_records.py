@@ -60,6 +60,21 @@ def test_a_road_of_iso_8608_is_written_as_one(read, keys, tmp_path):
     assert np.array_equal(again.spectrum, road.spectrum)
 
 
+def test_a_table_without_cross_spectrum_takes_its_track_width_or_the_vehicles(read):
+    table = "n (cycles/m),track (m³)\n0.05,1e-4\n5,1e-8\n"
+    wide, narrow = (read(f'file = "road.csv"\n{keys}', table) for keys in ("", "track_width = 1200.0"))
+    assert "1.5 m apart, of waviness 2:" in f"{wide.notes[0]}:"
+    assert "1.2 m apart" in narrow.notes[0]
+    S_wide, S_narrow = (vehicle.roads[0].spectrum[0, 0, 1].real for vehicle in (wide, narrow))
+    assert S_wide < S_narrow < 1e-4
+
+
+def test_a_track_width_beside_a_cross_spectrum_is_refused(read):
+    table = "n (cycles/m),left,right,coherence\n0.05,1e5,1e5,1\n5,10,10,0\n"
+    with pytest.raises(VehicleError, match="track_width: does nothing beside a cross spectrum"):
+        read('file = "road.csv"\ntrack_width = 1200.0', table)
+
+
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
