@@ -5,7 +5,6 @@ import os
 import signal
 import sys
 import threading
-import time
 from types import SimpleNamespace
 from urllib.parse import urlsplit
 
@@ -13,6 +12,7 @@ import pytest
 from html_documents import Document
 from studied_cabin import cabin_study
 
+from modeviz.study.page import Page
 from modeviz.viewer.session.commands.decisions import TakeRates
 
 
@@ -85,18 +85,29 @@ def test_a_page_may_be_closed_twice(notebook):
 
 
 def test_outside_of_notebooks_the_page_is_shown_until_ctrl_c(capsys):
-    def interrupt() -> None:
-        deadline = time.monotonic() + 60
-        while " is at http" not in (said := capsys.readouterr().out) and time.monotonic() < deadline:
-            time.sleep(0.05)
-        told.append(said)
-        os.kill(os.getpid(), signal.SIGINT)  # to the main thread, which waits
+    has_ended = threading.Event()
 
-    told: list[str] = []
-    threading.Thread(target=interrupt, daemon=True).start()
+    def interrupt() -> None:
+        while not has_ended.wait(0.05):
+            if waits_in(Page.wait):
+                os.kill(os.getpid(), signal.SIGINT)  # to the main thread
+                has_ended.wait(5)  # a wait misses one that comes as it begins
+
+    interrupting = threading.Thread(target=interrupt, daemon=True)
+    interrupting.start()
     page = cabin_study().show()
-    assert page.link in told[0]
+    has_ended.set()
+    interrupting.join()
+    assert page.link in capsys.readouterr().out
     assert status(page.link) is None
+
+
+def waits_in(function) -> bool:
+    """Whether the main thread waits for an event in a function: its wait, that of a condition."""
+    frames = [sys._current_frames()[threading.main_thread().ident or 0]]
+    while frames[-1].f_back and len(frames) < 3:
+        frames.append(frames[-1].f_back)
+    return frames[-1].f_code is function.__code__
 
 
 def test_a_vehicle_without_a_road_is_shown_too(notebook):
