@@ -15,11 +15,11 @@ def nodes_15(labels, places, definition=0, motion=0) -> str:
     return block(15, *rows)
 
 
-def nodes_2411(labels, places, motion=0, exponent="D") -> str:
+def nodes_2411(labels, places, motion=0, part=0) -> str:
     rows = []
     for label, place in zip(labels, places, strict=True):
-        rows.append(f"{label:10d}{0:10d}{motion:10d}{1:10d}")
-        rows.append("".join(f"{v:25.16E}" for v in place).replace("E", exponent))
+        rows.append(f"{label:10d}{part:10d}{motion:10d}{1:10d}")
+        rows.append("".join(f"{v:25.16E}" for v in place).replace("E", "D"))
     return block(2411, *rows)
 
 

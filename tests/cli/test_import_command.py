@@ -4,28 +4,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from free_network import CORNERS, HEXA, LABELS, MASSES, free_network, held_frequencies
-from network_op2 import network_op2
+from free_network import CORNERS, LABELS, MASSES, free_network, held_frequencies
+from network_files import network_op2, network_unv
 from op2_files import Op2
-from universal_files import elements_2412, nodes_2411, shape_55, shape_2414, units_164
+from universal_files import nodes_2411, shape_55, shape_2414, units_164
 
 from modeviz.cli import main
 from modeviz.files import read_vehicle
 from modeviz.units import INCH, POUND, STANDARD_GRAVITY
 
 SHARED = Path(__file__).parents[3] / "shared/data/s2_uff_test_models"
-
-
-def network_file(modal_masses=None, units="", write=shape_2414, n_modes=24, first=0) -> str:
-    """A universal file of the free network, in mm and t."""
-    network = free_network()
-    masses = np.ones(24) if modal_masses is None else modal_masses
-    text = units + nodes_2411(LABELS, CORNERS) + elements_2412((115, HEXA))
-    for mode in range(first, n_modes):
-        shape = network.shapes[:, :, mode] * np.sqrt(masses[mode])
-        frequency = network.frequency_hz[mode]
-        text += write(LABELS, shape, frequency, masses[mode], mode=mode + 1)
-    return text
 
 
 @pytest.fixture
@@ -60,8 +48,8 @@ MODAL_MASSES = np.geomspace(0.1, 10, 24)
 @pytest.mark.parametrize(
     ("name", "content"),
     [
-        ("block.unv", network_file(MODAL_MASSES, write=shape_55)),
-        ("block.unv", network_file(MODAL_MASSES, write=shape_2414)),
+        ("block.unv", network_unv(MODAL_MASSES, write=shape_55)),
+        ("block.unv", network_unv(MODAL_MASSES, write=shape_2414)),
         ("block.op2", network_op2(Op2(), masses=MODAL_MASSES)),
         ("block.op2", network_op2(Op2(">", 8), masses=MODAL_MASSES)),
     ],
@@ -90,7 +78,7 @@ def test_an_imported_body_on_springs_has_the_frequencies_of_its_full_matrices(
 
 def test_mass_and_centre_of_gravity_are_those_of_the_structure(tmp_path, file, capsys):
     folder = tmp_path / "vehicle"
-    arguments = [file(network_file()), "--output", str(folder), "--units", "mm-t-s"]
+    arguments = [file(network_unv()), "--output", str(folder), "--units", "mm-t-s"]
     assert main(["import", *arguments]) == 0
     (body,) = read_vehicle(folder).bodies
     assert body.mass == pytest.approx(1000 * MASSES.sum(), rel=1e-4)
@@ -114,7 +102,7 @@ def test_how_stiff_its_modes_make_an_attachment_is_that_of_a_free_body_under_a_f
     row = 3 * int(np.flatnonzero(LABELS == 23)[0])
     expected = 1 / np.diag(compliance)[row : row + 3]
     folder = str(tmp_path / "vehicle")
-    main(["import", file(network_file()), "--output", folder, "--units", "mm-t-s", "--attach", "23"])
+    main(["import", file(network_unv()), "--output", folder, "--units", "mm-t-s", "--attach", "23"])
     found = re.search(r"modes are \[(.*)\] N/mm stiff there", capsys.readouterr().out)[1]
     np.testing.assert_allclose([float(v) for v in found.split(", ")], expected, rtol=1e-3)
 
@@ -131,14 +119,14 @@ def test_how_stiff_its_modes_make_an_attachment_is_that_of_a_free_body_under_a_f
 )
 def test_units_that_are_named_are_those_of_the_body(tmp_path, file, name, length, mass):
     folder = tmp_path / "vehicle"
-    main(["import", file(network_file()), "--output", str(folder), "--units", name, "--attach", "a=24"])
+    main(["import", file(network_unv()), "--output", str(folder), "--units", name, "--attach", "a=24"])
     (body,) = read_vehicle(folder).bodies
     assert body.mass == pytest.approx(MASSES.sum() * mass, rel=1e-4)
     np.testing.assert_allclose(body.attachment("a").position, CORNERS[-1] * length)
 
 
 def test_units_that_a_file_says_need_not_be_named_and_are_held_against_the_name(tmp_path, file, capsys):
-    path = file(network_file(units=units_164(9, "USER_DEFINED", 1000.0, 1.0)))
+    path = file(network_unv(units=units_164(9, "USER_DEFINED", 1000.0, 1.0)))
     folder = tmp_path / "vehicle"
     assert main(["import", path, "--output", str(folder)]) == 0
     assert read_vehicle(folder).bodies[0].mass == pytest.approx(1000 * MASSES.sum(), rel=1e-4)
@@ -147,11 +135,11 @@ def test_units_that_a_file_says_need_not_be_named_and_are_held_against_the_name(
 
 
 def test_units_are_asked_for_and_not_guessed(tmp_path, file, capsys):
-    text = refused(capsys, file(network_file()), "--output", tmp_path / "vehicle")
+    text = refused(capsys, file(network_unv()), "--output", tmp_path / "vehicle")
     assert "doesn't say its units" in text
     assert "mm-t-s" in text
     unknown = refused(
-        capsys, file(network_file()), "--output", tmp_path / "vehicle", "--units", "furlong"
+        capsys, file(network_unv()), "--output", tmp_path / "vehicle", "--units", "furlong"
     )
     assert "found the units 'furlong'" in unknown
     assert not (tmp_path / "vehicle").exists()
@@ -160,7 +148,7 @@ def test_units_are_asked_for_and_not_guessed(tmp_path, file, capsys):
 def test_attachments_by_node_by_name_and_at_the_nearest_node(tmp_path, file, capsys):
     folder = tmp_path / "vehicle"
     attach = ["--attach", "22", "--attach", "seat=14", "--attach", "left rear = 990, 4, 3"]
-    main(["import", file(network_file()), "--output", str(folder), "--units", "mm-t-s", *attach])
+    main(["import", file(network_unv()), "--output", str(folder), "--units", "mm-t-s", *attach])
     (body,) = read_vehicle(folder).bodies
     positions = {a.name: (1000 * a.position).round(9).tolist() for a in body.attachments}
     assert positions == {
@@ -174,7 +162,7 @@ def test_attachments_by_node_by_name_and_at_the_nearest_node(tmp_path, file, cap
 
 def test_what_is_to_be_filled_in_reads_as_it_stands(tmp_path, file):
     folder = tmp_path / "vehicle"
-    arguments = [file(network_file()), "--output", str(folder), "--units", "mm-t-s", "--attach", "11"]
+    arguments = [file(network_unv()), "--output", str(folder), "--units", "mm-t-s", "--attach", "11"]
     main(["import", *arguments])
     assert tomllib.loads((folder / "vehicle.toml").read_text())["name"] == "vehicle"
     uncommented(folder / "vehicle.toml")
@@ -186,7 +174,7 @@ def test_what_is_to_be_filled_in_reads_as_it_stands(tmp_path, file):
 
 def test_a_second_import_adds_a_body_and_leaves_what_was_written(tmp_path, file):
     folder = tmp_path / "vehicle"
-    first = [file(network_file()), "--output", str(folder), "--units", "mm-t-s"]
+    first = [file(network_unv()), "--output", str(folder), "--units", "mm-t-s"]
     main(["import", *first, "--name", "frame"])
     written = (folder / "vehicle.toml").read_text() + "# mine\n"
     (folder / "vehicle.toml").write_text(written)
@@ -200,7 +188,7 @@ def test_a_second_import_adds_a_body_and_leaves_what_was_written(tmp_path, file)
 
 def test_a_body_whose_name_is_taken_is_refused_and_nothing_changes(tmp_path, file, capsys):
     folder = tmp_path / "vehicle"
-    arguments = [file(network_file()), "--output", str(folder), "--units", "mm-t-s"]
+    arguments = [file(network_unv()), "--output", str(folder), "--units", "mm-t-s"]
     main(["import", *arguments])
     before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     assert "has a body 'block' already" in refused(capsys, *arguments)
@@ -212,7 +200,7 @@ def test_a_vehicle_that_cannot_be_read_is_left_as_it_was(tmp_path, file, capsys)
     folder = tmp_path / "vehicle"
     folder.mkdir()
     (folder / "vehicle.toml").write_text('name = "x"\nwrong = 1\n')
-    arguments = [file(network_file()), "--output", str(folder), "--units", "mm-t-s"]
+    arguments = [file(network_unv()), "--output", str(folder), "--units", "mm-t-s"]
     text = refused(capsys, *arguments)
     assert f"{folder}/vehicle.toml: wrong: unknown key" in text
     assert [path.name for path in folder.iterdir()] == ["vehicle.toml"]
@@ -221,18 +209,18 @@ def test_a_vehicle_that_cannot_be_read_is_left_as_it_was(tmp_path, file, capsys)
 def test_a_folder_of_something_else_is_left_alone(tmp_path, file, capsys):
     (tmp_path / "photos").mkdir()
     (tmp_path / "photos" / "a.png").write_text("")
-    text = refused(capsys, file(network_file()), "--output", tmp_path / "photos", "--units", "mm-t-s")
+    text = refused(capsys, file(network_unv()), "--output", tmp_path / "photos", "--units", "mm-t-s")
     assert "is no vehicle folder" in text
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (network_file(np.zeros(24)), "the modal mass of 24 of its 24 modes is not in the file"),
-        (network_file(first=6), "0 of its modes are near zero Hz"),
-        (network_file(first=2), "4 of its modes are near zero Hz"),
+        (network_unv(np.zeros(24)), "the modal mass of 24 of its 24 modes is not in the file"),
+        (network_unv(first=6), "0 of its modes are near zero Hz"),
+        (network_unv(first=2), "4 of its modes are near zero Hz"),
         (nodes_2411(LABELS, CORNERS), "it has no modes"),
-        (network_file(np.full(24, 1e-30)), "the modal mass of 24 of its 24 modes"),
+        (network_unv(np.full(24, 1e-30)), "the modal mass of 24 of its 24 modes"),
         (network_op2(Op2(), unstable=20), "1 of its modes are unstable"),
         (shape_55([1], np.ones((1, 3)), 0.0), "none of the nodes that it moves has a place"),
         (
@@ -270,13 +258,13 @@ def test_a_test_systems_modes_are_listed_with_what_is_unknown(capsys):
 )
 def test_wrong_attachments_are_refused(tmp_path, file, capsys, arguments, words):
     folder = tmp_path / "vehicle"
-    common = [file(network_file()), "--output", folder, "--units", "mm-t-s"]
+    common = [file(network_unv()), "--output", folder, "--units", "mm-t-s"]
     assert words in refused(capsys, *common, *arguments)
     assert not folder.exists()
 
 
 def test_options_of_a_body_that_is_not_written_are_refused(file, capsys):
-    assert "say where with --output" in refused(capsys, file(network_file()), "--attach", "11")
+    assert "say where with --output" in refused(capsys, file(network_unv()), "--attach", "11")
 
 
 def test_files_of_no_known_format_are_refused(tmp_path, capsys):
@@ -287,7 +275,7 @@ def test_files_of_no_known_format_are_refused(tmp_path, capsys):
 
 def test_an_imported_solid_is_drawn_by_its_outer_faces_and_moves_with_its_nodes(tmp_path, file):
     folder = tmp_path / "vehicle"
-    main(["import", file(network_file()), "--output", str(folder), "--units", "mm-t-s"])
+    main(["import", file(network_unv()), "--output", str(folder), "--units", "mm-t-s"])
     (body,) = read_vehicle(folder).bodies
     (surface,) = body.mesh
     assert len(surface.faces) == 12
@@ -295,6 +283,28 @@ def test_an_imported_solid_is_drawn_by_its_outer_faces_and_moves_with_its_nodes(
     turning = body.shapes[:, 3:, : body.n_rigid]
     np.testing.assert_allclose(turning - turning[:1], 0, atol=1e-6 * np.abs(turning).max())
     assert np.abs(turning).max() > 0
+
+
+def test_rotations_of_the_file_are_radians_whatever_its_unit_of_length(tmp_path, file):
+    """Those of the rigid modes, which follow from their translations, are the rigid motion's."""
+    network = free_network()
+    turns = np.cross(np.eye(3), CORNERS[:, None])  # θ × r about each axis, of each mass
+    G = np.concatenate([np.tile(np.eye(3), (8, 1, 1)), turns.transpose(0, 2, 1)], axis=2)
+    text = nodes_2411(LABELS, CORNERS)
+    for mode in range(24):
+        shape = np.zeros((8, 6))
+        shape[:, :3] = network.shapes[:, :, mode]
+        if mode < 6:
+            shape[:, 3:] = np.linalg.lstsq(G.reshape(24, 6), shape[:, :3].ravel(), rcond=None)[0][3:]
+        text += shape_55(LABELS, shape, network.frequency_hz[mode], mode=mode + 1)
+    folder = tmp_path / "vehicle"
+    main(["import", file(text), "--output", str(folder), "--units", "mm-t-s", "--attach", "24"])
+    vehicle = read_vehicle(folder)
+    (body,) = vehicle.bodies
+    (attachment,) = body.attachments
+    (expected,) = body.rigid_fit.moved(attachment.position[None])
+    np.testing.assert_allclose(attachment.shapes[:, :6], expected, rtol=1e-3, atol=1e-4)
+    assert np.abs(expected[3:]).max() > 0.01
 
 
 def test_damping_ratios_of_the_file_are_the_bodys(tmp_path, file):

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from free_network import CORNERS, HEXA, LABELS, free_network
-from network_op2 import network_op2
+from network_files import network_op2
 from op2_files import COMPLEX_MODES, MODES, Op2
 
 from modeviz.errors import VehicleError
@@ -248,6 +248,12 @@ def test_what_grdset_says_holds_where_a_grid_says_nothing(read):
     frame = "CORD2R,5,,10.,0.,0.,10.,0.,1.\n,11.,0.,0.\n"
     deck = f"GRDSET,,5,,,,5\n{frame}GRID,1,,1.,0.,0.\nGRID,2,0,1.,0.,0.,0\n"
     np.testing.assert_allclose(read(deck=deck).nodes, [[11, 0, 0], [1, 0, 0]])
+
+
+def test_places_in_a_sphere_are_by_the_angle_from_its_axis_and_that_about_it(read):
+    deck = "CORD2S,1,,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\nGRID,1,1,2.,90.,30.\nGRID,2,1,2.,30.,90.\n"
+    expected = [[1 + 3**0.5, 1, 0], [1, 1, 3**0.5]]
+    np.testing.assert_allclose(read(deck=deck).nodes, expected, atol=1e-12)
 
 
 def test_systems_given_by_grids_that_stand_in_other_systems(read):

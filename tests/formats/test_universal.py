@@ -193,7 +193,7 @@ def test_motions_along_a_cylinder_are_turned_at_each_node(read, write):
 
 def test_places_of_2411_are_basic_ones_whatever_system_their_motions_have(read):
     turned = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
-    text = frame_2420(4, 0, turned, [9.0, 9, 9]) + nodes_2411([1], [[1.0, 2, 3]], motion=4)
+    text = frame_2420(4, 0, turned, [9.0, 9, 9]) + nodes_2411([1], [[1.0, 2, 3]], 4, 4)
     component = read(text + shape_55([1], np.array([[1.0, 0, 0, 0, 1, 0]]), 5.0))
     np.testing.assert_array_equal(component.nodes, [[1, 2, 3]])
     np.testing.assert_allclose(component.modes.shapes[0, :, 0], [0, 1, 0, -1, 0, 0], atol=1e-12)

@@ -1,8 +1,9 @@
-"""The free network as Nastran writes it."""
+"""The free network as other programs write it."""
 
 import numpy as np
 from free_network import CORNERS, HEXA, LABELS, free_network
 from op2_files import MODES, Op2
+from universal_files import elements_2412, nodes_2411, shape_2414
 
 
 def network_op2(op2: Op2, hertz=None, masses=None, unstable=None) -> bytes:
@@ -27,3 +28,15 @@ def network_op2(op2: Op2, hertz=None, masses=None, unstable=None) -> bytes:
         op2.table("LAMA", *op2.eigenvalues(*rows)),
         op2.table("OUGV1", *records),
     )
+
+
+def network_unv(modal_masses=None, units="", write=shape_2414, n_modes=24, first=0) -> str:
+    """A universal file of the free network, in mm and t."""
+    network = free_network()
+    masses = np.ones(24) if modal_masses is None else modal_masses
+    text = units + nodes_2411(LABELS, CORNERS) + elements_2412((115, HEXA))
+    for mode in range(first, n_modes):
+        shape = network.shapes[:, :, mode] * np.sqrt(masses[mode])
+        frequency = network.frequency_hz[mode]
+        text += write(LABELS, shape, frequency, masses[mode], mode=mode + 1)
+    return text
