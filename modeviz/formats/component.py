@@ -19,7 +19,7 @@ CORNERS: Mapping[ElementKind, int] = {
 
 
 LARGEST = 1e15
-"""Of shapes and modal masses, which are never less than one over it: no file has such in any units."""
+"""Of all numbers, and of modal masses one over the least: no file has such in any units."""
 
 
 @dataclass(frozen=True)
@@ -84,12 +84,9 @@ class Component:
     """The files, to say so."""
 
     def __post_init__(self) -> None:
-        if not _largest(self.modes.shapes) < LARGEST:
-            raise VehicleError(
-                f"the shapes have values that are not finite numbers, or are beyond {LARGEST:g}"
-            )
-        if np.isinf(self.nodes).any():
-            raise VehicleError("a node is at no finite place")
+        check_range("the shapes", self.modes.shapes)
+        check_range("the frequencies", self.modes.frequency_hz)
+        check_range("the places of nodes", self.nodes[self.has_place])
         if len(repeated := _repeated(self.node_ids)):
             raise VehicleError(f"node {repeated[0]} is there twice")
 
@@ -127,11 +124,20 @@ def rows_of(node_ids: Array, ids: Array) -> Array:
     return rows
 
 
-def _largest(shapes: Array) -> float:
-    """The largest size of a number in shapes, not a number if any is none; no copy is made of them."""
-    parts = (np.real(shapes), np.imag(shapes)) if np.iscomplexobj(shapes) else (shapes,)
+def check_range(what: str, numbers: Array) -> None:
+    """Checks that numbers are finite and not beyond `LARGEST`; no copy is made of them.
+
+    Args:
+        what: they are, in the plural.
+        numbers: real or complex, as many as there are.
+
+    Raises:
+        VehicleError: they are not.
+    """
+    parts = (np.real(numbers), np.imag(numbers)) if np.iscomplexobj(numbers) else (numbers,)
     ends = [end for part in parts for end in (part.max(initial=0), -part.min(initial=0))]
-    return float(np.max(ends))
+    if not np.max(ends) < LARGEST:
+        raise VehicleError(f"{what} have values that are not finite numbers, or beyond {LARGEST:g}")
 
 
 def _repeated(rising: Array) -> Array:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeviz.errors import VehicleError, listed
-from modeviz.formats.component import ElementKind
+from modeviz.formats.component import ElementKind, check_range
 from modeviz.formats.frames import BASIC, Frame, FrameKind, frame_of_points
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -32,6 +32,10 @@ class FrameCard:
     """(3, 3): the origin, a point on the z axis, one in the xz plane."""
     grids: tuple[int, ...] = ()
     """Instead of points."""
+
+    def __post_init__(self) -> None:
+        if self.points is not None:
+            check_range("the points of a coordinate system", self.points)
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,9 +70,7 @@ def sorted_grids(ids: Array, systems: Array, coordinates: Floats) -> tuple[Array
     if differs.any():
         raise VehicleError(f"GRID {ids[again[differs][0]]}: is there twice, and not alike")
     kept = np.delete(np.arange(len(ids)), again)
-    if not np.isfinite(coordinates).all():
-        bad = ids[~np.isfinite(coordinates).all(axis=1)][0]
-        raise VehicleError(f"GRID {bad}: its coordinates are not finite numbers")
+    check_range("the coordinates of grids", coordinates)
     return ids[kept], systems[kept], coordinates[kept]
 
 

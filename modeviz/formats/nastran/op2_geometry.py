@@ -119,8 +119,6 @@ def _frames(
     rows = _in_rows(whole[3:], width, "coordinate system")
     values = _numbers(_in_rows(real[3:], width, "coordinate system")[:, 4:], _is_double(whole))
     for (number, _, _, reference), points in zip(rows[:, :4].tolist(), values, strict=True):
-        if not np.isfinite(points).all():
-            raise VehicleError(f"coordinate system {number}: its points are not finite numbers")
         yield number, FrameCard(kind, reference, points.reshape(3, 3))
 
 

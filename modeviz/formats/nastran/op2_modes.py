@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.errors import VehicleError, located
+from modeviz.formats.component import check_range
 from modeviz.formats.nastran.op2_records import Table
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -103,8 +104,7 @@ def _shape(table: Table, number: int, whole: Array, real: Floats) -> tuple[Shape
     motions = values if is_grid.all() else values[is_grid]
     if is_complex:
         motions = _complex(motions[:, :6], motions[:, 6:], int(whole[8]))
-    if not np.isfinite(motions).all():
-        raise VehicleError(f"mode {whole[4]} has motions that are not finite numbers")
+    check_range(f"the motions of mode {whole[4]}", motions)
     eigenvalue = complex(real[5], real[6] if is_complex else 0.0)
     if not np.isfinite(eigenvalue):
         raise VehicleError(f"mode {whole[4]} has an eigenvalue that is no finite number")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeviz.errors import VehicleError, quoted
+from modeviz.formats.component import check_range
 from modeviz.vehicle.arrays import Floats
 
 DELIMITER = re.compile(rb"^ *-1[ \t\r]*$", re.MULTILINE)
@@ -131,8 +132,7 @@ def table(text: bytes, n_columns: int, what: str) -> Floats:
             f"found {len(found)} numbers, expected {n_columns} for each {what}; is the file cut?"
         )
     rows = found.reshape(-1, n_columns)
-    if not np.isfinite(rows).all():
-        raise VehicleError(f"found a {what} with values that are not finite numbers")
+    check_range(f"the numbers of a {what}", rows)
     return rows
 
 
