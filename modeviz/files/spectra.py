@@ -135,11 +135,11 @@ def _unit(column: str, unit: str, quantity: QuantityName, conventions: Conventio
 
 
 def _rising(rows: tuple[Row, ...], column: str) -> Floats:
-    """The frequencies; raises VehicleError unless each is above the one before."""
+    """The frequencies; raises VehicleError unless they rise, from above zero."""
     frequency = np.array([row.number(column, at_least=0) for row in rows])
-    wrong = np.flatnonzero(np.diff(frequency) <= 0)
+    wrong = np.flatnonzero(np.diff(frequency, prepend=0.0) <= 0)
     if wrong.size:
-        row, before = rows[wrong[0] + 1], frequency[wrong[0]]
+        row, before = rows[wrong[0]], np.concatenate([[0.0], frequency])[wrong[0]]
         raise VehicleError(
             f"{row.where(column)}: found {row.cells[column]} after {before:g}, expected rising values"
         )

@@ -116,6 +116,11 @@ def test_a_row_at_zero_is_left_out_and_said(read):
         ({"n (cycles/km)": N, "track": LEFT}, None, "column n: found the unit 'cycles/km'"),
         ({"n (cycles/m)": N, "track (m²/Hz)": LEFT}, None, "column track: found the unit 'm²/Hz'"),
         ({"n (cycles/m)": N, "track (m²)": LEFT}, None, "column track: found the unit 'm²'"),
+        (
+            {"n (cycles/m)": np.array([0.0, 0.0, 1.0]), "track": LEFT[:3]},
+            None,
+            "line 3, column n: found 0.0 after 0, expected rising values",
+        ),
         ({"track (m³)": LEFT}, None, "expected one column of frequencies"),
         ({"n (cycles/m)": N, "frequency_hz": N, "track": LEFT}, None, "expected one column of freq"),
         ({"n (cycles/m)": N}, None, "without left and right"),
