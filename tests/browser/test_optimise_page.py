@@ -1,5 +1,6 @@
 """Mounts optimised in the page."""
 
+import re
 from dataclasses import replace
 from functools import partial
 
@@ -215,7 +216,7 @@ def test_the_problem_is_changed_on_the_page(app, page):
     own = app.session.state.design.plan
     page.get_by_label("Normalised").uncheck()
     wait_for(page, f"{TEXT}.includes('plain sum')")
-    page.locator(".mv .pills label", has_text="B").click()
+    page.locator(".mv .pills label", has_text=re.compile("^B$")).click()
     wait_for(page, f"{TEXT}.includes('3 numbers to choose')")
     page.get_by_role("combobox", name="Hold mode").click()
     page.get_by_role("option", name="Cab yaw", exact=True).click()
