@@ -99,7 +99,7 @@ def read_vehicle(folder: Path | str) -> Vehicle:
         return replace(vehicle, notes=source.notes, file=str(path))
 
 
-def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
+def write_vehicle(vehicle: Vehicle, folder: Path | str) -> None:
     """Writes the vehicle as a folder, in place of a vehicle that is there.
 
     The same numbers give the same bytes on any machine.
@@ -107,6 +107,7 @@ def write_vehicle(vehicle: Vehicle, folder: Path) -> None:
     Raises:
         VehicleError: the folder holds something else, or cannot be written.
     """
+    folder = Path(folder)
     if folder.exists() and not _replaceable(folder):
         raise VehicleError(
             f"{folder}: is not a vehicle folder and nothing else, so it is not overwritten; "

@@ -30,12 +30,13 @@ def problem_text(problem: Problem) -> str:
     return to_toml(ProblemFileRecord(units=UNITS, problem=[ProblemRecord.of(problem)]))
 
 
-def read_problem(path: Path, vehicle: Vehicle) -> Problem:
+def read_problem(path: Path | str, vehicle: Vehicle) -> Problem:
     """The problem in a file, for a vehicle.
 
     Raises:
         VehicleError: the file is missing, damaged or wrong, or names what the vehicle does not have.
     """
+    path = Path(path)
     record = read_toml(path, ProblemFileRecord)
     with located(path):
         problem = record.problem[0].build()

@@ -3,13 +3,14 @@
 from functools import partial
 from os import PathLike
 from pathlib import Path
+from typing import get_args
 
 from modeviz.analysis.mode_tracking import solve_followed
 from modeviz.analysis.sensitivity import sensitivity
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.compute.threads import one_thread
 from modeviz.dynamics.band import Method
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, unknown
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.optimise.run import BUDGET
 from modeviz.optimise.search import prepare_search
@@ -107,12 +108,14 @@ class Study(StudyOutput):
             method: "enriched"; "classic": the paper's equation on the original modes; or "exact".
 
         Raises:
-            ModevizError: that frequency is not above zero.
+            ModevizError: that frequency is not above zero, or there is no such method.
             SolveError: the vehicle has no meaningful modes.
         """
         below = self.vehicle.highest_frequency if below_hz is None else below_hz
         if not 0 < below < float("inf"):
             raise ModevizError(f"below_hz: found {below:g}, expected a frequency above zero")
+        if method not in get_args(Method):
+            raise ModevizError(unknown("method", method, get_args(Method)))
         prepared = self._tuned.prepared_modes(below)
         return ModesTable(solve_followed(prepared, self.rates.by_group, method), below)
 

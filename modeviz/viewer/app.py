@@ -86,10 +86,10 @@ class App:
         self._title, self._dark = Title(server), dark
         first = first_state(vehicle, rates, conditions)
         self.session: Session = Session(vehicle, first, self._hear)
-        mistake = server.notices.mistake
-        self.optimiser: SearchTask = SearchTask(self.session, lambda: self._optimise.follow(), mistake)
-        self.trader: FrontTask = FrontTask(self.session, lambda: self._trade_off.follow(), mistake)
-        self.scatterer: ScatterTask = ScatterTask(self.session, lambda: self._scatter.follow(), mistake)
+        session, mistake = self.session, server.notices.mistake
+        self.search_task: SearchTask = SearchTask(session, lambda: self._optimise.follow(), mistake)
+        self.front_task: FrontTask = FrontTask(session, lambda: self._trade_off.follow(), mistake)
+        self.scatter_task: ScatterTask = ScatterTask(session, lambda: self._scatter.follow(), mistake)
         scripts.run(self._gui, "page/style.js", style_sheet())
         scripts.run(self._gui, "page/delivery.js")
         scripts.run(self._gui, "page/numbers.js")
@@ -154,9 +154,9 @@ class App:
 
     def end(self) -> None:
         """Ends the session, and what may be running in it."""
-        self.optimiser.close()
-        self.trader.cancel()
-        self.scatterer.cancel()
+        self.search_task.close()
+        self.front_task.cancel()
+        self.scatter_task.cancel()
         self.session.close()
 
     def close(self) -> None:
@@ -175,9 +175,9 @@ class App:
         with tabs.add_tab("Variants", viser.Icon.VERSIONS):
             self._variants = VariantsPanel(gui, session)
         with tabs.add_tab("Optimise", viser.Icon.TARGET_ARROW):
-            self._optimise = OptimisePanel(gui, session, self.optimiser, dark)
-            self._trade_off = TradeOffPanel(gui, session, self.trader)
-            self._scatter = ScatterPanel(gui, session, self.scatterer)
+            self._optimise = OptimisePanel(gui, session, self.search_task, dark)
+            self._trade_off = TradeOffPanel(gui, session, self.front_task)
+            self._scatter = ScatterPanel(gui, session, self.scatter_task)
         with tabs.add_tab("View", viser.Icon.EYE):
             self._view = ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
@@ -197,7 +197,7 @@ class App:
 
         right = gui.add_panel()
         with right.add_tab("Response", viser.Icon.CHART_LINE):
-            self._response = ResponsePanel(gui, session, self.scatterer, dark)
+            self._response = ResponsePanel(gui, session, self.scatter_task, dark)
             tabs = gui.add_tab_group()
             with tabs.add_tab("Modes", viser.Icon.WAVE_SINE):
                 self._modes = ModesPanel(gui, session)

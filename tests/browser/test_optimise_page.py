@@ -19,7 +19,7 @@ from modeviz.vehicle.default_problem import problems
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.session.commands.decisions import Load, SetRate
 from modeviz.viewer.session.planning.plan import first_plan, planned
-from modeviz.viewer.tasks import front_task as trader
+from modeviz.viewer.tasks import front_task
 
 TEXT = "document.body.textContent"
 BEST = "document.querySelector('.mv .goals b')?.textContent"
@@ -51,7 +51,7 @@ def original(app, page):
     app.session.do(Alter(variants={}, plan=plan))
     assert app.session.wait(SOLVE_S)
     yield
-    app.optimiser.close()
+    app.search_task.close()
 
 
 @pytest.fixture
@@ -65,15 +65,15 @@ def press(page, name):
 
 def start(app, page, reached):
     """Starts a search and waits until something is true of how it stands."""
-    before = app.optimiser.job  # of one that has ended: nothing of it changes any more
+    before = app.search_task.job  # of one that has ended: nothing of it changes any more
     press(page, "Start")
-    wait_until(page, lambda: app.optimiser.job is not before and reached(app.optimiser.job))
+    wait_until(page, lambda: app.search_task.job is not before and reached(app.search_task.job))
 
 
 def search(app, page):
     """Searches to the end; gives what was found."""
     start(app, page, lambda job: job.found)
-    found = app.optimiser.job.found
+    found = app.search_task.job.found
     wait_for(page, f"{BEST} === a.best && {TEXT}.includes('Converged')", best=significant(found.value))
     return found
 
@@ -96,16 +96,16 @@ def test_it_is_paused_goes_on_and_is_cancelled_with_the_best_design(app, page, h
     press(page, "Pause")
     wait_for(page, f"{TEXT}.includes('Paused')")
     held.set()
-    at = app.optimiser.job.progress.evaluations
+    at = app.search_task.job.progress.evaluations
     press(page, "Resume")
-    wait_until(page, lambda: app.optimiser.job.progress.evaluations > at)
+    wait_until(page, lambda: app.search_task.job.progress.evaluations > at)
 
 
 def test_cancel_keeps_the_best_design(app, page, held):
     start(app, page, lambda job: job.history)
     press(page, "Cancel")
     wait_for(page, f"{TEXT}.includes('Cancelled')")
-    look = app.optimiser.job
+    look = app.search_task.job
     assert app.session.state.design.rates == look.found.rates == look.progress.rates
 
 
@@ -270,7 +270,7 @@ def test_scattered_parts_shade_the_charts_until_a_rate_moves(app, page):
     chart = app._response._charts._plots[0]._chart
     assert not chart.bands
     press(page, "Scatter")
-    wait_until(page, lambda: app.scatterer.job and app.scatterer.job.found)
+    wait_until(page, lambda: app.scatter_task.job and app.scatter_task.job.found)
     wait_for(page, f"{TEXT}.includes('1000 vehicles')")
     wait_until(page, lambda: chart.bands)
     low, high, *_, now, _ = chart.data[1:]
@@ -281,12 +281,12 @@ def test_scattered_parts_shade_the_charts_until_a_rate_moves(app, page):
 
 
 def test_a_click_on_a_front_loads_its_design(app, page, monkeypatch):
-    monkeypatch.setattr(trader, "find_front", partial(trader.find_front, n_designs=4))
-    monkeypatch.setattr(trader, "N_STARTS", 1)
+    monkeypatch.setattr(front_task, "find_front", partial(front_task.find_front, n_designs=4))
+    monkeypatch.setattr(front_task, "N_STARTS", 1)
     press(page, "Find front")
-    wait_until(page, lambda: app.trader.job and app.trader.job.phase == "ended", seconds=120)
+    wait_until(page, lambda: app.front_task.job and app.front_task.job.phase == "ended", seconds=120)
     points = "document.querySelectorAll('.mv .front > div')"
-    designs = app.trader.job.found
+    designs = app.front_task.job.found
     wait_for(page, f"{points}.length === a.n", n=len(designs))
     page.locator(".mv .front label").nth(1).click()
     wait_until(page, lambda: app.session.state.design.rates == designs[1].rates)

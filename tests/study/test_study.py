@@ -16,6 +16,7 @@ from modeviz.analysis.sensitivity import frequency_sensitivity, ride_sensitivity
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.cli import main
 from modeviz.errors import ModevizError, VehicleError
+from modeviz.files.problem_file import problem_text
 from modeviz.report.records import Record
 from modeviz.study.study import Study
 from modeviz.vehicle.bodies import RigidBody
@@ -319,3 +320,19 @@ def test_a_study_says_what_there_is_to_ask_for(study):
         "72 km/h",
     ):
         assert word in words
+
+
+def test_a_method_that_is_not_there_is_refused_with_those_there_are():
+    with pytest.raises(
+        ModevizError, match=r"unknown method 'exat'.*there are enriched, classic, exact"
+    ):
+        cabin_study().modes(method="exat")
+
+
+def test_a_vehicle_and_a_problem_are_written_and_read_by_paths_in_words(tmp_path):
+    folder, file = str(tmp_path / "cabin"), tmp_path / "problem.toml"
+    vehicle = cabin_study().vehicle
+    mv.write_vehicle(vehicle, folder)
+    assert mv.read_vehicle(folder).rates == vehicle.rates
+    file.write_text(problem_text(vehicle.problems[0]), encoding="utf-8")
+    assert mv.read_problem(str(file), vehicle).name == vehicle.problems[0].name

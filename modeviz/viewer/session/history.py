@@ -1,10 +1,11 @@
 """What was decided before, and what was undone."""
 
 import time
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import TypeVar
 
+from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.state import State
 
 Value = TypeVar("Value")
@@ -26,11 +27,20 @@ class Change:
 class History:
     """The newest state, and the changes of its design that led there.
 
-    How one looks at a design is not gone back over, but for what was changed by deciding.
+    How one looks at a design is not gone back over, but for what was changed by deciding and was not
+    changed again since.
     """
 
-    def __init__(self, state: State) -> None:
-        """Starts with a state that cannot be undone."""
+    def __init__(
+        self, state: State, settled: Callable[[Design, State], State] = lambda _, state: state
+    ) -> None:
+        """Starts with a state that cannot be undone.
+
+        Args:
+            state: the first one.
+            settled: makes looks fit the design of a state that was gone to, given the design before.
+        """
+        self._settled = settled
         self._past: list[Change] = []
         self._future: list[Change] = []
         self.state: State = state
@@ -47,11 +57,13 @@ class History:
         """
         before, self.state = self.state, state
         if state.design == before.design:
-            self._look(before, state)
             return
         now = time.monotonic()
         goes_on = step is not None and step == self._step and now - self._changed_at < within
-        first = self._past.pop().before if goes_on and self._past else before
+        first = before
+        if goes_on and self._past:
+            change = self._past.pop()  # looks since then are no part of it
+            first = merged(change.before, change.after, before)
         self._past = [*self._past[1 - LONGEST :], Change(first, state)]
         self._future.clear()
         self._step, self._changed_at = step, now
@@ -71,28 +83,22 @@ class History:
         """Goes back; whether there was anything to go back to."""
         if not self._past:
             return False
-        change = self._past.pop()
-        self._future.append(change)
+        change, after = self._past.pop(), self.state
         self._go(change.after, change.before)
+        self._future.append(Change(self.state, after))
         return True
 
     def redo(self) -> bool:
         """Goes forward again; whether there was anything undone."""
         if not self._future:
             return False
-        change = self._future.pop()
-        self._past.append(change)
+        change, before = self._future.pop(), self.state
         self._go(change.before, change.after)
+        self._past.append(Change(before, self.state))
         return True
 
     def _go(self, old: State, new: State) -> None:
-        self.state, self._step = merged(self.state, old, new), None
-
-    def _look(self, old: State, new: State) -> None:
-        """Takes a look into the last change, which may go on: it is no part of it."""
-        if self._past:
-            last = self._past[-1]
-            self._past[-1] = Change(merged(last.before, old, new), merged(last.after, old, new))
+        self.state, self._step = self._settled(self.state.design, merged(self.state, old, new)), None
 
 
 def merged(value: Value, old: Value, new: Value) -> Value:

@@ -3,18 +3,29 @@
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from modeviz.analysis.preparation import Prepared
 from modeviz.errors import ModevizError
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Answers, Solved, asks_for_the_same
 from modeviz.viewer.session.commands.command import Command
+from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
 from modeviz.viewer.session.history import History
 from modeviz.viewer.session.inspector import Inspector
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.worker import Worker
+
+
+@dataclass(frozen=True, eq=False)
+class _Job:
+    """A state to be answered."""
+
+    state: State
+    drawing: int
+    """The number of the drawing that is asked for; one that was drawn already is only told on."""
 
 
 class Session:
@@ -34,13 +45,13 @@ class Session:
         self.vehicle = vehicle
         self._notify = notify
         self._lock = threading.Lock()
-        self._history = History(state)
+        self._history = History(state, self._settled)
         self._is_prepared = self._is_closed = False
-        self._is_to_be_drawn = True
+        self._n_drawings, self._n_drawn = 0, -1
         self._answer: Solved | None = None
         self._failure: Exception | None = None
         self._answers = Answers(vehicle)
-        self._worker: Worker[State] = Worker(self._solve, self._fail)
+        self._worker: Worker[_Job] = Worker(self._solve, self._fail)
         self._inspector = Inspector(self._answers, self._is_current, self._answer_again, self._fail)
 
     @property
@@ -77,7 +88,7 @@ class Session:
         self._answers.prepare(self.state, progress)
         with self._lock:
             self._is_prepared = True
-            self._worker.submit(self.state)
+            self._worker.submit(_Job(self.state, self._n_drawings))
 
     def do(self, command: Command) -> None:
         """Asks for what a command makes of the newest state; returns at once.
@@ -141,27 +152,28 @@ class Session:
     def _go(self, step: Callable[[], bool]) -> None:
         with self._lock:
             if step():
-                self._history.put(self.state.without_unknown_sets(self.vehicle))
                 self._submit()
+
+    def _settled(self, before: Design, state: State) -> State:
+        return state.with_known_sets(before, self.vehicle)
 
     def _submit(self) -> None:
         """Has the newest state answered and drawn, once the vehicle is prepared."""
-        self._is_to_be_drawn = True
+        self._n_drawings += 1
         if self._is_prepared:
-            self._worker.submit(self.state)
+            self._worker.submit(_Job(self.state, self._n_drawings))
 
     def _answer_again(self, is_to_be_drawn: bool) -> None:
         """Has the newest state answered with what is known by now, and drawn or only told."""
         with self._lock:
-            self._is_to_be_drawn |= is_to_be_drawn
-            self._worker.submit(self.state)
+            self._n_drawings += is_to_be_drawn
+            self._worker.submit(_Job(self.state, self._n_drawings))
 
-    def _solve(self, state: State) -> None:
-        with self._lock:
-            is_to_be_drawn, self._is_to_be_drawn = self._is_to_be_drawn, False
-        solved = self._answers.answer(state, self._inspector.findings)
+    def _solve(self, job: _Job) -> None:
+        solved = self._answers.answer(job.state, self._inspector.findings)
         self._answer, self._failure = solved, None
-        self._notify(Answered(solved) if is_to_be_drawn else Checked(solved))
+        self._notify(Answered(solved) if job.drawing > self._n_drawn else Checked(solved))
+        self._n_drawn = job.drawing
         self._inspector.submit(solved)
 
     def _fail(self, error: Exception) -> None:

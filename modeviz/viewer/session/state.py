@@ -95,11 +95,24 @@ class State:
     classic: bool = False
     """Whether the error of the classic method is shown beside."""
 
-    def without_unknown_sets(self, vehicle: Vehicle) -> "State":
-        """Return it compared with, and overlaid by, sets that there are."""
+    def with_known_sets(self, before: Design, vehicle: Vehicle) -> "State":
+        """Return it compared with, and overlaid by, sets that there are, by what they are called.
+
+        Args:
+            before: the design in which sets may have had other names.
+            vehicle: of the session.
+        """
         known = rate_sets(vehicle, self.design)
-        charts = replace(self.charts, overlaid=self.charts.overlaid & known.keys())
-        return replace(self, charts=charts, against=self.against if self.against in known else ORIGINAL)
+        renamed = {variant.number: name for name, variant in self.design.variants.items()}
+
+        def called(name: str) -> str:
+            variant = before.variants.get(name)
+            return renamed.get(variant.number, name) if variant and name not in known else name
+
+        overlaid = frozenset(map(called, self.charts.overlaid)) & known.keys()
+        against = called(self.against)
+        charts = replace(self.charts, overlaid=overlaid)
+        return replace(self, charts=charts, against=against if against in known else ORIGINAL)
 
 
 def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State:

@@ -7,6 +7,7 @@ from mounted_cabin import mounted_cabin
 from session_commands import altered
 
 from modeviz.analysis.results import Conditions
+from modeviz.errors import VehicleError
 from modeviz.vehicle.connections import MountRates
 from modeviz.viewer.session.commands import decisions, looks
 from modeviz.viewer.session.commands.command import Command
@@ -142,6 +143,26 @@ def test_what_is_called_otherwise_is_compared_and_drawn_under_its_new_name(state
 )
 def test_what_there_is_not_or_is_the_vehicles_own_is_left_alone(state, command):
     assert done(state, command) == state
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        decisions.SetRate("Z", "lateral", 1e5),
+        decisions.SetLossFactor("Z", 0.1),
+        decisions.TakeRates({"Z": RATES}),
+        decisions.LinkRates("Z", True),
+        decisions.ToggleLock("Z", "lateral"),
+        decisions.ResetRate("Z", "lateral"),
+        looks.SelectGroup("Z"),
+        looks.ShowBody("Z", True),
+        looks.Drive(road="Z"),
+    ],
+    ids=name_of,
+)
+def test_what_the_vehicle_does_not_have_is_refused(state, command):
+    with pytest.raises(VehicleError, match=r"unknown .*'Z'"):
+        done(state, command)
 
 
 @pytest.mark.parametrize("before", ["none", "rest"])

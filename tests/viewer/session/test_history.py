@@ -163,6 +163,19 @@ def test_a_look_in_the_midst_of_a_drag_neither_parts_it_nor_is_undone_with_it(cl
     assert not bench.history.can_undo
 
 
+def test_looks_after_a_decision_that_changed_them_stay_when_it_is_undone_and_done_again():
+    bench = Bench(0)
+    bench.look(against="Soft")
+    gone = altered(bench.state, variants={"Mine": Variant({}, 0)}, against="Original")
+    bench.history.put(gone)
+    bench.look(against="Stiff")
+    bench.history.undo()
+    assert bench.state.against == "Stiff"
+    bench.look(unit="lbf/in")
+    bench.history.redo()
+    assert (bench.state.against, bench.state.unit) == ("Stiff", "lbf/in")
+
+
 def test_what_a_decision_changed_of_the_looks_is_undone_with_it_unless_it_was_changed_again():
     bench = Bench(0)
     pinned = altered(bench.state, variants={"Mine": Variant({}, 0)}, against="Mine", group="B")

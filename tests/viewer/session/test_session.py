@@ -13,8 +13,16 @@ from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.errors import SolveError
 from modeviz.vehicle.connections import MountRates
-from modeviz.viewer.session.commands.decisions import AddVariant, Forget, Pin, SetRate, Swap, TakeRates
-from modeviz.viewer.session.commands.looks import CompareWith, Drive, Overlay, ShowMode
+from modeviz.viewer.session.commands.decisions import (
+    AddVariant,
+    Forget,
+    Pin,
+    Rename,
+    SetRate,
+    Swap,
+    TakeRates,
+)
+from modeviz.viewer.session.commands.looks import ChangeCharts, CompareWith, Drive, Overlay, ShowMode
 from modeviz.viewer.session.notifications import Answered
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
@@ -334,6 +342,39 @@ def test_a_set_whose_pinning_is_undone_is_compared_with_no_longer(session):
     session.start()
     assert session.wait(20)
     assert session.answers[-1].base.rates == session.vehicle.rates
+
+
+def test_looks_at_a_set_follow_its_name_back_and_forth_through_undo_and_redo(session):
+    session.do(SetRate("A", "lateral", 1e5))
+    session.do(Pin("Mine"))
+    session.do(CompareWith("Mine"))
+    session.do(Rename("Mine", "Yours"))
+    session.do(Overlay("Yours", True))
+    for step, name in ((session.undo, "Mine"), (session.redo, "Yours"), (session.undo, "Mine")):
+        step()
+        assert (session.state.against, session.state.charts.overlaid) == (name, {name})
+    session.undo()
+    assert (session.state.against, session.state.charts.overlaid) == ("Original", frozenset())
+    session.redo()
+    assert (session.state.against, session.state.charts.overlaid) == ("Mine", {"Mine"})
+
+
+def test_what_is_asked_just_before_an_older_state_is_answered_is_drawn_all_the_same(session):
+    session.start()
+    assert session.wait_checked(60)
+    heard, answer = [], session._worker._work
+    session._notify = heard.append
+
+    def ask_first(job):
+        session._worker._work = answer
+        session.do(ChangeCharts(decibels=False))
+        answer(job)
+
+    session._worker._work = ask_first
+    session.do(ChangeCharts(log_frequency=True))
+    assert session.wait_checked(60)
+    drawn = [said.solved.state for said in heard if isinstance(said, Answered)]
+    assert drawn[-1] == session.state
 
 
 def test_pinned_sets_follow_the_road(session):

@@ -27,6 +27,7 @@ class SetRate(Command):
         return "rate", self.group, self.field
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.mount_group(self.group)
         design = state.design.with_rate(self.group, self.field, self.rate)
         return replace(state, design=design, group=self.group)
 
@@ -43,8 +44,8 @@ class SetLossFactor(Command):
         return "loss factor", self.group
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
-        rates = replace(state.design.rates[self.group], loss_factor=self.loss_factor)
-        plain = vehicle.mount_group(self.group).plain(rates)
+        group = vehicle.mount_group(self.group)
+        plain = group.plain(replace(state.design.rates[self.group], loss_factor=self.loss_factor))
         taken = TakeRates({self.group: plain}).apply(state, vehicle)
         return replace(taken, group=self.group)
 
@@ -56,6 +57,7 @@ class TakeRates(Command):
     rates: Rates
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.all_rates(self.rates)
         return _designed(state, rates={**state.design.rates, **self.rates})
 
 
@@ -80,6 +82,7 @@ class ResetRate(Command):
     """Of `MountRates`."""
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.mount_group(self.group)
         compared = getattr(compared_rates(vehicle, state)[self.group], self.field)
         rates = replace(state.design.rates[self.group], **{self.field: compared})
         return replace(state, design=state.design.with_rates({self.group: rates}))
@@ -93,6 +96,7 @@ class LinkRates(Command):
     linked: bool
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.mount_group(self.group)
         others = state.design.linked - {self.group}
         return _designed(state, linked=others | {self.group} if self.linked else others)
 
@@ -106,6 +110,7 @@ class ToggleLock(Command):
     """Of `MountRates`."""
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.mount_group(self.group)
         return _designed(state, locked=state.design.locked ^ {(self.group, self.field)})
 
 
@@ -150,7 +155,7 @@ class Forget(Command):
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         left = {n: variant for n, variant in state.design.variants.items() if n != self.name}
-        return _designed(state, variants=left).without_unknown_sets(vehicle)
+        return _designed(state, variants=left).with_known_sets(state.design, vehicle)
 
 
 @dataclass(frozen=True)
@@ -165,10 +170,7 @@ class Rename(Command):
         if name not in design.variants or new in rate_sets(vehicle, design):
             return state
         variants = {new if n == name else n: variant for n, variant in design.variants.items()}
-        overlaid = frozenset(new if n == name else n for n in state.charts.overlaid)
-        renamed = replace(state, charts=replace(state.charts, overlaid=overlaid))
-        against = new if state.against == name else state.against
-        return replace(_designed(renamed, variants=variants), against=against)
+        return _designed(state, variants=variants).with_known_sets(design, vehicle)
 
 
 @dataclass(frozen=True)

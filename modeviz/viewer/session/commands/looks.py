@@ -106,6 +106,7 @@ class ShowBody(Command):
     drawn: bool
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.body(self.name)
         hidden = state.look.hidden - {self.name} if self.drawn else state.look.hidden | {self.name}
         return replace(state, look=replace(state.look, hidden=hidden))
 
@@ -157,6 +158,8 @@ class Drive(Command):
     speed: float | None = None
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
+        if self.road is not None:
+            vehicle.random_load(self.road)
         return replace(state, conditions=_changed(state.conditions, self))
 
 
@@ -167,6 +170,8 @@ class SelectGroup(Command):
     group: str
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
+        if self.group:
+            vehicle.mount_group(self.group)
         return replace(state, group=self.group)
 
 
