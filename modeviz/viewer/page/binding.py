@@ -1,4 +1,4 @@
-"""A widget and the part of the state that it shows, and how each brings the other after it.
+"""Hears a widget and changes the part of the state that it shows; brings the widget after the state.
 
 Whatever changes the state (another page, undo, a loaded set), `show` brings the widget after it. A
 value that the page itself sent is not sent back while it moves.

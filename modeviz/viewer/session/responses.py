@@ -1,4 +1,7 @@
-"""What the charts show: the response to the road or to a wheel load, with every set that is drawn."""
+"""What panels draw in the charts, made of an answer: responses to the road or to a wheel load.
+
+With every set that is drawn.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
