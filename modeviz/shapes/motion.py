@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import KDTree
 
 from modeviz.vehicle.arrays import Array, Floats
-from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
+from modeviz.vehicle.bodies import Body, RigidBody
 
 N_CARRIERS = 4
 """How many nodes carry a vertex."""
@@ -41,10 +41,21 @@ def vertex_shapes(body: Body, vertices: Floats) -> NDArray[np.float32]:
     if isinstance(body, RigidBody):
         shapes = _carried(np.eye(6)[None], vertices - body.center_of_gravity)
         return _coordinates_first(shapes.astype(np.float32))
-    nearest, weights = _carriers(body, vertices)
-    shapes = np.zeros((len(vertices), 3, body.n_modes), np.float32)
+    return node_carried_shapes(body.nodes, body.shapes, vertices)
+
+
+def node_carried_shapes(nodes: Floats, motions: Array, vertices: Floats) -> NDArray[np.float32]:
+    """The displacement of every vertex that follows its nearest nodes, as `vertex_shapes` does.
+
+    Args:
+        nodes: (n_nodes, 3), m.
+        motions: (n_nodes, 6, n_coordinates), real: of the nodes in every coordinate.
+        vertices: (n_vertices, 3), m.
+    """
+    nearest, weights = _carriers(nodes, vertices)
+    shapes = np.zeros((len(vertices), 3, motions.shape[2]), np.float32)
     for node, weight in zip(nearest.T, weights.T, strict=True):
-        shapes += weight[:, None, None] * _carried(body.shapes[node], vertices - body.nodes[node])
+        shapes += weight[:, None, None] * _carried(motions[node], vertices - nodes[node])
     return _coordinates_first(shapes)
 
 
@@ -101,10 +112,10 @@ def default_amplitude(shapes: Sequence[Array], areas: Sequence[Floats], length: 
     return DRAWN_FRACTION * length / large
 
 
-def _carriers(body: FlexibleBody, vertices: Floats) -> tuple[NDArray[np.intp], Floats]:
+def _carriers(nodes: Floats, vertices: Floats) -> tuple[NDArray[np.intp], Floats]:
     """The nodes that carry each vertex and their weights, (n_vertices, n_carriers), rows sum to one."""
-    n_carriers = min(N_CARRIERS, len(body.nodes))
-    found = KDTree(body.nodes).query(vertices, k=n_carriers)
+    n_carriers = min(N_CARRIERS, len(nodes))
+    found = KDTree(nodes).query(vertices, k=n_carriers)
     distance, nearest = (np.reshape(f, (len(vertices), n_carriers)) for f in found)
     weights = 1 / np.maximum(distance, SAME_PLACE) ** 2
     coincident = distance[:, 0] < SAME_PLACE

@@ -42,6 +42,7 @@ from modeviz.viewer.panels.view import ViewPanel
 from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import DARK, LIGHT
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.coloring import color_scale
 from modeviz.viewer.session.commands.decisions import Swap
 from modeviz.viewer.session.commands.looks import SelectGroup
 from modeviz.viewer.session.design import variant_name
@@ -241,7 +242,7 @@ class App:
             vehicle = self.session.vehicle
             self._title.show(vehicle.name, variant_name(vehicle, solved.state.design))
             self._response.show(solved)
-            self._animation.show(solved)
+            self._animation.show(solved.movement, color_scale(solved))
             self._shape.show(solved)
             self._status.show(solved)
             self._opener.show(solved.state.group)

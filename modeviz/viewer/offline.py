@@ -26,6 +26,7 @@ from modeviz.viewer.panels.peaks import strongest
 from modeviz.viewer.panels.plots import Line, Scale, level_axis, level_range
 from modeviz.viewer.scene.driver import DRIVER
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.coloring import color_scale
 from modeviz.viewer.session.responses import Responses, curve_label
 from modeviz.viewer.session.state import ResponseCurve
 from modeviz.viewer.session.wheel_responses import NOW
@@ -69,7 +70,7 @@ def _content(solved: Solved, name: str) -> str:
     return block(
         f"<h1>{title(moving.title)}  {moving.frequency_hz:.2f} Hz</h1>",
         f'<p class="dim">{escape(vehicle.name)}, {escape(name)}; {escape(moving.about)}</p>',
-        color_scale_text(solved),
+        color_scale_text(color_scale(solved)),
         MOTION,
         _charts(solved),
         f"<h2>Modes</h2>{_modes(solved)}",

@@ -7,30 +7,40 @@ value that the page itself sent is not sent back while it moves.
 import threading
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, Generic, Protocol, TypeVar
 
 import viser
 
 from modeviz.errors import ModevizError
 from modeviz.viewer.page.write_back import WriteBack
-from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
 
 Read = Callable[[State], Any]
 Write = Callable[[Any], None]
 
+S = TypeVar("S", covariant=True)
+
 READ_WITHIN = 8.0
 """s: how long the word on a refused value stays."""
 
 
-class Binding:
-    """One widget bound to one value of a session's state."""
+class HasState(Protocol[S]):
+    """Whoever owns a state."""
+
+    @property
+    def state(self) -> S:
+        """The newest one."""
+        ...
+
+
+class Binding(Generic[S]):
+    """One widget bound to one value of a state."""
 
     def __init__(
         self,
         widget: viser.GuiInputHandle[Any],
-        session: Session,
-        read: Read,
+        owner: HasState[S],
+        read: Callable[[S], Any],
         write: Write,
         write_back: WriteBack | None = None,
         typed: bool = False,
@@ -39,14 +49,14 @@ class Binding:
 
         Args:
             widget: a slider, number, checkbox, dropdown or text.
-            session: whose state it shows.
+            owner: of the state it shows.
             read: the widget's value of a state; the same value again for what the widget wrote.
             write: changes the state as a value of the widget asks; raises ModevizError to refuse one,
                 which is told to the page that sent it.
             write_back: of a slider, whose last value a page may lose.
             typed: whether values are typed, so that only the last of them is meant; with `write_back`.
         """
-        self._widget, self._session, self._read, self._write = widget, session, read, write
+        self._widget, self._owner, self._read, self._write = widget, owner, read, write
         self._known = widget.value
         self._write_back, self._typed = write_back, typed
         self._lock = threading.Lock()
@@ -72,14 +82,14 @@ class Binding:
                 client.add_notification(
                     "Not possible", str(refusal), color="red", auto_close_seconds=READ_WITHIN
                 )
-            self._known = self._read(self._session.state)
+            self._known = self._read(self._owner.state)
             if self._known != asked:  # else a newer value that is on its way here would be lost
                 self._widget.value = self._known
 
     def show(self) -> None:
         """Puts the newest state's value on the page, if the widget has another."""
         with self._lock:
-            value = self._read(self._session.state)
+            value = self._read(self._owner.state)
             # of a dropdown whose options change viser itself chooses another
             is_dropdown = isinstance(self._widget, viser.GuiDropdownHandle)
             if value != (self._widget.value if is_dropdown else self._known):
@@ -87,7 +97,7 @@ class Binding:
                 self._widget.value = value
 
 
-def show_all(bindings: Sequence[Binding]) -> None:
+def show_all(bindings: Sequence[Binding[Any]]) -> None:
     """Brings widgets after the newest state."""
     for binding in bindings:
         binding.show()

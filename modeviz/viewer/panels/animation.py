@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from html import escape
+from typing import Protocol
 
 import numpy as np
 import viser
@@ -13,11 +14,35 @@ from modeviz.viewer.page.html import block, heading, title
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.scene.driver import ShapeDriver
-from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.coloring import ColorScale
 
 START_SPEED_HZ = 0.5
 START_PHASE = 90.0
 PLAY, PAUSE, PREVIOUS, NEXT = "Play", "Pause", "◀ Mode", "Mode ▶"
+
+
+class Moving(Protocol):
+    """What moves, as the card names it."""
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        ...
+
+    @property
+    def frequency_hz(self) -> float:
+        """At which it moves."""
+        ...
+
+    @property
+    def about(self) -> str:
+        """What else to know, short."""
+        ...
+
+    @property
+    def problem(self) -> str:
+        """Why this is not what was asked for; "" if it is."""
+        ...
 
 
 class AnimationCard:
@@ -69,13 +94,12 @@ class AnimationCard:
         driver.drive(frequency_hz=START_SPEED_HZ, running=True)
         self._is_running = True
 
-    def show(self, solved: Solved) -> None:
-        """Names what moves in an answer."""
-        moving = solved.movement
+    def show(self, moving: Moving, scale: ColorScale | None) -> None:
+        """Names what moves, and says what the colours of bodies mean, if they do."""
         hertz = f"  {moving.frequency_hz:.2f} Hz" if moving.frequency_hz > 0 else ""
         name = f'<span class="title">{title(moving.title)}{hertz}</span>'
         problem = f'<div class="bad">{_said(moving.problem)}</div>' if moving.problem else ""
-        content = block(heading(name, escape(moving.about)), color_scale_text(solved), problem)
+        content = block(heading(name, escape(moving.about)), color_scale_text(scale), problem)
         assign(self._head, content=content)
 
     def toggle(self, client: viser.ClientHandle | None) -> None:

@@ -1,13 +1,11 @@
 """What the colours of bodies mean, as page text."""
 
 from modeviz.shapes.colors import COLOR_STOPS
-from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.coloring import color_scale
+from modeviz.viewer.session.coloring import ColorScale
 
 
-def color_scale_text(solved: Solved) -> str:
+def color_scale_text(scale: ColorScale | None) -> str:
     """The scale of the colours on one line; nothing if bodies have their own."""
-    scale = color_scale(solved)
     if scale is None:
         return ""
     return (

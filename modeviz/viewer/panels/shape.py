@@ -19,6 +19,7 @@ from modeviz.viewer.page.html import HiddenButtons, block, heading, hinted, row,
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.coloring import color_scale
 from modeviz.viewer.session.commands.looks import ChangeMotion
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import MotionKind, State
@@ -120,7 +121,7 @@ class ShapePanel:
         assign(self._frequency, visible=is_operating)
         assign(self._body, visible=is_alone)
         assign(self._number, visible=is_alone)
-        assign(self._scale, content=block(color_scale_text(solved)))
+        assign(self._scale, content=block(color_scale_text(color_scale(solved))))
         if not solved.is_detailed:
             return
         self._peaks_hz = _peaks(solved) if is_operating else {}

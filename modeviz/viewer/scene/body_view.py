@@ -1,14 +1,16 @@
 """A body as it is drawn: its surface, and the outlines that are its ghost unless it is rigid."""
 
 from collections.abc import Mapping
+from typing import Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import displacement, vertex_shapes
-from modeviz.shapes.surface import outlines, surface, vertex_areas
+from modeviz.shapes.surface import Surface, outlines, surface, vertex_areas
 from modeviz.vehicle.arrays import Array, Floats
-from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
+from modeviz.vehicle.bodies import Body, RigidBody
 from modeviz.viewer.scene.driver import AT_REST, ShapeDriver
 from modeviz.viewer.scene.stage import Theme
 
@@ -21,19 +23,36 @@ SEE_THROUGH = 0.5
 class DrawnBody:
     """A body's meshes in the page, and what moves them."""
 
-    def __init__(self, driver: ShapeDriver, body: Body, theme: Theme) -> None:
-        """Draws a body at rest."""
-        self.name: str = body.name
-        part = body.name.replace("/", "-")
+    def __init__(
+        self,
+        driver: ShapeDriver,
+        name: str,
+        drawn: Surface,
+        shapes: NDArray[np.float32],
+        theme: Theme,
+        *,
+        is_rigid: bool = False,
+        is_sheet: bool = False,
+        has_ghost: bool = True,
+    ) -> None:
+        """Draws a body at rest.
+
+        Args:
+            driver: of the page.
+            name: of the body.
+            drawn: its surface.
+            shapes: (n_coordinates, n_vertices, 3), how that moves, from `vertex_shapes`.
+            theme: of the scene.
+            is_rigid: whether its coordinates are x, y, z, rx, ry, rz.
+            is_sheet: whether it hides others, is seen through, and its edges are drawn.
+            has_ghost: whether it has outlines.
+        """
+        self.name: str = name
+        part = name.replace("/", "-")
         self.path: str = f"/vehicle/{part}"
         self._ghost_path = f"/ghost/{part}"
-        self._driver = driver
-        self._is_rigid = isinstance(body, RigidBody)
-        self._is_sheet = body.role in SHEET_ROLES
-        # Those of axles, wheels and engine would be many lines that tell little.
-        self._has_ghost = self._is_sheet or isinstance(body, FlexibleBody)
-        drawn = surface(body.mesh)
-        self._shapes = vertex_shapes(body, drawn.vertices)
+        self._driver, self._shapes = driver, shapes
+        self._is_rigid, self._is_sheet, self._has_ghost = is_rigid, is_sheet, has_ghost
         self.areas: Floats = vertex_areas(drawn)
         edge_color = theme.edges if self._is_sheet else None
         driver.add(self.path, glb(drawn, edge_color), len(drawn.vertices), cast_shadow=True)
@@ -41,6 +60,23 @@ class DrawnBody:
             ghost, kept = outlines(drawn)
             self._ghost_shapes = self._shapes[:, kept]
             driver.add(self._ghost_path, glb(ghost, theme.ghost), len(ghost.vertices))
+
+    @classmethod
+    def of(cls, driver: ShapeDriver, body: Body, theme: Theme) -> Self:
+        """Return a body of a vehicle, drawn at rest."""
+        drawn = surface(body.mesh)
+        is_rigid, is_sheet = isinstance(body, RigidBody), body.role in SHEET_ROLES
+        return cls(
+            driver,
+            body.name,
+            drawn,
+            vertex_shapes(body, drawn.vertices),
+            theme,
+            is_rigid=is_rigid,
+            is_sheet=is_sheet,
+            # Those of axles, wheels and engine would be many lines that tell little.
+            has_ghost=is_sheet or not is_rigid,
+        )
 
     def displacement(self, coordinates: Array) -> Array:
         """Return the displacement of every vertex, (n_vertices, 3), of the coordinates' type."""

@@ -52,7 +52,7 @@ class Scene:
         self._server = server
         self._stage = Stage(server.scene, self._box, theme)
         self.driver: ShapeDriver = ShapeDriver(server.scene)
-        self._bodies = [DrawnBody(self.driver, body, theme) for body in vehicle.bodies if body.mesh]
+        self._bodies = [DrawnBody.of(self.driver, body, theme) for body in vehicle.bodies if body.mesh]
         self._markers = Markers(server.scene, vehicle, theme, self._box.length, on_select)
         self._cameras = Cameras(server, self._box)
 

@@ -188,8 +188,8 @@ class Stage:
     """Light, background and ground of a scene."""
 
     def __init__(self, scene: viser.SceneApi, box: Box, theme: Theme) -> None:
-        """Sets the stage for a vehicle of that size."""
-        self._scene = scene
+        """Sets the stage for a vehicle of that size, which stands on z = 0."""
+        self._scene, self._theme = scene, theme
         self._colored: bool | None = None
         scene.set_up_direction("+z")
         scene.world_axes.visible = False
@@ -207,8 +207,12 @@ class Stage:
         self._sky = scene.add_light_hemisphere(
             "/light/sky", sky_color=(244, 248, 255), ground_color=(150, 150, 150)
         )
-        _add_ground(scene, box, theme)
+        self.lay_ground(box)
         self.light(colored=False)
+
+    def lay_ground(self, box: Box, height: float = 0.0) -> None:
+        """Lays the ground for what takes that space, at a height, m."""
+        _add_ground(self._scene, box, self._theme, height)
 
     def light(self, colored: bool) -> None:
         """Lights shining bodies, or dimmer ones whose colours mean something."""
@@ -227,13 +231,13 @@ def _gradient(theme: Theme) -> np.ndarray:
     return np.repeat(colors.round().astype(np.uint8), 16, axis=1)
 
 
-def _add_ground(scene: viser.SceneApi, box: Box, theme: Theme) -> None:
+def _add_ground(scene: viser.SceneApi, box: Box, theme: Theme, height: float) -> None:
     cell = _round_length(box.length / 10)
     scene.add_grid(
         "/ground",
         width=2 * cell * round(1.3 * box.length / cell),
         height=2 * cell * round(0.95 * box.length / cell),
-        position=(float(box.middle[0]), float(box.middle[1]), 0.0),
+        position=(float(box.middle[0]), float(box.middle[1]), height),
         cell_size=cell,
         section_size=2 * cell,
         cell_color=theme.cells,

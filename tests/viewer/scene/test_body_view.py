@@ -33,7 +33,7 @@ class Driver:
 def test_every_flexible_body_has_outlines_that_are_put_away():
     driver = Driver()
     bodies = builtin_truck().bodies
-    drawn = [DrawnBody(driver, body, LIGHT) for body in bodies if body.mesh]
+    drawn = [DrawnBody.of(driver, body, LIGHT) for body in bodies if body.mesh]
     outlines = {path for path in driver.visible if path.startswith("/ghost/")}
     assert outlines == {f"/ghost/{body.name}" for body in bodies if isinstance(body, FlexibleBody)}
     for body in drawn:
