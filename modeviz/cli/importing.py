@@ -94,13 +94,11 @@ def _known(value: float, form: str) -> str:
 def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) -> str:
     """Return what an engineer can compare with what they know of a body that was written."""
     _, inertia = body.rigid_fit.mass_about_center_of_gravity
-    m = body.rigid_fit.mass
-    center = np.array([m[1, 5], m[2, 3], m[0, 4]]) / body.mass
     elastic = body.natural_frequency_hz[body.n_rigid :][:5]
     n_elastic = body.n_modes - body.n_rigid
     lines = [
         f"{folder}: body {body.name!r}, {body.n_rigid} rigid and {n_elastic} elastic modes",
-        f"mass {body.mass:.5g} kg, centre of gravity {_places(center)} m, "
+        f"mass {body.mass:.5g} kg, centre of gravity {_places(body.center_of_gravity)} m, "
         f"moments of inertia {_places(np.diag(inertia))} kg m²",
         f"first elastic modes {', '.join(f'{f:.4g}' for f in elastic) or 'none'} Hz",
     ]

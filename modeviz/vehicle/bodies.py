@@ -209,6 +209,11 @@ class FlexibleBody:
         return float(np.trace(self.rigid_fit.mass[:3, :3]) / 3)
 
     @property
+    def center_of_gravity(self) -> Floats:
+        """(3,), m, as its rigid modes say."""
+        return self.rigid_fit.center_of_gravity
+
+    @property
     def natural_frequency_hz(self) -> Floats:
         """(n_modes,)."""
         return np.sqrt(self.omega_n_squared) / (2 * np.pi)

@@ -39,13 +39,17 @@ class RigidFit:
         return T.T @ T
 
     @property
+    def center_of_gravity(self) -> Floats:
+        """(3,), m."""
+        m = self.mass
+        twice = [m[1, 5] - m[2, 4], m[2, 3] - m[0, 5], m[0, 4] - m[1, 3]]
+        return np.array(twice) / (2 * np.trace(m[:3, :3]) / 3)
+
+    @property
     def mass_about_center_of_gravity(self) -> tuple[Floats, Floats]:
         """Masses along x, y, z and the tensor of inertia, (3, 3) each, kg and kg m²."""
-        m = self.mass
-        weight = np.trace(m[:3, :3]) / 3
-        center = np.array([m[1, 5] - m[2, 4], m[2, 3] - m[0, 5], m[0, 4] - m[1, 3]]) / (2 * weight)
-        T = rigid_motions(-center)
-        about = T.T @ m @ T
+        T = rigid_motions(-self.center_of_gravity)
+        about = T.T @ self.mass @ T
         return about[:3, :3], about[3:, 3:]
 
     def moved(self, positions: Floats) -> Floats:
