@@ -10,10 +10,11 @@ from modeviz.cli.command import Command
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
-from modeviz.formats.attachments import Found, find_attachments, parse_place
+from modeviz.formats.attachments import Found, find_attachments
 from modeviz.formats.body import chosen_units, flexible_body, static_stiffness, uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
 from modeviz.formats.into_folder import add_body
+from modeviz.formats.places import FORMS, parse_place
 from modeviz.formats.reading import read_component
 from modeviz.report.tables import table
 from modeviz.units import factor
@@ -139,8 +140,7 @@ def _add_options(command: ArgumentParser) -> None:
         "--attach",
         action="append",
         metavar="PLACE",
-        help="where others hold on to it: a node's number, NAME=NODE, or NAME=X,Y,Z in the file's "
-        "units for the nearest node; may be repeated",
+        help=f"where others hold on to it: {FORMS}; may be repeated",
     )
 
 

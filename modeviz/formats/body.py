@@ -6,7 +6,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, listed, quoted
 from modeviz.files.modal import with_zeros
-from modeviz.formats.attachments import Found
+from modeviz.formats.attachments import LOOSE, Found
 from modeviz.formats.component import LARGEST, UNIT_SYSTEMS, Component, UnitSystem
 from modeviz.formats.surface import display_mesh
 from modeviz.vehicle.arrays import Array, Floats
@@ -133,13 +133,16 @@ def flexible_body(
         omega_n_squared=omega_n_squared,
         n_residuals=0,
         damping_ratio=_damping(modes.damping_ratio[omega_n_squared > 0]),
-        attachments=tuple(Attachment(a.name, places[a.row], normalised[a.row]) for a in attachments),
+        attachments=tuple(Attachment(a.name, a.position, a.shapes(normalised)) for a in attachments),
         nodes=places[kept],
         shapes=normalised[kept],
         mesh=mesh,
     )
-    at_solids = [a.name for a in attachments if is_turned[a.row]]
-    return body, tuple(_remarks(n_near_zero, modes.frequency_hz, at_solids, thinned))
+    remarks = [
+        *_remarks(n_near_zero, modes.frequency_hz, thinned),
+        *_attachment_remarks(attachments, places, normalised, is_turned),
+    ]
+    return body, tuple(remarks)
 
 
 def _with_rigid_rotations(shapes: Floats, places: Floats, placed: Array, is_rigid: Array) -> Array:
@@ -173,14 +176,36 @@ def _damping(ratios: Floats) -> float | tuple[float, ...]:
     return USUAL_DAMPING_RATIO
 
 
-def _remarks(n_near_zero: int, frequency_hz: Floats, solid: list[str], thinned: int) -> Iterator[str]:
+def _remarks(n_near_zero: int, frequency_hz: Floats, thinned: int) -> Iterator[str]:
     if n_near_zero:
         largest = np.abs(frequency_hz[:n_near_zero]).max()
         yield (f"{n_near_zero} modes are near zero, up to {largest:.1g} Hz; taken for the rigid ones")
-    if solid:
-        yield (
-            f"the nodes of {listed(solid)} have no rotations in the file: taken to turn as the body "
-            "does in its rigid modes, and not as it deforms"
-        )
     if thinned:
         yield f"{thinned:,} nodes are left out of what moves the drawing, which its neighbours carry"
+
+
+def _attachment_remarks(
+    attachments: Sequence[Found], places: Floats, shapes: Floats, is_turned: Array
+) -> Iterator[str]:
+    """Sentences on attachments whose nodes do not say all of their motion.
+
+    Args:
+        attachments: of the body.
+        places: (n_nodes, 3), m.
+        shapes: (n_nodes, 6, n_modes), in SI.
+        is_turned: which nodes have no rotations of their own.
+    """
+    if solid := [a.name for a in attachments if len(a.rows) == 1 and is_turned[a.rows[0]]]:
+        yield (
+            f"the nodes of {listed(solid)} have no rotations in the file: taken to turn as the body "
+            "does in its rigid modes, and not as it deforms; a set of nodes (NAME=mean:NODE,NODE,…) "
+            "has them"
+        )
+    for attachment in attachments:
+        apart = attachment.looseness(places, shapes) if attachment.is_rigid else 0.0
+        if apart > LOOSE:
+            yield (
+                f"the nodes of {quoted(attachment.name)} are to be one rigid piece, and part from it "
+                f"by {100 * apart:.0f} % of their motion: the modes were computed without it; the "
+                "attachment moves as the piece nearest to them"
+            )

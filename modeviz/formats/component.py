@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from modeviz.errors import VehicleError
+from modeviz.formats.node_sets import NodeSet
 from modeviz.units import UNITS
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -82,6 +83,8 @@ class Component:
     """What was left out or taken otherwise than it stands, a sentence each."""
     source: str = field(default="", kw_only=True)
     """The files, to say so."""
+    node_sets: Mapping[str, NodeSet] = field(default_factory=dict, kw_only=True)
+    """Sets of its nodes that carry a point, by name: "RBE2:901"."""
 
     def __post_init__(self) -> None:
         check_range("the shapes", self.modes.shapes)
@@ -104,6 +107,11 @@ class Component:
     def has_place(self) -> Array:
         """Whether each node has a place, (n_nodes,)."""
         return np.asarray(np.isfinite(self.nodes).all(axis=1))
+
+    @property
+    def has_rotations(self) -> Array:
+        """Whether each node turns in a mode, (n_nodes,): those of solids do not."""
+        return np.asarray(self.modes.shapes[:, 3:].any(axis=(1, 2)))
 
     def rows(self, ids: Array) -> Array:
         """Return the rows of nodes of those ids; raises VehicleError for one that is not there."""

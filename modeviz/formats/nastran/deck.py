@@ -9,10 +9,13 @@ from modeviz.errors import VehicleError, located
 from modeviz.formats.component import CORNERS, ElementKind
 from modeviz.formats.nastran.bulk import Card, cards
 from modeviz.formats.nastran.model import CORNERS_OF, FRAME_CARDS, FrameCard, Model, sorted_grids
+from modeviz.formats.nastran.rigid_elements import NAMES as SET_CARDS
+from modeviz.formats.nastran.rigid_elements import node_set
+from modeviz.formats.node_sets import NodeSet
 from modeviz.vehicle.arrays import Array
 
 FRAMES = frozenset(f"CORD{n}{kind}" for n in "12" for kind in FRAME_CARDS)
-NAMES = frozenset({"GRID", "GRDSET", "EIGRL", "EIGR", "PARAM", *FRAMES, *CORNERS_OF})
+NAMES = frozenset({"GRID", "GRDSET", "EIGRL", "EIGR", "PARAM", *FRAMES, *CORNERS_OF, *SET_CARDS})
 """The cards that are read."""
 
 AFTER_ID = frozenset({"CONROD", "PLOTEL"})
@@ -36,6 +39,7 @@ def _model(every: Iterator[Card]) -> Model:
     elements: dict[ElementKind, list[list[int]]] = {}
     norms: list[str] = []
     notes: list[str] = []
+    node_sets: dict[str, NodeSet] = {}
     for card in every:
         if card.name == "GRID":
             grids.append(card)
@@ -47,6 +51,8 @@ def _model(every: Iterator[Card]) -> Model:
             norms.append(_norm(card))
         elif card.name == "PARAM":
             notes += _parameter(card)
+        elif card.name in SET_CARDS:
+            node_sets.update(filter(None, [node_set(card)]))
         elif corners := _corners(card):
             elements.setdefault(CORNERS_OF[card.name], []).append(corners)
     if not grids:
@@ -63,6 +69,7 @@ def _model(every: Iterator[Card]) -> Model:
         {kind: _rows(kind, corners) for kind, corners in elements.items()},
         is_mass_normalised=bool(norms) and set(norms) == {"MASS"},
         notes=tuple(notes),
+        node_sets=node_sets,
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from modeviz.errors import VehicleError, listed
 from modeviz.formats.component import ElementKind, check_range
 from modeviz.formats.frames import BASIC, Frame, FrameKind, frame_of_points
+from modeviz.formats.node_sets import NodeSet
 from modeviz.vehicle.arrays import Array, Floats
 
 CORNERS_OF: Mapping[str, ElementKind] = {
@@ -54,6 +55,8 @@ class Model:
     is_mass_normalised: bool = False
     """Whether the modes are asked for with a modal mass of one."""
     notes: tuple[str, ...] = field(default=())
+    node_sets: Mapping[str, NodeSet] = field(default_factory=dict)
+    """Sets of grids that carry a point, by name: "RBE2:901"."""
 
 
 def sorted_grids(ids: Array, systems: Array, coordinates: Floats) -> tuple[Array, Array, Floats]:

@@ -83,7 +83,14 @@ def _without_modes(model: Model, places: Floats, has_results: bool) -> Component
     elements: dict[ElementKind, Array] = {
         kind: rows_of(model.ids, corners) for kind, corners in model.elements.items()
     }
-    return Component(model.ids, places, elements, modes, notes=(*model.notes, missing))
+    return Component(
+        model.ids,
+        places,
+        elements,
+        modes,
+        notes=(*model.notes, missing),
+        node_sets=model.node_sets,
+    )
 
 
 def _component(model: Model, places: Floats, frames: dict, results: _Results) -> Component:
@@ -108,7 +115,8 @@ def _component(model: Model, places: Floats, frames: dict, results: _Results) ->
     if (np.diff(order) != 1).any():
         array = array[:, :, order]
     modes = Modes(frequency[order], masses[order], damping[order], array)
-    return Component(ids, placed, _elements(model, ids), modes, notes=tuple(notes))
+    elements = _elements(model, ids)
+    return Component(ids, placed, elements, modes, notes=tuple(notes), node_sets=model.node_sets)
 
 
 def _common_ids(modes: Sequence[Shape]) -> Array:
