@@ -85,7 +85,7 @@ def test_without_a_table_of_eigenvalues_the_input_says_the_modal_masses():
 def test_a_frequency_response_has_geometry_and_no_modes():
     component = read_nastran([SHARED / "freq_solid_shell_bar.op2"])
     assert component.n_modes == 0
-    assert "the OP2 file has no modes" in component.notes
+    assert "the file of results has no modes" in component.notes
     assert len(component.node_ids) == 25
 
 
@@ -187,7 +187,7 @@ def test_an_op2_file_without_geometry_is_listed(read):
     component = read(shaped(OP2.header(MODES, 1, 400.0)).replace(GEOMETRY, b""))
     assert component.n_modes == 1
     assert not component.has_place.any()
-    assert component.notes == ("the OP2 file has no geometry (GEOM1): give the input file too",)
+    assert component.notes == ("the file of results has no geometry: give the input file too",)
 
 
 def test_an_unstable_mode_has_a_frequency_below_zero(read):
@@ -211,6 +211,81 @@ def test_other_subcases_are_left_out_and_told(read):
     component = read(op2.file(op2.table("GEOM1", op2.grids(SQUARE)), op2.table("OUGV1", *records)))
     assert component.n_modes == 1
     assert any("1 modes of other subcases than 1" in note for note in component.notes)
+
+
+def sorted_by_grid(op2: Op2, grids, motions, eigenvalues=(100.0, 400.0), kind=1) -> bytes:
+    """A table of modes in SORT2: motions (n_grids, n_modes, 6)."""
+    records = []
+    for grid, rows in zip(grids, motions, strict=True):
+        records.append(op2.header(MODES, 10 * grid + 2, 0.0, sort=2))
+        records.append(b"".join(op2.words(i, kind, *map(float, row)) for i, row in enumerate(rows, 1)))
+    return op2.table("OUGV2", *records)
+
+
+@pytest.mark.parametrize("op2", [Op2(), Op2(">", 8)])
+def test_modes_sorted_by_grid_are_those_sorted_by_mode(read, op2):
+    motions = np.arange(48.0).reshape(4, 2, 6)
+    geometry = op2.table("GEOM1", op2.grids(SQUARE))
+    lama = op2.table("LAMA", *op2.eigenvalues((1, 100.0, 0.0, 2.0), (2, 400.0, 0.0, 3.0)))
+    scalar = sorted_by_grid(op2, [9], motions[:1], kind=2)
+    component = read(op2.file(geometry, lama, sorted_by_grid(op2, [1, 2, 3, 4], motions), scalar))
+    np.testing.assert_allclose(component.modes.shapes, motions.transpose(0, 2, 1))
+    np.testing.assert_allclose(component.modes.frequency_hz, np.array([10, 20]) / (2 * np.pi))
+    np.testing.assert_allclose(component.modes.modal_mass, [2, 3])
+
+
+def test_modes_sorted_by_grid_without_their_eigenvalues_are_refused(read):
+    op2 = Op2()
+    with pytest.raises(VehicleError, match="its eigenvalue is in no table"):
+        read(op2.file(sorted_by_grid(op2, [1], np.ones((1, 2, 6)))))
+
+
+def test_superelements_that_have_a_table_each_are_one_component(read):
+    """Grid 2 is in both, as on their boundary."""
+    op2 = Op2()
+    tables = []
+    for grids, motion in (([1, 2], 1.0), ([2, 3, 4], 3.0)):
+        own = [grid for grid in SQUARE if grid[0] in grids]
+        tables.append(op2.table("GEOM1S", op2.grids(own)))
+        tables.append(op2.table("GEOM2S", op2.words(3001, 30, 48, grids[0], 1, *grids[:2])))
+        shape = op2.shape(grids, np.full((len(grids), 6), motion))
+        tables.append(op2.table("OUGV1", op2.header(MODES, 1, 400.0), shape))
+    component = read(op2.file(*tables))
+    assert component.n_modes == 1
+    assert component.modes.shapes[:, 0, 0].tolist() == [1, 1, 3, 3]
+    assert component.elements["line"].tolist() == [[0, 1], [1, 2]]
+    assert component.notes == ()
+
+
+def test_elements_that_are_there_twice_are_drawn_once(read):
+    op2 = Op2()
+    rod = op2.table("GEOM2", op2.words(3001, 30, 48, 7, 1, 1, 2))
+    component = read(op2.file(op2.table("GEOM1", op2.grids(SQUARE)), rod, rod))
+    assert component.elements["line"].tolist() == [[0, 1]]
+
+
+@pytest.mark.parametrize(
+    ("key", "kind", "before", "width"),
+    [
+        ((7708, 77, 9960), "hexa", 3, 23),  # CHEXAL, of layers
+        ((7108, 71, 9961), "wedge", 3, 18),
+        ((14000, 140, 9990), "hexa", 2, 22),  # CHEXAFD, of hyperelastic material
+        ((16100, 161, 9986), "tetra", 2, 12),
+        ((16200, 162, 9987), "triangle", 2, 8),
+        ((13900, 139, 9989), "quad", 2, 11),
+        ((5701, 57, 981), "quad", 2, 16),  # CPLSTN4, of plane strain
+        ((15418, 154, 0), "line", 2, 27),  # CBEAM3
+    ],
+)
+def test_variants_of_elements_are_drawn(read, key, kind, before, width):
+    op2 = Op2()
+    grids = [(i, 0, place, 0) for i, place in enumerate(CORNERS, 1)]
+    corners = list(range(1, {"line": 3, "triangle": 4, "quad": 5, "tetra": 5, "wedge": 7}.get(kind, 9)))
+    elements = [[n, 1, 0][:before] + corners for n in (1, 2)]
+    words = [word for element in elements for word in element + [0] * (width - len(element))]
+    geometry = op2.table("GEOM1", op2.grids(grids))
+    component = read(op2.file(geometry, op2.table("GEOM2", op2.words(*key, *words))))
+    assert (component.elements[kind] + 1).tolist() == [corners, corners]
 
 
 def test_complex_modes_have_damping_and_no_modal_mass(read):
@@ -274,13 +349,56 @@ def test_files_that_are_included_are_found_beside_those_that_include_them(tmp_pa
     assert read_nastran([tmp_path / "a.bdf"]).node_ids.tolist() == [1, 2]
 
 
+def test_a_file_included_before_the_bulk_data_may_be_missing(read):
+    """As one with changes to the solution sequence, which stays where the solver is."""
+    deck = "SOL 103\nINCLUDE '/dmap/changes.v9'\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\nENDDATA\n"
+    component = read(deck=deck + "INCLUDE 'after the end'\n")
+    assert component.node_ids.tolist() == [1]
+    assert any("changes.v9: there is no such file; it is before" in note for note in component.notes)
+
+
+def test_files_that_are_included_may_stand_beside_the_first(tmp_path):
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "a.bdf").write_text("INCLUDE 'parts/b.bdf'\n")
+    (tmp_path / "parts" / "b.bdf").write_text("INCLUDE 'parts/c.bdf'\n")
+    (tmp_path / "parts" / "c.bdf").write_text("GRID,2,,2.,2.,2.\n")
+    assert read_nastran([tmp_path / "a.bdf"]).node_ids.tolist() == [2]
+
+
+def test_superelements_of_the_input_are_left_out_and_told(read):
+    deck = "CEND\nBEGIN BULK\nBEGIN BULK\nGRID,1,,0.,0.,0.\nBEGIN SUPER=5\nGRID,1,,9.,9.,9.\n"
+    component = read(deck=deck)
+    assert component.nodes.tolist() == [[0, 0, 0]]
+    assert any("1 superelements" in note for note in component.notes)
+
+
+def test_cards_that_say_how_they_differ_from_the_one_before(read):
+    """By the guide's example: = is the field before, *(x) that and x more, =n how often."""
+    deck = (
+        "GRID,101,17,1.0,10.5,,17,3456\n=,*1,=,*.2,==\n=3\n"
+        "CORD2R,17,,0.,0.,0.,0.,0.,1.,+C\n+C,1.,0.,0.\n"
+        "GRID    201             0.      5.      0.\n=       *(10)   =       *(2.5)  ==\n"
+        "FORCE,1,101,,1.\n=,=,*1,==\nCBAR,1,1,101,102,0.,0.,1.\n=,*(1),=,*(1),*(1),==\n=(2)\n"
+    )
+    component = read(deck=deck)
+    assert component.node_ids.tolist() == [*range(101, 106), 201, 211]
+    np.testing.assert_allclose(component.nodes[:5, 0], [1.0, 1.2, 1.4, 1.6, 1.8])
+    np.testing.assert_allclose(component.nodes[5:], [[0, 5, 0], [2.5, 5, 0]])
+    assert component.elements["line"].tolist() == [[0, 1], [1, 2], [2, 3], [3, 4]]
+
+
+def test_free_fields_with_marks_of_continuations_and_with_blanks_after_a_name(read):
+    deck = "CORD2R, 5, , 0., 0., 0., 0., 0., 1., +C1,\n+C1, 0., 1., 1.\nGRID   1,5,1.,0.,0.\n"
+    np.testing.assert_allclose(read(deck=deck).nodes, [[0, 1, 0]], atol=1e-12)
+
+
 def test_corners_of_elements(read):
     grids = "".join(f"GRID,{i},,{i}.,0.,0.\n" for i in range(1, 31))
     deck = grids + (
         "CHEXA,1,1,1,2,3,4,5,6,+A\n+A,7,8,9,10,11,12,13,14,+B\n+B,15,16,17,18,19,20\n"
         "CPENTA,2,1,1,2,3,4,5,6\nCTETRA,3,1,1,2,3,4,5,6\n,7,8,9,10\nCPYRAM,4,1,1,2,3,4,5\n"
         "CQUAD8,5,1,1,2,3,4,5,6\n,7,8\nCTRIA6,6,1,1,2,3,4,5,6\n"
-        "CBAR,7,1,1,2,0.,0.,1.\nCONROD,8,3,4,1,1.\nPLOTEL,9,5,6\nCBUSH,10,1,7\nCELAS2,11,1.,1,1\n"
+        "CBAR,7,1,1,2,0.,0.,1.\nCONROD,8,3,4,1,1.\nPLOTEL,9,5,6,,10,7,8\nCBUSH,10,1,7\nCELAS2,11,1.,1,1\n"
     )
     component = read(deck=deck)
     found = {k: component.node_ids[c].tolist() for k, c in component.elements.items()}
@@ -291,7 +409,7 @@ def test_corners_of_elements(read):
         "pyramid": [[1, 2, 3, 4, 5]],
         "quad": [[1, 2, 3, 4]],
         "triangle": [[1, 2, 3]],
-        "line": [[1, 2], [3, 4], [5, 6]],
+        "line": [[1, 2], [3, 4], [5, 6], [7, 8]],
     }
 
 
@@ -344,11 +462,11 @@ WHOLE = shaped(OP2.header(MODES, 1, 400.0))
         (shaped(OP2.header(MODES, 1, np.nan)), "no finite number"),
         (
             shaped(OP2.header(MODES, 1, 4.0), np.nan),
-            "the motions of mode 1 have values",
+            "mode 1: its motions have values",
         ),
         (shaped(OP2.header(MODES, 1, 4.0, width=2_000_000_000)), "2000000000"),
-        (shaped(OP2.header(MODES, 1, 4.0, sort=2)), "SORT1"),
-        (OP2.file(), "has neither geometry (GEOM1) nor modes"),
+        (shaped(OP2.header(COMPLEX_MODES, 1, 4.0, width=14, sort=2)), "expected a multiple of 14"),
+        (OP2.file(), "has neither geometry nor modes"),
         (placed(OP2.grids([*SQUARE, (1, 0, (9, 9, 9), 0)])), "GRID 1: is there twice"),
         (placed(OP2.grids([(1, 0, (np.inf, 0, 0), 0)])), "not finite"),
         (placed(OP2.grids([(1, 77, (0, 0, 0), 0)])), "coordinate systems 77"),
@@ -382,6 +500,8 @@ def test_damaged_op2_files_are_refused_in_a_sentence(read, content, words):
         ("INCLUDE 'a.bdf\n", "its quote does not end"),
         ("INCLUDE '/dev/zero'\n", "cannot be read"),
         ("GRID,1\0\0\n", "found no text"),
+        ("GRID,1,,0.,0.,0.\n=,*x,==\n", "found '1' to be increased by 'x'"),
+        ("GRID,1,,0.,0.,0.\n=,*1,==\n=(900000000)\n", "is repeated 900,000,000 times"),
     ],
 )
 def test_damaged_decks_are_refused_in_a_sentence(read, deck, words):

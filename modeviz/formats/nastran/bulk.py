@@ -1,16 +1,17 @@
 """The cards of a Nastran input file, with those of the files it includes.
 
 After MSC Nastran's Quick Reference Guide, "The Bulk Data Section": small, large and free fields,
-continuations in the order of the file, comments, and INCLUDE.
+continuations in the order of the file, comments, replication, and INCLUDE.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from modeviz.errors import VehicleError, located, quoted
 from modeviz.files.disk import read_bytes
+from modeviz.formats.nastran.replication import replica
 
 LARGEST_DECK = 500_000_000
 """Bytes of one file."""
@@ -20,7 +21,18 @@ DEEPEST, MOST_FILES = 20, 1000
 
 INCLUDE = re.compile(r"\s*INCLUDE\b\s*(.*)", re.IGNORECASE)
 BEGIN = re.compile(r"\s*BEGIN(\s+BULK)?\b", re.IGNORECASE)
+BEGIN_OTHER = re.compile(r"\s*BEGIN\s+(BULK\s+)?\w+\s*=", re.IGNORECASE)
+"""Before the bulk data of a superelement, or of another part."""
+
 END = re.compile(r"\s*ENDDATA\b", re.IGNORECASE)
+TOLD = "TOLD"
+"""The name of a card that says in a sentence what is passed over."""
+
+REPEATED = re.compile(r"\s*=\s*\(?\s*(\d{1,9})\s*\)?\s*,?\s*$")
+"""A line that says how often the one before it is repeated."""
+
+MOST_REPLICAS = 1_000_000
+
 FORTRAN = re.compile(r"(?<=[\d.])(?=[-+])")
 """Where a number such as 2.9+7 lacks its E."""
 
@@ -73,27 +85,60 @@ class Card:
 def cards(path: Path, names: frozenset[str]) -> Iterator[Card]:
     """Yield the cards of those names, in the order of the file.
 
+    First come cards `TOLD`, one for each thing that is passed over, such as a file with changes to the
+    solution sequence that isn't there.
+
     Raises:
         VehicleError: a file cannot be read, or one that is included is not there.
     """
-    lines = _bulk_lines(path)
-    name, parts = "", []
+    told, bulk = _bulk(path)
+    for sentence in told:
+        yield Card(TOLD, [sentence])
+    last, pattern = None, []
+    for lines in _entries(bulk):
+        if lines[0].lstrip()[:1] == "=":
+            if last is None:
+                continue
+            if (again := REPEATED.match(lines[0])) is None:
+                pattern = _line_fields(lines[0])
+            for _ in range(_n_repeated(again, last)):
+                last = Card(last.name, replica(last.fields, pattern))
+                yield last
+            continue
+        name = _name(lines[0])
+        last, pattern = (Card(name, _fields(lines)) if name in names else None), []
+        if last is not None:
+            yield last
+
+
+def _entries(lines: Iterator[str]) -> Iterator[list[str]]:
+    """The lines of each card, the first and its continuations."""
+    parts: list[str] = []
     for line in lines:
         if line[:1] in "+* \t," and not (line[:1] in " \t" and _begins_card(line)):
-            if name:
-                parts.append(line)
+            parts.append(line)
             continue
-        if name:
-            yield Card(name, _fields(parts))
-        found = _name(line)
-        name, parts = (found, [line]) if found in names else ("", [])
-    if name:
-        yield Card(name, _fields(parts))
+        if parts:
+            yield parts
+        parts = [line]
+    if parts:
+        yield parts
+
+
+def _n_repeated(again: re.Match[str] | None, last: Card) -> int:
+    """How many cards a line of replication stands for."""
+    number = int(again[1]) if again else 1
+    if number > MOST_REPLICAS:
+        raise VehicleError(
+            f"{last.name} {last.text(0)}: is repeated {number:,} times, expected at most "
+            f"{MOST_REPLICAS:,}"
+        )
+    return number
 
 
 def _begins_card(line: str) -> bool:
-    """Whether a line that begins with a blank has a name in its first field all the same."""
-    return line[:8].strip()[:1].isalpha()
+    """Whether a line that begins with a blank has a name or an equals sign in its first field."""
+    return line[:8].strip()[:1].isalpha() or line.lstrip()[:1] == "="
 
 
 def _name(line: str) -> str:
@@ -113,10 +158,12 @@ def _line_fields(line: str) -> list[str]:
     A free line may go on beyond its tenth field, as if it were several.
     """
     if "," in line:
-        name, *fields = (part.strip() for part in line.split(","))
+        first, *fields = (part.strip() for part in line.split(","))
+        name, *one_more = first.split(maxsplit=1)[:2] or [""]
+        fields = one_more + fields
         n_fields = 4 if "*" in name else 8
-        if len(fields) == n_fields + 1:  # with the mark of a continuation
-            fields.pop()
+        if not any(fields[n_fields + 1 :]):  # the tenth is the mark of a continuation
+            fields = fields[:n_fields]
         n_fields = -(-len(fields) // n_fields) * n_fields
     else:
         line = line.expandtabs(8)
@@ -126,18 +173,43 @@ def _line_fields(line: str) -> list[str]:
     return fields + [""] * (n_fields - len(fields))
 
 
-def _bulk_lines(path: Path) -> Iterator[str]:
-    """The lines of the bulk data, without comments; of a file that is nothing else, all of them."""
-    lines = list(_lines(path, (), [0]))
-    begin = next((i + 1 for i, line in enumerate(lines) if BEGIN.match(line)), 0)
-    for line in lines[begin:]:
+def _bulk(path: Path) -> tuple[list[str], Iterator[str]]:
+    """What is passed over, in sentences, and the lines of the bulk data; all if there is nothing else.
+
+    That ends at ENDDATA, or where the bulk data of a superelement begin.
+    """
+    lines = list(_lines(path, (), [0], path.parent))
+    texts = ["" if isinstance(line, VehicleError) else line for line in lines]
+    begin = next((i + 1 for i, text in enumerate(texts) if BEGIN.match(text)), 0)
+    others = [i for i, text in enumerate(texts[begin:], begin) if BEGIN_OTHER.match(text)]
+    told = [
+        f"{line}; it is before the bulk data, and passed over"
+        for line in lines[:begin]
+        if isinstance(line, VehicleError)
+    ]
+    if others:
+        told.append(f"{len(others)} superelements that the input file has are left out")
+    return told, _until_end(lines[begin : others[0] if others else None])
+
+
+def _until_end(lines: Iterable[str | VehicleError]) -> Iterator[str]:
+    """The lines before ENDDATA; raises what is missing among them."""
+    for line in lines:
+        if not isinstance(line, str):
+            raise line
         if END.match(line):
             return
         yield line
 
 
-def _lines(path: Path, within: tuple[Path, ...], count: list[int]) -> Iterator[str]:
-    """The lines of a file that are no comments, with those of files included in place."""
+def _lines(
+    path: Path, within: tuple[Path, ...], count: list[int], home: Path
+) -> Iterator[str | VehicleError]:
+    """The lines of a file that are no comments, with those of files included in place.
+
+    They are looked for beside it, and then at home; for one that is not there it is the error that says
+    so.
+    """
     count[0] += 1
     if path.resolve() in within or len(within) >= DEEPEST or count[0] > MOST_FILES:
         raise VehicleError(f"{path}: is included by what it includes, or by too many")
@@ -151,10 +223,23 @@ def _lines(path: Path, within: tuple[Path, ...], count: list[int]) -> Iterator[s
             continue
         if found := INCLUDE.match(line):
             name = _included(found[1], lines)
-            with located(f"{path}: INCLUDE {quoted(name)}"):
-                yield from _lines(path.parent / name, (*within, path.resolve()), count)
+            places = [folder / name for folder in (path.parent, home)]
+            other = next((place for place in places if _is_there(place)), None)
+            if other is None:
+                yield VehicleError(f"INCLUDE {quoted(name)}: {places[0]}: there is no such file")
+                continue
+            with located(f"INCLUDE {quoted(name)}"):
+                yield from _lines(other, (*within, path.resolve()), count, home)
         else:
             yield line
+
+
+def _is_there(path: Path) -> bool:
+    """Whether there is something of that name, if it can be one."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
 
 
 def _included(text: str, lines: Iterator[str]) -> str:

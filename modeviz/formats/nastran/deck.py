@@ -7,8 +7,15 @@ import numpy as np
 
 from modeviz.errors import VehicleError, located
 from modeviz.formats.component import CORNERS, ElementKind
-from modeviz.formats.nastran.bulk import Card, cards
-from modeviz.formats.nastran.model import CORNERS_OF, FRAME_CARDS, FrameCard, Model, sorted_grids
+from modeviz.formats.nastran.bulk import TOLD, Card, cards
+from modeviz.formats.nastran.model import (
+    CORNERS_OF,
+    FRAME_CARDS,
+    FrameCard,
+    Model,
+    sorted_grids,
+    weights_note,
+)
 from modeviz.formats.nastran.rigid_elements import NAMES as SET_CARDS
 from modeviz.formats.nastran.rigid_elements import node_set
 from modeviz.formats.node_sets import NodeSet
@@ -20,6 +27,9 @@ NAMES = frozenset({"GRID", "GRDSET", "EIGRL", "EIGR", "PARAM", *FRAMES, *CORNERS
 
 AFTER_ID = frozenset({"CONROD", "PLOTEL"})
 """Elements without a property: their grids follow their number."""
+
+TWO_TO_A_CARD = frozenset({"PLOTEL"})
+"""Elements of which a card may have a second beside the first."""
 
 
 def read_deck(path: Path) -> Model:
@@ -41,7 +51,9 @@ def _model(every: Iterator[Card]) -> Model:
     notes: list[str] = []
     node_sets: dict[str, NodeSet] = {}
     for card in every:
-        if card.name == "GRID":
+        if card.name == TOLD:
+            notes.append(card.text(0))
+        elif card.name == "GRID":
             grids.append(card)
         elif card.name == "GRDSET":
             usual = card
@@ -53,8 +65,8 @@ def _model(every: Iterator[Card]) -> Model:
             notes += _parameter(card)
         elif card.name in SET_CARDS:
             node_sets.update(filter(None, [node_set(card)]))
-        elif corners := _corners(card):
-            elements.setdefault(CORNERS_OF[card.name], []).append(corners)
+        else:
+            elements.setdefault(CORNERS_OF[card.name], []).extend(_corners(card))
     if not grids:
         raise VehicleError("found no GRID, so it has no geometry; is it the whole input?")
     ids = np.array([card.whole(0) for card in grids], np.int64)
@@ -66,7 +78,7 @@ def _model(every: Iterator[Card]) -> Model:
     return Model(
         *sorted_grids(ids, systems, coordinates),
         frames,
-        {kind: _rows(kind, corners) for kind, corners in elements.items()},
+        {kind: _rows(kind, corners) for kind, corners in elements.items() if corners},
         is_mass_normalised=bool(norms) and set(norms) == {"MASS"},
         notes=tuple(notes),
         node_sets=node_sets,
@@ -77,12 +89,14 @@ def _rows(kind: ElementKind, corners: list[list[int]]) -> Array:
     return np.array(corners, np.int64).reshape(-1, CORNERS[kind])
 
 
-def _corners(card: Card) -> list[int]:
-    """The grids at an element's corners; none of one that is tied to nothing at an end."""
-    first = 1 if card.name in AFTER_ID else 2
+def _corners(card: Card) -> Iterator[list[int]]:
+    """The grids at corners of the card's elements; none of one that is tied to nothing at an end."""
     n_corners = CORNERS[CORNERS_OF[card.name]]
-    corners = [card.whole(first + i, 0) for i in range(n_corners)]
-    return corners if all(corners) else []
+    for start in (0, 4) if card.name in TWO_TO_A_CARD else (0,):
+        first = start + (1 if card.name in AFTER_ID else 2)
+        corners = [card.whole(first + i, 0) for i in range(n_corners)]
+        if all(corners):
+            yield corners
 
 
 def _frames(card: Card) -> Iterator[tuple[int, FrameCard]]:
@@ -106,7 +120,4 @@ def _norm(card: Card) -> str:
 def _parameter(card: Card) -> Iterator[str]:
     """A sentence if masses are given as weights."""
     if card.text(0).upper() == "WTMASS" and card.real(1) != 1:
-        yield (
-            f"PARAM,WTMASS is {card.text(1)}: its masses are given otherwise than modal masses, "
-            "which are in the units of force, length and seconds; --units are those"
-        )
+        yield weights_note(card.text(1))

@@ -13,9 +13,13 @@ from modeviz.vehicle.arrays import Array, Floats
 
 CORNERS_OF: Mapping[str, ElementKind] = {
     "CROD": "line", "CONROD": "line", "CTUBE": "line", "CBAR": "line", "CBEAM": "line", "CBEND": "line",
-    "CBUSH": "line", "PLOTEL": "line", "CTRIA3": "triangle", "CTRIA6": "triangle", "CTRIAR": "triangle",
+    "CBEAM3": "line", "CBUSH": "line", "CBUSH1D": "line", "CVISC": "line", "PLOTEL": "line",
+    "CTRIA3": "triangle", "CTRIA6": "triangle", "CTRIAR": "triangle",
     "CQUAD4": "quad", "CQUAD8": "quad", "CQUADR": "quad", "CQUAD": "quad", "CSHEAR": "quad",
     "CTETRA": "tetra", "CPYRAM": "pyramid", "CPENTA": "wedge", "CHEXA": "hexa",
+    "CPENTAL": "wedge", "CHEXAL": "hexa", "CPLSTN3": "triangle", "CPLSTN6": "triangle",
+    "CPLSTN4": "quad", "CPLSTN8": "quad", "CPLSTS3": "triangle", "CPLSTS6": "triangle",
+    "CPLSTS4": "quad", "CPLSTS8": "quad",
 }  # fmt: skip
 """The elements that are drawn, and what they are."""
 
@@ -132,3 +136,16 @@ def _basic_points(
 def grouped(elements: Mapping[ElementKind, Sequence[Array]]) -> dict[ElementKind, Array]:
     """Return the corners of elements by kind, of several lots of each."""
     return {kind: np.concatenate(lots) for kind, lots in elements.items() if lots}
+
+
+def weights_note(value: str) -> str:
+    """Return what there is to know of a model whose PARAM,WTMASS has a value other than one."""
+    return (
+        f"PARAM,WTMASS is {value}: its masses are given otherwise than modal masses, which are in the "
+        "units of force, length and seconds; --units are those"
+    )
+
+
+def unread_note(card: str) -> str:
+    """Return what there is to know of elements that are written as by no version known."""
+    return f"its {card} elements are written as by no version known, and are not drawn"

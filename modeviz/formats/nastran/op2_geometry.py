@@ -12,7 +12,14 @@ import numpy as np
 from modeviz.errors import VehicleError, located
 from modeviz.formats.component import CORNERS, ElementKind
 from modeviz.formats.frames import FrameKind
-from modeviz.formats.nastran.model import CORNERS_OF, FrameCard, Model, grouped, sorted_grids
+from modeviz.formats.nastran.model import (
+    CORNERS_OF,
+    FrameCard,
+    Model,
+    grouped,
+    sorted_grids,
+    unread_note,
+)
 from modeviz.formats.nastran.op2_records import Table
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -38,11 +45,25 @@ ELEMENT_KEYS: dict[tuple[int, int], tuple[str, tuple[int, ...]]] = {
     (15401, 154): ("CQUADR", (14, 15)),
     (15801, 158): ("CTRIA6", (13, 14)), (15901, 159): ("CQUAD8", (16, 17, 18)),
     (7409, 74): ("CHEXA", (22,)), (7509, 75): ("CPENTA", (17,)), (7609, 76): ("CTETRA", (12,)),
-    (7909, 79): ("CPYRAM", (15, 16)),
+    (7909, 79): ("CPYRAM", (15, 16)), (3901, 39): ("CVISC", (4,)), (5608, 56): ("CBUSH1D", (8,)),
+    (15418, 154): ("CBEAM3", (27,)), (7708, 77): ("CHEXAL", (23,)), (7108, 71): ("CPENTAL", (18,)),
+    (14000, 140): ("CHEXA", (22,)), (16300, 163): ("CHEXA", (22,)),
+    (16000, 160): ("CPENTA", (17,)), (16500, 165): ("CPENTA", (17,)),
+    (16100, 161): ("CTETRA", (12,)), (16600, 166): ("CTETRA", (12,)),
+    (16200, 162): ("CTRIA3", (8,)), (16700, 167): ("CTRIA6", (8,)),
+    (13900, 139): ("CQUAD4", (11,)), (16400, 164): ("CQUAD", (11,)),
+    (1701, 17): ("CPLSTN3", (16,)), (5701, 57): ("CPLSTN4", (16,)),
+    (5801, 58): ("CPLSTN6", (16,)), (7201, 72): ("CPLSTN8", (16,)),
+    (8801, 88): ("CPLSTS3", (16,)), (8401, 84): ("CPLSTS4", (16,)),
+    (1801, 18): ("CPLSTS6", (16,)), (3601, 36): ("CPLSTS8", (24,)),
 }  # fmt: skip
 """The element of each record of GEOM2, and how many words one may have, by version.
 
-Some have a second record for a variant, such as of solids as pressure, or of nonlinear analyses."""
+Some have a second record for a variant, such as of solids as pressure, of layers, of hyperelastic and
+other nonlinear materials."""
+
+FIRST_GRID = {"CONROD": 1, "PLOTEL": 1, "CHEXAL": 3, "CPENTAL": 3}
+"""At which word an element's grids begin, if not after its property."""
 
 
 def read_model(tables: Sequence[Table], path: Path) -> Model | None:
@@ -51,26 +72,39 @@ def read_model(tables: Sequence[Table], path: Path) -> Model | None:
     Raises:
         VehicleError: a table is damaged.
     """
-    by_name = {table.name: table for table in reversed(tables)}
-    first = by_name.get("GEOM1") or by_name.get("GEOM1S")
-    second = by_name.get("GEOM2") or by_name.get("GEOM2S")
-    if first is None:
+    grids: list[tuple[Array, Array, Floats]] = []
+    frames: dict[int, FrameCard] = {}
+    for table in tables:
+        if table.name in ("GEOM1", "GEOM1S"):
+            with located(f"{path}: table {table.name}"):
+                own, own_frames = _geometry(table)
+                grids += [sorted_grids(*own)] if own else []
+                frames = own_frames | frames
+    if not grids:
         return None
-    with located(f"{path}: table {first.name}"):
-        grids, frames = _geometry(first)
-        if grids is None:
-            return None
-        ids, systems, coordinates = sorted_grids(*grids)
-    if second is None:
-        return Model(ids, systems, coordinates, frames, {})
-    with located(f"{path}: table {second.name}"):
-        elements, notes = _elements(second, ids)
-    return Model(ids, systems, coordinates, frames, elements, notes=notes)
+    ids, systems, coordinates = _together(grids)
+    lots: dict[ElementKind, list[Array]] = {}
+    notes: list[str] = []
+    of_elements = [table for table in tables if table.name in ("GEOM2", "GEOM2S")]
+    for table in of_elements:
+        with located(f"{path}: table {table.name}"):
+            notes += _add_elements(lots, table, ids)
+    if len(of_elements) > 1:  # some files have all of them twice
+        lots = {kind: [np.unique(np.concatenate(rows), axis=0)] for kind, rows in lots.items()}
+    return Model(ids, systems, coordinates, frames, grouped(lots), notes=tuple(dict.fromkeys(notes)))
+
+
+def _together(tables: Sequence[tuple[Array, Array, Floats]]) -> tuple[Array, Array, Floats]:
+    """The grids of several tables, as superelements have them; of those with one id the first."""
+    ids, systems, coordinates = (np.concatenate(parts) for parts in zip(*tables, strict=True))
+    unique, first = np.unique(ids, return_index=True)
+    return unique, systems[first], coordinates[first]
 
 
 def _geometry(
     table: Table,
 ) -> tuple[tuple[Array, Array, Floats] | None, dict[int, FrameCard]]:
+    """The grids of a table, if it has any, and its coordinate systems."""
     grids: list[tuple[Array, Array, Floats]] = []
     frames: dict[int, FrameCard] = {}
     for number in range(1, len(table.records)):
@@ -128,27 +162,23 @@ def _in_rows(words: Array, width: int, what: str) -> Array:
     return words.reshape(-1, width)
 
 
-def _elements(table: Table, ids: Array) -> tuple[dict[ElementKind, Array], tuple[str, ...]]:
-    """Corners of elements by kind, and what could not be read of them."""
-    lots: dict[ElementKind, list[Array]] = {}
-    notes: list[str] = []
+def _add_elements(lots: dict[ElementKind, list[Array]], table: Table, ids: Array) -> Iterator[str]:
+    """Puts corners of elements to those of their kind; yields what could not be read of them."""
     for number in range(1, len(table.records)):
         whole = table.whole(number)
         if len(whole) <= 3 or (key := (int(whole[0]), int(whole[1]))) not in ELEMENT_KEYS:
             continue
         name, widths = ELEMENT_KEYS[key]
-        kind = CORNERS_OF[name]
         corners = _corners(whole[3:], name, widths, ids)
         if corners is None:
-            notes.append(f"its {name} elements are written as by no version known, and are not drawn")
+            yield unread_note(name)
         else:
-            lots.setdefault(kind, []).append(corners)
-    return grouped(lots), tuple(notes)
+            lots.setdefault(CORNERS_OF[name], []).append(corners)
 
 
 def _corners(words: Array, name: str, widths: tuple[int, ...], ids: Array) -> Array | None:
     """The grids at corners of elements, for the width with which all of them are grids; else None."""
-    first = 1 if name in ("CONROD", "PLOTEL") else 2
+    first = FIRST_GRID.get(name, 2)
     n_corners = CORNERS[CORNERS_OF[name]]
     for width in widths:
         if len(words) % width == 0:

@@ -1,0 +1,146 @@
+"""Modes as any of Nastran's result files has them, in whichever order it writes them."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeviz.errors import VehicleError, located
+from modeviz.formats.component import check_range, rows_of
+from modeviz.formats.limits import check_shapes
+from modeviz.vehicle.arrays import Array, Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """A mode, or what one table has of it: superelements have a table each."""
+
+    subcase: int
+    mode: int
+    eigenvalue: complex
+    """ω² of a normal mode, s of a complex one."""
+    ids: Array
+    """(n,), of the grids."""
+    motions: Callable[[], Array]
+    """Reads them, (n, 6), real or complex."""
+    n_scalar: int = 0
+    """How many scalar points there are beside the grids, which no one can see move."""
+
+    def __post_init__(self) -> None:
+        if not np.isfinite(self.eigenvalue):
+            raise VehicleError(f"mode {self.mode} has an eigenvalue that is no finite number")
+        rising = np.sort(self.ids)
+        if len(again := rising[1:][rising[1:] == rising[:-1]]):
+            raise VehicleError(f"mode {self.mode} moves grid {again[0]} twice")
+
+
+@dataclass(frozen=True, eq=False)
+class Shapes:
+    """The modes of a file, of its first subcase that has any."""
+
+    ids: Array
+    """(n_nodes,), of the grids that all modes move, rising."""
+    array: Array
+    """(n_nodes, 6, n_modes), in the precision of the file, real or complex."""
+    numbers: Array
+    """(n_modes,), of the modes."""
+    eigenvalues: Array
+    """(n_modes,), complex: ω² of normal modes, s of complex ones."""
+    is_basic: bool
+    """Whether motions are in the basic system, and not in those of the grids' CD."""
+    notes: tuple[str, ...]
+    """What was left out."""
+
+    @property
+    def is_complex(self) -> bool:
+        """Whether they are those of a damped structure."""
+        return np.iscomplexobj(self.array)
+
+    def frequencies(self) -> tuple[Floats, Floats]:
+        """Return hertz, below zero where ω² is, and damping ratios, not numbers for normal modes.
+
+        They are those of eigenvalues: what tables say of hertz is in rad/s in some files.
+        """
+        size = np.abs(self.eigenvalues)
+        unknown = np.full(len(size), np.nan)
+        if self.is_complex:
+            ratio = np.divide(-np.real(self.eigenvalues), size, out=unknown, where=size > 0)
+            return size / (2 * np.pi), ratio
+        return np.sign(np.real(self.eigenvalues)) * np.sqrt(size) / (2 * np.pi), unknown
+
+    def modal_masses(self, rows: Array) -> Floats:
+        """Return the generalised mass of each mode, (n_modes,); not a number where none is said.
+
+        Args:
+            rows: (n, 3), of tables of eigenvalues: number of a mode, eigenvalue, generalised mass. A
+                row is of the mode of the same number and eigenvalue.
+        """
+        known: dict[int, list[tuple[float, float]]] = {}
+        for number, eigenvalue, mass in rows.tolist():
+            known.setdefault(int(number), []).append((eigenvalue, mass))
+        masses = np.full(len(self.numbers), np.nan)
+        for i, (number, own) in enumerate(zip(self.numbers.tolist(), self.eigenvalues, strict=True)):
+            for eigenvalue, mass in known.get(number, []):
+                is_same = abs(eigenvalue - own) <= 1e-5 * max(abs(own), 1e-3)
+                if is_same and not self.is_complex and np.isfinite(mass) and mass > 0:
+                    masses[i] = mass
+        return masses
+
+
+def assembled(found: Sequence[Shape], is_basic: bool) -> Shapes:
+    """Return the modes of the first subcase, each put together of all tables that have some of it.
+
+    Args:
+        found: in the order of the file.
+        is_basic: whether their motions are in the basic system.
+
+    Raises:
+        VehicleError: they move different grids, or are too many or no finite numbers.
+    """
+    parts: dict[int, list[Shape]] = {}
+    for shape in found:
+        if shape.subcase == found[0].subcase:
+            same = parts.setdefault(shape.mode, [])
+            if not same or same[0].eigenvalue == shape.eigenvalue:
+                same.append(shape)
+    modes = list(parts.values())
+    ids = np.unique(np.concatenate([part.ids for part in modes[0]]))
+    check_shapes(len(ids), len(modes))
+    array = np.empty(0)
+    for column, mode in enumerate(modes):
+        with located(f"mode {mode[0].mode}"):
+            motions = _motions(ids, mode)
+        if column == 0:
+            array = np.empty((*motions.shape, len(modes)), motions.dtype)
+        array[:, :, column] = motions
+    n_used = sum(len(mode) for mode in modes)
+    return Shapes(
+        ids,
+        array,
+        np.array([mode[0].mode for mode in modes]),
+        np.array([complex(mode[0].eigenvalue) for mode in modes]),
+        is_basic,
+        left_out(sum(part.n_scalar for part in modes[0]), len(found) - n_used, found[0].subcase),
+    )
+
+
+def _motions(ids: Array, parts: Sequence[Shape]) -> Array:
+    """The motions of a mode along ids, (n, 6), of which each table has some; the first that has one."""
+    if len(np.unique(np.concatenate([part.ids for part in parts]))) != len(ids):
+        raise VehicleError("moves other grids than the first mode")
+    first = parts[0].motions()
+    motions = np.empty((len(ids), 6), first.dtype.newbyteorder("="))
+    for part in reversed(parts):
+        motions[rows_of(ids, part.ids)] = first if part is parts[0] else part.motions()
+    check_range("its motions", motions)
+    return motions
+
+
+def left_out(n_scalar: int, n_other: int, subcase: int) -> tuple[str, ...]:
+    """Return sentences on what shapes have not of a file."""
+    notes = []
+    if n_scalar:
+        notes.append(f"{n_scalar} scalar points have no place and are left out")
+    if n_other:
+        notes.append(f"{n_other} modes of other subcases than {subcase} are left out")
+    return tuple(notes)
