@@ -60,12 +60,14 @@ UNITS: dict[QuantityName, dict[str, float]] = {
         "N/mm": 1e3,
         "N/cm": 1e2,
         "kN/mm": 1e6,
+        "kN/m": 1e3,
         "lbf/in": POUND * STANDARD_GRAVITY / INCH,
     },
     "rotational_stiffness": {
         "N m/rad": 1.0,
         "N m/deg": 180 / math.pi,
         "N mm/rad": 1e-3,
+        "kN m/rad": 1e3,
         "lbf in/rad": POUND * STANDARD_GRAVITY * INCH,
     },
     "damping": {

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.cli.command import Command
+from modeviz.cli.importing_mounts import holds_mounts, import_mounts
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
@@ -42,6 +43,9 @@ class ImportOptions:
 def import_component(options: ImportOptions) -> None:
     """Lists what files have of a component, and puts it into a vehicle folder if there is one."""
     check_printable()
+    if holds_mounts(options.files):
+        import_mounts(options.files, options.output, options.units)
+        return
     component = read_component(options.files)
     for note in component.notes:
         remark(f"{component.source}: {note}")

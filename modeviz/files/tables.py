@@ -8,7 +8,7 @@ unit in brackets if they have one: "left (mm²/Hz)".
 import csv
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from modeviz.errors import VehicleError, located, unknown
@@ -83,6 +83,26 @@ def read_table(
     Raises:
         VehicleError: not such a table; the text names line and column.
     """
+    found, decimal_comma = read_cells(text)
+    header_line, header = next(found, (1, []))
+    units = _header(header_line, header, columns, optional)
+    if check:
+        with located(f"line {header_line}"):
+            check(units)
+    rows = tuple(
+        Row(line, _by_column(line, cells, list(units)), decimal_comma) for line, cells in found
+    )
+    return Table(units, rows)
+
+
+def read_cells(text: str) -> tuple[Iterator[tuple[int, list[str]]], bool]:
+    """Return the lines of a text that are not empty, and whether their decimals may be commas.
+
+    A line is its number and its cells, without spaces around them.
+
+    Raises:
+        VehicleError: too many lines, too long ones or, as they are read, no CSV.
+    """
     check_size("lines", text.count("\n"), MOST_LINES)
     lines = text.removeprefix("\ufeff").splitlines()
     first = next((i for i, line in enumerate(lines) if line.strip(" ,;\t")), 0)
@@ -90,17 +110,8 @@ def read_table(
     if declared:  # as Excel writes it
         first += 1
     _check_lengths(lines)
-    separator = declared[1] if declared else _separator(lines[first] if lines else "")
-    found = _cells(lines, first, separator)
-    header_line, header = next(found, (1, []))
-    units = _header(header_line, header, columns, optional)
-    if check:
-        with located(f"line {header_line}"):
-            check(units)
-    rows = tuple(
-        Row(line, _by_column(line, cells, list(units)), separator != ",") for line, cells in found
-    )
-    return Table(units, rows)
+    separator = declared[1] if declared else _separator(lines[first] if first < len(lines) else "")
+    return _cells(lines, first, separator), separator != ","
 
 
 def _check_lengths(lines: list[str]) -> None:
@@ -117,7 +128,7 @@ def _separator(header: str) -> str:
     return next((mark for mark in ";\t" if mark in header), ",")
 
 
-def _cells(lines: list[str], first: int, separator: str):
+def _cells(lines: list[str], first: int, separator: str) -> Iterator[tuple[int, list[str]]]:
     """The lines that are not empty, from the first on, with their numbers and cells."""
     after_quotes = re.compile(f'" +(?={re.escape(separator)}|$)')
     tight = [after_quotes.sub('"', line) for line in lines[first:]]

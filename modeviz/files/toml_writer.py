@@ -14,11 +14,11 @@ from modeviz.files.schema.scaling import from_si
 def to_toml(record: FileRecord) -> str:
     """The TOML of a file's record in SI, in `WRITTEN_UNITS`; numbers read back to the same bits."""
     table = from_si(msgspec.to_builtins(record), type(record))
-    return "\n".join(_lines(table, "")).strip() + "\n"
+    return "\n".join(toml_lines(table, "")).strip() + "\n"
 
 
-def _lines(table: Mapping[str, Any], path: str) -> Iterator[str]:
-    """The lines of a table, its own values before the tables in it."""
+def toml_lines(table: Mapping[str, Any], path: str) -> Iterator[str]:
+    """Yield the lines of a table, its own values before the tables in it, which `path` goes before."""
     blocks = {key: value for key, value in table.items() if _is_block(value)}
     for key, value in table.items():
         if key not in blocks:
@@ -29,7 +29,7 @@ def _lines(table: Mapping[str, Any], path: str) -> Iterator[str]:
         for inner in value if isinstance(value, list) else [value]:
             if not all(map(_is_block, inner.values())):
                 yield from ("", header)
-            yield from _lines(inner, f"{name}.")
+            yield from toml_lines(inner, f"{name}.")
 
 
 def _is_block(value: Any) -> bool:

@@ -77,11 +77,11 @@ def unit_in_si(quantity: str, units: Mapping[str, str]) -> float:
     return _factor(quantity, units[quantity])
 
 
-def from_si(data: Any, kind: type) -> Any:
-    """The content of a file of that kind, given in SI, in `WRITTEN_UNITS`."""
+def from_si(data: Any, kind: type, units: Mapping[Any, str] = WRITTEN_UNITS) -> Any:
+    """The content of a file of that kind, given in SI, in those units, quantity to unit."""
 
     def convert(value: float, quantity: QuantityName, _where: str) -> float:
-        return written(value, factor(WRITTEN_UNITS[quantity], quantity))
+        return written(value, factor(units[quantity], quantity))
 
     return _converted(data, kind, convert)
 

@@ -1,0 +1,58 @@
+"""A connection as a file of another program has it: what every reader of mounts returns."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from modeviz.vehicle.arrays import Floats, frozen
+
+AXES = ("x", "y", "z")
+"""Of a bushing: along the first three of its six directions, about the last three."""
+
+DIRECTIONS = (*AXES, *(f"r{axis}" for axis in AXES))
+
+
+@dataclass(frozen=True, eq=False)
+class End:
+    """Where a bushing holds on, as far as its file says it: a body, an attachment, or a place."""
+
+    where: str
+    """In the file, to say so: "line 3, column body 1"."""
+    body: str = ""
+    """Its name, or `GROUND`; empty if the file names none."""
+    attachment: str = ""
+    """The name of a body's attachment; empty if the file names none."""
+    place: Floats | None = None
+    """(3,), m, in the vehicle file's axes."""
+    may_be_elsewhere: bool = False
+    """Whether the place is looked for if no body has that attachment."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bushing:
+    """Springs and dampers in six directions, in SI and the axes of the vehicle's file."""
+
+    where: str
+    """In the file, to say so: "line 3", "CBUSH 7"."""
+    name: str
+    ends: tuple[End, End]
+    group: str | None = None
+    """The mount group that it is one of; None: it is not tuned."""
+    stiffness: Floats = field(default_factory=lambda: np.zeros(6))
+    """(6,) of `DIRECTIONS`, N/m and N m/rad."""
+    damping: Floats = field(default_factory=lambda: np.zeros(6))
+    """(6,), N s/m and N m s/rad."""
+    loss_factor: float = 0.0
+    softest: Floats = field(default_factory=lambda: np.full(3, np.nan))
+    """(3,), N/m: along x, y, z, the least that can be made; not a number where it is not known."""
+    stiffest: Floats = field(default_factory=lambda: np.full(3, np.nan))
+    axes: Floats = field(default_factory=lambda: np.eye(3))
+    """(3, 3): the local axes as rows."""
+    rigid: tuple[str, ...] = ()
+    """Which of `DIRECTIONS` there is no motion in."""
+    elastic_center: float = 0.5
+
+    def __post_init__(self) -> None:
+        frozen(self, "stiffness", self.stiffness, (6,))
+        frozen(self, "damping", self.damping, (6,))
+        frozen(self, "axes", self.axes, (3, 3))

@@ -1,0 +1,275 @@
+"""The columns of a mount table: what their headers mean, and the units that these say."""
+
+import re
+import unicodedata
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Literal
+
+import numpy as np
+
+from modeviz.errors import VehicleError, listed, located, quoted
+from modeviz.formats.component import UnitSystem
+from modeviz.formats.mounts.bushing import AXES
+from modeviz.units import UNITS, QuantityName, spoken
+
+Kind = QuantityName | Literal["text", "ratio", "number", "angle"]
+
+ANGLES = {"deg": np.pi / 180, "rad": 1.0}
+RATIOS = {"": 1.0, "%": 0.01, "-": 1.0, "1": 1.0}
+NAMED = ("vertical", "lateral", "fore_aft")
+"""Directions that are called so in all axes."""
+
+TEXTS = ("name", "group", "body_1", "body_2", "attachment_1", "attachment_2", "property", "units")
+
+
+def _kinds() -> Iterator[tuple[str, Kind]]:
+    for name in TEXTS:
+        yield name, "text"
+    for axis in AXES:
+        yield axis, "length"
+        yield f"{axis}_2", "length"
+        yield f"k_r{axis}", "rotational_stiffness"
+        yield f"c_{axis}", "damping"
+        yield f"c_r{axis}", "rotational_damping"
+        for component in AXES:
+            yield f"{axis}_axis_{component}", "number"
+    for direction in (*AXES, *NAMED):
+        for what in ("k", "softest", "stiffest"):
+            yield f"{what}_{direction}", "stiffness"
+    for angle in ("roll", "pitch", "yaw"):
+        yield angle, "angle"
+    yield "loss_factor", "ratio"
+    yield "elastic_center", "number"
+
+
+KINDS: Mapping[str, Kind] = dict(_kinds())
+"""Every column that is read, and of what its numbers are."""
+
+BOUNDS = {
+    **dict.fromkeys(("min", "minimum", "lower", "softest"), "softest"),
+    **dict.fromkeys(("max", "maximum", "upper", "stiffest"), "stiffest"),
+}
+"""Words in a header that make it that of a bound."""
+
+UNIT = re.compile(r"(.*?)\s*(?:[\[(](.*)[\])]|\s/\s*(.*)|,\s*(.*)|\sin\s+(\S+/\S+|mm|m))\s*")
+"""A header and its unit: "kx [N/mm]", "kx (N/mm)", "kx / (N/mm)", "kx, N/mm", "kx in N/mm"."""
+
+
+def _synonyms() -> Iterator[tuple[str, str]]:
+    """Headers without spaces and marks, and the columns that they mean."""
+    for name in KINDS:
+        yield name.replace("_", ""), name
+    words = {
+        "name": "mount mountname connection bushing isolator id designation element spring label",
+        "group": "mountgroup part partnumber partno type family",
+        "property": "propertyfile file busfile",
+        "units": "unit",
+        "loss_factor": "eta η tandelta tanδ tand lossangletan ge structuraldamping",
+        "elastic_center": "elasticcentre s",
+    }
+    for side, letter, order, marker in (("1", "a", "first", "i"), ("2", "b", "second", "j")):
+        words[f"body_{side}"] = (
+            f"body{letter} {order}body part{side} component{side} component{letter} bodyname{side} "
+            f"body{marker} {marker}body"
+        )
+        words[f"attachment_{side}"] = (
+            f"attachment{letter} node{side} node{letter} node{marker} grid{side} grid{letter} "
+            f"g{letter} g{side} point{side} hardpoint{side} nodeid{side} {order}node"
+        )
+    words["body_1"] += " body from frombody ibody"
+    words["body_2"] += " to tobody"
+    words["attachment_1"] += " attachment node grid nodeid"
+    for number, axis in enumerate(AXES, 1):
+        words[axis] = (
+            f"{axis}1 pos{axis} {axis}pos position{axis} {axis}position coord{axis} {axis}coord "
+            f"{axis}coordinate location{axis} {axis}a"
+        )
+        words[f"{axis}_2"] = f"{axis}b pos{axis}2 position{axis}2 second{axis}"
+        words[f"k_{axis}"] = (
+            f"k{number} stiffness{axis} {axis}stiffness rate{axis} {axis}rate {axis}k springrate{axis}"
+        )
+        words[f"k_r{axis}"] = (
+            f"k{number + 3} kt{axis} krot{axis} kr{number} rotationalstiffness{axis} "
+            f"torsionalstiffness{axis} rotationalrate{axis} stiffnessr{axis} ktheta{axis}"
+        )
+        words[f"c_{axis}"] = f"c{number} b{number} damping{axis} {axis}damping b{axis} {axis}c"
+        words[f"c_r{axis}"] = (
+            f"c{number + 3} b{number + 3} ct{axis} crot{axis} rotationaldamping{axis} dampingr{axis} "
+            f"br{axis}"
+        )
+    for direction in NAMED:
+        plain = direction.replace("_", "")
+        words[f"k_{direction}"] = f"{plain} {plain}rate {plain}stiffness k{plain}"
+    words["k_fore_aft"] += " longitudinal longitudinalrate longitudinalstiffness klongitudinal"
+    yield from ((word, name) for name, several in words.items() for word in several.split())
+
+
+SYNONYMS: Mapping[str, str] = dict(_synonyms())
+
+
+WEAK = {"id", "label", "designation", "element", "type", "family", "part", "partnumber", "partno",
+        "nodeid", "unit", "file", "s"}  # fmt: skip
+"""Synonyms that mean something else where another column means the same."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table."""
+
+    header: str
+    """As it stands there."""
+    name: str
+    """One of `KINDS`."""
+    unit: str
+    """As its header or the row below it says it; empty for none."""
+
+    @property
+    def kind(self) -> Kind:
+        """Of what its numbers are."""
+        return KINDS[self.name]
+
+
+def read_headers(cells: Sequence[str]) -> tuple[dict[int, Column], list[str]]:
+    """Return the columns that are read, by where they stand, and the headers of others.
+
+    Raises:
+        VehicleError: two mean the same, or one is likely a misspelt one.
+    """
+    columns: dict[int, Column] = {}
+    others = []
+    for place, header in enumerate(cells):
+        if not header:
+            continue
+        column = _column(header)
+        if column is None:
+            others.append(header)
+            continue
+        twin = next((at for at, c in columns.items() if c.name == column.name), None)
+        if twin is None:
+            columns[place] = column
+        elif _is_weak(header):
+            others.append(header)
+        elif _is_weak(columns[twin].header):
+            others.append(columns.pop(twin).header)
+            columns[place] = column
+        else:
+            raise VehicleError(
+                f"columns {quoted(columns[twin].header)} and {quoted(header)} both mean {column.name}"
+            )
+    return columns, others
+
+
+def _is_weak(header: str) -> bool:
+    return _plain(header) in WEAK
+
+
+def _column(header: str) -> Column | None:
+    """What a header means; None if nothing that is read."""
+    found = UNIT.fullmatch(header)
+    name, unit = header, ""
+    if found and _meaning(found[1]):
+        name, unit = found[1], next((u for u in found.groups()[1:] if u), "")
+    if meaning := _meaning(name):
+        return Column(header, meaning, unit.strip().strip("()"))
+    close = get_close_matches(_plain(name), SYNONYMS, n=1, cutoff=0.85)
+    if close:
+        raise VehicleError(
+            f"unknown column {quoted(header)}: did you mean {SYNONYMS[close[0]]}? There are "
+            f"{listed(KINDS)}"
+        )
+    return None
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"[\W_]+", "", text.lower())
+
+
+def _meaning(text: str) -> str | None:
+    """The column that a header without its unit means."""
+    if plain := SYNONYMS.get(_plain(text)):
+        return plain
+    words = re.findall(r"[^\W\d_]+|\d+", text.lower())
+    for place, word in enumerate(words):
+        if bound := BOUNDS.get(word):
+            rate = SYNONYMS.get("".join([*words[:place], *words[place + 1 :]]), "")
+            rate = rate or (words[1 - place] if len(words) == 2 else "")
+            meant = f"{bound}_{rate.removeprefix('k_')}"
+            return meant if meant in KINDS else None
+    return None
+
+
+def column_factor(column: Column, units: UnitSystem | None) -> float | None:
+    """Return one of a column's numbers in SI; None if neither it nor `units` say it.
+
+    Args:
+        column: of numbers.
+        units: of columns that say none.
+
+    Raises:
+        VehicleError: it says a unit of something else.
+    """
+    kind = column.kind
+    with located(f"column {quoted(column.header)}"):
+        if kind == "text":
+            return None
+        if kind == "number":
+            return 1.0
+        if kind == "ratio":
+            return _one_of(column.unit, RATIOS, "loss factor")
+        if kind == "angle":
+            return _one_of(column.unit, ANGLES, "angle") if column.unit else None
+        if column.unit:
+            return _one_of(column.unit, UNITS[kind], spoken(kind))
+        return _of_system(kind, units) if units else None
+
+
+def rate_unit(text: str) -> float:
+    """Return one of a unit of stiffness in SI; raises VehicleError if it is none."""
+    return _one_of(text, UNITS["stiffness"], "stiffness")
+
+
+def is_unit(text: str, column: Column) -> bool:
+    """Whether a cell under a header says its unit."""
+    if text in ("", "-"):
+        return True
+    try:
+        return column.kind != "text" and column_factor(Column("", column.name, text), None) is not None
+    except VehicleError:
+        return False
+
+
+def _one_of(text: str, known: Mapping[str, float], what: str) -> float:
+    """The value of a unit, however it is spelt."""
+    by_spelling = {_spelling(unit): value for unit, value in known.items()}
+    spelling = _spelling(text)
+    if spelling in by_spelling:
+        return by_spelling[spelling]
+    folded = {unit.lower(): value for unit, value in by_spelling.items()}
+    if spelling.lower() in folded:
+        return folded[spelling.lower()]
+    units = ", ".join(unit for unit in known if unit)
+    raise VehicleError(f"unknown unit of {what} {quoted(text)}, expected one of {units}")
+
+
+def _spelling(unit: str) -> str:
+    """A unit without what people write differently: "N·s/m", "N s / m" and "N/(m/s)" are one."""
+    text = unicodedata.normalize("NFKC", unit.replace("°", "deg")).replace("\u2212", "-")
+    text = re.sub(r"degrees?|grad\b", "deg", text)
+    text = re.sub(r"radians?", "rad", text)
+    text = re.sub(r"/\s*\(\s*(\w+)\s*/\s*(\w+)\s*\)", r" \2/\1", text)
+    return re.sub(r"[\s·⋅*.()^]", "", text)
+
+
+def _of_system(kind: QuantityName, units: UnitSystem) -> float:
+    """One of a quantity in a system of units with seconds and radians."""
+    powers = {
+        "length": (0, 1),
+        "stiffness": (1, 0),
+        "damping": (1, 0),
+        "rotational_stiffness": (1, 2),
+        "rotational_damping": (1, 2),
+    }
+    of_mass, of_length = powers[kind]
+    return units.mass**of_mass * units.length**of_length

@@ -1,0 +1,104 @@
+"""Tables of text and of Excel as lines of cells."""
+
+import zipfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from modeviz.errors import VehicleError, located, reason
+from modeviz.files.disk import LARGEST_TABLE, WESTERN, read_bytes, read_text
+from modeviz.files.limits import check_size
+from modeviz.files.tables import MOST_LINES, read_cells
+
+TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
+EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".xlsb", ".ods")
+"""Those of workbooks, of which the first two are read."""
+
+LARGEST_UNPACKED = 200_000_000
+"""Bytes of a workbook."""
+
+MOST_CELLS = 1000
+"""Of a line of a workbook."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The lines of a table that are not empty, with their numbers, the header's first."""
+
+    lines: Sequence[tuple[int, list[str]]]
+    decimal_comma: bool
+    """Whether 1,5 is a number."""
+
+
+def read_sheet(path: Path) -> Sheet:
+    """Return the table in a file: of a workbook that of its first sheet that is not empty.
+
+    Raises:
+        VehicleError: it cannot be read.
+    """
+    if path.suffix.lower() in EXCEL_SUFFIXES:
+        return Sheet(_of_workbook(path), decimal_comma=True)
+    text = read_text(path, LARGEST_TABLE, otherwise=WESTERN)
+    with located(path):
+        lines, decimal_comma = read_cells(text)
+        return Sheet(list(lines), decimal_comma)
+
+
+def _of_workbook(path: Path) -> list[tuple[int, list[str]]]:
+    if path.suffix.lower() not in EXCEL_SUFFIXES[:2]:
+        raise VehicleError(
+            f"{path}: workbooks ending in {path.suffix} are not read; save it as .xlsx or .csv"
+        )
+    content = read_bytes(path, LARGEST_TABLE)
+    with located(path):
+        _check_unpacked(content)
+        try:
+            from openpyxl import load_workbook
+        except ImportError:
+            raise VehicleError(
+                "to read Excel's files needs openpyxl; pip install 'modeviz[excel]', or save it as .csv"
+            ) from None
+        try:
+            book = load_workbook(BytesIO(content), read_only=True, data_only=True)
+            for sheet in book.worksheets:
+                if lines := list(_lines(sheet)):
+                    return lines
+        except VehicleError:
+            raise
+        except Exception as error:  # a damaged workbook raises what its parts do
+            raise VehicleError(f"damaged, no workbook that can be read ({reason(error)})") from None
+        return []
+
+
+def _lines(sheet: Any) -> Iterator[tuple[int, list[str]]]:
+    """The lines of a sheet that are not empty."""
+    sheet.reset_dimensions()  # what a file says of them may be wrong
+    for number, row in enumerate(sheet.iter_rows(values_only=True), 1):
+        check_size("lines", number, MOST_LINES)
+        check_size("columns", len(row), MOST_CELLS)
+        cells = [_text(value) for value in row]
+        if any(cells):
+            yield number, cells
+
+
+def _text(value: Any) -> str:
+    """A cell as it would stand in a file of text."""
+    if value is None:
+        return ""
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    return repr(value) if isinstance(value, float) else str(value).strip()
+
+
+def _check_unpacked(content: bytes) -> None:
+    """Raises VehicleError for what is no archive, or too large unpacked."""
+    try:
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            check_size("bytes unpacked", sum(i.file_size for i in archive.infolist()), LARGEST_UNPACKED)
+            names = set(archive.namelist())
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
+        raise VehicleError(f"damaged, no workbook that can be read ({reason(error)})") from None
+    if "[Content_Types].xml" not in names:
+        raise VehicleError("an archive, but no workbook of Excel's")
