@@ -28,7 +28,7 @@ LAYERS = [
     {"viewer.scene"},
     {"viewer.pictures"},
     {"viewer.panels"},
-    {"viewer.offline"},
+    {"viewer.offline", "viewer.inspection"},
     {"viewer.app"},
     {"viewer.rendering"},
     {"study"},

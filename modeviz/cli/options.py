@@ -128,6 +128,12 @@ class JsonOptions:
 
 def add_vehicle(command: ArgumentParser) -> None:
     """Reads `VehicleOptions`."""
+    add_folder(command)
+    add_rates(command)
+
+
+def add_folder(command: ArgumentParser) -> None:
+    """Reads the folder of `VehicleOptions`."""
     command.add_argument(
         "vehicle",
         nargs="?",
@@ -136,6 +142,10 @@ def add_vehicle(command: ArgumentParser) -> None:
         metavar="VEHICLE",
         help="vehicle folder (default: the pickup)",
     )
+
+
+def add_rates(command: ArgumentParser) -> None:
+    """Reads the rates of `VehicleOptions`."""
     command.add_argument(
         "--rates",
         metavar="NAME|FILE",

@@ -1,13 +1,15 @@
-"""The command that opens a vehicle in the browser."""
+"""The command that opens a vehicle, or files of another program, in the browser."""
 
 from argparse import ArgumentParser
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from modeviz.cli.command import Command
 from modeviz.cli.interrupt import ended_by_interrupt
-from modeviz.cli.options import RoadOptions, VehicleOptions, add_road, add_vehicle
+from modeviz.cli.options import RoadOptions, VehicleOptions, add_rates, add_road
 from modeviz.cli.terminal import progress
+from modeviz.errors import ModevizError
+from modeviz.formats.reading import are_results
 
 DEFAULT_PORT = 8080
 
@@ -16,6 +18,8 @@ DEFAULT_PORT = 8080
 class ViewOptions(VehicleOptions, RoadOptions):
     """What `modeviz view` is asked for."""
 
+    what: tuple[Path, ...] = ()
+    """A vehicle folder, or the files of one component; none: the pickup."""
     host: str = "127.0.0.1"
     """Address to listen on."""
     port: int = DEFAULT_PORT
@@ -31,31 +35,56 @@ class ViewOptions(VehicleOptions, RoadOptions):
     dark: bool = False
     """Whether the page is dark."""
 
+    def of_folder(self) -> "ViewOptions":
+        """Return the options with the vehicle folder that is asked for.
+
+        Raises:
+            ModevizError: there are several.
+        """
+        if len(self.what) > 1:
+            names = ", ".join(map(str, self.what))
+            raise ModevizError(f"found {names}, expected one vehicle folder, or files of one component")
+        return replace(self, vehicle=self.what[0]) if self.what else self
+
+    def check_no_vehicle(self) -> None:
+        """Raises ModevizError if something is asked for that only a vehicle has."""
+        for option in ("rates", "settings", "road", "speed"):
+            if getattr(self, option) != getattr(ViewOptions, option):
+                name = "set" if option == "settings" else option
+                raise ModevizError(f"--{name} is of a vehicle, and a component's files are given")
+
 
 def view(options: ViewOptions) -> None:
     """Serves the page until it is stopped."""
     with ended_by_interrupt():
         from modeviz.viewer.app import serve  # viser alone takes a second to import
+        from modeviz.viewer.inspection.app import inspect
+        from modeviz.viewer.inspection.content import content_of_files, content_of_vehicle
         from modeviz.viewer.page.tokens import chosen_token
 
     token = chosen_token(options.token, options.token_file, options.has_token)
-    vehicle, start = options.read()
+    door = (options.host, options.port, token, options.dark)
+    if are_results(options.what):
+        options.check_no_vehicle()
+        inspect(content_of_files(options.what), *door, options.public_names)
+        return
+    vehicle, start = options.of_folder().read()
+    if not vehicle.all_connections:
+        inspect(content_of_vehicle(vehicle), *door, options.public_names)
+        return
     vehicle, chosen = options.shown(vehicle)
-    serve(
-        vehicle,
-        start,
-        chosen,
-        options.host,
-        options.port,
-        token,
-        options.dark,
-        progress("preparing"),
-        options.public_names,
-    )
+    serve(vehicle, start, chosen, *door, progress("preparing"), options.public_names)
 
 
 def _add_options(command: ArgumentParser) -> None:
-    add_vehicle(command)
+    command.add_argument(
+        "what",
+        nargs="*",
+        type=Path,
+        metavar="VEHICLE|FILE",
+        help="a vehicle folder (default: the pickup), or a component's files of another program",
+    )
+    add_rates(command)
     add_road(command)
     command.add_argument(
         "--host", help="address to listen on, such as 0.0.0.0 for colleagues (default: this machine)"

@@ -35,6 +35,12 @@ def read_component(paths: Sequence[Path]) -> Component:
     return replace(component, source=", ".join(path.name for path in paths))
 
 
+def are_results(paths: Sequence[Path]) -> bool:
+    """Return whether paths are named as files that can be read here, all of them and one at least."""
+    named = [path.suffix.lower() in READERS and not path.is_dir() for path in paths]
+    return bool(named) and all(named)
+
+
 def _reader(path: Path) -> Reader:
     suffix = path.suffix.lower()
     if suffix not in READERS:

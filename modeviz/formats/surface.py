@@ -1,18 +1,19 @@
-"""The display mesh of a component: the outer faces of its elements, and its lines as thin tubes."""
+"""The display mesh of a component: outer faces of elements, lines as thin tubes, or the nodes alone."""
 
 from collections.abc import Mapping
 
 import numpy as np
 
 from modeviz.formats.component import Component, ElementKind
+from modeviz.shapes.points import octahedra
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 
 COLOR = (150, 156, 164)
 """sRGB, of what another program gave no look to."""
 
-TUBE = 0.003
-"""Radius of a line, a part of the largest dimension."""
+TUBE, POINT = 0.003, 0.006
+"""Radius of a line and of a node, parts of the largest dimension."""
 
 FACES: Mapping[ElementKind, tuple[tuple[int, ...], ...]] = {
     "triangle": ((0, 1, 2),),
@@ -30,7 +31,7 @@ SHELLS = ("triangle", "quad")
 def display_mesh(component: Component, length: float) -> tuple[Mesh, Array]:
     """Return the parts to draw of a component, in m, its surface and its lines, and the nodes in them.
 
-    Elements with a corner that has no place are left out.
+    Elements with a corner that has no place are left out. Where nothing is left, nodes are drawn.
 
     Args:
         component: what to draw.
@@ -49,10 +50,13 @@ def display_mesh(component: Component, length: float) -> tuple[Mesh, Array]:
         parts.append(MeshPart("surface", nodes[used], compact.reshape(-1, 3), material))
     lines = elements.get("line", np.zeros((0, 2), int))
     lines = lines[np.linalg.norm(nodes[lines[:, 0]] - nodes[lines[:, 1]], axis=1) > 0]
+    size = float(np.ptp(nodes[placed], axis=0).max()) if placed.any() else 0.0
     if len(lines):
-        radius = TUBE * float(np.ptp(nodes[placed], axis=0).max())
         drawn.append(lines.ravel())
-        parts.append(MeshPart("lines", *tubes(nodes[lines], radius), material))
+        parts.append(MeshPart("lines", *tubes(nodes[lines], TUBE * size), material))
+    if not parts and size:
+        drawn.append(np.flatnonzero(placed))
+        parts.append(MeshPart("nodes", *octahedra(nodes[placed], POINT * size), material))
     return tuple(parts), np.unique(np.concatenate(drawn))
 
 

@@ -103,3 +103,9 @@ class DrawnBody:
             self._driver.set_opacity(self.path, SEE_THROUGH if see_through else 1.0)
         if self._has_ghost:
             self._driver.set_visible(self._ghost_path, visible and ghost)
+
+    def remove(self) -> None:
+        """Takes the body and its outlines out of the page."""
+        self._driver.remove(self.path)
+        if self._has_ghost:
+            self._driver.remove(self._ghost_path)

@@ -119,12 +119,12 @@ def box(vehicle: Vehicle) -> Box:
     points = [_drawn(body) for body in vehicle.bodies]
     points += [connection.points for connection in vehicle.all_connections]
     points += [point.position[None] for point in vehicle.response_points]
-    return _box(points)
+    return points_box(points)
 
 
 def bodies_box(bodies: Iterable[Body]) -> Box:
     """The space that the meshes of bodies take."""
-    return _box([_drawn(body) for body in bodies])
+    return points_box([_drawn(body) for body in bodies])
 
 
 def _drawn(body: Body) -> Floats:
@@ -133,7 +133,8 @@ def _drawn(body: Body) -> Floats:
     return np.concatenate([np.zeros((0, 3)), *parts])
 
 
-def _box(points: Sequence[Floats]) -> Box:
+def points_box(points: Sequence[Floats]) -> Box:
+    """The space that lots of points take, (n, 3) each, m; of none at all it has no size."""
     everything = np.concatenate([np.zeros((0, 3)), *points])
     if not len(everything):
         return Box((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))

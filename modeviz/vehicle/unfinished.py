@@ -1,0 +1,23 @@
+"""What a vehicle still lacks, and what that keeps from being computed."""
+
+from collections.abc import Iterator
+
+from modeviz.vehicle.vehicle import Vehicle
+
+
+def unfinished(vehicle: Vehicle) -> Iterator[str]:
+    """Sentences on what cannot be computed of a vehicle, each with the table that it takes."""
+    if not vehicle.all_connections:
+        yield (
+            "Nothing holds its bodies together, so there are no modes of the whole: give its "
+            "vehicle.toml [[mount_group]] tables, or a [[spring]], a [[bolt]] or a [[tyre]]."
+        )
+    elif not vehicle.mount_groups:
+        yield "No rates can be tuned: give its vehicle.toml a [[mount_group]]."
+    if vehicle.usual_load is None and not vehicle.harmonic_loads:
+        yield (
+            "Nothing shakes it, so there are no responses: give its vehicle.toml a [[tyre]] with "
+            "stiffness along z, which roads of ISO 8608 move, or a [[force]]."
+        )
+    if not vehicle.response_points:
+        yield "Nobody feels it: give its vehicle.toml a [[response_point]]."

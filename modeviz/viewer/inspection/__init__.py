@@ -1,0 +1,1 @@
+"""The page of bodies alone: their meshes, own modes and attachments, a vehicle or not yet one."""
