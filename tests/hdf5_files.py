@@ -6,6 +6,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from free_network import CORNERS, HEXA, LABELS, free_network
 
 MODES, COMPLEX_MODES, BUCKLING = 2, 9, 8
 
@@ -110,3 +111,15 @@ class Hdf5:
             for name, rows in self.every().items():
                 file.create_dataset(name, data=rows, chunks=True, maxshape=(None,), compression="gzip")
         return path
+
+
+def network_hdf5() -> Hdf5:
+    """The free network, with modal masses of one."""
+    network = free_network()
+    hdf5 = Hdf5().grids([(i, 0, place, 0) for i, place in zip(LABELS, CORNERS, strict=True)])
+    hdf5.input("ELEMENT/CHEXA", [(1, 1, [*HEXA, *[0] * 12])])
+    for mode, w2 in enumerate(network.omega_n_squared):
+        motions = np.zeros((8, 6))
+        motions[:, :3] = network.shapes[:, :, mode]
+        hdf5.mode(LABELS, motions, mode + 1, w2)
+    return hdf5.eigenvalues([(i + 1, w2, 1.0) for i, w2 in enumerate(network.omega_n_squared)])

@@ -2,7 +2,6 @@
 
 import numpy as np
 from free_network import CORNERS, HEXA, LABELS, free_network
-from hdf5_files import Hdf5
 from op2_files import MODES, Op2
 from universal_files import elements_2412, nodes_2411, shape_2414
 
@@ -41,15 +40,3 @@ def network_unv(modal_masses=None, units="", write=shape_2414, n_modes=24, first
         frequency = network.frequency_hz[mode]
         text += write(LABELS, shape, frequency, masses[mode], mode=mode + 1)
     return text
-
-
-def network_hdf5() -> Hdf5:
-    """The same in HDF5, with modal masses of one."""
-    network = free_network()
-    hdf5 = Hdf5().grids([(i, 0, place, 0) for i, place in zip(LABELS, CORNERS, strict=True)])
-    hdf5.input("ELEMENT/CHEXA", [(1, 1, [*HEXA, *[0] * 12])])
-    for mode, w2 in enumerate(network.omega_n_squared):
-        motions = np.zeros((8, 6))
-        motions[:, :3] = network.shapes[:, :, mode]
-        hdf5.mode(LABELS, motions, mode + 1, w2)
-    return hdf5.eigenvalues([(i + 1, w2, 1.0) for i, w2 in enumerate(network.omega_n_squared)])

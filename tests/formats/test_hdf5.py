@@ -4,8 +4,7 @@ import h5py
 import numpy as np
 import pytest
 from free_network import CORNERS, HEXA, LABELS, free_network
-from hdf5_files import BUCKLING, COMPLEX_MODES, Hdf5
-from network_files import network_hdf5
+from hdf5_files import BUCKLING, COMPLEX_MODES, Hdf5, network_hdf5
 
 from modeviz.cli import main
 from modeviz.errors import VehicleError
