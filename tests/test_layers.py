@@ -22,7 +22,7 @@ LAYERS = [
     {"analysis"},
     {"optimise"},
     {"scatter"},
-    {"report"},
+    {"report", "export"},
     {"viewer", "viewer.session"},
     {"viewer.tasks", "viewer.page"},
     {"viewer.scene"},

@@ -1,6 +1,7 @@
 """The command line.
 
-`modeviz [view|modes|psd|wheels|render|report|optimise|scatter] [VEHICLE]`, `modeviz import FILE`.
+`modeviz [view|modes|psd|wheels|render|report|optimise|scatter] [VEHICLE]`, `modeviz import FILE`,
+`modeviz export [VEHICLE] FILE`.
 """
 
 import sys

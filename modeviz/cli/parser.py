@@ -6,6 +6,7 @@ from functools import partial
 from importlib.metadata import version
 
 from modeviz.cli.command import Command
+from modeviz.cli.export import EXPORT
 from modeviz.cli.importing import IMPORT
 from modeviz.cli.modes import MODES
 from modeviz.cli.optimise import OPTIMISE
@@ -16,7 +17,7 @@ from modeviz.cli.scatter import SCATTER
 from modeviz.cli.view import VIEW
 from modeviz.cli.wheels import WHEELS
 
-COMMANDS = (VIEW, MODES, PSD, WHEELS, RENDER, REPORT, OPTIMISE, SCATTER, IMPORT)
+COMMANDS = (VIEW, MODES, PSD, WHEELS, RENDER, REPORT, OPTIMISE, SCATTER, IMPORT, EXPORT)
 
 
 def parse(arguments: Sequence[str]) -> Callable[[], None]:

@@ -4,9 +4,11 @@ from os import PathLike
 from pathlib import Path
 
 from modeviz.compute.threads import one_thread
+from modeviz.export.solution import ExportOptions
 from modeviz.files.disk import check_writable
 from modeviz.files.rate_settings import ORIGINAL, resolve_rates
 from modeviz.report.comparison import RateSet
+from modeviz.study.exporting import export_files
 from modeviz.study.page import Page, is_notebook, open_page
 from modeviz.study.pictures import (
     Background,
@@ -62,6 +64,34 @@ class StudyOutput:
             drawn = report_pictures(vehicle, (base, now), conditions, self._tell)
         prepare = self._tuned.prepared
         write_report(Path(path), prepare, (base, now), conditions, drawn, self._tell)
+        return WrittenFile(Path(path))
+
+    @one_thread()
+    def export(
+        self,
+        path: "str | PathLike[str]",
+        *,
+        road: str | None = None,
+        below_hz: float | None = None,
+        units: str = "mm-t-s",
+        first_id: int = 1,
+    ) -> WrittenFile:
+        """Write a file for other programs, with the present rates.
+
+        Args:
+            path: of the file; its name ends in what it has, and says the format: "rates.bdf",
+                "optimised-modes.unv", "psd.csv", "cab.vtu"; docs/export.md lists them.
+            road: of responses, as of `ride`.
+            below_hz: modes above are left out; None: those above the vehicle's band.
+            units: of Nastran cards, such as "mm-t-s"; all else is in SI.
+            first_id: of the grids, elements, properties and coordinate systems in Nastran cards.
+
+        Raises:
+            ModevizError: there is no such content, format, road or unit, it cannot be solved, or the
+                file cannot be written.
+        """
+        options = ExportOptions(below_hz=below_hz, units=units, first_id=first_id)
+        export_files([Path(path)], self._tuned, road, options)
         return WrittenFile(Path(path))
 
     @one_thread()

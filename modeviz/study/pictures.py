@@ -33,12 +33,12 @@ SHOWN = {
     ".html": '<iframe title="{name}" width="100%" height="640" style="border:0" '
     'src="data:text/html;base64,{data}"></iframe>',
 }
-"""What shows a file in a notebook, by its ending."""
+"""What shows a file in a notebook, by its ending; of others nothing but the name is shown."""
 
 
 @dataclass(frozen=True)
 class WrittenFile:
-    """A file that was written; a notebook shows what is in it."""
+    """A file that was written; a notebook shows what is in it, if it is a picture or a page."""
 
     path: Path
 
@@ -46,8 +46,11 @@ class WrittenFile:
         return str(self.path)
 
     def _repr_html_(self) -> str:
+        frame = SHOWN.get(self.path.suffix.lower())
+        if frame is None:
+            return block(str(self.path))
         data = b64encode(self.path.read_bytes()).decode()
-        shown = SHOWN[self.path.suffix.lower()].format(name=escape(self.path.name), data=data)
+        shown = frame.format(name=escape(self.path.name), data=data)
         return block(str(self.path), f"<div>{shown}</div>")
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from os import PathLike
+from os import PathLike, fspath
 from pathlib import Path
 
 from modeviz.errors import located
@@ -101,7 +101,7 @@ class StudyRates(Displayed):
             VehicleError: there is no such set, file or group.
         """
         if isinstance(choice, str | PathLike):
-            self._rates = resolve_rates(self._vehicle, str(choice))
+            self._rates = resolve_rates(self._vehicle, fspath(choice))
             name = Path(choice).name
         else:
             self._rates, name = self._vehicle.all_rates(choice), "found"
