@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
 MOST_NAMES = 30
@@ -9,6 +10,9 @@ MOST_NAMES = 30
 
 MOST_COMPARED = 5000
 """Among more names none is looked for that may be meant: that would take seconds."""
+
+MOST_FAULTS = 5
+"""Of what is wrong in one place with many tables, so much is said at once."""
 
 LONGEST_NAME, LONGEST = 80, 2000
 """Letters of what is quoted, and of a whole text: what is longer is cut in its midst."""
@@ -23,6 +27,41 @@ class ModevizError(Exception):
 
 class VehicleError(ModevizError):
     """A vehicle that cannot be built or read."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What is wrong at one key of a file."""
+
+    path: str
+    """Of the key, "problem[0].group[1]"; empty for the whole."""
+    words: str
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.words}" if self.path else self.words
+
+    def within(self, key: str) -> "Fault":
+        """Return the same with its path one step further out."""
+        return replace(self, path=f"{key}.{self.path}" if self.path else key)
+
+
+class FaultsError(VehicleError):
+    """What is wrong at keys of a file: the text says the first `MOST_FAULTS`, `faults` has all."""
+
+    def __init__(self, *faults: Fault) -> None:
+        n_more = len(faults) - MOST_FAULTS
+        more = [f"{n_more} more"] if n_more > 0 else []
+        super().__init__("; ".join([*map(str, faults[:MOST_FAULTS]), *more]))
+        self.faults: tuple[Fault, ...] = faults
+
+
+class PartError(VehicleError):
+    """What is wrong with a part of a vehicle, which is found by its kind and name."""
+
+    def __init__(self, kind: str, name: str, words: str) -> None:
+        super().__init__(f"{kind} {quoted(name)}{words}")
+        self.kind: str = kind
+        self.name: str = name
 
 
 class SolveError(ModevizError):
@@ -72,7 +111,7 @@ def check_unique(kind: str, names: Iterable[str]) -> None:
         if not name:
             raise VehicleError(f"{kind}: found an empty name")
         if name in seen:
-            raise VehicleError(f"{kind} {quoted(name)} is there twice; each needs its own name")
+            raise PartError(kind, name, " is there twice; each needs its own name")
         seen.add(name)
 
 
@@ -106,3 +145,31 @@ def located(where: object) -> Iterator[None]:
         yield
     except ModevizError as error:
         raise VehicleError(f"{where}: {error}") from None
+
+
+@contextmanager
+def at_key(key: str) -> Iterator[None]:
+    """Says of whatever the user got wrong inside the block at which key of a file it is.
+
+    Raises:
+        FaultsError: something inside raised a ModevizError.
+    """
+    try:
+        yield
+    except FaultsError as error:
+        raise FaultsError(*(fault.within(key) for fault in error.faults)) from None
+    except ModevizError as error:
+        raise FaultsError(Fault(key, str(error))) from None
+
+
+@contextmanager
+def of_part(kind: str, name: str) -> Iterator[None]:
+    """Puts a part of a vehicle in front of whatever the user got wrong inside the block.
+
+    Raises:
+        PartError: something inside raised a ModevizError.
+    """
+    try:
+        yield
+    except ModevizError as error:
+        raise PartError(kind, name, f": {error}") from None

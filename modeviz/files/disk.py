@@ -6,11 +6,12 @@ import re
 import stat
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from difflib import get_close_matches
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import BinaryIO
 
-from modeviz.errors import VehicleError, located, quoted, reason
+from modeviz.errors import MOST_COMPARED, VehicleError, located, quoted, reason
 from modeviz.files.limits import check_size, most_allowed
 
 LARGEST_TEXT = 2_000_000
@@ -49,11 +50,21 @@ def opened(path: Path, most: int) -> Iterator[BinaryIO]:
             check_size("bytes", status.st_size, most)
         file = path.open("rb")
     except FileNotFoundError:
-        raise VehicleError(f"{path}: there is no such file") from None
+        raise VehicleError(f"{path}: there is no such file{_likely(path)}") from None
     except (OSError, ValueError, RuntimeError) as error:
         raise VehicleError(f"{path}: cannot be read ({reason(error)})") from None
     with file:
         yield file
+
+
+def _likely(path: Path) -> str:
+    """Words for the file that may be meant by a path at which there is none."""
+    try:
+        names = [other.name for other in path.parent.iterdir()]
+    except OSError:
+        return f", nor a folder {path.parent}" if path.parent.name else ""
+    close = get_close_matches(path.name, names[:MOST_COMPARED], n=1)
+    return f"; did you mean {quoted(close[0])}?" if close else ""
 
 
 def read_text(path: Path, most: int = LARGEST_TEXT, otherwise: str | None = None) -> str:

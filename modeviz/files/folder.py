@@ -6,12 +6,14 @@ flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a ro
 FOLDER/spectra/NAME.csv that of a force or a motion of the ground; all in SI.
 """
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
-from modeviz.errors import VehicleError, located
+from modeviz.errors import VehicleError, at_key, located
 from modeviz.files.disk import file_stems, replace_folder, write_text
 from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
@@ -42,7 +44,7 @@ from modeviz.files.schema.conventions import Conventions
 from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.source import Source
 from modeviz.files.spectra import write_spectrum
-from modeviz.files.toml_reader import read_toml
+from modeviz.files.toml_reader import in_si, read_tables
 from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
@@ -82,21 +84,49 @@ def read_vehicle(folder: Path | str) -> Vehicle:
             and what would be right.
     """
     folder = Path(folder)
-    path = folder / VEHICLE_FILE
-    if not path.is_file():
+    tables = read_vehicle_tables(folder)
+    with located(folder / VEHICLE_FILE):
+        vehicle = vehicle_of(tables, Source(folder))
+        check_workload(vehicle)
+        return vehicle
+
+
+def read_vehicle_tables(folder: Path) -> dict[str, Any]:
+    """The tables of the vehicle file in a folder, as they stand.
+
+    Raises:
+        VehicleError: it is missing or not TOML.
+    """
+    if not (folder / VEHICLE_FILE).is_file():
         raise VehicleError(
             f"{folder}: found no {VEHICLE_FILE}; a vehicle is a folder with a {VEHICLE_FILE}, and the "
             "modes, meshes and roads that it names"
         )
-    record = read_toml(path, VehicleRecord)
-    with located(path):
+    return read_tables(folder / VEHICLE_FILE)
+
+
+def vehicle_of(tables: Mapping[str, Any], source: Source) -> Vehicle:
+    """The vehicle that the tables of a file say, with notes on what is likely wrong with it.
+
+    Args:
+        tables: as they stand in the file.
+        source: the folder that it is in.
+
+    Raises:
+        FaultsError: something is wrong at keys of the file or in a file that they name.
+        PartError: a part of the vehicle does not fit the others.
+        VehicleError: it is too large, or has no bodies.
+    """
+    record = in_si(tables, VehicleRecord)
+    with at_key("axes"):
         axes = axes_of(record.axes)
-        ours = turned(msgspec.to_builtins(record), VehicleRecord, axes)
-        source = Source(folder, Conventions(record.units, axes))
-        vehicle = msgspec.convert(ours, VehicleRecord).build(source)
-        check_workload(vehicle)
-        _note_doubts(vehicle, source)
-        return replace(vehicle, notes=source.notes, file=str(path))
+    ours = turned(msgspec.to_builtins(record), VehicleRecord, axes)
+    own = replace(source, conventions=Conventions(record.units, axes))
+    vehicle = msgspec.convert(ours, VehicleRecord).build(own)
+    if not own.stand_ins:
+        for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
+            own.note(doubt)
+    return replace(vehicle, notes=own.notes, file=str(own.folder / VEHICLE_FILE))
 
 
 def write_vehicle(vehicle: Vehicle, folder: Path | str) -> None:
@@ -121,13 +151,6 @@ def _replaceable(folder: Path) -> bool:
         return False
     names = {path.name for path in folder.iterdir()}
     return not names or ((folder / VEHICLE_FILE).is_file() and names <= CONTENT)
-
-
-def _note_doubts(vehicle: Vehicle, source: Source) -> None:
-    """Notes what is likely wrong with a vehicle that can be built."""
-    axes = source.conventions.axes
-    for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
-        source.note(doubt)
 
 
 def _write_content(vehicle: Vehicle, folder: Path) -> None:

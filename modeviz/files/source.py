@@ -1,13 +1,14 @@
 """The folder that a vehicle is read from, and what there is to say about it."""
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 from modeviz.files.disk import inside
 from modeviz.files.limits import check_size, most_allowed
 from modeviz.files.schema.conventions import Conventions
+from modeviz.vehicle.bodies import Body
 
 LARGEST_ARRAYS = 256_000_000
 """Bytes of the modes of all bodies, which take some times as much while they are read."""
@@ -29,6 +30,8 @@ class Source:
     folder: Path
     conventions: Conventions = field(default_factory=Conventions)
     """Of the files in it."""
+    stand_ins: tuple[Body, ...] = ()
+    """Bodies beside those of the folder, for those that cannot be read."""
     _reserved: list[int] = field(default_factory=list)
     """Bytes of each file of modes."""
     _lines: list[int] = field(default_factory=list)
@@ -88,4 +91,9 @@ class Source:
 
     def note(self, sentence: str) -> None:
         """Notes what was taken otherwise than it stands, or is likely wrong, with what it is about."""
-        self._notes.append(sentence)
+        if sentence not in self._notes:
+            self._notes.append(sentence)
+
+    def again(self, stand_ins: tuple[Body, ...] = ()) -> Self:
+        """The same folder to be read once more: what is known of it stays, lines count from zero."""
+        return replace(self, stand_ins=stand_ins, _lines=[])

@@ -2,8 +2,9 @@
 
 import re
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -32,16 +33,34 @@ def read_toml(path: Path, kind: type[R]) -> R:
     Raises:
         VehicleError: the file is missing, not TOML, or not of that kind; the text names it and the key.
     """
+    tables = read_tables(path)
+    with located(path):
+        return in_si(tables, kind)
+
+
+def in_si(tables: Mapping[str, Any], kind: type[R]) -> R:
+    """The tables of a file as a record in SI.
+
+    Raises:
+        FaultsError: they are not of that kind.
+    """
+    record = decode(tables, kind)  # before scaling, so that errors show the file's own numbers
+    return msgspec.convert(to_si(tables, kind, record.units), kind)
+
+
+def read_tables(path: Path) -> dict[str, Any]:
+    """A file's tables as they stand.
+
+    Raises:
+        VehicleError: the file is missing or not TOML; the text names it.
+    """
     text = read_text(path)
     with located(path):
         _check_depth(text)
     try:
-        data = tomllib.loads(text)
+        return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise VehicleError(f"{path}: not TOML: {unreadable(error)}") from None
-    with located(path):
-        record = decode(data, kind)  # before scaling, so that errors show the file's own numbers
-        return msgspec.convert(to_si(data, kind, record.units), kind)
 
 
 def _check_depth(text: str) -> None:

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from modeviz.errors import VehicleError, check_unique, located, unknown
+from modeviz.errors import Fault, FaultsError, PartError, VehicleError, check_unique, of_part, unknown
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, Body, FlexibleBody
 from modeviz.vehicle.connections import (
@@ -88,17 +88,20 @@ class Vehicle:
         if not self.bodies:
             raise VehicleError(f"vehicle {self.name!r} has no bodies")
         if not (np.isfinite(self.speed) and self.speed > 0):
-            raise VehicleError(f"speed: found {self.speed} m/s, expected more than 0")
+            raise FaultsError(Fault("speed", f"found {self.speed} m/s, expected more than 0"))
         self._check_band()
         self._check_names()
         for connection in self.all_connections:
-            self._check_ends(connection)
-        for mass in self.added_masses:
-            self._check_place(f"added mass {mass.name!r}", mass.body, mass.position)
-        for point in self.response_points:
-            self._check_place(f"response point {point.name!r}", point.body, point.position)
-        for force in self.forces:
-            self._check_place(f"force {force.name!r}", force.body, force.position)
+            with of_part("connection", connection.name):
+                self._check_ends(connection)
+        for kind, things in (
+            ("added mass", self.added_masses),
+            ("response point", self.response_points),
+            ("force", self.forces),
+        ):
+            for thing in things:
+                with of_part(kind, thing.name):
+                    self._check_place(thing.body, thing.position)
         check_unique("mode damping of", (damping.name for damping in self.mode_damping))
         self._check_references()
 
@@ -251,18 +254,20 @@ class Vehicle:
         for key in ("highest_frequency", "frequency_step"):
             value = getattr(self, key)
             if not (np.isfinite(value) and value > 0):
-                raise VehicleError(f"{key}: found {value} Hz, expected more than 0")
+                raise FaultsError(Fault(key, f"found {value} Hz, expected more than 0"))
         count = self.highest_frequency / self.frequency_step
         if abs(count - round(count)) > WHOLE * count:
-            raise VehicleError(
-                f"highest_frequency: found {self.highest_frequency:g} Hz, expected a whole multiple of "
-                f"frequency_step, {self.frequency_step:g} Hz"
+            words = (
+                f"found {self.highest_frequency:g} Hz, expected a whole multiple of frequency_step, "
+                f"{self.frequency_step:g} Hz"
             )
+            raise FaultsError(Fault("highest_frequency", words))
         if not FEWEST_LINES <= round(count) <= MOST_LINES:
-            raise VehicleError(
-                f"frequency_step: found {self.frequency_step:g} Hz for {self.highest_frequency:g} Hz, "
-                f"which makes {round(count)} lines; expected {FEWEST_LINES} to {MOST_LINES}"
+            words = (
+                f"found {self.frequency_step:g} Hz for {self.highest_frequency:g} Hz, which makes "
+                f"{round(count)} lines; expected {FEWEST_LINES} to {MOST_LINES}"
             )
+            raise FaultsError(Fault("frequency_step", words))
 
     def _check_names(self) -> None:
         for kind, items in (
@@ -277,65 +282,60 @@ class Vehicle:
         ):
             check_unique(kind, (item.name for item in items))
         if GROUND in (body.name for body in self.bodies):
-            raise VehicleError(f"body {GROUND!r}: that name means what does not move; take another")
+            raise PartError("body", GROUND, ": that name means what does not move; take another")
         for connection in self.all_connections:
             if connection.group in (body.name for body in self.bodies):
-                raise VehicleError(
-                    f"connection {connection.name!r}: group {connection.group!r} is the name of a "
-                    "body; their energies are reported side by side, so take another"
-                )
+                words = f": group {connection.group!r} is the name of a body; their energies are "
+                words += "reported side by side, so take another"
+                raise PartError("connection", connection.name, words)
 
     def _check_references(self) -> None:
         """Raises VehicleError unless every tyre and mount group that is named exists."""
         tyres = [t.name for t in self.tyres]
         for load in self.wheel_loads:
             if load.tyre not in tyres:
-                raise VehicleError(f"wheel load {load.name!r}: " + unknown("tyre", load.tyre, tyres))
+                raise PartError("wheel load", load.name, ": " + unknown("tyre", load.tyre, tyres))
         for motion in self.base_motions:
-            self._check_base_motion(motion)
+            with of_part("base motion", motion.name):
+                self._check_base_motion(motion)
         for name, rates in self.rate_sets.items():
             for group in rates:
                 if group not in self.rates:
-                    raise VehicleError(f"rates {name!r}: " + unknown("mount group", group, self.rates))
+                    raise PartError("rates", name, ": " + unknown("mount group", group, self.rates))
         for problem in self.problems:
-            with located(f"problem {problem.name!r}"):
+            with of_part("problem", problem.name):
                 self.check_problem(problem)
 
     def _check_base_motion(self, motion: BaseMotion) -> None:
         """Raises VehicleError unless what it moves holds on to the ground."""
-        where = f"base motion {motion.name!r}"
         grounded = [c.name for c in self.all_connections if c.bodies[1] == GROUND]
         for name in motion.connections:
             if name not in grounded:
-                raise VehicleError(f"{where}: " + unknown("connection to the ground", name, grounded))
+                raise VehicleError(unknown("connection to the ground", name, grounded))
         if not self.moved_connections(motion):
-            raise VehicleError(f"{where}: nothing is connected to the ground, so nothing moves")
+            raise VehicleError("nothing is connected to the ground, so nothing moves")
 
     def _check_ends(self, connection: Connection) -> None:
-        where = f"connection {connection.name!r}"
         if not isinstance(connection, Mount | Spring | Rod | Bolt | Damper | Tyre):
-            raise VehicleError(f"{where}: expected a Spring, Rod, Bolt, Damper or Tyre")
+            raise VehicleError("expected a Spring, Rod, Bolt, Damper or Tyre")
         if connection.rigid and not isinstance(connection, Spring | Rod | Bolt):
-            raise VehicleError(f"{where}: only a spring, a rod or a bolt can be rigid")
+            raise VehicleError("only a spring, a rod or a bolt can be rigid")
         if connection.bodies[0] == GROUND:
-            raise VehicleError(f"{where}: {GROUND!r} must be the second of its bodies")
+            raise VehicleError(f"{GROUND!r} must be the second of its bodies")
         for body, point in zip(connection.bodies, connection.points, strict=True):
             if body != GROUND:
-                self._check_place(where, body, point)
+                self._check_place(body, point)
 
-    def _check_place(self, what: str, body_name: str, position: Floats) -> None:
+    def _check_place(self, body_name: str, position: Floats) -> None:
         """Raises VehicleError unless the body is there and something can hang on it at `position`."""
-        try:
-            body = self.body(body_name)
-            if not isinstance(body, FlexibleBody):
-                return
-            nearest = body.nearest_attachment(position)
-        except VehicleError as error:
-            raise VehicleError(f"{what}: {error}") from None
+        body = self.body(body_name)
+        if not isinstance(body, FlexibleBody):
+            return
+        nearest = body.nearest_attachment(position)
         distance = np.linalg.norm(nearest.position - position)
         if distance > REACH:
             raise VehicleError(
-                f"{what}: {position.tolist()} is {distance:.2f} m from the nearest attachment of "
+                f"{position.tolist()} is {distance:.2f} m from the nearest attachment of "
                 f"{body_name!r}, {nearest.name!r}; at most {REACH} m is allowed"
             )
 

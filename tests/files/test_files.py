@@ -345,7 +345,7 @@ EDITS = {
     "unknown quantity": (
         "stiffness =",
         "stifness =",
-        "units: unknown quantity 'stifness': did you mean 'stiffness'? there are length, mass",
+        "units.stifness: unknown quantity 'stifness': did you mean 'stiffness'? there are length, mass",
     ),
     "no unit": (
         'stiffness = "N/mm"\n',
@@ -387,7 +387,7 @@ EDITS = {
     "too few modes": (
         "damping_ratio",
         "keep_modes = 5\ndamping_ratio",
-        "flexible_body[0]: body 'cab': modes to keep: found 5, expected 6 to 9",
+        "flexible_body[0].keep_modes: body 'cab': modes to keep: found 5, expected 6 to 9",
     ),
     "overdamped": ("0.03", "1.5", "damping_ratio: found 1.5, expected a fraction of critical"),
     "bounds the wrong way round": ("lateral = 2000.0", "lateral = 1", "bounds: lateral: found 100 to"),
@@ -402,10 +402,10 @@ EDITS = {
     "mesh of another kind": ("meshes/cab.glb", "bodies/cab.npz", "expected one of .glb, .stl, .obj"),
     "missing modes": ("bodies/cab.npz", "bodies/cob.npz", "bodies/cob.npz: there is no such file"),
     "missing road": ("roads/road_1.csv", "roads/x.csv", "roads/x.csv: there is no such file"),
-    "mesh outside": ("meshes/cab.glb", "../../x.glb", "flexible_body[0]: mesh: found '../../x.glb'"),
-    "modes outside": ("bodies/cab.npz", "/etc/passwd", "flexible_body[0]: modes: found '/etc/passwd'"),
-    "road outside": ("roads/road_1.csv", "roads/../../x", "road[0]: file: found 'roads/../../x'"),
-    "file name with a zero": ("roads/road_1.csv", "a\\u0000b", "road[0]: file: found 'a\\x00b'"),
+    "mesh outside": ("meshes/cab.glb", "../../x.glb", "flexible_body[0].mesh: found '../../x.glb'"),
+    "modes outside": ("bodies/cab.npz", "/etc/passwd", "flexible_body[0].modes: found '/etc/passwd'"),
+    "road outside": ("roads/road_1.csv", "roads/../../x", "road[0].file: found 'roads/../../x'"),
+    "file name with a zero": ("roads/road_1.csv", "a\\u0000b", "road[0].file: found 'a\\x00b'"),
     "folder for a file": ("bodies/cab.npz", "bodies", "bodies: cannot be read"),
     "broken TOML": ("speed = 8", "speed = = 8", "not TOML: Invalid value (at line 2, column 9)"),
 }
@@ -472,7 +472,9 @@ SHAPES = flexible_body().shapes
 )
 def test_wrong_array_is_explained(folder, arrays, words):
     resave(folder, **arrays)
-    assert f"{folder}/vehicle.toml: flexible_body[0]: {folder}/bodies/cab.npz: " in complaint(folder)
+    assert f"{folder}/vehicle.toml: flexible_body[0].modes: {folder}/bodies/cab.npz: " in complaint(
+        folder
+    )
     assert words in complaint(folder)
 
 
@@ -536,7 +538,7 @@ def test_damaged_file_never_raises_anything_else(folder, name):
 def test_wrong_road_is_explained(folder, old, new, words):
     path = folder / "roads/road_1.csv"
     path.write_text(path.read_text().replace(old, new, 1))
-    assert f"road[0]: {path}: " in complaint(folder)
+    assert f"road[0].file: {path}: " in complaint(folder)
     assert words in complaint(folder)
 
 

@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 from msgspec import Meta
 
-from modeviz.errors import VehicleError, located
+from modeviz.errors import Fault, FaultsError, at_key
 from modeviz.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.files.modal import read_flexible_body
 from modeviz.files.records.fields import (
@@ -20,7 +20,8 @@ from modeviz.files.records.fields import (
 from modeviz.files.records.record import Record, tuples
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
-from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Mesh, RigidBody, Role
+from modeviz.units import factor
+from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Material, Mesh, RigidBody, Role
 
 
 class BodyRecord(Record, kw_only=True):
@@ -45,13 +46,16 @@ class BodyRecord(Record, kw_only=True):
     def read_mesh(self, source: Source) -> Mesh:
         if self.mesh is None:
             return ()
-        with located("mesh"):
-            path = source.path(self.mesh)
-        conventions = source.conventions.with_units({"length": self.mesh_unit}, "mesh_unit")
-        return tuple(
-            replace(part, vertices=conventions.positions(part.vertices))
-            for part in read_mesh(path, self.color)
-        )
+        with at_key("color"):
+            Material(self.color)
+        with at_key("mesh_unit"):
+            factor(self.mesh_unit, "length")
+        conventions = source.conventions.with_units({"length": self.mesh_unit})
+        with at_key("mesh"):
+            return tuple(
+                replace(part, vertices=conventions.positions(part.vertices))
+                for part in read_mesh(source.path(self.mesh), self.color)
+            )
 
 
 class FlexibleBodyRecord(BodyRecord, kw_only=True):
@@ -85,8 +89,6 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
         )
 
     def build(self, source: Source) -> FlexibleBody:
-        with located("modes"):
-            path = source.path(self.modes)
         properties = {
             "role": self.role,
             "label": self.spoken,
@@ -95,16 +97,17 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
             "loss_factor": self.loss_factor,
             "stated_mass": self.mass,
         }
-        conventions = source.conventions.with_units(self.units, "units")
+        with at_key("units"):
+            conventions = source.conventions.with_units(self.units)
         own = replace(source, conventions=conventions)
-        body = read_flexible_body(path, self.name, properties, own)
+        with at_key("modes"):
+            body = read_flexible_body(source.path(self.modes), self.name, properties, own)
         n_elastic, n_ratios = body.n_normal - body.n_rigid, np.size(self.damping_ratio)
         if n_ratios > max(n_elastic, 1):
-            raise VehicleError(
-                f"damping_ratio: found {n_ratios} for {n_elastic} elastic modes, expected one for all "
-                "or one for each; rigid modes have none"
-            )
-        return body.truncated(self.keep_modes or body.n_normal, self.residual_vectors)
+            words = f"found {n_ratios} for {n_elastic} elastic modes, expected one for all or one for "
+            raise FaultsError(Fault("damping_ratio", f"{words}each; rigid modes have none"))
+        with at_key("keep_modes"):
+            return body.truncated(self.keep_modes or body.n_normal, self.residual_vectors)
 
 
 class RigidBodyRecord(BodyRecord, kw_only=True):
@@ -134,7 +137,7 @@ class RigidBodyRecord(BodyRecord, kw_only=True):
 
     def build(self, source: Source) -> RigidBody:
         if len(self.inertia) not in (3, 6):
-            raise VehicleError(f"inertia: found {len(self.inertia)} numbers, expected 3 or 6")
+            raise FaultsError(Fault("inertia", f"found {len(self.inertia)} numbers, expected 3 or 6"))
         inertia = np.diag(self.inertia[:3])
         for (row, column), product in zip(((0, 1), (0, 2), (1, 2)), self.inertia[3:], strict=False):
             inertia[row, column] = inertia[column, row] = 0.0 - product

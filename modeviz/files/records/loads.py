@@ -5,7 +5,7 @@ from typing import Self
 
 import numpy as np
 
-from modeviz.errors import VehicleError, located
+from modeviz.errors import VehicleError, at_key
 from modeviz.files.records.fields import (
     Acceleration,
     AccelerationPsd,
@@ -44,6 +44,8 @@ from modeviz.vehicle.loads import (
 class RoadRecord(Record, kw_only=True):
     """[[road]]: with a file it is a table's, else of a class or a level of ISO 8608."""
 
+    depending = frozenset(("file", "iso_8608", "roughness"))
+
     name: Name
     label: str = ""
     """The name, if not given."""
@@ -76,8 +78,7 @@ class RoadRecord(Record, kw_only=True):
 
     def build(self, source: Source, track_width: float) -> Road:
         """The road under a vehicle of that track width, m."""
-        keys = ("file", "iso_8608", "roughness")
-        given = _the_one({key: getattr(self, key) for key in keys})
+        given = _the_one({key: getattr(self, key) for key in ("file", "iso_8608", "roughness")})
         self._check_keys(given)
         return (
             self._of_file(source, track_width)
@@ -103,9 +104,11 @@ class RoadRecord(Record, kw_only=True):
 
     def _of_file(self, source: Source, track_width: float) -> Road:
         assert self.file is not None
-        with located("file"):
+        with at_key("file"):
             path = source.path(self.file)
-        table = source.once((path, "road"), lambda: read_road(path, source.conventions, source.note))
+            table = source.once(
+                (path, "road"), lambda: read_road(path, source.conventions, source.note)
+            )
         if self.track_width is not None and table.cross is not None:
             raise VehicleError("track_width: does nothing beside a cross spectrum, leave it out")
         width, label = self._width(track_width), self.label or self.name
@@ -141,6 +144,8 @@ class WheelLoadRecord(Record, kw_only=True):
 class ForceRecord(Record, kw_only=True):
     """[[force]]: with an amplitude it is harmonic, with a PSD random."""
 
+    depending = frozenset(("amplitude", "psd"))
+
     name: Name
     body: str
     at: Position
@@ -169,6 +174,8 @@ class ForceRecord(Record, kw_only=True):
 
 class BaseMotionRecord(Record, kw_only=True):
     """[[base_motion]]: with an amplitude it is harmonic, with a PSD random."""
+
+    depending = frozenset(("displacement", "acceleration", "displacement_psd", "acceleration_psd"))
 
     name: Name
     connections: tuple[str, ...] = ()
@@ -222,11 +229,11 @@ def _amplitude(source: Source, record: Record, key: str) -> float | Spectrum:
         return given
     quantity = quantity_of(type(record), key)
     assert quantity is not None
-    with located(key):
+    with at_key(key):
         path = source.path(given)
-    spectrum = source.once(
-        (path, quantity), lambda: read_spectrum(path, quantity, source.conventions, source.note)
-    )
+        spectrum = source.once(
+            (path, quantity), lambda: read_spectrum(path, quantity, source.conventions, source.note)
+        )
     source.count_lines(len(spectrum.frequency_hz))
     return spectrum
 

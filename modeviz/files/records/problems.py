@@ -29,6 +29,8 @@ NO_LIMITS = "none"
 class DesignGroupRecord(Record, kw_only=True):
     """[[problem.group]]; bounds and limits that are not given are the mount group's."""
 
+    depending = frozenset(("softest", "stiffest"))
+
     group: Name
     directions: tuple[str, ...] = DIRECTIONS
     softest: RatesRecord | None = None

@@ -1,7 +1,7 @@
 """The whole of `vehicle.toml`, and its tables of points and modes, in SI."""
 
 from itertools import chain
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 import msgspec
 import numpy as np
@@ -34,6 +34,7 @@ from modeviz.files.records.record import FileRecord, Record, built, tuples
 from modeviz.files.schema.axes import OURS
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
+from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 from modeviz.vehicle.connections import (
     Bolt,
     Connection,
@@ -129,8 +130,12 @@ class VehicleRecord(FileRecord, kw_only=True):
     def build(self, source: Source) -> Vehicle:
         """The vehicle: flexible bodies first, connections as in `CONNECTION_KINDS`."""
         self._check_counts()
-        flexible = built(self.flexible_body, "flexible_body", lambda r: r.build(source))
-        rigid = built(self.rigid_body, "rigid_body", lambda r: r.build(source))
+
+        def known(record: FlexibleBodyRecord | RigidBodyRecord) -> Any:
+            return source.once(msgspec.json.encode(record), lambda: record.build(source))
+
+        flexible: tuple[FlexibleBody, ...] = built(self.flexible_body, "flexible_body", known)
+        rigid: tuple[RigidBody, ...] = built(self.rigid_body, "rigid_body", known)
         n_coordinates = sum(body.n_modes for body in flexible) + 6 * len(rigid)
         check_size(COORDINATES, n_coordinates, MOST_COORDINATES)
         connections = [
@@ -144,7 +149,7 @@ class VehicleRecord(FileRecord, kw_only=True):
         source.check_lines()
         return Vehicle(
             name=self.name,
-            bodies=(*flexible, *rigid),
+            bodies=(*flexible, *rigid, *source.stand_ins),
             connections=tuple(chain(*connections)),
             mount_groups=built(self.mount_group, "mount_group", MountGroupRecord.build),
             added_masses=built(self.added_mass, "added_mass", AddedMassRecord.build),

@@ -51,19 +51,19 @@ def axes_of(text: str) -> Floats:
     """
     found = re.findall(r"([xyz])\s+(?:to the )?([a-z]+)", text.lower())
     if sorted(axis for axis, _ in found) != ["x", "y", "z"]:
-        raise VehicleError(f"axes: found {text!r}, expected such as 'x forward, y left, z up'")
+        raise VehicleError(f"found {text!r}, expected such as 'x forward, y left, z up'")
     T = np.zeros((3, 3))
     for axis, word in found:
         stem = re.sub(r"wards?$", "", word)
         way = _WORDS.get(stem, stem)
         if way not in _WAYS:
-            raise VehicleError("axes: " + unknown("direction", word, _WAYS))
+            raise VehicleError(unknown("direction", word, _WAYS))
         line, sign = _WAYS[way]
         T[line, "xyz".index(axis)] = sign
     determinant = round(np.linalg.det(T))
     if determinant != 1:
         what = "two axes along the same line" if determinant == 0 else "left-handed axes"
-        raise VehicleError(f"axes: found {text!r}, which are {what}; expected right-handed ones")
+        raise VehicleError(f"found {text!r}, which are {what}; expected right-handed ones")
     return T
 
 

@@ -6,8 +6,7 @@ from typing import Self
 
 import numpy as np
 
-from modeviz.errors import located
-from modeviz.files.schema.scaling import unit_in_si
+from modeviz.files.schema.scaling import factors_of, unit_in_si
 from modeviz.vehicle.arrays import Floats
 
 
@@ -20,15 +19,13 @@ class Conventions:
     axes: Floats = field(default_factory=lambda: np.eye(3))
     """(3, 3), see `axes_of`."""
 
-    def with_units(self, units: Mapping[str, str], key: str) -> Self:
+    def with_units(self, units: Mapping[str, str]) -> Self:
         """These conventions with a file's own units in place of some.
 
         Raises:
-            VehicleError: no such quantity or unit; the text begins with the key that says it.
+            FaultsError: no such quantity or unit.
         """
-        with located(key):
-            for quantity in units:
-                unit_in_si(quantity, units)
+        factors_of(units)
         return replace(self, units={**self.units, **units})
 
     def unit(self, quantity: str) -> float:

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from modeviz.errors import VehicleError
+from modeviz.errors import Fault, FaultsError
 from modeviz.files.schema.hints import joined
 from modeviz.files.schema.mismatches import found, mismatch
 
@@ -29,15 +29,16 @@ def decode(data: Any, kind: type[T], where: str = "") -> T:
         where: the key path of the data in its file.
 
     Raises:
-        VehicleError: an unknown, missing or wrong value, or a number that is not finite.
+        FaultsError: an unknown, missing or wrong value, or a number that is not finite.
     """
     try:
         _check_finite(data, where)
         return msgspec.convert(data, kind)
     except RecursionError:
-        raise VehicleError(f"{where or 'the whole'}: tables in tables too deep to be read") from None
+        words = "tables in tables too deep to be read"
+        raise FaultsError(Fault(where or "the whole", words)) from None
     except msgspec.ValidationError:
-        raise VehicleError(mismatch(data, kind, where)) from None
+        raise FaultsError(mismatch(data, kind, where)) from None
 
 
 def unreadable(error: ValueError | RecursionError) -> str:
@@ -60,7 +61,7 @@ def _check_finite(data: Any, where: str) -> None:
         for index, value in enumerate(data):
             _check_finite(value, joined(where, index))
     elif isinstance(data, int | float) and not abs(data) < LARGEST:
-        raise VehicleError(found(_number(data), f"a finite number below {LARGEST:g}", where))
+        raise FaultsError(found(_number(data), f"a finite number below {LARGEST:g}", where))
 
 
 def _number(value: float) -> str:

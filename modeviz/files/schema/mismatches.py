@@ -1,4 +1,4 @@
-"""Sentences on plain data that does not fit a type: where it is, what is there, what is right.
+"""What plain data have that does not fit a type: where it is, what is there, what is right.
 
 msgspec only says whether a value fits; the words and the path of its errors are no part of its
 contract, and are not looked at. The place is found by asking again for the parts of what does not fit,
@@ -19,7 +19,7 @@ from typing import Any, Literal, get_args, get_origin
 import msgspec
 from msgspec import Meta
 
-from modeviz.errors import unknown
+from modeviz.errors import Fault, unknown
 from modeviz.files.schema.hints import alternatives, annotation, fields_of, is_record, joined, plain
 
 KINDS: Mapping[Any, tuple[str, tuple[type, ...]]] = {
@@ -52,8 +52,8 @@ AT_ONCE = 1000
 """Items of a list that are asked for together, since lists can have millions."""
 
 
-def mismatch(data: Any, hint: Any, where: str = "") -> str:
-    """The sentence on the first value that does not fit.
+def mismatch(data: Any, hint: Any, where: str = "") -> Fault:
+    """The first value that does not fit.
 
     Args:
         data: dictionaries, lists, text and numbers, which do not fit.
@@ -67,7 +67,7 @@ def mismatch(data: Any, hint: Any, where: str = "") -> str:
     if is_record(kind):
         return _in_record(data, kind, where)
     if get_origin(kind) is Literal and len(get_args(kind)) > 1:
-        return at(where) + unknown("value", str(data), map(str, get_args(kind)))
+        return Fault(where, unknown("value", str(data), map(str, get_args(kind))))
     if bound := _broken_bound(data, meant):
         return found(brief(data), f"{_word(kind)} {bound}", where)
     for key, value, inner in _parts(data, kind):
@@ -76,26 +76,22 @@ def mismatch(data: Any, hint: Any, where: str = "") -> str:
     return found(brief(data), _in_words(hint), where)
 
 
-def found(value: str, expected: str, where: str) -> str:
-    """The sentence on a value that is wrong."""
-    return f"{at(where)}found {value}, expected {expected}"
+def found(value: str, expected: str, where: str) -> Fault:
+    """The fault of a value that is wrong."""
+    return Fault(where, f"found {value}, expected {expected}")
 
 
-def at(where: str) -> str:
-    """A key path in front of a sentence; nothing for the whole."""
-    return f"{where}: " if where else ""
-
-
-def _in_record(table: dict[str, Any], record: Any, where: str) -> str:
-    """The sentence on the first key of a table that is wrong, or else on one that is not there."""
+def _in_record(table: dict[str, Any], record: Any, where: str) -> Fault:
+    """The first key of a table that is wrong, or else one that is not there."""
     hints = fields_of(record)
     for key, value in table.items():
         if key not in hints and record.__struct_config__.forbid_unknown_fields:
-            return f"{joined(where, key)}: " + unknown("key", key, hints)
+            return Fault(joined(where, key), unknown("key", key, hints))
         if key in hints and not _fits(value, hints[key]):
             return mismatch(value, hints[key], joined(where, key))
     required = [field.encode_name for field in msgspec.structs.fields(record) if field.required]
-    return f"{joined(where, next(key for key in required if key not in table))}: missing"
+    missing = next(key for key in required if key not in table)
+    return Fault(joined(where, missing), f"missing, expected {_in_words(hints[missing])}")
 
 
 def _parts(data: Any, kind: Any) -> Iterator[tuple[str | int, Any, Any]]:

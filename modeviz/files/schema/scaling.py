@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from modeviz.errors import VehicleError, located, unknown
+from modeviz.errors import Fault, FaultsError, VehicleError, at_key, unknown
 from modeviz.files.schema.hints import each_annotated
 from modeviz.files.schema.quantities import Quantity
 from modeviz.units import UNITS, QuantityName, factor
@@ -49,14 +49,17 @@ def to_si(data: Any, kind: type, units: Mapping[str, str]) -> Any:
         VehicleError: no such quantity or unit, a quantity without a unit, or a number that no vehicle
             has.
     """
-    factors = {quantity: _factor(quantity, unit) for quantity, unit in units.items()}
+    with at_key("units"):
+        factors = factors_of(units)
 
     def convert(value: float, quantity: QuantityName, where: str) -> float:
-        unit = factors.get(quantity) or unit_in_si(quantity, units)
+        if quantity not in factors:
+            raise FaultsError(Fault(f"units.{quantity}", _missing(quantity)))
+        unit = factors[quantity]
         least, most = _BOUNDS.get(quantity, (0.0, BEYOND_ANY_VEHICLE))
         if value and not least <= abs(value) * unit <= most:
             words = f"{least / unit:.3g} to {most / unit:.3g}" if least else f"up to {most / unit:.3g}"
-            raise VehicleError(f"{where}: found {value:g} {units[quantity]}, expected {words}")
+            raise FaultsError(Fault(where, f"found {value:g} {units[quantity]}, expected {words}"))
         return value * unit
 
     return _converted(data, kind, convert)
@@ -70,11 +73,11 @@ def unit_in_si(quantity: str, units: Mapping[str, str]) -> float:
         units: such a table, quantity to unit.
 
     Raises:
-        VehicleError: no such quantity or unit, or none for that quantity.
+        VehicleError: none is said, or no such quantity or unit.
     """
     if quantity in UNITS and quantity not in units:
-        raise VehicleError(f"units.{quantity}: missing, expected one of {', '.join(UNITS[quantity])}")
-    return _factor(quantity, units[quantity])
+        raise VehicleError(f"units.{quantity}: {_missing(quantity)}")
+    return factors_of(units)[quantity]
 
 
 def from_si(data: Any, kind: type, units: Mapping[Any, str] = WRITTEN_UNITS) -> Any:
@@ -93,12 +96,23 @@ def written(value: float, unit: float) -> float:
     return short if short * unit == value else number
 
 
-def _factor(quantity: str, unit: str) -> float:
-    """One unit in SI."""
-    if quantity not in UNITS:
-        raise VehicleError("units: " + unknown("quantity", quantity, UNITS))
-    with located(f"units.{quantity}"):
-        return factor(unit, quantity)
+def factors_of(units: Mapping[str, str]) -> dict[str, float]:
+    """One unit of each quantity of a `units` table in SI.
+
+    Raises:
+        FaultsError: there is no such quantity or unit.
+    """
+    factors: dict[str, float] = {}
+    for quantity, unit in units.items():
+        with at_key(quantity):
+            if quantity not in UNITS:
+                raise VehicleError(unknown("quantity", quantity, UNITS))
+            factors[quantity] = factor(unit, quantity)
+    return factors
+
+
+def _missing(quantity: QuantityName) -> str:
+    return f"missing, expected one of {', '.join(UNITS[quantity])}"
 
 
 def _converted(data: Any, kind: type, convert: Callable[[float, QuantityName, str], float]) -> Any:

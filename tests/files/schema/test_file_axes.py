@@ -118,11 +118,11 @@ def test_axes_are_said_in_some_ways(said):
 @pytest.mark.parametrize(
     ("said", "words"),
     [
-        ("", "axes: found '', expected such as 'x forward, y left, z up'"),
+        ("", "found '', expected such as 'x forward, y left, z up'"),
         ("x forward, y left", "expected such as"),
         ("x forward, x left, z up", "expected such as"),
         ("x forward, y rearward, z up", "two axes along the same line"),
-        ("x forward, y lefft, z up", "axes: unknown direction 'lefft': did you mean 'left'?"),
+        ("x forward, y lefft, z up", "unknown direction 'lefft': did you mean 'left'?"),
     ],
 )
 def test_axes_that_are_none_are_refused(said, words):

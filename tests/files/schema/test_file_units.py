@@ -98,8 +98,8 @@ def test_modes_without_rotations_have_units_too():
 @pytest.mark.parametrize(
     ("units", "words"),
     [
-        ('{ length = "mmm" }', "flexible_body[0]: units: units.length: unknown unit of length 'mmm'"),
-        ('{ lenght = "mm" }', "units: units: unknown quantity 'lenght': did you mean 'length'?"),
+        ('{ length = "mmm" }', "flexible_body[0].units.length: unknown unit of length 'mmm'"),
+        ('{ lenght = "mm" }', "units.lenght: unknown quantity 'lenght': did you mean 'length'?"),
         ('{ length = "kg" }', "units.length: unknown unit of length 'kg'"),
     ],
 )
@@ -116,7 +116,7 @@ def test_a_mesh_is_in_the_unit_it_says(folder):
     for found, part in zip(cab(folder).mesh, expected, strict=True):
         np.testing.assert_allclose(found.vertices, part.vertices * 0.0254, rtol=1e-14)
     edit(folder, 'mesh_unit = "in"', 'mesh_unit = "inch"')
-    with pytest.raises(VehicleError, match=r"flexible_body\[0\]: mesh_unit: .*unit of length 'inch'"):
+    with pytest.raises(VehicleError, match=r"flexible_body\[0\].mesh_unit: .*unit of length 'inch'"):
         read_vehicle(folder)
 
 
@@ -128,5 +128,7 @@ def test_arrays_without_a_unit_of_mass_are_refused(folder):
     rigid = text.index("[[rigid_body]]")
     (folder / "vehicle.toml").write_text(text[:rigid] + text[end:], "utf-8")
     assert start < end
-    with pytest.raises(VehicleError, match=r"flexible_body\[0\]: .*units.mass: missing, expected one"):
+    with pytest.raises(
+        VehicleError, match=r"flexible_body\[0\].modes: .*units.mass: missing, expected one"
+    ):
         read_vehicle(folder)

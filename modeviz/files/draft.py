@@ -1,0 +1,232 @@
+"""The tables of a vehicle file from which what is wrong is taken out, as little of each as can be.
+
+A key that may be left out goes alone; one that has to be there takes its table with it, unless
+something can stand in for it. What referred to it by name goes when the rest is put together.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any, get_args
+
+import msgspec
+import numpy as np
+
+from modeviz.errors import Fault
+from modeviz.files.records.vehicle import CONNECTION_KINDS, VehicleRecord
+from modeviz.files.schema.hints import alternatives, fields_of, is_record, joined, plain
+from modeviz.files.schema.scaling import WRITTEN_UNITS
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.connections import GROUND
+
+STAND_INS: Mapping[str, float] = {"damping_ratio": 0.0, "loss_factor": 0.0}
+"""What keys are taken to be that have to be there, so that a body or a mount is read without them."""
+
+TABLES: Mapping[str, tuple[str, ...]] = {
+    "body": ("flexible_body", "rigid_body"),
+    "connection": (*CONNECTION_KINDS, "mount_group"),
+    "mount group": ("mount_group",),
+    "added mass": ("added_mass",),
+    "response point": ("response_point",),
+    "random load": ("road", "force", "base_motion"),
+    "harmonic load": ("wheel_load", "force", "base_motion"),
+    "wheel load": ("wheel_load",),
+    "force": ("force",),
+    "base motion": ("base_motion",),
+    "problem": ("problem",),
+}
+"""The keys of the tables in which a part of a vehicle stands, by its kind."""
+
+REFERENCES = frozenset(
+    ("body", "bodies", "tyre", "connections", "roads", "wheel_loads", "points", "reference", "group")
+)
+"""Keys with names of other tables; "group" only where it is no connection's."""
+
+BAND = ("highest_frequency", "frequency_step")
+"""Keys of the file that only fit each other."""
+
+Step = tuple[Any, Any, Any]
+"""A table with a key of it, or a list with an item of it; and the type of that table or list."""
+
+
+class Draft:
+    """The tables of a vehicle file, which get fewer."""
+
+    def __init__(self, tables: dict[str, Any]) -> None:
+        self.tables: dict[str, Any] = tables
+        """What is left; those given are changed."""
+        self._paths: dict[int, str] = {id(table): path for path, table in _each(tables)}
+        self._lost: set[str] = set()
+        self._lost_bodies: set[str] = set()
+
+    @property
+    def stand_ins(self) -> tuple[RigidBody, ...]:
+        """Bodies for those that were taken out, so that what holds on to them can be checked."""
+        return tuple(
+            RigidBody(name, "other", name, 1.0, np.zeros(3), np.eye(3))
+            for name in sorted(self._lost_bodies - self._names() - {GROUND})
+        )
+
+    def without(self, faults: Iterable[Fault]) -> list[tuple[Fault, str]]:
+        """Return faults by the file's own keys, each with the key of what is now taken out for it.
+
+        That is empty where nothing can be taken out.
+
+        Args:
+            faults: found in the tables as they are.
+        """
+        steps = [self._steps(fault.path) for fault in faults]
+        named = [
+            replace(fault, path=self._own(s, fault)) for fault, s in zip(faults, steps, strict=True)
+        ]
+        return [(fault, self._take_out(s)) for fault, s in zip(named, steps, strict=True)]
+
+    def path_of(self, kind: str, name: str) -> str:
+        """Return the key of the last table of that name of a kind of parts; empty if there is none."""
+        if kind == "mode damping of":
+            return "mode_damping"
+        if kind not in TABLES:
+            return joined(kind, name)
+        found = [
+            path
+            for key in TABLES[kind]
+            for path, table in _each(self.tables.get(key, []), key)
+            if table.get("name") == name
+        ]
+        return found[-1] if found else ""
+
+    def drop_bodies(self) -> None:
+        """Take out what holds on to bodies that were taken out, which have no stand-ins from now on."""
+        self._lost |= self._lost_bodies
+        self._lost_bodies.clear()
+        self.drop_orphans()
+
+    def drop_orphans(self) -> bool:
+        """Take out what names something that was taken out; return whether there was anything.
+
+        Bodies do not count, for which there are stand-ins.
+        """
+        found = False
+        while True:
+            orphans = [self._steps(path) for path in self._orphans()]
+            taken = [self._take_out(steps) for steps in orphans]
+            if not any(taken):
+                return found
+            found = True
+
+    def _orphans(self) -> Iterator[str]:
+        """Keys of tables that name something lost; of a problem's tables, that of the problem."""
+        lost = self._lost - self._names()
+        for path, table in _each(self.tables):
+            if not lost.isdisjoint(_references(table)):
+                yield re.sub(r"^(problem\[\d+\]).*", r"\1", path)
+            if path.startswith("rates."):
+                yield from (joined(path, key) for key in table if key in lost)
+
+    def _names(self) -> set[str]:
+        """The names of all that is left."""
+        return {str(table["name"]) for _, table in _each(self.tables) if "name" in table}
+
+    def _own(self, steps: list[Step], fault: Fault) -> str:
+        """The path of a fault in the file, where its tables may have had other numbers."""
+        path, after = "", fault.path
+        now = ""
+        for container, key, _ in steps:
+            if isinstance(container, list):
+                now += f"[{next(i for i, other in enumerate(container) if other is key)}]"
+                path = self._paths.get(id(key), now)
+            else:
+                now, path = joined(now, key), joined(self._paths[id(container)], key)
+            after = fault.path[len(now) :]
+        return path + after
+
+    def _steps(self, path: str) -> list[Step]:
+        """The way to what a path names, as far as there is one."""
+        at, hint, where, steps = self.tables, VehicleRecord, "", []
+        while where != path and isinstance(at, dict | list):
+            items = at.items() if isinstance(at, dict) else enumerate(at)
+            ways = [(joined(where, key), key, value) for key, value in items]
+            ways = [
+                way for way in ways if path == way[0] or path.startswith((f"{way[0]}.", f"{way[0]}["))
+            ]
+            if not ways:
+                if isinstance(at, dict):
+                    steps.append((at, path[len(where) :].lstrip("."), hint))
+                break
+            where, key, value = max(ways, key=lambda way: len(way[0]))
+            steps.append((at, key if isinstance(at, dict) else value, hint))
+            at, hint = value, _inner(hint, key)
+        return steps
+
+    def _take_out(self, steps: list[Step]) -> str:
+        """Take out the least that a way leads to; return its key, or none if it is the whole."""
+        item = ""
+        for container, key, hint in reversed(steps):
+            if isinstance(container, list):
+                if isinstance(key, dict):
+                    item = self._paths[id(key)]
+                    self._lose(key)
+                    container[:] = [other for other in container if other is not key]
+                    if container:
+                        return item
+            elif (stand_in := self._stand_in(container, key)) is not None:
+                container[key] = stand_in
+                return joined(self._paths[id(container)], key)
+            elif key in container and key not in _required(hint):
+                for each in BAND if key in BAND else (key,):
+                    self._lose(container.pop(each, None))
+                return item or joined(self._paths[id(container)], key)
+            else:
+                item = ""
+        return ""
+
+    def _stand_in(self, table: dict[str, Any], key: str) -> Any:
+        """What a key can be, as if the file said so; None if it can be nothing, or is that already."""
+        if table is self.tables:
+            known: Mapping[str, Any] = {"name": "vehicle"}
+        elif table is self.tables.get("units"):
+            known = {**WRITTEN_UNITS}
+        else:
+            known = {"name": self._paths[id(table)], **STAND_INS}
+        return known[key] if key in known and table.get(key) != known[key] else None
+
+    def _lose(self, value: Any) -> None:
+        for _, table in _each(value):
+            is_body = self._paths[id(table)].startswith(TABLES["body"])
+            if "name" in table:
+                (self._lost_bodies if is_body else self._lost).add(str(table["name"]))
+
+
+def _each(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
+    """Every table in a value with its path."""
+    waiting = [(where, value)]
+    while waiting:
+        path, at = waiting.pop()
+        if isinstance(at, dict):
+            yield path, at
+        items = at.items() if isinstance(at, dict) else enumerate(at) if isinstance(at, list) else ()
+        waiting += reversed([(joined(path, key), inner) for key, inner in items])
+
+
+def _references(table: Mapping[str, Any]) -> Iterator[str]:
+    """The names of other tables in a table."""
+    for key in REFERENCES & table.keys():
+        if key != "group" or "bodies" not in table:
+            names = table[key] if isinstance(table[key], list) else [table[key]]
+            yield from (name for name in names if isinstance(name, str))
+
+
+def _inner(hint: Any, key: Any) -> Any:
+    """The type of what a table or a list has at a key."""
+    if is_record(hint):
+        kinds = [plain(kind) for kind in alternatives(fields_of(hint).get(key, Any))]
+        return next(filter(is_record, kinds), kinds[0])
+    return plain((get_args(hint) or (Any,))[-1])
+
+
+def _required(hint: Any) -> set[str]:
+    """The keys that a table has to have."""
+    if not is_record(hint):
+        return set()
+    required = {field.encode_name for field in msgspec.structs.fields(hint) if field.required}
+    return required | hint.depending
