@@ -350,7 +350,7 @@ EDITS = {
     "no unit": (
         'stiffness = "N/mm"\n',
         "",
-        "units.stiffness: missing, expected one of N/m, N/mm, N/cm, kN/mm, lbf/in",
+        "units.stiffness: missing, expected one of N/m, N/mm, N/cm, kN/mm",
     ),
     "unit that is no text": ('"N/mm"', "3", "units.stiffness: found 3, expected text"),
     "units that are no table": (
