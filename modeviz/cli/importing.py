@@ -17,6 +17,7 @@ from modeviz.formats.component import UNIT_SYSTEMS, Component
 from modeviz.formats.into_folder import add_body
 from modeviz.formats.places import FORMS, parse_place
 from modeviz.formats.reading import read_component
+from modeviz.formats.solving import USUAL_MODES, Wanted, solved
 from modeviz.report.tables import table
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody
@@ -38,6 +39,10 @@ class ImportOptions:
     """Of the body; None: that of the first file."""
     attach: tuple[str, ...] = ()
     """Places, as `parse_place` reads them."""
+    modes: int | None = None
+    """How many to compute where the files have matrices; None: `USUAL_MODES`."""
+    up_to: float | None = None
+    """Hz, instead: all modes up to it."""
 
 
 def import_component(options: ImportOptions) -> None:
@@ -46,6 +51,7 @@ def import_component(options: ImportOptions) -> None:
     if holds_mounts(options.files):
         import_mounts(options.files, options.output, options.units)
         return
+    wanted = _wanted(options)
     component = read_component(options.files)
     for note in component.notes:
         remark(f"{component.source}: {note}")
@@ -54,17 +60,26 @@ def import_component(options: ImportOptions) -> None:
             raise ModevizError(
                 "--attach, --name and --units are of a body that is written; say where with --output"
             )
-        print_result(listing(component))
+        print_result(listing(solved(component, wanted)))
         return
     name = options.name or options.files[0].stem
     units = chosen_units(component, options.units)
     with located("--attach"):
         found = find_attachments(component, [parse_place(text) for text in options.attach], units)
+    component = solved(component, wanted, found, units.length)
     body, remarks = flexible_body(component, units, name, found)
     vehicle = add_body(body, options.output, component.source)
     for note in (*remarks, *vehicle.notes):
         remark(note)
     print_result(summary(body, found, options.output))
+
+
+def _wanted(options: ImportOptions) -> Wanted:
+    if options.modes is not None and options.up_to is not None:
+        raise ModevizError("--modes and --up-to: found both, expected one of them")
+    with located("--modes" if options.modes is not None else "--up-to"):
+        n_modes = USUAL_MODES if options.modes is None else options.modes
+        return Wanted(n_modes=n_modes, up_to_hz=options.up_to)
 
 
 def listing(component: Component) -> str:
@@ -145,6 +160,16 @@ def _add_options(command: ArgumentParser) -> None:
         action="append",
         metavar="PLACE",
         help=f"where others hold on to it: {FORMS}; may be repeated",
+    )
+    command.add_argument(
+        "--modes",
+        type=int,
+        metavar="N",
+        help="of matrices: compute so many modes, the six rigid ones included "
+        f"(default: {USUAL_MODES})",
+    )
+    command.add_argument(
+        "--up-to", type=float, metavar="HZ", help="of matrices: compute all modes up to this frequency"
     )
 
 

@@ -5,9 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeviz.fem.attachments import AttachmentPoint, unit_loads
-from modeviz.fem.free import free_modes, residual_vectors
+from modeviz.fem.free import free_modes
 from modeviz.fem.matrices import Matrices, assemble
 from modeviz.fem.mesh import FiniteElementMesh
+from modeviz.fem.residuals import residual_vectors
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Mesh, Role
 
 

@@ -1,5 +1,6 @@
 """Free bodies: their rigid and normal modes, and how static loads deform them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,10 +19,16 @@ SHIFT = 40.0
 MECHANISM_HZ = 0.01
 """Below this a seventh mode is not elastic: the mesh has a loose part."""
 
-ROUNDING = 1e-9
-"""Of a response, what solving and projecting may leave where nothing is left."""
+FREE_HZ, FREE = 0.05, 0.01
+"""A body is free if no rigid motion vibrates above this, or this part of its first elastic mode."""
 
 N_RIGID = 6
+
+SMALL = 4
+"""With so many degrees of freedom for each mode, all modes are found at once."""
+
+MASSLESS = 1e-15
+"""Part of the largest flexibility, (ω² + s)⁻¹, below which there is no mass."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,29 +77,101 @@ def free_modes(matrices: Matrices, n_modes: int) -> ModalBasis:
         raise SolveError(
             f"modes: found {n_modes}, expected {N_RIGID} (the rigid ones) to {matrices.n_dofs - 1}"
         )
-    R = rigid_modes(matrices)
     # One more than the rigid ones, even if none is wanted, tells whether the body is in one piece.
-    omega_n_squared, phi = lowest_modes(matrices.mass, matrices.stiffness, max(n_modes, N_RIGID + 1))
+    found = lowest_modes(matrices.mass, matrices.stiffness, max(n_modes, N_RIGID + 1))
+    return _free(matrices, *found, n_modes)
+
+
+def free_modes_up_to(matrices: Matrices, frequency_hz: float, most: int) -> ModalBasis:
+    """The modes of a free body up to a frequency, as `free_modes`, and the first one above it.
+
+    Args:
+        matrices: of a body in one piece.
+        frequency_hz: above zero.
+        most: how many there may be.
+
+    Raises:
+        SolveError: there are more, or it is no such body.
+    """
+    limit = (2 * np.pi * frequency_hz) ** 2
+    solve = factorised(matrices.stiffness + SHIFT * matrices.mass).solve
+    n_modes, whole = 4 * N_RIGID, matrices.n_dofs - 1
+    while True:
+        n_modes = min(n_modes, most + 1, whole)
+        found = lowest_modes(matrices.mass, matrices.stiffness, n_modes, solve)
+        above = np.flatnonzero(found[0] > limit)
+        if len(above) or n_modes == whole or len(found[0]) < n_modes:
+            break
+        if n_modes > most:
+            raise SolveError(
+                f"more than {most} modes are below {frequency_hz:g} Hz, the last of these at "
+                f"{_hz(found[0][-1]):.4g} Hz"
+            )
+        n_modes *= 2
+    n_wanted = above[0] + 1 if len(above) else len(found[0])
+    return _free(matrices, *found, max(int(n_wanted), N_RIGID))
+
+
+def _free(matrices: Matrices, omega_n_squared: Floats, phi: Floats, n_modes: int) -> ModalBasis:
+    """The modes of a free body, with exact rigid ones instead of those that were found."""
+    R = rigid_modes(matrices)
     elastic = slice(N_RIGID, n_modes)
+    if len(omega_n_squared) <= N_RIGID:
+        raise SolveError("the body has mass in no more than its six rigid modes, expected elastic ones")
     if omega_n_squared[N_RIGID] < (2 * np.pi * MECHANISM_HZ) ** 2:
         raise SolveError("the body moves without strain in more than six ways: a part of it is loose")
-    phi = _without(R, phi[:, elastic], matrices.mass)
-    phi = phi / _norms(phi, matrices.mass)
+    _check_free(matrices, R, omega_n_squared)
+    phi = without(R, phi[:, elastic], matrices.mass)
+    phi = phi / norms(phi, matrices.mass)
     return ModalBasis(
         omega_n_squared=np.r_[np.zeros(N_RIGID), omega_n_squared[elastic]],
-        shapes=np.hstack([R, _signed(phi)]),
+        shapes=np.hstack([R, signed(phi)]),
     )
 
 
-def lowest_modes(mass: sp.csc_array, stiffness: sp.csc_array, n_modes: int) -> tuple[Floats, Floats]:
+def _check_free(matrices: Matrices, R: Floats, omega_n_squared: Floats) -> None:
+    """Raises SolveError for a body that its stiffness holds, or lets fall apart."""
+    limit = max((2 * np.pi * FREE_HZ) ** 2, FREE**2 * omega_n_squared[N_RIGID])
+    k = R.T @ (matrices.stiffness @ R)
+    held = np.linalg.eigvalsh((k + k.T) / 2)
+    if held[-1] > limit:
+        raise SolveError(
+            f"the body is held: moving as a whole it would vibrate at {_hz(held[-1]):.4g} Hz, expected "
+            "zero of a free one; leave out its supports, or put its nodes where they belong"
+        )
+    if omega_n_squared[0] < -limit:
+        raise SolveError(
+            f"the stiffness is negative in a mode, whose ω² is {omega_n_squared[0]:.4g} rad²/s²"
+        )
+
+
+def _hz(omega_squared: float) -> float:
+    return float(np.sqrt(omega_squared) / (2 * np.pi))
+
+
+def lowest_modes(
+    mass: sp.csc_array,
+    stiffness: sp.csc_array,
+    n_modes: int,
+    solve: Callable[[Floats], Floats] | None = None,
+) -> tuple[Floats, Floats]:
     """Eigenvalues ω², rad²/s², and mass-normalised shapes of the lowest modes, rising.
 
     Lanczos on (K + s M)⁻¹ M. At shift zero a free body's K is singular and wrong modes come back
     silently; the positive s of `SHIFT` makes it definite. The start vector is fixed, so the same
-    matrices give the same shapes.
+    matrices give the same shapes. Small ones are solved at once, where directions without mass have no
+    mode.
+
+    Args:
+        mass: (n_dofs, n_dofs).
+        stiffness: (n_dofs, n_dofs).
+        n_modes: how many.
+        solve: by K + s M, if it has been factorised.
     """
     n_dofs = mass.diagonal().size
-    solve = factorised(stiffness + SHIFT * mass).solve
+    if n_dofs <= SMALL * n_modes:
+        return _all_modes(mass, stiffness, n_modes)
+    solve = solve or factorised(stiffness + SHIFT * mass).solve
     start = np.random.default_rng(0).standard_normal(n_dofs)
     eigenvalues, phi = spl.eigsh(
         stiffness,
@@ -106,58 +185,49 @@ def lowest_modes(mass: sp.csc_array, stiffness: sp.csc_array, n_modes: int) -> t
     return eigenvalues[order], phi[:, order]
 
 
-def static_response(matrices: Matrices, loads: Floats) -> Floats:
-    """Elastic displacements of a free body under static loads, by inertia relief, (n_dofs, n_loads).
+def _all_modes(mass: sp.csc_array, stiffness: sp.csc_array, n_modes: int) -> tuple[Floats, Floats]:
+    """As `lowest_modes`, of (K + s M) φ = (ω² + s) M φ turned round, since M may be singular."""
+    try:
+        flexibility, phi = sl.eigh(mass.toarray(), (stiffness + SHIFT * mass).toarray())
+    except np.linalg.LinAlgError:
+        raise SolveError("the stiffness is negative or zero in a motion that has no mass") from None
+    flexibility, phi = flexibility[::-1][:n_modes], phi[:, ::-1][:, :n_modes]
+    kept = flexibility > MASSLESS * flexibility[0]
+    omega_n_squared = 1 / flexibility[kept] - SHIFT
+    return omega_n_squared, phi[:, kept] / np.sqrt(flexibility[kept])
+
+
+def inertia_relief(matrices: Matrices) -> Callable[[Floats], Floats]:
+    """Return what gives a free body's elastic displacements under static loads, (n_dofs, n_loads).
 
     The body accelerates as a whole, and its inertia balances what the loads leave unbalanced:
-    K u = (I - M R Rᵀ) f, with no rigid part in u, that is Rᵀ M u = 0.
+    K u = (I - M R Rᵀ) f, with no rigid part in u, that is Rᵀ M u = 0. The stiffness is factorised once.
+
+    Args:
+        matrices: of a body in one piece.
+    """
+    R = rigid_modes(matrices)
+    # Balanced loads leave a determinate support without reaction: holding six changes nothing.
+    support = most_independent(np.sqrt(matrices.stiffness.diagonal())[:, None] * R)
+    free = np.setdiff1d(np.arange(matrices.n_dofs), support)
+    factors = factorised(matrices.stiffness[free][:, free])
+
+    def response(loads: Floats) -> Floats:
+        u = np.zeros(loads.shape)
+        u[free] = factors.solve((loads - matrices.mass @ (R @ (R.T @ loads)))[free])
+        return without(R, u, matrices.mass)
+
+    return response
+
+
+def static_response(matrices: Matrices, loads: Floats) -> Floats:
+    """Elastic displacements of a free body under static loads, by `inertia_relief`.
 
     Args:
         matrices: of a body in one piece.
         loads: (n_dofs, n_loads), N and N m.
     """
-    R = rigid_modes(matrices)
-    balanced = loads - matrices.mass @ (R @ (R.T @ loads))
-    # Balanced loads leave a determinate support without reaction: holding six changes nothing.
-    support = most_independent(np.sqrt(matrices.stiffness.diagonal())[:, None] * R)
-    free = np.setdiff1d(np.arange(matrices.n_dofs), support)
-    u = np.zeros(loads.shape)
-    u[free] = factorised(matrices.stiffness[free][:, free]).solve(balanced[free])
-    return _without(R, u, matrices.mass)
-
-
-def residual_response(matrices: Matrices, modes: ModalBasis, loads: Floats) -> Floats:
-    """The static displacement under loads beyond that in the given free modes, (n_dofs, n_loads).
-
-    The inertia-relief response u less its part in the modes, Φ Φᵀ M u = Φ Ω⁻² Φᵀ f. Zero where only
-    rounding is left.
-    """
-    u = static_response(matrices, loads)
-    rest = u
-    for _ in range(2):
-        rest = _without(modes.shapes, rest, matrices.mass)
-    return rest * (_norms(rest, matrices.mass) > ROUNDING * _norms(u, matrices.mass))
-
-
-def residual_vectors(matrices: Matrices, modes: ModalBasis, loads: Floats) -> ModalBasis:
-    """Vectors that make the static response to the loads exact when joined to the free modes.
-
-    They span `residual_response`, are orthonormal in mass and orthogonal in stiffness, among
-    themselves and to the modes. The stiff ones count: leaving them out of the truck costs up to 2 %
-    in frequency. Only those that repeat others are left out.
-
-    Args:
-        matrices: of the body.
-        modes: its free modes.
-        loads: (n_dofs, n_loads), N and N m.
-    """
-    M, K = matrices.mass, matrices.stiffness
-    u = residual_response(matrices, modes, loads)
-    for _ in range(2):
-        u = _orthonormal(u, M)
-    k = u.T @ (K @ u)
-    omega_n_squared, rotation = sl.eigh((k + k.T) / 2)
-    return ModalBasis(omega_n_squared, _signed(u @ rotation))
+    return inertia_relief(matrices)(loads)
 
 
 def most_independent(rows: Floats) -> np.ndarray:
@@ -179,26 +249,17 @@ def factorised(A: sp.csc_array) -> spl.SuperLU:
     )
 
 
-def _norms(u: Floats, mass: sp.csc_array) -> Floats:
+def norms(u: Floats, mass: sp.csc_array) -> Floats:
     """√(uᵀ M u) of each column."""
     return np.sqrt(np.einsum("ij,ij->j", u, mass @ u))
 
 
-def _without(phi: Floats, u: Floats, mass: sp.csc_array) -> Floats:
+def without(phi: Floats, u: Floats, mass: sp.csc_array) -> Floats:
     """The part of `u` that is orthogonal in mass to the orthonormal `phi`."""
     return u - phi @ (phi.T @ (mass @ u))
 
 
-def _orthonormal(u: Floats, mass: sp.csc_array, dependent: float = 1e-10) -> Floats:
-    """A basis, orthonormal in mass, of what the columns of `u` span."""
-    norms = _norms(u, mass)
-    u = u[:, norms > 0] / norms[norms > 0]
-    gram, rotation = np.linalg.eigh(u.T @ (mass @ u))
-    kept = gram > dependent * gram.max(initial=0.0)
-    return u @ (rotation[:, kept] / np.sqrt(gram[kept]))
-
-
-def _signed(phi: Floats) -> Floats:
+def signed(phi: Floats) -> Floats:
     """Shapes with the sign that makes their largest entry positive, the first of several as large."""
     sizes = np.abs(phi)
     first = np.argmax(sizes > 0.99 * sizes.max(axis=0), axis=0)

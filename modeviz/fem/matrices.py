@@ -31,6 +31,12 @@ class Matrices:
         """The number of degrees of freedom."""
         return len(self.rigid)
 
+    @property
+    def turns(self) -> np.ndarray:
+        """Whether a degree of freedom turns each node, (n_nodes,): none does those of solids."""
+        moved = abs(self.motion).sum(axis=1) > 0
+        return np.asarray(moved.reshape(-1, 6)[:, 3:].any(axis=1))
+
     def scaled(self, stiffness_factor: float, mass_factor: float) -> "Matrices":
         """The body in a material so many times as stiff and as heavy."""
         return replace(self, mass=self.mass * mass_factor, stiffness=self.stiffness * stiffness_factor)

@@ -131,7 +131,7 @@ def flexible_body(
         role=role,
         label=name,
         omega_n_squared=omega_n_squared,
-        n_residuals=0,
+        n_residuals=modes.n_residuals,
         damping_ratio=_damping(modes.damping_ratio[omega_n_squared > 0]),
         attachments=tuple(Attachment(a.name, a.position, a.shapes(normalised)) for a in attachments),
         nodes=places[kept],

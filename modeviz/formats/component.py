@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from modeviz.errors import VehicleError
+from modeviz.fem.matrices import Matrices
 from modeviz.formats.node_sets import NodeSet
 from modeviz.units import UNITS
 from modeviz.vehicle.arrays import Array, Floats
@@ -64,6 +65,8 @@ class Modes:
     """(n_modes,), not a number where the file does not say it."""
     shapes: Array
     """(n_nodes, 6, n_modes), real or complex: motions, and rotations or zeros."""
+    n_residuals: int = 0
+    """How many of the last are residual vectors, which are used like more modes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +84,8 @@ class Component:
     """None: the files do not say."""
     notes: tuple[str, ...] = ()
     """What was left out or taken otherwise than it stands, a sentence each."""
+    matrices: Matrices | None = field(default=None, kw_only=True)
+    """Mass and stiffness in the units of the files, of which `solving` makes modes; None: unknown."""
     source: str = field(default="", kw_only=True)
     """The files, to say so."""
     node_sets: Mapping[str, NodeSet] = field(default_factory=dict, kw_only=True)
@@ -110,7 +115,9 @@ class Component:
 
     @property
     def has_rotations(self) -> Array:
-        """Whether each node turns in a mode, (n_nodes,): those of solids do not."""
+        """Whether each node turns in a mode, or can, (n_nodes,): those of solids do not."""
+        if self.matrices is not None:
+            return self.matrices.turns
         return np.asarray(self.modes.shapes[:, 3:].any(axis=(1, 2)))
 
     def rows(self, ids: Array) -> Array:

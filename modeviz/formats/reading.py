@@ -6,6 +6,8 @@ from pathlib import Path
 
 from modeviz.errors import VehicleError, quoted
 from modeviz.formats.component import Component
+from modeviz.formats.matrices import SUFFIXES as MATRICES
+from modeviz.formats.matrices import read_matrices
 from modeviz.formats.nastran import SUFFIXES as NASTRAN
 from modeviz.formats.nastran import read_nastran
 from modeviz.formats.universal import SUFFIXES as UNIVERSAL
@@ -23,16 +25,26 @@ READERS: Mapping[str, Reader] = {
 def read_component(paths: Sequence[Path]) -> Component:
     """Return what files of one structure have of it, such as its geometry and its modes.
 
+    Files with matrices may come with a file of another format that has the geometry.
+
     Raises:
         VehicleError: a file cannot be read, or they are of different formats.
     """
+    matrices = [path for path in paths if path.suffix.lower() in MATRICES]
+    others = [path for path in paths if path not in matrices]
+    component = _read_others(others) if others else None
+    if matrices or component is None:
+        component = read_matrices(matrices, component)
+    return replace(component, source=", ".join(path.name for path in paths))
+
+
+def _read_others(paths: Sequence[Path]) -> Component:
     readers = {_reader(path) for path in paths}
     if len(readers) != 1:
         raise VehicleError(
             f"found {', '.join(path.name for path in paths)}, expected files of one format at a time"
         )
-    component = readers.pop()(paths)
-    return replace(component, source=", ".join(path.name for path in paths))
+    return readers.pop()(paths)
 
 
 def are_results(paths: Sequence[Path]) -> bool:
@@ -44,5 +56,6 @@ def are_results(paths: Sequence[Path]) -> bool:
 def _reader(path: Path) -> Reader:
     suffix = path.suffix.lower()
     if suffix not in READERS:
-        raise VehicleError(f"{path}: found {quoted(suffix)}, expected one of {', '.join(READERS)}")
+        known = (*READERS, *MATRICES)
+        raise VehicleError(f"{path}: found {quoted(suffix)}, expected one of {', '.join(known)}")
     return READERS[suffix]

@@ -9,9 +9,10 @@ from small_meshes import bar, twisted_plate
 from modeviz.errors import SolveError
 from modeviz.fem.attachments import OnFootprint, OnNearestNodes, OnNode, unit_loads
 from modeviz.fem.component import body_from_matrices, flexible_body
-from modeviz.fem.free import free_modes, residual_response, static_response
+from modeviz.fem.free import free_modes, static_response
 from modeviz.fem.matrices import assemble, nodal_matrices
 from modeviz.fem.reduction import guyan_reduction, retained_up_to
+from modeviz.fem.residuals import residual_response
 from modeviz.vehicle.rigid import rigid_motions
 
 MESH = twisted_plate()

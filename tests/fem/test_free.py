@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import scipy.linalg
@@ -9,8 +7,7 @@ from modeviz.errors import SolveError
 from modeviz.fem.free import (
     center_of_gravity,
     free_modes,
-    residual_response,
-    residual_vectors,
+    free_modes_up_to,
     rigid_modes,
     static_response,
 )
@@ -122,63 +119,24 @@ def test_static_response_of_a_free_beam_agrees_with_theory():
     np.testing.assert_allclose(u[20] - u[0], P / length * (length / 2) ** 4 / (8 * EI), rtol=1e-4)
 
 
-def test_residual_vectors_make_static_deflection_exact(body, modes, loads):
-    residuals = residual_vectors(body, modes, loads)
-    exact = static_response(body, loads)
-
-    def from_modes(*bases):
-        return sum(b.shapes @ ((b.shapes.T @ loads) / b.omega_n_squared[:, None]) for b in bases)
-
-    elastic = replace(modes, omega_n_squared=modes.omega_n_squared[6:], shapes=modes.shapes[:, 6:])
-    assert abs(from_modes(elastic) - exact).max() > 0.01 * abs(exact).max()
-    np.testing.assert_allclose(from_modes(elastic, residuals), exact, atol=1e-9 * abs(exact).max())
+@pytest.mark.parametrize("up_to", [10.0, 60.0, 120.0])
+def test_modes_up_to_a_frequency_are_those_and_one_more(body, up_to):
+    expected = free_modes(body, 60).omega_n_squared
+    n_below = int((np.sqrt(expected) / (2 * np.pi) <= up_to).sum())
+    found = free_modes_up_to(body, up_to, 100).omega_n_squared
+    np.testing.assert_allclose(found[6:], expected[6 : n_below + 1], rtol=1e-8)
+    assert len(found) == n_below + 1
 
 
-def test_residual_vectors_are_orthogonal_to_the_modes_and_each_other(body, modes, loads):
-    residuals = residual_vectors(body, modes, loads)
-    phi = np.hstack([modes.shapes, residuals.shapes])
-    omega_n_squared = np.r_[modes.omega_n_squared, residuals.omega_n_squared]
-    np.testing.assert_allclose(phi.T @ (body.mass @ phi), np.eye(phi.shape[1]), atol=1e-10)
-    k = phi.T @ (body.stiffness @ phi)
-    np.testing.assert_allclose(k, np.diag(omega_n_squared), atol=1e-9 * k.max())
+def test_no_more_modes_up_to_a_frequency_are_computed_than_allowed(body):
+    with pytest.raises(SolveError, match="more than 12 modes are below 500 Hz"):
+        free_modes_up_to(body, 500.0, 12)
 
 
-def test_residual_vectors_that_repeat_others_are_left_out(body, modes, loads):
-    assert residual_vectors(body, modes, loads).shapes.shape[1] == 5
-
-
-def test_residual_vectors_lie_above_the_modes_kept(body, modes, loads):
-    residuals = residual_vectors(body, modes, loads)
-    assert residuals.omega_n_squared.min() > modes.omega_n_squared.max()
-
-
-def test_no_loads_give_no_residual_vectors(body, modes):
-    assert residual_vectors(body, modes, np.zeros((body.n_dofs, 0))).shapes.shape == (body.n_dofs, 0)
-
-
-def test_loads_that_the_modes_answer_in_full_give_no_residual_vectors():
+def test_of_a_small_body_all_modes_can_be_had():
+    """By the dense solution, where some rotations have no inertia and so no mode."""
     body = assemble(bar(n=3))
-    modes = free_modes(body, 23)  # all but the stiffest, which stretches
-    f = np.zeros((24, 2))
-    f[2, 0] = f[0, 1] = 1.0
-    assert residual_vectors(body, modes, f[:, :1]).shapes.shape == (24, 0)
-    assert residual_vectors(body, modes, f).shapes.shape == (24, 1)
-
-
-def test_residual_compliance_is_what_the_modes_left_out_would_add():
-    body = assemble(bar(n=3))
-    K, M = body.stiffness.toarray(), body.mass.toarray()
-    omega_n_squared, phi = scipy.linalg.eigh(K, M)
-    f = np.zeros((24, 2))
-    f[2, 0] = f[13, 1] = 1.0
-    left_out = f.T @ phi[:, 10:]
-    exact = (left_out / omega_n_squared[10:]) @ left_out.T
-    found = f.T @ residual_response(body, free_modes(body, 10), f)
-    np.testing.assert_allclose(found, exact, atol=1e-8 * abs(exact).max())
-
-
-def test_residual_compliance_vanishes_as_modes_are_added(body, loads):
-    bases = (free_modes(body, n) for n in (8, 16, 32, 64))
-    traces = [np.trace(loads.T @ residual_response(body, modes, loads)) for modes in bases]
-    assert (np.diff(traces) < 0).all()
-    assert traces[-1] > 0
+    lowest = free_modes(body, 8).omega_n_squared
+    every = free_modes_up_to(body, 1e9, 100).omega_n_squared
+    np.testing.assert_allclose(every[6:8], lowest[6:8], rtol=1e-8)
+    assert len(every) == 24 - 1

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeviz.formats.reading import read_component
+from modeviz.formats.solving import Wanted, solved
 from modeviz.vehicle.unfinished import unfinished
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.inspection.state import Content
@@ -16,7 +17,7 @@ def content_of_files(paths: Sequence[Path]) -> Content:
     Raises:
         VehicleError: they cannot be read.
     """
-    component = read_component(paths)
+    component = solved(read_component(paths), Wanted())
     subject = subject_of_component(component, paths[0].stem, component.units)
     files = " ".join(path.name for path in paths)
     missing = (
