@@ -4,16 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import KDTree
 
+from modeviz.shapes.carriers import carried, carried_by_nodes, coordinates_first
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body, RigidBody
-
-N_CARRIERS = 4
-"""How many nodes carry a vertex."""
-
-SAME_PLACE = 1e-6
-"""m: a vertex this close to a node is that node."""
 
 DRAWN_FRACTION = 0.025
 """A large displacement is drawn as this fraction of the vehicle's length, 0.13 m on a pickup."""
@@ -29,34 +23,16 @@ def vertex_shapes(body: Body, vertices: Floats) -> NDArray[np.float32]:
     """The displacement of every vertex in every coordinate of its body, (n_coordinates, n_vertices, 3).
 
     A rigid body's coordinates are x, y, z, rx, ry, rz at its centre of gravity, a flexible one's its
-    modes. The vertices of a flexible body follow its nearest nodes: each would carry the vertex along
-    rigidly, u + θ x r, and the vertex takes their mean weighted by 1/|r|² (D. Shepard, "A
-    two-dimensional interpolation function for irregularly-spaced data", 1968). That is exact where
-    a vertex is a node and wherever the body moves rigidly.
+    modes, in which its vertices are carried by its nodes, see `carried_by_nodes`.
 
     Args:
         body: whose coordinates they are.
         vertices: (n_vertices, 3), m, in vehicle coordinates.
     """
     if isinstance(body, RigidBody):
-        shapes = _carried(np.eye(6)[None], vertices - body.center_of_gravity)
-        return _coordinates_first(shapes.astype(np.float32))
-    return node_carried_shapes(body.nodes, body.shapes, vertices)
-
-
-def node_carried_shapes(nodes: Floats, motions: Array, vertices: Floats) -> NDArray[np.float32]:
-    """The displacement of every vertex that follows its nearest nodes, as `vertex_shapes` does.
-
-    Args:
-        nodes: (n_nodes, 3), m.
-        motions: (n_nodes, 6, n_coordinates), real: of the nodes in every coordinate.
-        vertices: (n_vertices, 3), m.
-    """
-    nearest, weights = _carriers(nodes, vertices)
-    shapes = np.zeros((len(vertices), 3, motions.shape[2]), np.float32)
-    for node, weight in zip(nearest.T, weights.T, strict=True):
-        shapes += weight[:, None, None] * _carried(motions[node], vertices - nodes[node])
-    return _coordinates_first(shapes)
+        shapes = carried(np.eye(6)[None], vertices - body.center_of_gravity)
+        return coordinates_first(shapes.astype(np.float32))
+    return carried_by_nodes(body.nodes, body.shapes, vertices)
 
 
 def displacement(shapes: NDArray[np.float32], coordinates: ArrayLike) -> Array:
@@ -112,29 +88,6 @@ def default_amplitude(shapes: Sequence[Array], areas: Sequence[Floats], length: 
     return DRAWN_FRACTION * length / large
 
 
-def _carriers(nodes: Floats, vertices: Floats) -> tuple[NDArray[np.intp], Floats]:
-    """The nodes that carry each vertex and their weights, (n_vertices, n_carriers), rows sum to one."""
-    n_carriers = min(N_CARRIERS, len(nodes))
-    found = KDTree(nodes).query(vertices, k=n_carriers)
-    distance, nearest = (np.reshape(f, (len(vertices), n_carriers)) for f in found)
-    weights = 1 / np.maximum(distance, SAME_PLACE) ** 2
-    coincident = distance[:, 0] < SAME_PLACE
-    weights[coincident] = 0
-    weights[coincident, 0] = 1
-    return nearest, weights / weights.sum(axis=1, keepdims=True)
-
-
-def _carried(shapes: Array, offset: Floats) -> Array:
-    """Six motions of a point carried to places `offset` away, u + θ x r: (n, 3, n_coordinates)."""
-    translation, rotation = shapes[:, :3], shapes[:, 3:]
-    return translation + np.cross(rotation, offset[..., None].astype(shapes.dtype), axis=1)
-
-
 def _dot(u: Array, v: Array) -> Array:
     """u·v of every vertex, (n_vertices,); far faster by column than along an axis of three."""
     return u[:, 0] * v[:, 0] + u[:, 1] * v[:, 1] + u[:, 2] * v[:, 2]
-
-
-def _coordinates_first(shapes: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Contiguous by coordinate: a displacement is then found in less than half the time."""
-    return np.ascontiguousarray(np.moveaxis(shapes, -1, 0))

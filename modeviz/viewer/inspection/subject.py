@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from modeviz.formats.body import uncoupled_because
 from modeviz.formats.component import Component, UnitSystem
 from modeviz.formats.surface import COLOR, POINT, display_mesh
-from modeviz.shapes.motion import node_carried_shapes, vertex_shapes
+from modeviz.shapes.carriers import carried_by_nodes
+from modeviz.shapes.motion import vertex_shapes
 from modeviz.shapes.points import octahedra
 from modeviz.shapes.surface import Surface, surface
 from modeviz.vehicle.arrays import Array, Floats
@@ -99,7 +100,7 @@ def subject_of_component(component: Component, name: str, units: UnitSystem | No
     motions = _real_motions(component.modes.shapes[rows], length)
     shapes = np.zeros((motions.shape[2], 0, 3), np.float32)
     if len(drawn.vertices):
-        shapes = node_carried_shapes(component.nodes[rows] * length, motions, drawn.vertices)
+        shapes = carried_by_nodes(component.nodes[rows] * length, motions, drawn.vertices)
     modes = component.modes
     kind = "complex mode" if component.is_complex else "mode"
     listed = [
