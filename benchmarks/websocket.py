@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from pathlib import Path
 
 import numpy as np
 from websockets.exceptions import InvalidStatus
@@ -17,8 +18,8 @@ from websockets.sync.client import connect
 from websockets.sync.connection import Connection as Page
 
 from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, wire
-from modeviz.analysis.results import Conditions
 from modeviz.files import builtin_vehicle, read_vehicle
+from modeviz.study.conditions import road_conditions
 from modeviz.viewer.app import serve
 
 N_FIRST = 6
@@ -38,9 +39,14 @@ class Drag:
     """Processor time of the whole server for a move."""
 
 
-def drag(n_moves: int) -> Drag:
-    """Drags the first slider of the built-in truck's page over its range, in so many moves."""
-    with _server() as (port, clock), open_page(port) as page:
+def drag(n_moves: int, folder: Path | None = None) -> Drag:
+    """Drags the first slider of a vehicle's page over its range, in so many moves.
+
+    Args:
+        n_moves: that are counted.
+        folder: of the vehicle; None: the built-in truck.
+    """
+    with _server(folder or builtin_vehicle()) as (port, clock), open_page(port) as page:
         slider, spectrum = widgets(page)
         low, high = (slider["props"][end] for end in ("min", "max"))
         rates = np.linspace(high, low, N_FIRST + n_moves).round()
@@ -136,12 +142,12 @@ def _connect(port: int) -> Page:
 
 
 @contextmanager
-def _server() -> Iterator[tuple[int, Connection]]:
-    """The port of the built-in truck's page in a process of its own, and that process's clock."""
+def _server(folder: Path) -> Iterator[tuple[int, Connection]]:
+    """The port of a vehicle's page in a process of its own, and that process's clock."""
     port = free_port()
     context = multiprocessing.get_context("spawn")
     clock, far_end = context.Pipe()
-    process = context.Process(target=_serve, args=(port, far_end), daemon=True)
+    process = context.Process(target=_serve, args=(folder, port, far_end), daemon=True)
     process.start()
     try:
         yield port, clock
@@ -150,11 +156,11 @@ def _server() -> Iterator[tuple[int, Connection]]:
         process.join()
 
 
-def _serve(port: int, clock: Connection) -> None:
+def _serve(folder: Path, port: int, clock: Connection) -> None:
     """Serves the page, and tells the processor time used so far when asked."""
     threading.Thread(target=_tell_processor_s, args=(clock,), daemon=True).start()
-    vehicle = read_vehicle(builtin_vehicle())
-    conditions = Conditions(vehicle.roads[0].name, vehicle.speed)
+    vehicle = read_vehicle(folder)
+    conditions = road_conditions(vehicle, None, vehicle.speed)
     with redirect_stdout(io.StringIO()):
         serve(vehicle, vehicle.rates, conditions, "127.0.0.1", port, token=None, dark=False)
 

@@ -10,10 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import compare, measure
+from benchmarks import compare, imported, measure
+from benchmarks.large_component import NODE_MASS, Box, write_op2
 from benchmarks.scaled_vehicle import MASS, Size, scaled_vehicle
 from benchmarks.work import largest_difference
 from modeviz.dynamics.assembly import assemble
+from modeviz.files import read_vehicle
 
 CHECKOUT = Path(__file__).parents[1]
 
@@ -142,3 +144,18 @@ def test_every_method_gives_the_same_answer(quick):
         assert difference < (1e-2 if "modes" in method else 1e-9)
     for method, reason in report["machine"]["not_installed"].items():
         assert f"{method}: {reason}" in table
+
+
+def test_large_component_is_a_free_body_of_its_mass_and_makes_a_vehicle(tmp_path, capsys):
+    box = Box(nodes=(6, 4, 3), n_modes=10)
+    path, folder = tmp_path / "frame.op2", tmp_path / "vehicle"
+    write_op2(path, box)
+    imported.imported(path, folder, box)
+    assert capsys.readouterr().err == ""
+    vehicle = read_vehicle(folder)
+    frame = vehicle.bodies[0]
+    assert frame.mass == pytest.approx(1000 * NODE_MASS * box.n_nodes, rel=1e-5)
+    hertz = [box.frequency_hz(mode) for mode in range(6, 10)]
+    np.testing.assert_allclose(frame.natural_frequency_hz[6:], hertz, rtol=1e-6)
+    assert len(vehicle.tyres) == 4
+    assert len(vehicle.mounts) == 3

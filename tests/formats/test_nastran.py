@@ -354,7 +354,7 @@ def test_a_file_included_before_the_bulk_data_may_be_missing(read):
     deck = "SOL 103\nINCLUDE '/dmap/changes.v9'\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\nENDDATA\n"
     component = read(deck=deck + "INCLUDE 'after the end'\n")
     assert component.node_ids.tolist() == [1]
-    assert any("changes.v9: there is no such file; it is before" in note for note in component.notes)
+    assert any("changes.v9': there is no such file; it is before" in note for note in component.notes)
 
 
 def test_files_that_are_included_may_stand_beside_the_first(tmp_path):
@@ -495,11 +495,12 @@ def test_damaged_op2_files_are_refused_in_a_sentence(read, content, words):
         ("GRID,1,,0.,0.,0.\nCORD2R,2,3,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", "coordinate systems 2"),
         ("GRID,1,,0.,0.,0.\nCORD1R,2,1,7,8\n", "one is missing"),
         ("GRID,1,,0.,0.,0.\nPLOTEL,1,1,5\n", "node 5 is named"),
-        ("INCLUDE 'nowhere.bdf'\n", "nowhere.bdf: there is no such file"),
+        ("INCLUDE 'nowhere.bdf'\n", "'nowhere.bdf': there is no such file"),
         ("INCLUDE 'a.bdf'\n", "is included by what it includes"),
         ("INCLUDE 'a.bdf\n", "its quote does not end"),
         ("INCLUDE '/dev/zero'\n", "cannot be read"),
         ("GRID,1\0\0\n", "found no text"),
+        ("GRID,99999999999999999999,,0.,0.,0.\n", "expected a whole number"),  # found at random
         ("GRID,1,,0.,0.,0.\n=,*x,==\n", "found '1' to be increased by 'x'"),
         ("GRID,1,,0.,0.,0.\n=,*1,==\n=(900000000)\n", "is repeated 900,000,000 times"),
     ],

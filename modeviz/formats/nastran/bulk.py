@@ -21,6 +21,9 @@ DEEPEST, MOST_FILES = 20, 1000
 
 INCLUDE = re.compile(r"\s*INCLUDE\b\s*(.*)", re.IGNORECASE)
 BEGIN = re.compile(r"\s*BEGIN(\s+BULK)?\b", re.IGNORECASE)
+LARGEST_WHOLE = 10**16
+"""No whole number that fills a large field."""
+
 BEGIN_OTHER = re.compile(r"\s*BEGIN\s+(BULK\s+)?\w+\s*=", re.IGNORECASE)
 """Before the bulk data of a superelement, or of another part."""
 
@@ -55,11 +58,12 @@ class Card:
         if not text and otherwise is not None:
             return otherwise
         try:
-            return int(text)
+            value = int(text)
         except ValueError:
-            raise VehicleError(
-                f"{self._where}: found {quoted(text)}, expected a whole number"
-            ) from None
+            value = LARGEST_WHOLE
+        if abs(value) >= LARGEST_WHOLE:
+            raise VehicleError(f"{self._where}: found {quoted(text)}, expected a whole number")
+        return value
 
     def real(self, number: int) -> float:
         """Return a field as a real number, 0 if it is empty; raises VehicleError if it is none."""
@@ -226,7 +230,7 @@ def _lines(
             places = [folder / name for folder in (path.parent, home)]
             other = next((place for place in places if _is_there(place)), None)
             if other is None:
-                yield VehicleError(f"INCLUDE {quoted(name)}: {places[0]}: there is no such file")
+                yield VehicleError(f"INCLUDE {quoted(name)}: there is no such file")
                 continue
             with located(f"INCLUDE {quoted(name)}"):
                 yield from _lines(other, (*within, path.resolve()), count, home)

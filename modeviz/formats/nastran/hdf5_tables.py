@@ -16,6 +16,9 @@ from modeviz.vehicle.arrays import Array, Floats
 MOST_TIMES_THE_FILE = 200
 """How many times the bytes of the file a table may have, since they are compressed."""
 
+DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, OverflowError)
+"""What h5py raises of a damaged file."""
+
 LEAST = 1_000_000
 """Bytes that a table may have in any file."""
 
@@ -137,10 +140,11 @@ def opened_tables(path: Path) -> Iterator[Tables]:
         n_bytes = path.stat().st_size
         try:
             file = h5py.File(path, "r", locking=False)
-        except (OSError, ValueError, RuntimeError) as error:
+            is_nastran = "NASTRAN" in file
+        except DAMAGE as error:
             raise VehicleError(f"{path}: is no HDF5 file, or is cut or damaged ({error})") from None
         with file:
-            if "NASTRAN" not in file:
+            if not is_nastran:
                 raise VehicleError(
                     f"{path}: has no group NASTRAN, so it is no file of results of MSC Nastran"
                 )
@@ -152,6 +156,6 @@ def _damage(name: str) -> Iterator[None]:
     """Says of what h5py stumbles over that the file is damaged."""
     try:
         yield
-    except (OSError, RuntimeError, KeyError, ValueError, TypeError, OverflowError) as error:
+    except DAMAGE as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise VehicleError(f"{name}: is damaged ({reason})") from None
