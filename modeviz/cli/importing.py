@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.cli.command import Command
-from modeviz.cli.importing_mounts import holds_mounts, import_mounts
+from modeviz.cli.importing_mounts import MountOptions, holds_mounts, import_mounts
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
@@ -43,14 +43,35 @@ class ImportOptions:
     """How many to compute where the files have matrices; None: `USUAL_MODES`."""
     up_to: float | None = None
     """Hz, instead: all modes up to it."""
+    frequency: float | None = None
+    """Hz, at which mounts have the rates that an input file has over frequency."""
+    bodies: tuple[str, ...] = ()
+    """Two, that the springs of an input file join; none: those where its grids are."""
+
+    @property
+    def mounts(self) -> MountOptions:
+        """What is asked for of mounts; raises ModevizError if it is what a body alone has."""
+        if self.attach or self.name or self.modes is not None or self.up_to is not None:
+            raise ModevizError(
+                "--attach, --name, --modes and --up-to are of a body, and the file is one of mounts"
+            )
+        return MountOptions(
+            files=self.files,
+            output=self.output,
+            units=self.units,
+            frequency=self.frequency,
+            bodies=self.bodies,
+        )
 
 
 def import_component(options: ImportOptions) -> None:
     """Lists what files have of a component, and puts it into a vehicle folder if there is one."""
     check_printable()
-    if holds_mounts(options.files):
-        import_mounts(options.files, options.output, options.units)
+    if holds_mounts(options.files, options.output):
+        import_mounts(options.mounts)
         return
+    if options.frequency is not None or options.bodies:
+        raise ModevizError("--frequency and --bodies are of mounts, and the files are of a body")
     wanted = _wanted(options)
     component = read_component(options.files)
     for note in component.notes:
@@ -170,6 +191,18 @@ def _add_options(command: ArgumentParser) -> None:
     )
     command.add_argument(
         "--up-to", type=float, metavar="HZ", help="of matrices: compute all modes up to this frequency"
+    )
+    command.add_argument(
+        "--frequency",
+        type=float,
+        metavar="HZ",
+        help="of mounts whose rates an input file has over frequency: where to take them",
+    )
+    command.add_argument(
+        "--bodies",
+        nargs=2,
+        metavar=("FIRST", "SECOND"),
+        help="that the springs of an input file join (default: those where its grids are)",
     )
 
 

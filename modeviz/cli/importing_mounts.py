@@ -1,6 +1,7 @@
 """Mounts out of tables, property files and input files of Nastran, put into a vehicle folder."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,41 +16,81 @@ from modeviz.formats.mounts.property_file import SUFFIXES as PROPERTIES
 from modeviz.formats.mounts.property_file import read_property
 from modeviz.formats.mounts.sheets import EXCEL_SUFFIXES, TEXT_SUFFIXES
 from modeviz.formats.mounts.table import read_mount_table
+from modeviz.formats.nastran.bushings import has_bushings, read_bushings
 from modeviz.report.tables import table
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
+
+DECK_SUFFIXES = (".bdf", ".dat", ".nas")
 
 SUFFIXES = (*TEXT_SUFFIXES, *EXCEL_SUFFIXES, *PROPERTIES)
 OURS = {"vertical": "z", "lateral": "y", "fore_aft": "x"}
 
 
-def holds_mounts(files: Sequence[Path]) -> bool:
-    """Whether what is to be imported are mounts, and no body."""
-    return all(path.suffix.lower() in SUFFIXES for path in files)
+@dataclass(frozen=True, kw_only=True)
+class MountOptions:
+    """What is asked for of mounts."""
+
+    files: tuple[Path, ...]
+    output: Path | None
+    units: str | None
+    frequency: float | None
+    """Hz, at which rates over frequency are taken."""
+    bodies: tuple[str, ...]
+    """Of the first and the second grids of an input file; none if they are to be found."""
 
 
-def import_mounts(files: Sequence[Path], output: Path | None, units: str | None) -> None:
+def holds_mounts(files: Sequence[Path], output: Path | None) -> bool:
+    """Whether what is to be imported are mounts, and no body.
+
+    An input file of Nastran holds mounts if it is alone, has springs, and goes into a folder.
+    """
+    if all(path.suffix.lower() in SUFFIXES for path in files):
+        return True
+    is_deck = len(files) == 1 and files[0].suffix.lower() in DECK_SUFFIXES
+    return is_deck and output is not None and has_bushings(files[0])
+
+
+def import_mounts(options: MountOptions) -> None:
     """Lists the mounts of a file, or puts them into a vehicle folder.
 
     Raises:
         ModevizError: there are several files, or it is none of mounts, or does not fit to the vehicle.
     """
-    if len(files) > 1:
-        raise ModevizError(f"found {len(files)} files of mounts, expected one at a time")
-    (path,) = files
+    path, *others = options.files
+    if others:
+        raise ModevizError(f"found {len(options.files)} files of mounts, expected one at a time")
     if path.suffix.lower() in PROPERTIES:
-        import_property(path, output)
+        import_property(path, options.output)
         return
-    target = Target.of(output) if output else None
-    system = _system(units)
-    bushings = read_mount_table(path, system, target.named if target else OURS, _remark_of(path))
+    target = Target.of(options.output) if options.output else None
+    bushings = _read(path, options, target)
     if target is None:
         print_result(listing(bushings))
         return
     vehicle = add_bushings(bushings, target, path.name)
     for note in vehicle.notes:
         remark(note)
-    print_result(f"{output}: {len(bushings)} connections from {path.name}\n\n{listing(bushings)}")
+    print_result(
+        f"{options.output}: {len(bushings)} connections from {path.name}\n\n{listing(bushings)}"
+    )
+
+
+def _read(path: Path, options: MountOptions, target: Target | None) -> tuple[Bushing, ...]:
+    """The mounts of a table or an input file."""
+
+    def note(text: str) -> None:
+        remark(f"{path.name}: {text}")
+
+    units = _system(options.units)
+    if path.suffix.lower() not in DECK_SUFFIXES:
+        return read_mount_table(path, units, target.named if target else OURS, note)
+    if units is None:
+        raise VehicleError(
+            f"{path.name}: the file doesn't say its units, and they are not guessed; say them with "
+            f"--units, one of {', '.join(UNIT_SYSTEMS)}"
+        )
+    return read_bushings(path, units, options.frequency, options.bodies, note)
 
 
 def import_property(path: Path, output: Path | None) -> None:
@@ -74,10 +115,6 @@ def _system(name: str | None) -> UnitSystem | None:
     if name is not None and name not in UNIT_SYSTEMS:
         raise VehicleError(f"found the units {quoted(name)}, expected one of {', '.join(UNIT_SYSTEMS)}")
     return UNIT_SYSTEMS.get(name or "")
-
-
-def _remark_of(path: Path):
-    return lambda note: remark(f"{path.name}: {note}")
 
 
 def listing(bushings: Sequence[Bushing]) -> str:

@@ -25,7 +25,7 @@ class End:
     place: Floats | None = None
     """(3,), m, in the vehicle file's axes."""
     may_be_elsewhere: bool = False
-    """Whether the place is looked for if no body has that attachment."""
+    """Whether the attachment is only likely called so, and else the nearest one to the place."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +51,8 @@ class Bushing:
     rigid: tuple[str, ...] = ()
     """Which of `DIRECTIONS` there is no motion in."""
     elastic_center: float = 0.5
+    acts_at: Floats | None = None
+    """(3,), m: where it acts if that is not between its ends; rigid arms go there."""
 
     def __post_init__(self) -> None:
         frozen(self, "stiffness", self.stiffness, (6,))

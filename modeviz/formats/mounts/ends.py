@@ -52,21 +52,22 @@ class Ends:
             VehicleError: there is no such body or attachment, or none within `REACH`; or several are
                 as near. The text says which end.
         """
-        known = {
-            i: self._named(end, bushing.ends[1 - i].place)
-            for i, end in enumerate(bushing.ends)
-            if end.body or (end.attachment and self._has(end))
-        }
+        known: dict[int, _Candidate] = {}
+        for i, end in enumerate(bushing.ends):
+            if candidate := self._known(end, bushing.ends[1 - i].place):
+                known[i] = candidate
         if len(known) < 2:
             known |= self._nearest(bushing, known)
         first, second = known[0], known[1]
         if first.body == second.body:
             raise VehicleError(f"{bushing.ends[1].where}: joins {quoted(first.body)} to itself")
-        return Joined((first.body, second.body), (first.place, second.place))
-
-    def _has(self, end: End) -> bool:
-        """Whether the attachment that an end names is there, or has to be."""
-        return not end.may_be_elsewhere or any(a.name == end.attachment for _, a in self._attachments())
+        places = first.place, second.place
+        if bushing.acts_at is not None:
+            places = bushing.acts_at, bushing.acts_at
+            for end, candidate in zip(bushing.ends, (first, second), strict=True):
+                if candidate.body != GROUND:
+                    self._reached(end, self._vehicle.body(candidate.body), bushing.acts_at)
+        return Joined((first.body, second.body), places)
 
     def _attachments(self) -> Iterator[tuple[str, Attachment]]:
         """Those of all bodies, each with its body's name."""
@@ -74,18 +75,44 @@ class Ends:
             if isinstance(body, FlexibleBody):
                 yield from ((body.name, attachment) for attachment in body.attachments)
 
-    def _named(self, end: End, other: Floats | None) -> _Candidate:
-        """What an end names; where it is on the ground, its place may be that of the other end."""
+    def _known(self, end: End, other: Floats | None) -> _Candidate | None:
+        """What an end names, if anything; on the ground it may be at the place of the other end."""
         if end.body.lower() == GROUND:
             place = other if end.place is None else end.place
             return _Candidate(GROUND, np.full(3, np.nan) if place is None else place, 0.0)
         body = self._body(end)
-        if end.attachment:
+        if end.may_be_elsewhere:
+            if likely := self._likely(end, body):
+                return likely
+        elif end.attachment:
             return self._at_attachment(end, body)
-        assert body is not None
+        if body is None:
+            return None
         if end.place is None:
             raise VehicleError(f"{end.where}: on {quoted(body.name)}, but neither place nor attachment")
         return _Candidate(body.name, end.place, self._reached(end, body, end.place))
+
+    def _likely(self, end: End, body: Body | None) -> _Candidate | None:
+        """The body with an attachment of an end's number at its place; None if not one has it.
+
+        Raises:
+            VehicleError: attachments have the number, and all are elsewhere.
+        """
+        assert end.place is not None
+        found = [
+            _Candidate(name, end.place, float(np.linalg.norm(a.position @ self._axes - end.place)))
+            for name, a in self._attachments()
+            if a.name == end.attachment and (body is None or name == body.name)
+        ]
+        near = [candidate for candidate in found if candidate.distance <= REACH]
+        if found and not near:
+            far = min(found, key=lambda candidate: candidate.distance)
+            raise VehicleError(
+                f"{end.where}: is at {_at(end.place)}, and the attachment {quoted(end.attachment)} of "
+                f"{quoted(far.body)} {1000 * far.distance:.4g} mm from there; is the body moved, or "
+                "are the units others?"
+            )
+        return near[0] if len(near) == 1 else None
 
     def _body(self, end: End) -> Body | None:
         names = [body.name for body in self._vehicle.bodies]
@@ -108,7 +135,7 @@ class Ends:
             )
         ((name, attachment),) = found
         own = attachment.position @ self._axes
-        place = own if end.place is None or end.may_be_elsewhere else end.place
+        place = own if end.place is None else end.place
         holder = self._vehicle.body(name)
         distance = self._reached(end, holder, place)
         if isinstance(holder, FlexibleBody) and distance < np.linalg.norm(place - own) - ALIKE:

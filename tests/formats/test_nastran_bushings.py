@@ -1,0 +1,324 @@
+"""Springs and bushings out of Nastran input files."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from free_network import CORNERS, LABELS
+from scipy.spatial.transform import Rotation
+from two_networks import ATTACHED, joined_frequencies, place, two_networks
+
+from modeviz.cli import main
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.modes import solve_modes
+from modeviz.errors import VehicleError
+from modeviz.files import read_vehicle
+from modeviz.formats.component import UNIT_SYSTEMS
+from modeviz.formats.nastran.bushings import read_bushings
+from modeviz.vehicle.connections import GROUND, Damper, Mount, Spring
+
+MM = UNIT_SYSTEMS["mm-t-s"]
+
+
+def free(*fields) -> str:
+    return ",".join(str(field) for field in fields)
+
+
+def grids(numbers, places, output=0):
+    return [free("GRID", n, "", *map(float, p), output) for n, p in zip(numbers, places, strict=True)]
+
+
+@pytest.fixture
+def read(tmp_path):
+    """The bushings of cards, and what is said of them."""
+
+    def read(*cards, frequency=None, bodies=(), units=MM):
+        path = tmp_path / "joints.bdf"
+        path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]) + "\n")
+        notes = []
+        return read_bushings(path, units, frequency, bodies, notes.append), notes
+
+    return read
+
+
+@pytest.fixture(scope="module")
+def networks(tmp_path_factory):
+    scratch = tmp_path_factory.mktemp("networks")
+    return two_networks(scratch / "vehicle", scratch)
+
+
+@pytest.fixture
+def pair(networks, tmp_path):
+    return Path(shutil.copytree(networks, tmp_path / "pair"))
+
+
+TWO = grids([1, 2], [[0, 0, 0], [100, 0, 0]])
+PBUSH = "PBUSH,7,K,10.,20.,30.,4.+3,5.+3,6.+3"
+K = [10_000, 20_000, 30_000, 4, 5, 6]
+
+
+def test_bushes_between_flexible_bodies_couple_as_the_whole_matrices_do(pair, tmp_path):
+    """Grids of the lower body have other numbers: they are found by place; CID turns the axes."""
+    turn = Rotation.from_euler("xyz", [20, -35, 50], degrees=True).as_matrix()
+    rates = {n: np.array([10.0, 25.0, 60.0]) * (i + 1) for i, n in enumerate(ATTACHED)}
+    cards = [
+        *grids(LABELS, CORNERS),
+        *grids(LABELS + 1000, CORNERS),
+        free("CORD2R", 5, 0, 0.0, 0.0, 0.0, *turn[:, 2], *turn[:, 0]),
+    ]
+    for i, node in enumerate(ATTACHED):
+        cards += [
+            free("PBUSH", i + 1, "K", *rates[node]),
+            free("CBUSH", 100 + i, i + 1, node, node + 1000, "", "", "", 5),
+        ]
+    path = tmp_path / "joints.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s"]) == 0
+    vehicle = read_vehicle(pair)
+    assert {frozenset(m.bodies) for m in vehicle.mounts} == {frozenset({"upper", "lower"})}
+    assert [g.name for g in vehicle.mount_groups] == ["PBUSH 1", "PBUSH 2", "PBUSH 3", "PBUSH 4"]
+    expected = joined_frequencies([(n, turn * rates[n] @ turn.T) for n in ATTACHED])
+    found = solve_modes(assemble(vehicle)).frequency_hz
+    np.testing.assert_allclose(found[6:30], expected[6:30], rtol=2e-4)
+
+
+def test_scalar_springs_and_grounded_bushes_hold_as_the_whole_matrices_do(pair, tmp_path):
+    cards = [*grids(LABELS, CORNERS), *grids(LABELS + 1000, CORNERS), "PELAS,3,40.,,,4,90."]
+    for i, node in enumerate(ATTACHED):
+        cards += [free("CELAS2", 10 * i + d, 25.0 * d, node, d, node + 1000, d) for d in (1, 2, 3)]
+    cards += ["CELAS1,50,3,11,1", "CELAS1,51,4,,,11,2", "CBUSH,52,8,1014,,,,,0", "PBUSH,8,K,70.,,80."]
+    path = tmp_path / "joints.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    bodies = ["--bodies", "upper", "lower"]
+    assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s", *bodies]) == 0
+    vehicle = read_vehicle(pair)
+    grounded = [(11, np.diag([40.0, 90.0, 0])), (14, np.diag([70.0, 0, 80.0]))]
+    expected = joined_frequencies([(n, np.diag([25.0, 50, 75])) for n in ATTACHED], grounded)
+    found = solve_modes(assemble(vehicle)).frequency_hz
+    np.testing.assert_allclose(found[2:30], expected[2:30], rtol=2e-4)
+
+
+def test_a_bush_has_the_axes_of_its_cid_also_at_its_grid_in_a_cylinder(read):
+    cards = [*TWO, *grids([3], [[100, 100, 0]]), PBUSH, "CORD2C,6,,0.,0.,0.,0.,0.,1.,1.,0.,0."]
+    (found,), _ = read(*cards, "CBUSH,1,7,3,2,,,,6")
+    s = np.sqrt(0.5)
+    np.testing.assert_allclose(found.axes, [[s, s, 0], [-s, s, 0], [0, 0, 1]], atol=1e-12)
+    np.testing.assert_allclose(found.stiffness, K)
+    assert found.group == "PBUSH 7"
+    np.testing.assert_allclose([end.place for end in found.ends], [[0.1, 0.1, 0], [0.1, 0, 0]])
+
+
+def test_cid_goes_before_go_and_go_before_the_vector(read):
+    """x along the grids, GO or the vector in the xy plane; the vector is in the grid's own system."""
+    cards = [*grids([1], [[0, 0, 0]], output=9), *grids([2, 3], [[0, 0, 50], [0, 7, 20]])]
+    cards += ["CORD2R,9,,0.,0.,0.,1.,0.,0.,0.,1.,0.", PBUSH]  # its x is y, its y is z, its z is x
+    (by_cid, by_grid, by_vector), _ = read(
+        *cards, "CBUSH,1,7,1,2,3,,,0", "CBUSH,2,7,1,2,3", "CBUSH,3,7,1,2,1.,5.,0."
+    )
+    np.testing.assert_allclose(by_cid.axes, np.eye(3))
+    expected = [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]
+    np.testing.assert_allclose(by_grid.axes, expected, atol=1e-12)
+    np.testing.assert_allclose(by_vector.axes, expected, atol=1e-12)
+
+
+def test_a_bush_acts_at_its_fraction_or_at_its_offset(read):
+    cards = [*TWO, PBUSH, "CORD2R,9,,5.,5.,5.,6.,5.,5.,5.,6.,5."]
+    (half, fraction, offset), _ = read(
+        *cards, "CBUSH,1,7,1,2,,,,0", "CBUSH,2,7,1,2,,,,0", ",.3", "CBUSH,3,7,2,1,,,,0", ",,9,1.,2.,3."
+    )
+    assert (half.elastic_center, half.acts_at) == (0.5, None)
+    assert fraction.elastic_center == 0.3
+    np.testing.assert_allclose(offset.acts_at, np.array([100 + 3, 1, 2]) / 1000)
+
+
+def test_an_offset_carries_the_motion_of_both_ends_by_rigid_arms(tmp_path):
+    """The force of a bush above its grids turns the body about them."""
+    folder = tmp_path / "v"
+    folder.mkdir()
+    (folder / "vehicle.toml").write_text(
+        'name = "b"\nunits = { length = "m", mass = "kg", inertia = "kg m²", stiffness = "N/mm" }\n'
+        '[[rigid_body]]\nname = "b"\nmass = 2.0\ncenter_of_gravity = [0, 0, 0]\ninertia = [1, 1, 1]\n'
+    )
+    path = tmp_path / "j.bdf"
+    cards = ["GRID,1,,0.,0.,0.", "PBUSH,7,K,3.", "CBUSH,1,7,1,,,,,0", ",,0,0.,0.,500."]
+    path.write_text("\n".join(["BEGIN BULK", *cards]))
+    options = ["--output", str(folder), "--units", "mm-t-s", "--bodies", "b", "ground"]
+    assert main(["import", str(path), *options]) == 0
+    highest = solve_modes(assemble(read_vehicle(folder))).frequency_hz[-1]
+    assert highest == pytest.approx(np.sqrt(3000 * (1 / 2 + 0.5**2 / 1)) / (2 * np.pi))
+
+
+def test_without_orientation_a_bush_along_its_line_is_read_and_no_other(read):
+    cards = grids([1, 2], [[0, 0, 0], [30, 40, 0]])
+    (found,), _ = read(*cards, "PBUSH,7,K,10.,,,4.", "CBUSH,1,7,1,2")
+    np.testing.assert_allclose(found.axes[0], [0.6, 0.8, 0])
+    np.testing.assert_allclose(found.axes @ found.axes.T, np.eye(3), atol=1e-12)
+    with pytest.raises(VehicleError, match="CBUSH 1: has rates across its line"):
+        read(*cards, PBUSH, "CBUSH,1,7,1,2")
+
+
+def test_damping_loss_factor_mass_and_rigid_directions(read):
+    cards = [
+        *TWO,
+        "CBUSH,1,7,1,2,,,,0",
+        "PBUSH,7,K,10.,RIGID,30.,,,,",
+        ",,B,1.,2.,3.,4.,5.,6.",
+        ",,GE,.12",
+    ]
+    (found,), notes = read(*cards, ",,M,.5")
+    assert found.rigid == ("y",)
+    np.testing.assert_allclose(found.damping, [1e3, 2e3, 3e3, 4e-3, 5e-3, 6e-3])
+    assert found.loss_factor == 0.12
+    assert notes == ["PBUSH 7: M .5: masses and the like are left out"]
+
+
+def test_loss_factors_that_differ_are_one_by_stiffness_and_said(read):
+    cards = [*TWO, "CBUSH,1,7,1,2,,,,0", "PBUSH,7,K,10.,30.,,,5.,", ",,GE,.1,.2,.9,,.3"]
+    (found,), notes = read(*cards)
+    assert found.loss_factor == pytest.approx((10 * 0.1 + 30 * 0.2) / 40)
+    assert notes == [
+        "CBUSH 1: its loss factors differ by direction, 0.1 to 0.3; taken as 0.175, their mean along "
+        "the axes weighted by stiffness"
+    ]
+
+
+FREQUENT = [
+    *TWO, PBUSH, "CBUSH,1,7,1,2,,,,0", "PBUSHT,7,K,21,22", ",,GE,23",
+    "TABLED1,21", ",0.,100.,10.,200.,20.,400.,ENDT",
+    "TABLED1,22,LOG,LOG", ",1.,10.,100.,1000.,ENDT",
+    "TABLED1,23", ",0.,.0,SKIP,SKIP,50.,.5,ENDT",
+]  # fmt: skip
+
+
+def test_rates_over_frequency_are_taken_at_the_one_that_is_named(read):
+    (nominal,), notes = read(*FREQUENT)
+    np.testing.assert_allclose(nominal.stiffness, K)
+    assert "depend on frequency; the nominal ones are taken" in notes[0]
+    (found,), notes = read(*FREQUENT, frequency=15.0)
+    np.testing.assert_allclose(found.stiffness, [300e3, 150e3, *K[2:]])
+    assert found.loss_factor == pytest.approx(0.15)
+    assert notes == ["PBUSH 7: its rates are those at 15 Hz"]
+
+
+def test_scalar_springs_of_the_same_grids_are_one_in_the_directions_of_the_first(read):
+    cards = [*grids([1], [[0, 0, 0]], output=9), *grids([2], [[0, 0, 0]], output=9)]
+    cards += ["CORD2R,9,,0.,0.,0.,1.,0.,0.,0.,1.,0.", "CELAS2,4,10.,1,1,2,1", "CELAS2,5,20.,1,3,2,3"]
+    found, _ = read(*cards, "CELAS2,6,30.,1,5,2,5", "CELAS2,7,40.,1,1,2,1,.2")
+    first, other = found
+    np.testing.assert_allclose(first.stiffness, [10e3, 0, 20e3, 0, 30e-3, 0])
+    np.testing.assert_allclose(first.axes, [[0, 1, 0], [0, 0, 1], [1, 0, 0]], atol=1e-12)
+    assert (first.name, first.group, other.name, other.loss_factor) == ("CELAS 4", None, "CELAS 7", 0.2)
+
+
+def test_scalar_springs_that_are_apart_across_their_direction_are_said_to_be(read):
+    _, notes = read(*TWO, "CELAS2,4,10.,1,1,2,1")
+    assert notes == []
+    _, notes = read(*TWO, "CELAS2,4,10.,1,3,2,3")
+    assert "CELAS2 4: its grids are 100 apart across its direction" in notes[0]
+
+
+def test_fields_are_read_in_every_form(read):
+    small = f"{'CBUSH':8}{1:>8}{7:>8}{1:>8}{2:>8}{'':24}{0:>8}"
+    large = f"{'CBUSH*':8}{2:>16}{7:>16}{1:>16}{2:>16}\n{'*':8}{'':48}{0:>16}\n{'*':8}{0.25:>16}"
+    (first, second), _ = read(*TWO, PBUSH, small, large)
+    np.testing.assert_allclose(first.axes, np.eye(3))
+    assert second.elastic_center == 0.25
+
+
+def test_elements_that_are_not_read_are_told(read):
+    _, notes = read(*TWO, PBUSH, "CBUSH,1,7,1,2,,,,0", "CDAMP2,8,1.,1,1", "CELAS4,9,1.,1,2")
+    assert notes == ["1 CDAMP2, 1 CELAS4 are left out"]
+
+
+def test_a_bush_of_dampers_alone_and_a_rigid_one_are_what_they_are(pair, tmp_path):
+    cards = [*grids(LABELS, CORNERS), "PBUSH,7,B,.5", "CBUSH,1,7,11,,,,,0"]
+    cards += ["PBUSH,8,K,RIGID,3.", "CBUSH,2,8,14,,,,,0", "PBUSH,9,K,3.", "CBUSH,3,9,22,,,,,0"]
+    path = tmp_path / "joints.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    options = ["--units", "mm-t-s", "--bodies", "upper", "ground"]
+    assert main(["import", str(path), "--output", str(pair), *options]) == 0
+    kinds = {c.name: type(c) for c in read_vehicle(pair).all_connections}
+    assert kinds == {"CBUSH 1": Damper, "CBUSH 2": Spring, "CBUSH 3": Mount}
+    by_name = {c.name: c for c in read_vehicle(pair).all_connections}
+    assert by_name["CBUSH 2"].rigid == ("x",)
+    assert by_name["CBUSH 1"].bodies == ("upper", GROUND)
+    np.testing.assert_allclose(by_name["CBUSH 3"].points[0] * 1000, place(22))
+
+
+CBUSH = "CBUSH,1,7,1,2,,,,0"
+
+
+@pytest.mark.parametrize(
+    ("cards", "expected"),
+    [
+        ([PBUSH, CBUSH], "found no GRID"),
+        ([*TWO, CBUSH], "CBUSH 1: property 7: is no PBUSH of the file; there are none"),
+        ([*TWO, PBUSH, "CBUSH,1,7,1,5,,,,0"], "CBUSH 1: grid 5: is not in the file"),
+        ([*TWO, PBUSH, "CBUSH,1,7,1,2,,,,4"], "CBUSH 1: coordinate system 4: is not in the file"),
+        ([*TWO, PBUSH, "CBUSH,1,7,1,2,5"], "CBUSH 1: grid 5: is not in the file"),
+        ([*TWO, PBUSH, "CBUSH,1,7,1,2,1.,0.,0."], "is along its line, expected across"),
+        ([*TWO, PBUSH, "CBUSH,1,7,1,1"], "expected a CID"),
+        ([*TWO, PBUSH, "CBUSH,1,7,1"], "expected a CID"),
+        ([*TWO, PBUSH, CBUSH, ",1.5"], "S: found 1.5, expected 0 to 1"),
+        ([*TWO, PBUSH, CBUSH, CBUSH], "element 1: is there 2 times"),
+        ([*TWO, PBUSH, "CBUSH,one,7,1,2"], "found 'one', expected a whole number"),
+        ([*TWO, "PBUSH,7,K,soft", CBUSH], "PBUSH 7: found 'soft', expected a number"),
+        ([*TWO, "PBUSH,7,K,-3.", CBUSH], "PBUSH 7: K1: found -3, expected zero or more"),
+        ([*TWO, "PBUSH,7,K,nan", CBUSH], "expected finite numbers"),
+        ([*TWO, "PBUSH,7,KMAG,3.", CBUSH], "found KMAG, expected lines K, B, GE"),
+        ([*TWO, "PBUSH,7,,3.", CBUSH], "without K, B or GE"),
+        ([*TWO, PBUSH, "PBUSH,7,K,3.", CBUSH], "PBUSH 7: is there twice, and not alike"),
+        ([*TWO, PBUSH, "PBUSHT,7,K,21", CBUSH], "table 21: is no TABLED1"),
+        ([*TWO, PBUSH, "PBUSHT,7,KSCALE,21", CBUSH], "found 'KSCALE', expected lines K, B"),
+        (
+            [*TWO, PBUSH, "PBUSHT,7,K,21", CBUSH, "TABLED1,21", ",1.,2.,3.,4.,ENDT"],
+            "is from 1 to 3 Hz",
+        ),
+        (
+            [*TWO, PBUSH, "PBUSHT,7,K,21", CBUSH, "TABLED1,21", ",1.,2.,ENDT"],
+            "expected two or more points",
+        ),
+        ([*TWO, "CELAS1,1,3,1,1,2,1"], "CELAS1 1: property 3: is no PELAS"),
+        ([*TWO, "CELAS2,1,3.,1,1,2,2"], "which is another direction; expected the same"),
+        ([*TWO, "CELAS2,1,3.,1,1,2,4"], "which is another direction; expected the same"),
+        ([*TWO, "CELAS2,1,3.,1,7"], "found the component 7, expected 1 to 6"),
+        ([*TWO, "CELAS2,1,3."], "names no grid"),
+        ([*TWO, "CELAS2,1,-3.,1,1"], "expected zero or more"),
+    ],
+)
+def test_a_bad_file_is_refused_with_its_card(read, cards, expected):
+    with pytest.raises(VehicleError) as error:
+        read(*cards, frequency=15.0)
+    assert "joints.bdf" in str(error.value)
+    assert expected in str(error.value)
+
+
+def test_grids_that_no_body_is_at_and_attachments_elsewhere_are_refused(pair, tmp_path, capsys):
+    path = tmp_path / "joints.bdf"
+
+    def refused(cards, *options):
+        path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+        command = ["import", str(path), "--output", str(pair), "--units", "mm-t-s", *options]
+        assert main(command) == 2
+        return capsys.readouterr().err.splitlines()[-1]
+
+    far = grids([900], [[5000, 0, 0]])
+    text = refused([*far, PBUSH, "CBUSH,1,7,900,,,,,0"])
+    assert "CBUSH 1, GA 900: no two bodies have attachments within 100 mm of it" in text
+    moved = grids([11], [[300, 0, 0]])
+    text = refused([*moved, PBUSH, "CBUSH,1,7,11,,,,,0"])
+    assert "the attachment '11' of" in text
+    assert "300 mm from there; is the body moved" in text
+    near = grids([900], [place(11)])
+    assert "are equally near; name the bodies" in refused([*near, PBUSH, "CBUSH,1,7,900,,,,,0"])
+    assert "unknown body 'roof'" in refused(
+        [*near, PBUSH, "CBUSH,1,7,900,,,,,0"], "--bodies", "roof", "lower"
+    )
+
+
+def test_units_are_asked_for(pair, tmp_path, capsys):
+    path = tmp_path / "joints.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *TWO, PBUSH, CBUSH]))
+    assert main(["import", str(path), "--output", str(pair)]) == 2
+    assert "doesn't say its units, and they are not guessed" in capsys.readouterr().err
