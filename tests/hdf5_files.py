@@ -82,13 +82,16 @@ class Hdf5:
         lots.append(np.array(lot, columns))
         return self
 
-    def eigenvalues(self, rows: Sequence[tuple[int, float, float]]) -> "Hdf5":
-        """Of mode, eigenvalue and generalised mass."""
+    def eigenvalues(self, rows: Sequence[tuple]) -> "Hdf5":
+        """Of mode, eigenvalue, generalised mass and, if not zero, RESFLG."""
         columns = [*TABLES["EIGENVALUE"], ("DOMAIN_ID", "i8")]
         self.tables["NASTRAN/RESULT/SUMMARY/EIGENVALUE"] = np.array(
             [
-                (mode, mode, w2, abs(w2) ** 0.5, abs(w2) ** 0.5 / 6.2832, mass, mass * w2, 0, 0, mode)
-                for mode, w2, mass in rows
+                (
+                    *(mode, mode, w2, abs(w2) ** 0.5, abs(w2) ** 0.5 / 6.2832, mass, mass * w2),
+                    *((*flag, 0)[0], 0, mode),
+                )
+                for mode, w2, mass, *flag in rows
             ],
             columns,
         )

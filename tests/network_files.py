@@ -6,8 +6,12 @@ from op2_files import MODES, Op2
 from universal_files import elements_2412, nodes_2411, shape_2414
 
 
-def network_op2(op2: Op2, hertz=None, masses=None, unstable=None) -> bytes:
-    """An OP2 file of all modes, with what it calls hertz, modal masses, and a mode with ω² < 0."""
+def network_op2(op2: Op2, hertz=None, masses=None, unstable=None, residual_flags=(0,)) -> bytes:
+    """An OP2 file of all modes, with what it calls hertz, modal masses, and a mode with ω² < 0.
+
+    Of each of `residual_flags` it has a table of eigenvalues; one from before residual vectors are
+    added, 1, lacks the last four.
+    """
     network = free_network()
     grids = [(i, 0, place, 0) for i, place in zip(LABELS, CORNERS, strict=True)]
     w2 = network.omega_n_squared.copy()
@@ -25,7 +29,10 @@ def network_op2(op2: Op2, hertz=None, masses=None, unstable=None) -> bytes:
     return op2.file(
         op2.table("GEOM1", op2.grids(grids)),
         op2.table("GEOM2", hexa),
-        op2.table("LAMA", *op2.eigenvalues(*rows)),
+        *(
+            op2.table("LAMA", *op2.eigenvalues(*rows[: 20 if flag == 1 else 24], residual_flag=flag))
+            for flag in residual_flags
+        ),
         op2.table("OUGV1", *records),
     )
 

@@ -90,10 +90,10 @@ class Op2:
             for i, kind, row in zip(ids, kinds, motions, strict=True)
         )
 
-    def eigenvalues(self, *rows: tuple[int, float, float, float]) -> list[bytes]:
+    def eigenvalues(self, *rows: tuple[int, float, float, float], residual_flag=0) -> list[bytes]:
         """Records of LAMA, of mode, eigenvalue, what is called hertz, and generalised mass."""
         values = b"".join(
             self.words(mode, mode, w2, float(np.sqrt(abs(w2))), hertz, mass, mass * w2)
             for mode, w2, hertz, mass in rows
         )
-        return [self.words(21, 6, *[0] * 48, *[0] * 96), values]
+        return [self.words(21, 6, *[0] * 7, 7, residual_flag, *[0] * 39, *[0] * 96), values]

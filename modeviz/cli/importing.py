@@ -12,15 +12,19 @@ from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
 from modeviz.formats.attachments import Found, find_attachments
-from modeviz.formats.body import chosen_units, flexible_body, static_stiffness, uncoupled_because
+from modeviz.formats.body import chosen_units, flexible_body, uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
 from modeviz.formats.into_folder import add_body
 from modeviz.formats.places import FORMS, parse_place
 from modeviz.formats.reading import read_component
+from modeviz.formats.residuals import FORMS as RESIDUAL_FORMS
+from modeviz.formats.residuals import with_given_compliance
 from modeviz.formats.solving import USUAL_MODES, Wanted, solved
 from modeviz.report.tables import table
+from modeviz.report.truncation import import_notes
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.residuals import estimated_residual_compliance, modal_compliance
 
 UNKNOWN = "unknown"
 
@@ -39,6 +43,8 @@ class ImportOptions:
     """Of the body; None: that of the first file."""
     attach: tuple[str, ...] = ()
     """Places, as `parse_place` reads them."""
+    residual: tuple[str, ...] = ()
+    """What the modes leave out, as `with_given_compliance` reads it."""
     modes: int | None = None
     """How many to compute where the files have matrices; None: `USUAL_MODES`."""
     up_to: float | None = None
@@ -51,9 +57,16 @@ class ImportOptions:
     @property
     def mounts(self) -> MountOptions:
         """What is asked for of mounts; raises ModevizError if it is what a body alone has."""
-        if self.attach or self.name or self.modes is not None or self.up_to is not None:
+        if (
+            self.attach
+            or self.name
+            or self.residual
+            or self.modes is not None
+            or self.up_to is not None
+        ):
             raise ModevizError(
-                "--attach, --name, --modes and --up-to are of a body, and the file is one of mounts"
+                "--attach, --name, --residual, --modes and --up-to are of a body, and the file is one "
+                "of mounts"
             )
         return MountOptions(
             files=self.files,
@@ -77,9 +90,10 @@ def import_component(options: ImportOptions) -> None:
     for note in component.notes:
         remark(f"{component.source}: {note}")
     if options.output is None:
-        if options.attach or options.name or options.units:
+        if options.attach or options.name or options.units or options.residual:
             raise ModevizError(
-                "--attach, --name and --units are of a body that is written; say where with --output"
+                "--attach, --name, --units and --residual are of a body that is written; say where "
+                "with --output"
             )
         print_result(listing(solved(component, wanted)))
         return
@@ -89,8 +103,10 @@ def import_component(options: ImportOptions) -> None:
         found = find_attachments(component, [parse_place(text) for text in options.attach], units)
     component = solved(component, wanted, found, units.length)
     body, remarks = flexible_body(component, units, name, found)
+    with located("--residual"):
+        body = with_given_compliance(body, options.residual, units)
     vehicle = add_body(body, options.output, component.source)
-    for note in (*remarks, *vehicle.notes):
+    for note in (*remarks, *import_notes(body), *vehicle.notes):
         remark(note)
     print_result(summary(body, found, options.output))
 
@@ -135,24 +151,32 @@ def _known(value: float, form: str) -> str:
 def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) -> str:
     """Return what an engineer can compare with what they know of a body that was written."""
     _, inertia = body.rigid_fit.mass_about_center_of_gravity
-    elastic = body.natural_frequency_hz[body.n_rigid :][:5]
-    n_elastic = body.n_modes - body.n_rigid
+    elastic = body.natural_frequency_hz[body.n_rigid : body.n_normal][:5]
+    n_elastic = body.n_normal - body.n_rigid
+    residual = f", {body.n_residuals} residual vectors" if body.n_residuals else ""
     lines = [
-        f"{folder}: body {body.name!r}, {body.n_rigid} rigid and {n_elastic} elastic modes",
+        f"{folder}: body {body.name!r}, {body.n_rigid} rigid and {n_elastic} elastic modes{residual}",
         f"mass {body.mass:.5g} kg, centre of gravity {_places(body.center_of_gravity)} m, "
         f"moments of inertia {_places(np.diag(inertia))} kg m²",
         f"first elastic modes {', '.join(f'{f:.4g}' for f in elastic) or 'none'} Hz",
     ]
-    for found, attachment in zip(attachments, body.attachments, strict=True):
+    modal, missing = modal_compliance(body), estimated_residual_compliance(body)
+    for found, attachment, own, more in zip(attachments, body.attachments, modal, missing, strict=True):
         far = f", {1000 * found.distance:.3g} mm from where it was asked for" if found.distance else ""
-        stiffness = static_stiffness(body, attachment) / factor("N/mm", "stiffness")
+        truer = f", and about {_stiffness(own + more)} with those left out" if more.any() else ""
         lines.append(
             f"attachment {found.name!r} at {_places(attachment.position)} m{far}; its modes are "
-            f"{_places(stiffness)} N/mm stiff there"
+            f"{_stiffness(own)} N/mm stiff there{truer}"
         )
     if not attachments:
         lines.append("no attachments, so nothing can hold on to it: import it with --attach")
     return "\n".join(lines)
+
+
+def _stiffness(compliance: np.ndarray) -> str:
+    """N/mm of what gives way so much, infinite where it does not."""
+    rates = np.divide(1.0, compliance, out=np.full(3, np.inf), where=compliance > 0)
+    return _places(rates / factor("N/mm", "stiffness"))
 
 
 def _places(values: np.ndarray) -> str:
@@ -203,6 +227,12 @@ def _add_options(command: ArgumentParser) -> None:
         nargs=2,
         metavar=("FIRST", "SECOND"),
         help="that the springs of an input file join (default: those where its grids are)",
+    )
+    command.add_argument(
+        "--residual",
+        action="append",
+        metavar="COMPLIANCE",
+        help=f"what the modes leave out: {RESIDUAL_FORMS}, in the files' units; may be repeated",
     )
 
 

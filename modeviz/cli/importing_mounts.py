@@ -18,6 +18,7 @@ from modeviz.formats.mounts.sheets import EXCEL_SUFFIXES, TEXT_SUFFIXES
 from modeviz.formats.mounts.table import read_mount_table
 from modeviz.formats.nastran.bushings import has_bushings, read_bushings
 from modeviz.report.tables import table
+from modeviz.report.truncation import truncation_doubts
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 
@@ -69,7 +70,7 @@ def import_mounts(options: MountOptions) -> None:
         print_result(listing(bushings))
         return
     vehicle = add_bushings(bushings, target, path.name)
-    for note in vehicle.notes:
+    for note in (*vehicle.notes, *truncation_doubts(vehicle)):
         remark(note)
     print_result(
         f"{options.output}: {len(bushings)} connections from {path.name}\n\n{listing(bushings)}"

@@ -78,17 +78,6 @@ def uncoupled_because(component: Component) -> str | None:
     return None
 
 
-def static_stiffness(body: FlexibleBody, attachment: Attachment) -> Floats:
-    """Return how stiff a body's modes make an attachment along x, y and z, (3,), N/m.
-
-    1 / Σ φ²/ω² over the elastic modes: a force there deforms the free body while it accelerates as a
-    rigid one. Modes that are left out would only make it softer, so that the body itself is no stiffer.
-    """
-    phi, omega_n_squared = attachment.shapes[:3, body.n_rigid :], body.omega_n_squared[body.n_rigid :]
-    compliance = np.sum(phi**2 / omega_n_squared, axis=1)
-    return np.divide(1.0, compliance, out=np.full(3, np.inf), where=compliance > 0)
-
-
 def _omega_n_squared(frequency_hz: Floats) -> Floats:
     """ω² with the sign of the frequency."""
     return (2 * np.pi) ** 2 * frequency_hz * np.abs(frequency_hz)

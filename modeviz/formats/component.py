@@ -66,7 +66,7 @@ class Modes:
     shapes: Array
     """(n_nodes, 6, n_modes), real or complex: motions, and rotations or zeros."""
     n_residuals: int = 0
-    """How many of the last are residual vectors, which are used like more modes."""
+    """How many of the last are residual vectors, used like more modes, as far as files say so."""
 
 
 @dataclass(frozen=True, eq=False)

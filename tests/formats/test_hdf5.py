@@ -36,6 +36,14 @@ def test_modes_and_geometry_are_read_to_the_last_digit(read):
     assert component.notes == ()
 
 
+def test_modes_that_are_not_among_those_before_residual_vectors_were_added_are_such(read):
+    hdf5 = square().mode(IDS, np.ones((4, 6)), 2, 900.0)
+    hdf5.eigenvalues([(1, 400.0, 2.5, 1), (1, 400.0, 2.5, 2), (2, 900.0, 1.5, 2)])
+    modes = read(hdf5).modes
+    assert modes.n_residuals == 1
+    assert modes.modal_mass.tolist() == [2.5, 1.5]
+
+
 def test_a_body_is_made_of_an_hdf5_file(tmp_path, capsys):
     path, folder = network_hdf5().write(tmp_path / "a.h5"), tmp_path / "vehicle"
     arguments = ["import", str(path), "--output", str(folder), "--units", "mm-t-s", "--attach", "11"]

@@ -13,9 +13,11 @@ from modeviz.formats.nastran.model import (
     FRAME_CARDS,
     FrameCard,
     Model,
+    ModesAsked,
     sorted_grids,
     weights_note,
 )
+from modeviz.formats.nastran.residual_vectors import modes_asked
 from modeviz.formats.nastran.rigid_elements import NAMES as SET_CARDS
 from modeviz.formats.nastran.rigid_elements import node_set
 from modeviz.formats.node_sets import NodeSet
@@ -48,6 +50,7 @@ def _model(every: Iterator[Card]) -> Model:
     frames: dict[int, FrameCard] = {}
     elements: dict[ElementKind, list[list[int]]] = {}
     norms: list[str] = []
+    asked: list[ModesAsked] = []
     notes: list[str] = []
     node_sets: dict[str, NodeSet] = {}
     for card in every:
@@ -61,6 +64,7 @@ def _model(every: Iterator[Card]) -> Model:
             frames.update(_frames(card))
         elif card.name in ("EIGRL", "EIGR"):
             norms.append(_norm(card))
+            asked.append(modes_asked(card))
         elif card.name == "PARAM":
             notes += _parameter(card)
         elif card.name in SET_CARDS:
@@ -81,6 +85,7 @@ def _model(every: Iterator[Card]) -> Model:
         {kind: _rows(kind, corners) for kind, corners in elements.items() if corners},
         is_mass_normalised=bool(norms) and set(norms) == {"MASS"},
         notes=tuple(notes),
+        asked=tuple(asked),
         node_sets=node_sets,
     )
 

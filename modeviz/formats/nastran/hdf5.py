@@ -124,8 +124,8 @@ def _scalar_points(tables: Tables) -> Array:
 def _eigenvalue_rows(tables: Tables) -> Floats:
     name = f"{RESULT}/SUMMARY/EIGENVALUE"
     if not tables.has(name):
-        return np.zeros((0, 3))
-    return tables.real(name, ("MODE", "EIGEN", "MASS"))
+        return np.zeros((0, 4))
+    return tables.real(name, ("MODE", "EIGEN", "MASS", "RESFLG"))
 
 
 def _frames(tables: Tables) -> Iterator[tuple[int, FrameCard]]:

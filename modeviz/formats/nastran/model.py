@@ -43,6 +43,16 @@ class FrameCard:
             check_range("the points of a coordinate system", self.points)
 
 
+@dataclass(frozen=True)
+class ModesAsked:
+    """The modes that a card of an input file asks for."""
+
+    n_modes: int = 0
+    """0: as many as there are."""
+    top_hz: float = 0.0
+    """Of the range; 0: it has no end."""
+
+
 @dataclass(frozen=True, eq=False)
 class Model:
     """What is known of a model's geometry."""
@@ -59,6 +69,8 @@ class Model:
     is_mass_normalised: bool = False
     """Whether the modes are asked for with a modal mass of one."""
     notes: tuple[str, ...] = field(default=())
+    asked: tuple[ModesAsked, ...] = ()
+    """How many modes are asked for, by each card that asks."""
     node_sets: Mapping[str, NodeSet] = field(default_factory=dict)
     """Sets of grids that carry a point, by name: "RBE2:901"."""
 

@@ -50,16 +50,17 @@ def read_shapes(tables: Sequence[Table], path: Path) -> Shapes | None:
 
 
 def eigenvalue_rows(tables: Sequence[Table]) -> Floats:
-    """Return number, eigenvalue and generalised mass of each row of tables of eigenvalues, (n, 3).
+    """Return number, eigenvalue, generalised mass and RESFLG of rows of tables of eigenvalues, (n, 4).
 
-    What they say of hertz is not asked for.
+    What they say of hertz is not asked for; RESFLG is that of their table.
     """
-    parts = [np.zeros((0, 3))]
+    parts = [np.zeros((0, 4))]
     for table in tables:
         for number in range(2, len(table.records), 2) if table.name in EIGENVALUES else ():
             whole, real = table.whole(number), table.real(number).astype(float)
             last = len(whole) // 7 * 7
-            parts.append(np.column_stack([whole[:last:7], real[2:last:7], real[5:last:7]]))
+            flag = np.full(last // 7, (table.whole(number - 1)[10:11].tolist() or [0])[0])
+            parts.append(np.column_stack([whole[:last:7], real[2:last:7], real[5:last:7], flag]))
     return np.concatenate(parts)
 
 

@@ -28,12 +28,12 @@ def by_mode(table: Table, numbers: Sequence[int], eigenvalues: Floats) -> Iterat
     Args:
         table: that has them.
         numbers: of the records that are headers of its grids.
-        eigenvalues: (n, 3), rows of the tables of eigenvalues, since this one has none.
+        eigenvalues: (n, 4), rows of the tables of eigenvalues, since this one has none.
 
     Raises:
         VehicleError: grids have different modes, they are complex, or a mode's eigenvalue is unknown.
     """
-    known = {int(number): value for number, value, _ in eigenvalues.tolist()}
+    known = {int(number): value for number, value in eigenvalues[:, :2].tolist()}
     subcases: dict[int, list[int]] = {}
     for number in numbers:
         header = table.whole(number)

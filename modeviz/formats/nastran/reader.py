@@ -16,6 +16,7 @@ from modeviz.formats.nastran.model import Model, basic_geometry
 from modeviz.formats.nastran.op2_geometry import read_model
 from modeviz.formats.nastran.op2_modes import eigenvalue_rows, read_shapes
 from modeviz.formats.nastran.op2_records import read_tables
+from modeviz.formats.nastran.residual_vectors import residual_vectors
 from modeviz.formats.nastran.shapes import Shapes
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -30,8 +31,8 @@ class _Results:
 
     path: Path
     shapes: Shapes | None
-    masses: Floats
-    """(n_modes,), generalised ones, not numbers where the file does not say them."""
+    rows: Floats
+    """(n, 4): number, eigenvalue, generalised mass and RESFLG in tables of eigenvalues."""
     model: Callable[[], Model | None]
     """Reads its geometry; none if it has none."""
 
@@ -71,7 +72,7 @@ def _read_results(path: Path) -> _Results:
         tables = read_tables(path)
         shapes, rows = read_shapes(tables, path), eigenvalue_rows(tables)
         model = partial(read_model, tables, path)
-    return _Results(path, shapes, shapes.modal_masses(rows) if shapes else np.zeros(0), model)
+    return _Results(path, shapes, rows, model)
 
 
 def _without_geometry(results: _Results) -> Component:
@@ -115,7 +116,9 @@ def _component(model: Model, places: Floats, frames: dict, results: _Results) ->
         is_fluid = systems < 0
         turn_to_basic(frames, np.where(is_fluid, 0, systems), np.nan_to_num(placed), array)
     frequency, damping = shapes.frequencies()
-    masses = results.masses
+    masses = shapes.modal_masses(results.rows)
+    n_residuals, unsaid = residual_vectors(shapes, results.rows, model.asked)
+    notes += unsaid
     if np.isnan(masses).all() and model.is_mass_normalised and not shapes.is_complex:
         masses = np.ones(len(masses))
         notes.append(
@@ -125,7 +128,7 @@ def _component(model: Model, places: Floats, frames: dict, results: _Results) ->
     order = np.argsort(frequency, kind="stable")
     if (np.diff(order) != 1).any():
         array = array[:, :, order]
-    modes = Modes(frequency[order], masses[order], damping[order], array)
+    modes = Modes(frequency[order], masses[order], damping[order], array, n_residuals)
     elements = _elements(model, shapes.ids)
     return Component(shapes.ids, placed, elements, modes, notes=tuple(notes), node_sets=model.node_sets)
 

@@ -72,19 +72,24 @@ class Shapes:
         """Return the generalised mass of each mode, (n_modes,); not a number where none is said.
 
         Args:
-            rows: (n, 3), of tables of eigenvalues: number of a mode, eigenvalue, generalised mass. A
-                row is of the mode of the same number and eigenvalue.
+            rows: (n, 4), of tables of eigenvalues: number of a mode, eigenvalue, generalised mass,
+                RESFLG. A row is of the mode of the same number and eigenvalue.
         """
         known: dict[int, list[tuple[float, float]]] = {}
-        for number, eigenvalue, mass in rows.tolist():
+        for number, eigenvalue, mass in rows[:, :3].tolist():
             known.setdefault(int(number), []).append((eigenvalue, mass))
         masses = np.full(len(self.numbers), np.nan)
         for i, (number, own) in enumerate(zip(self.numbers.tolist(), self.eigenvalues, strict=True)):
             for eigenvalue, mass in known.get(number, []):
-                is_same = abs(eigenvalue - own) <= 1e-5 * max(abs(own), 1e-3)
+                is_same = is_same_eigenvalue(eigenvalue, own)
                 if is_same and not self.is_complex and np.isfinite(mass) and mass > 0:
                     masses[i] = mass
         return masses
+
+
+def is_same_eigenvalue(one: float, other: complex) -> bool:
+    """Return whether two eigenvalues are alike in all digits of single precision, but some."""
+    return abs(one - other) <= 1e-5 * max(abs(other), 1e-3)
 
 
 def assembled(found: Sequence[Shape], is_basic: bool) -> Shapes:

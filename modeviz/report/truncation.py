@@ -1,0 +1,90 @@
+"""Words for how much too stiff bodies are that lack residual vectors, and which connections feel it."""
+
+import math
+from collections.abc import Iterator
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.component_trust import component_trust
+from modeviz.dynamics.truncation_gap import (
+    StiffConnection,
+    TruncationGap,
+    on_trial_mounts,
+    stiff_connections,
+    truncation_gap,
+)
+from modeviz.errors import ModevizError, listed, quoted
+from modeviz.report.components import change_words
+from modeviz.units import factor
+from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.vehicle import Vehicle
+
+SMALL = 0.005
+"""Nobody minds frequencies that are too high by less than this part of them."""
+
+REMEDY = "ask the solver for residual vectors there, or give their compliance with --residual"
+
+
+def truncation_doubts(vehicle: Vehicle) -> Iterator[str]:
+    """Yield sentences on a vehicle whose bodies are too stiff where its connections hold them.
+
+    Of one that cannot be solved there are none.
+    """
+    gap = _gap(vehicle)
+    if gap is None:
+        return
+    for body in gap.bodies:
+        if stiff := [s for s in stiff_connections(vehicle) if s.body == body]:
+            yield (
+                f"body {quoted(body)} lacks residual vectors where these hold it, which are stiffer "
+                f"than a tenth of it: {listed(map(_stiff_words, stiff))}"
+            )
+    if gap.change > SMALL:
+        yield f"{_gap_words(gap)} are {_too_high(gap)}; {REMEDY}"
+
+
+def import_notes(body: FlexibleBody) -> Iterator[str]:
+    """Yield what an imported body says of its truncation, on mounts a tenth as stiff as itself."""
+    vehicle = on_trial_mounts(body)
+    gap = _gap(vehicle) if body.attachments else None
+    if gap is None:
+        return
+    (trust,) = component_trust(assemble(vehicle), gap.below_hz)
+    n_elastic = body.n_normal - body.n_rigid
+    yield (
+        "it lacks residual vectors, so it is too stiff at its attachments: on mounts a tenth as stiff "
+        f"as it is there, {_gap_words(gap)} are {_too_high(gap)}; {REMEDY}"
+    )
+    wanted = math.ceil(n_elastic * gap.change / SMALL)
+    more = f"; for {SMALL:.1%} about {wanted} are wanted" if wanted > n_elastic else ""
+    fewer = f"{trust.n_left_out} of its {n_elastic} elastic modes"
+    yield f"without the last {fewer} {change_words(trust)} on them{more}"
+
+
+def _gap(vehicle: Vehicle) -> TruncationGap | None:
+    try:
+        return truncation_gap(vehicle)
+    except ModevizError:
+        return None
+
+
+def _gap_words(gap: TruncationGap) -> str:
+    return f"frequencies below {gap.below_hz:.3g} Hz"
+
+
+def _too_high(gap: TruncationGap) -> str:
+    """By how much, and how well that is known."""
+    sure = (
+        "so few modes tell no more than the order of magnitude"
+        if gap.is_rough
+        else ("an estimate, mostly within a factor of two")
+    )
+    return f"too high by up to about {100 * gap.change:.2g} % (at {gap.at_hz:.3g} Hz; {sure})"
+
+
+def _stiff_words(stiff: StiffConnection) -> str:
+    per_mm = factor("N/mm", "stiffness")
+    own = "rigid" if math.isinf(stiff.stiffness) else f"{stiff.stiffness / per_mm:.3g}"
+    return (
+        f"{quoted(stiff.connection)} along {stiff.direction} ({own} of "
+        f"{stiff.local_stiffness / per_mm:.3g} N/mm at {quoted(stiff.attachment)})"
+    )

@@ -1,0 +1,129 @@
+"""How much too high frequencies are without residual vectors, held against full matrices."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from small_meshes import plate
+from two_sheets import direct_frequencies, joined, mount_stiffness, sheets
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.modes import solve_modes
+from modeviz.dynamics.truncation_gap import on_trial_mounts, stiff_connections, truncation_gap
+from modeviz.fem.attachments import OnNode
+from modeviz.fem.component import flexible_body
+from modeviz.fem.matrices import assemble as assemble_mesh
+from modeviz.report.truncation import import_notes, truncation_doubts
+from modeviz.vehicle.connections import Spring
+from modeviz.vehicle.residuals import estimated_residual_compliance, with_residual_compliance
+
+
+@pytest.fixture(scope="module")
+def exact():
+    """Frequencies by the full matrices, by the stiffness of mounts."""
+    return {part: direct_frequencies(mount_stiffness(part)) for part in (0.05, 0.3, 1.5)}
+
+
+def coupled(vehicle, below_hz):
+    found = solve_modes(assemble(vehicle), below_hz=below_hz).frequency_hz
+    return found[found > 0.5]
+
+
+@pytest.mark.parametrize("part", [0.05, 0.3, 1.5])
+@pytest.mark.parametrize(("n_floor", "n_roof"), [(24, 24), (20, 40), (40, 30), (30, 60)])
+def test_coupling_with_residual_vectors_is_that_of_the_full_matrices(exact, part, n_floor, n_roof):
+    floor, roof = (s.body(n, True) for s, n in zip(sheets(), (n_floor, n_roof), strict=True))
+    vehicle = joined(floor, roof, mount_stiffness(part))
+    below = 0.5 * min(b.natural_frequency_hz[b.n_normal - 1] for b in (floor, roof))
+    found = coupled(vehicle, below)
+    np.testing.assert_allclose(found, exact[part][6 : 6 + len(found)], rtol=1e-6)
+    assert len(found) >= 15
+    assert truncation_gap(vehicle) is None
+    assert not list(truncation_doubts(vehicle))
+
+
+@pytest.mark.parametrize("part", [0.05, 0.3, 1.5])
+@pytest.mark.parametrize(("n_floor", "n_roof"), [(24, 24), (20, 40), (40, 30), (30, 60)])
+def test_without_them_it_is_off_by_what_is_said_within_a_factor_of_two(exact, part, n_floor, n_roof):
+    floor, roof = (s.body(n) for s, n in zip(sheets(), (n_floor, n_roof), strict=True))
+    vehicle = joined(floor, roof, mount_stiffness(part))
+    gap = truncation_gap(vehicle)
+    found = coupled(vehicle, gap.below_hz)
+    true = (found / exact[part][6 : 6 + len(found)] - 1).max()
+    assert 0.5 < gap.change / true < 2
+    assert gap.bodies == ("floor", "roof")
+    assert not gap.is_rough
+
+
+def test_given_compliance_is_added_exactly_and_to_what_holds_there_alone():
+    body = sheets()[0].body(20)
+    given = np.array([1e-6, 0.0, 3e-5])
+    softer = with_residual_compliance(body, {"floor 2": given})
+    assert softer.n_residuals == 2
+    for name, expected in (("floor 2", given), ("floor 1", np.zeros(3))):
+        np.testing.assert_allclose(
+            softer.residual_compliance(name), np.diag(expected), rtol=1e-12, atol=0
+        )
+    assert softer.mass == pytest.approx(body.mass)
+
+
+def test_a_spring_on_given_compliance_is_a_spring_in_series_with_it():
+    """1/k + R in place of 1/k, while R is static."""
+    body, R, k = sheets()[0].body(20), 4e-5, 2e4
+    place = np.tile(body.attachments[0].position, (2, 1))
+
+    def frequencies(body, stiffness):
+        spring = Spring("s", "s", ("floor", "ground"), place, stiffness=np.array([0, 0, stiffness]))
+        return coupled(replace(on_trial_mounts(body), connections=(spring,)), 60.0)
+
+    given = with_residual_compliance(body, {"floor 0": np.array([0, 0, R])})
+    found, expected = frequencies(given, k), frequencies(body, 1 / (1 / k + R))
+    np.testing.assert_allclose(found, expected, rtol=1e-5)
+    assert (frequencies(body, k)[: len(found)] / found).max() > 1.01
+
+
+def test_connections_that_are_nearly_as_stiff_as_a_body_are_named():
+    floor, roof = (sheet.body(24) for sheet in sheets())
+    stiffness = np.full((4, 3), 10.0)
+    local = 1 / sheets()[0].compliance[1, 2]
+    stiffness[1, 2] = 0.2 * local
+    vehicle = joined(floor, roof, stiffness)
+    named = [s for s in stiff_connections(vehicle) if s.body == "floor"]
+    assert [(s.connection, s.attachment, s.direction) for s in named] == [("mount 1", "floor 1", "z")]
+    assert named[0].local_stiffness == pytest.approx(local, rel=0.1)
+    assert "'mount 1' along z" in next(iter(truncation_doubts(vehicle)))
+
+
+def test_a_rigid_connection_is_stiff_beside_any_body():
+    body = sheets()[0].body(24)
+    place = np.tile(body.attachments[0].position, (2, 1))
+    bolt = Spring("bolt", "b", ("floor", "ground"), place, rigid=("x", "z"))
+    vehicle = replace(on_trial_mounts(body), connections=(bolt,))
+    assert [s.direction for s in stiff_connections(vehicle)] == ["x", "z"]
+    assert "rigid of" in next(iter(truncation_doubts(vehicle)))
+
+
+def test_an_import_says_what_its_truncation_does_and_how_many_modes_are_wanted():
+    lacks, fewer = import_notes(sheets()[0].body(14))
+    assert "lacks residual vectors" in lacks
+    assert "order of magnitude" in lacks
+    assert "without the last 2 of its 8 elastic modes frequencies rise by up to" in fewer
+    assert not list(import_notes(sheets()[0].body(14, with_residuals=True)))
+
+
+def test_a_flat_plate_gives_way_across_alone():
+    nodes = assemble_mesh(plate(6)).nodes
+    points = [OnNode(f"{i}", nodes[i], node=i) for i in (8, 26, 40)]
+    body = flexible_body("plate", "frame", "plate", plate(6), points, 30, 0.01).truncated(30)
+    springs = on_trial_mounts(body).connections
+    assert all((spring.stiffness > 0).tolist() == [False, False, True] for spring in springs)
+    assert len(list(import_notes(body))) == 2
+
+
+def test_residual_vectors_of_some_attachments_leave_the_others_lacking():
+    body = sheets()[0].body(24)
+    estimate = estimated_residual_compliance(body)
+    some = with_residual_compliance(body, {"floor 0": estimate[0]})
+    left = estimated_residual_compliance(some)
+    assert not left[0].any()
+    np.testing.assert_allclose(left[1:], estimate[1:])
