@@ -42,7 +42,7 @@ class Box:
     def places(self) -> Floats:
         """Where its nodes are, (n_nodes, 3), mm."""
         along = [STEP * np.arange(n) for n in self.nodes]
-        return np.stack(np.meshgrid(*along, indexing="ij"), axis=-1).reshape(-1, 3)
+        return np.stack(np.meshgrid(*along, indexing="ij"), axis=-1).reshape(-1, 3).astype(float)
 
     def corners(self) -> Array:
         """The nodes of its solids, (n_solids, 8), from one."""

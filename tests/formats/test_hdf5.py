@@ -95,6 +95,18 @@ def test_scalar_points_other_subcases_and_modes_that_buckle_are_not_shown(read):
     assert component.notes == ("1 modes of other subcases than 1 are left out",)
 
 
+def test_superelements_with_a_subcase_each_are_one_component(read):
+    """Grids 2 and 3 are in both, as on their boundary; the residual structure comes first."""
+    hdf5 = Hdf5().grids([*SQUARE, *SQUARE[1:3]]).mode([2, 3], np.full((2, 6), 5.0), 1, 400.0, subcase=3)
+    hdf5.mode([1, 2], np.full((2, 6), 5.0), 1, 400.0).mode(
+        [3, 4], np.full((2, 6), 5.0), 1, 400.0, subcase=2
+    )
+    component = read(hdf5)
+    assert component.node_ids.tolist() == IDS
+    np.testing.assert_array_equal(component.modes.shapes, 5)
+    assert component.notes == ()
+
+
 def test_complex_modes_have_damping_and_no_modal_mass(read):
     motions = np.full((4, 6), 1 + 2j)
     component = read(Hdf5().grids(SQUARE).mode(IDS, motions, 1, -3 + 4j, analysis=COMPLEX_MODES))

@@ -179,6 +179,46 @@ def test_a_system_that_is_given_in_another_one_is_turned_twice(read):
     np.testing.assert_allclose(component.modes.shapes[0, :3, 0], [-1, 0, 0], atol=1e-12)
 
 
+def test_a_system_that_is_given_in_a_cylinder_has_points_in_its_coordinates(read):
+    """By hand: r, θ, z of the cylinder about the basic z; the inner one's x is then along -y."""
+    outer = frame_18(1, 1, 0, [0, 0, 0], [1, 0, 0], [0, 0, 1])
+    inner = frame_18(2, 0, 1, [2, 90, 0], [1, 90, 0], [2, 90, 1])
+    component = read(outer + inner + nodes_15([1], [[0.5, 0, 0]], 2, 2))
+    np.testing.assert_allclose(component.nodes, [[0, 1.5, 0]], atol=1e-12)
+
+
+def test_systems_that_stand_in_many_others_are_refused(read):
+    frames = [frame_18(n, 0, n + 1, [0, 0, 0], [1, 0, 0], [0, 0, 1]) for n in range(1, 2000)]
+    with pytest.raises(VehicleError, match="or in too many others"):
+        read("".join(frames) + nodes_15([1], [[0.5, 0, 0]], 1, 1))
+
+
+@pytest.mark.parametrize("write", [shape_55, shape_2414])
+def test_a_normal_mode_in_complex_numbers_is_real(read, write):
+    """As Simcenter writes it: data that are complex, of an analysis of normal modes."""
+    shape = np.arange(12.0).reshape(4, 3) + 0j
+    text = nodes_2411([1, 2, 3, 4], SQUARE) + write([1, 2, 3, 4], shape, 12.5, 3.5)
+    component = read(text)
+    assert not component.is_complex
+
+
+@pytest.mark.parametrize("end", [b"", b"\n"])
+def test_binary_data_sets_are_gone_over_by_their_length(read, end):
+    """Whatever stands in them, and whether or not their bytes end a line."""
+    raw = b"\0\1\n    -1\n  2411\n" + bytes(14)
+    head = (
+        f"    -1\n    58b     1     2          11{len(raw):12d}     0     0           0           0\n"
+    )
+    text = head.encode() + 11 * b"NONE\n" + raw + end + b"    -1\n"
+    after = nodes_15([1], [[0.5, 0, 0]]).encode()
+    component = read(text + after)
+    assert component.node_ids.tolist() == [1]
+    assert component.notes == ("data sets left out, which are no part of modes: 1 of 58b",)
+    for length in (99999999999, 10**30):
+        with pytest.raises(VehicleError, match="the file is cut"):
+            read(text.replace(f"{len(raw):12d}".encode(), f"{length:12d}".encode()) + after)
+
+
 @pytest.mark.parametrize("write", ["18", "2420"])
 def test_motions_along_a_cylinder_are_turned_at_each_node(read, write):
     if write == "18":

@@ -95,6 +95,8 @@ def is_same_eigenvalue(one: float, other: complex) -> bool:
 def assembled(found: Sequence[Shape], is_basic: bool) -> Shapes:
     """Return the modes of the first subcase, each put together of all tables that have some of it.
 
+    Other subcases are those of other superelements where they have the same eigenvalues at other grids.
+
     Args:
         found: in the order of the file.
         is_basic: whether their motions are in the basic system.
@@ -104,10 +106,11 @@ def assembled(found: Sequence[Shape], is_basic: bool) -> Shapes:
     """
     parts: dict[int, list[Shape]] = {}
     for shape in found:
-        if shape.subcase == found[0].subcase:
-            same = parts.setdefault(shape.mode, [])
-            if not same or same[0].eigenvalue == shape.eigenvalue:
-                same.append(shape)
+        same = parts.get(shape.mode)
+        if same is None and shape.subcase == found[0].subcase:
+            parts[shape.mode] = [shape]
+        elif same and same[0].eigenvalue == shape.eigenvalue and _is_more(shape, same[0]):
+            same.append(shape)
     modes = list(parts.values())
     ids = np.unique(np.concatenate([part.ids for part in modes[0]]))
     check_shapes(len(ids), len(modes))
@@ -127,6 +130,11 @@ def assembled(found: Sequence[Shape], is_basic: bool) -> Shapes:
         is_basic,
         left_out(sum(part.n_scalar for part in modes[0]), len(found) - n_used, found[0].subcase),
     )
+
+
+def _is_more(shape: Shape, first: Shape) -> bool:
+    """Whether a shape is a part of the same mode: of the same subcase, or with grids of its own."""
+    return shape.subcase == first.subcase or not np.isin(shape.ids, first.ids).all()
 
 
 def _motions(ids: Array, parts: Sequence[Shape]) -> Array:

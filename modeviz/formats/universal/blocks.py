@@ -14,6 +14,12 @@ from modeviz.vehicle.arrays import Floats
 DELIMITER = re.compile(rb"^ *-1[ \t\r]*$", re.MULTILINE)
 """Before and after each data set."""
 
+BINARY_END = re.compile(rb"[ \t\r\n]*-1[ \t\r]*$", re.MULTILINE)
+"""The same after bytes that need not end a line."""
+
+MOST_BINARY_LINES = 100
+"""Of text before the bytes of a binary data set; there are eleven."""
+
 GLUED = re.compile(rb"(?<=[0-9.])(?=[-+][0-9.])")
 """Between numbers that fill their columns."""
 
@@ -52,24 +58,37 @@ def blocks(content: bytes) -> Iterator[Block]:
     Raises:
         VehicleError: it is no universal file, or is cut within a data set.
     """
-    marks = list(DELIMITER.finditer(content))
-    if not marks:
+    mark = DELIMITER.search(content)
+    if not mark:
         raise VehicleError("found no data set, each of which a universal file has between lines of -1")
     line, last = 1, 0
-    for number in range(0, len(marks), 2):
-        begin = marks[number].end() + 1
-        kind, _, _ = content[begin : begin + 81].partition(b"\n")
+    while mark:
+        begin = mark.end() + 1
+        first, _, _ = content[begin : begin + 81].partition(b"\n")
         line += content.count(b"\n", last, begin)
         last = begin
-        if number + 1 == len(marks):
-            if kind.strip():
+        end = _end(content, begin, first)
+        if end is None:
+            if first.strip():
                 raise VehicleError(
-                    f"the file ends within data set {quoted(kind.decode('latin-1').strip()[:6])}, "
+                    f"the file ends within data set {quoted(first.decode('latin-1').strip()[:6])}, "
                     f"which begins at line {line}: expected a line of -1 after it; the file is cut"
                 )
             return
-        inside = content[begin : marks[number + 1].start()]
-        yield Block(_kind(kind, line), line + 1, inside.partition(b"\n")[2])
+        inside = content[begin : end.start()]
+        yield Block(_kind(first, line), line + 1, inside.partition(b"\n")[2])
+        mark = DELIMITER.search(content, end.end())
+
+
+def _end(content: bytes, begin: int, first: bytes) -> re.Match[bytes] | None:
+    """The line of -1 after a data set; a binary one's first line says how many bytes it has."""
+    words = first.split()
+    if not (words and words[0].endswith(b"b")):
+        return DELIMITER.search(content, begin)
+    n_lines, n_bytes = (int(word) if word.isdigit() else 0 for word in [*words, b"", b"", b""][3:5])
+    for _ in range(min(n_lines, MOST_BINARY_LINES) + 1):
+        begin = content.find(b"\n", begin) + 1 or len(content)
+    return BINARY_END.match(content, min(begin + n_bytes, len(content)))
 
 
 def _kind(line: bytes, number: int) -> str:

@@ -1,10 +1,14 @@
 """Nodes, elements, lines, coordinate systems and units of a universal file.
 
 After the file formats of Structural Dynamics Research Corporation, as the University of Cincinnati
-keeps them: data sets 15, 18, 82, 164, 2411, 2412 and 2420.
+keeps them: data sets 15, 18, 82, 164, 2411, 2412 and 2420. They do not say what spherical coordinates
+are. Read as Nastran has them, radius, angle from the z axis, angle about it, in degrees: so sdynpy
+does, which follows IMAT, the toolbox for I-DEAS.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -41,6 +45,16 @@ ELEMENTS: dict[int, tuple[ElementKind, tuple[int, ...]]] = {
     for number in descriptors
 }
 """By finite element descriptor: the kind, and which of its nodes are corners."""
+
+
+@dataclass(frozen=True, eq=False)
+class GivenFrame:
+    """A coordinate system as a file has it."""
+
+    reference: int
+    """The number of that in which it is given."""
+    within: Callable[[Frame], Frame]
+    """Returns it in the basic one, of that in which it is given."""
 
 
 def read_nodes_15(block: Block) -> tuple[Array, Array, Floats]:
@@ -106,17 +120,22 @@ def grouped(elements: Iterator[tuple[ElementKind | None, list[int]]]) -> dict[El
     return {kind: np.array(rows).reshape(-1, CORNERS[kind]) for kind, rows in groups.items()}
 
 
-def read_frames_18(block: Block) -> dict[int, tuple[int, Frame]]:
-    """Return the systems of data set 18 by number, each with that which it is given in."""
+def read_frames_18(block: Block) -> dict[int, GivenFrame]:
+    """Return the systems of data set 18 by number, which are given by three points in others."""
     lines = [line for line in block.content.decode("latin-1").split("\n") if line.strip()]
     frames = {}
     for start in range(0, len(lines), 4):
         if len(lines) < start + 4:
             raise VehicleError("found a coordinate system that is not whole")
         number, kind, reference = whole_numbers(lines[start], 3)[:3]
-        origin, on_x, in_xz = _rows_of_three(lines[start + 2 : start + 4], 3)
-        frames[number] = reference, _frame_on_x(_frame_kind(kind), origin, on_x, in_xz)
+        points = _rows_of_three(lines[start + 2 : start + 4], 3)
+        frames[number] = GivenFrame(reference, partial(_frame_in, _frame_kind(kind), points))
     return frames
+
+
+def _frame_in(kind: FrameKind, points: Floats, outer: Frame) -> Frame:
+    """The system with those three points in another's coordinates: see `_frame_on_x`."""
+    return _frame_on_x(kind, *outer.places(points))
 
 
 def _rows_of_three(lines: list[str], n_rows: int) -> Floats:
@@ -134,7 +153,7 @@ def _frame_on_x(kind: FrameKind, origin: Floats, on_x: Floats, in_xz: Floats) ->
     return Frame(kind, origin, np.column_stack([x, np.cross(z, x), z]))
 
 
-def read_frames_2420(block: Block) -> dict[int, tuple[int, Frame]]:
+def read_frames_2420(block: Block) -> dict[int, GivenFrame]:
     """Return the systems of data set 2420 by number; they are given in the basic one, 0."""
     _, rest = block.split(2)
     lines = [line for line in rest.decode("latin-1").split("\n") if line.strip()]
@@ -146,8 +165,13 @@ def read_frames_2420(block: Block) -> dict[int, tuple[int, Frame]]:
         axes = _rows_of_three(lines[start + 2 : start + 6], 4)
         if not np.allclose(axes[:3] @ axes[:3].T, np.eye(3), atol=1e-4):
             raise VehicleError(f"coordinate system {number}: its axes are not at right angles")
-        frames[number] = 0, Frame(_frame_kind(kind), axes[3], axes[:3].T)
+        frame = Frame(_frame_kind(kind), axes[3], axes[:3].T)
+        frames[number] = GivenFrame(0, partial(_same, frame))
     return frames
+
+
+def _same(frame: Frame, _outer: Frame) -> Frame:
+    return frame
 
 
 def _frame_kind(number: int) -> FrameKind:

@@ -15,6 +15,7 @@ from modeviz.formats.frames import BASIC, Frame, basic_places, turn_to_basic
 from modeviz.formats.limits import LARGEST_FILE, check_shapes
 from modeviz.formats.universal.blocks import Block, blocks
 from modeviz.formats.universal.geometry import (
+    GivenFrame,
     grouped,
     read_elements,
     read_frames_18,
@@ -32,6 +33,9 @@ SUFFIXES = (".unv", ".uff", ".uf", ".uf5", ".ufb")
 SILENT = {"151", "2400"}
 """Data sets that have only titles and dates."""
 
+DEEPEST = 100
+"""So many coordinate systems may stand in each other."""
+
 
 @dataclass
 class _Content:
@@ -42,8 +46,8 @@ class _Content:
     coordinates: list[Floats] = field(default_factory=list)
     lines: list[Array] = field(default_factory=list)
     elements: list[tuple[ElementKind | None, list[int]]] = field(default_factory=list)
-    frames: dict[int, tuple[int, Frame]] = field(default_factory=dict)
-    """By number, each with the number of that which it is given in."""
+    frames: dict[int, GivenFrame] = field(default_factory=dict)
+    """By number."""
     units: UnitSystem | None = None
     shapes: list[Shape] = field(default_factory=list)
     unread: Counter[str] = field(default_factory=Counter)
@@ -145,21 +149,18 @@ def _nodes(content: _Content) -> tuple[Array, Array, Floats]:
     return labels[kept], systems[kept], coordinates[kept]
 
 
-def _basic_frames(frames: Mapping[int, tuple[int, Frame]]) -> dict[int, Frame]:
+def _basic_frames(frames: Mapping[int, GivenFrame]) -> dict[int, Frame]:
     """Coordinate systems in the basic one, of those that may be given in others."""
     basic: dict[int, Frame] = {}
 
     def resolved(number: int, depth: int) -> Frame:
         if number == 0 or number not in frames:
             return BASIC
-        if depth > len(frames):
-            raise VehicleError(f"coordinate system {number} is given in itself")
+        if depth > DEEPEST:
+            raise VehicleError(f"coordinate system {number} is given in itself, or in too many others")
         if number not in basic:
-            reference, frame = frames[number]
-            outer = resolved(reference, depth + 1)
-            origin = outer.places(frame.origin[None])
-            axes = outer.directions(origin)[0] @ frame.axes
-            basic[number] = Frame(frame.kind, origin[0], axes)
+            given = frames[number]
+            basic[number] = given.within(resolved(given.reference, depth + 1))
         return basic[number]
 
     return {number: resolved(number, 0) for number in frames}

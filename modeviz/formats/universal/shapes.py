@@ -94,6 +94,8 @@ def _shape(header: _Header, parameters: Floats, text: bytes) -> Shape:
     _check_header(len(parameters) >= 4, f"{len(parameters)} parameters of a mode")
     rows = table(text, 1 + n_values * (2 if is_complex else 1), "node")
     values = rows[:, 1::2] + 1j * rows[:, 2::2] if is_complex else rows[:, 1:]
+    if not np.imag(values).any():  # some write normal modes as complex numbers
+        values = values.real
     frequency, mass, damping = _parameters(header, parameters)
     if not (np.isfinite(frequency) and frequency >= 0):
         raise VehicleError(f"found a mode of {frequency:g} Hz")
