@@ -1,6 +1,6 @@
 """The command line.
 
-`modeviz [view|modes|psd|wheels|render|report|optimise|scatter] [VEHICLE]`, `modeviz import FILE`,
+`modeviz [view|modes|psd|wheels|render|report|optimise|scatter|check] [VEHICLE]`, `modeviz import FILE`,
 `modeviz export [VEHICLE] FILE`.
 """
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from importlib.metadata import version
 
+from modeviz.cli.check import CHECK
 from modeviz.cli.command import Command
 from modeviz.cli.export import EXPORT
 from modeviz.cli.importing import IMPORT
@@ -17,7 +18,7 @@ from modeviz.cli.scatter import SCATTER
 from modeviz.cli.view import VIEW
 from modeviz.cli.wheels import WHEELS
 
-COMMANDS = (VIEW, MODES, PSD, WHEELS, RENDER, REPORT, OPTIMISE, SCATTER, IMPORT, EXPORT)
+COMMANDS = (VIEW, MODES, PSD, WHEELS, RENDER, REPORT, OPTIMISE, SCATTER, IMPORT, CHECK, EXPORT)
 
 
 def parse(arguments: Sequence[str]) -> Callable[[], None]:

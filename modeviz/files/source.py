@@ -48,6 +48,11 @@ class Source:
         rest = (f"{more} more notes of this kind",) if more > 0 else ()
         return (*self._notes[:MOST_NOTES], *rest)
 
+    @property
+    def every_note(self) -> tuple[str, ...]:
+        """All notes made so far, however many."""
+        return tuple(self._notes)
+
     def path(self, name: str) -> Path:
         """The path of a file of the folder.
 

@@ -11,8 +11,10 @@ from itertools import islice
 from pathlib import Path
 
 from modeviz.errors import Fault, FaultsError, ModevizError, PartError
+from modeviz.files.disk import read_text
 from modeviz.files.draft import Draft
 from modeviz.files.folder import VEHICLE_FILE, read_vehicle_tables, vehicle_of
+from modeviz.files.key_lines import key_lines, line_of
 from modeviz.files.source import Source
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body
@@ -32,11 +34,14 @@ class Problem:
     """Its path in the file, "spring[3].stiffness"; empty for the whole."""
     words: str
     """What was found and what would be right."""
+    line: int = 0
+    """That of the key, from one; zero if it is none's."""
     left_out: str = ""
     """The key of what the rest was read without; empty if it could not be read at all."""
 
     def __str__(self) -> str:
-        return ": ".join(filter(None, (self.file, self.key, self.words)))
+        line = f"line {self.line}" if self.line else ""
+        return f"{', '.join(filter(None, (self.file, line, self.key)))}: {self.words}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +49,11 @@ class Survey:
     """What there is in a vehicle folder."""
 
     vehicle: Vehicle | None
-    """Of all that is right; None if that is no body. Its notes are doubts about it."""
+    """Of all that is right; None if that is no body."""
     problems: tuple[Problem, ...]
     """Empty if `read_vehicle` reads the folder."""
+    doubts: tuple[str, ...] = ()
+    """What was taken otherwise than it stands, or is likely wrong."""
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -62,9 +69,10 @@ def survey(folder: Path | str) -> Survey:
     except ModevizError as error:
         return Survey(None, (Problem(VEHICLE_FILE, "", _inside(folder, str(error))),))
     source = Source(folder)
+    lines = list(key_lines(read_text(folder / VEHICLE_FILE)))
     problems = [
-        Problem(VEHICLE_FILE, fault.path, _inside(folder, fault.words), left_out)
-        for fault, left_out in islice(_mended(draft, source), MOST_PROBLEMS)
+        Problem(VEHICLE_FILE, f.path, _inside(folder, f.words), line_of(f.path, lines), left_out)
+        for f, left_out in islice(_mended(draft, source), MOST_PROBLEMS)
     ]
     if len(problems) == MOST_PROBLEMS:
         problems.append(
@@ -79,7 +87,7 @@ def survey(folder: Path | str) -> Survey:
         vehicle = vehicle_of(draft.tables, source.again())
     except ModevizError:
         return Survey(None, tuple(problems))
-    return Survey(vehicle, (*problems, *_too_large(vehicle)))
+    return Survey(vehicle, (*problems, *_too_large(vehicle)), source.every_note)
 
 
 def _mended(draft: Draft, source: Source) -> Iterator[tuple[Fault, str]]:

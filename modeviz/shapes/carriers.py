@@ -91,7 +91,7 @@ def _rotations(nodes: Floats, translations: Array, used: NDArray[np.intp]) -> Ar
     _, around = KDTree(nodes).query(nodes[used], k=n_found)
     total = np.zeros((len(used), 3, translations.shape[2]))
     matrix = np.zeros((len(used), 3, 3))
-    for other in around.T:
+    for other in np.transpose(around):
         d = nodes[other] - nodes[used]
         square = np.sum(d**2, axis=1)[:, None]
         scaled = np.divide(d, square, out=np.zeros_like(d), where=square > SAME_PLACE**2)

@@ -24,6 +24,9 @@ _WORDS = {
 _BEFORE = ((0, "front", "rear"), (1, "left", "right"))
 """Along which axis what is called the one comes before what is called the other."""
 
+_SIDES = (("behind", "before"), ("to the right of", "to the left of"))
+"""Words for where the first is, by axis, not as it ought to be and as it ought to be."""
+
 _AT_ORIGIN, _BEFORE_ORIGIN = 0.1, 0.5
 """Parts of the wheelbase: an axle nearer than the first is at the origin."""
 
@@ -35,7 +38,7 @@ class Sign:
     axis: int
     is_right: bool
     words: str
-    """What it is, if it is not right."""
+    """What it is."""
 
 
 def signs(vehicle: Vehicle) -> Iterator[Sign]:
@@ -45,8 +48,8 @@ def signs(vehicle: Vehicle) -> Iterator[Sign]:
             before, after = (_named(things, word) for word in (first, second))
             if before and after:
                 a, b = (median(place[axis] for _, place in found) for found in (before, after))
-                where = "behind" if axis == 0 else "to the right of"
-                yield Sign(axis, a <= b, f"{before[0][0]!r} is {where} {after[0][0]!r}")
+                where = _SIDES[axis][bool(a <= b)]
+                yield Sign(axis, bool(a <= b), f"{before[0][0]!r} is {where} {after[0][0]!r}")
                 break
     yield from _signs_of_tyres(vehicle)
 
@@ -58,10 +61,13 @@ def _signs_of_tyres(vehicle: Vehicle) -> Iterator[Sign]:
     wheelbase = max(x) - min(x)
     if abs(max(x)) < _AT_ORIGIN * wheelbase and min(x) < -_BEFORE_ORIGIN * wheelbase:
         yield Sign(0, False, "the axle at the origin is the last")
+    elif abs(min(x)) < _AT_ORIGIN * wheelbase and max(x) > _BEFORE_ORIGIN * wheelbase:
+        yield Sign(0, True, "the axle at the origin is the first")
     heights = [tyre.wheel_center[2] - tyre.points[1, 2] for tyre in vehicle.tyres]
     if any(heights):
         low = vehicle.tyres[int(np.argmin(heights))].name
-        yield Sign(2, min(heights) >= 0, f"the centre of the wheel on {low!r} is below the ground")
+        where = "above" if min(heights) >= 0 else "below"
+        yield Sign(2, min(heights) >= 0, f"the centre of the wheel on {low!r} is {where} the ground")
 
 
 def orientation_doubts(vehicle: Vehicle, axes: Floats) -> tuple[str, ...]:

@@ -1,0 +1,88 @@
+"""The command that tells everything that is wrong with a vehicle folder, and what is in it."""
+
+from argparse import ArgumentParser
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from modeviz.cli.command import Command
+from modeviz.cli.options import JsonOptions, add_folder, add_json
+from modeviz.cli.results import check_printable, print_result
+from modeviz.errors import ModevizError
+from modeviz.files import builtin_vehicle
+from modeviz.files.survey import Problem, Survey, survey
+from modeviz.report.check import Summary, summarised, summary_record, summary_text
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckOptions(JsonOptions):
+    """What `modeviz check` is asked for."""
+
+    vehicle: Path | None = None
+    """Its folder; None: the pickup's."""
+
+
+def check(options: CheckOptions) -> None:
+    """Prints all problems and doubts of a folder and a summary of what is in it.
+
+    Raises:
+        ModevizError: there are problems, so that no other command reads the folder.
+    """
+    check_printable()
+    folder = options.vehicle or builtin_vehicle()
+    found = survey(folder)
+    summary = summarised(found.vehicle) if found.vehicle else None
+    print_result(
+        _record(folder, found, summary) if options.json else "\n".join(_lines(folder, found, summary))
+    )
+    if found.problems:
+        raise ModevizError(f"{folder}: {_counted(len(found.problems), 'problem')} to put right")
+
+
+def _record(folder: Path, found: Survey, summary: Summary | None) -> dict[str, object]:
+    """`{"folder", "problems": [{"file", "key", "line", "words", "left_out"}], "doubts", "summary"}`."""
+    return {
+        "folder": str(folder),
+        "problems": [asdict(problem) for problem in found.problems],
+        "doubts": list(found.doubts),
+        "summary": summary and summary_record(summary),
+    }
+
+
+def _lines(folder: Path, found: Survey, summary: Summary | None) -> Iterator[str]:
+    problems, doubts = len(found.problems), len(found.doubts)
+    yield f"{folder}: {_counted(problems, 'problem')}, {_counted(doubts, 'doubt')}"
+    for number, problem in enumerate(found.problems, 1):
+        yield f"{number:3d}. {_told(problem)}"
+    yield from (f"doubt: {doubt}" for doubt in found.doubts)
+    yield ""
+    if summary is None:
+        yield "No body can be read, so there is nothing to sum up."
+        return
+    if problems:
+        yield "What can be read so far:"
+    yield summary_text(summary)
+
+
+def _told(problem: Problem) -> str:
+    without = f" (the rest is read without {problem.left_out})" if problem.left_out else ""
+    return f"{problem}{without}"
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number or 'no'} {what}{'s' if number != 1 else ''}"
+
+
+def _add_options(command: ArgumentParser) -> None:
+    add_folder(command)
+    add_json(command)
+
+
+CHECK = Command(
+    "check",
+    "every problem of a vehicle folder at once, and a summary of what is in it",
+    CheckOptions,
+    _add_options,
+    check,
+)
+"""The command, as the program offers it."""
