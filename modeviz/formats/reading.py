@@ -9,7 +9,7 @@ from modeviz.formats.component import Component
 from modeviz.formats.matrices import SUFFIXES as MATRICES
 from modeviz.formats.matrices import read_matrices
 from modeviz.formats.nastran import SUFFIXES as NASTRAN
-from modeviz.formats.nastran import read_nastran
+from modeviz.formats.nastran import has_punched_modes, read_nastran
 from modeviz.formats.universal import SUFFIXES as UNIVERSAL
 from modeviz.formats.universal import read_universal
 
@@ -30,12 +30,17 @@ def read_component(paths: Sequence[Path]) -> Component:
     Raises:
         VehicleError: a file cannot be read, or they are of different formats.
     """
-    matrices = [path for path in paths if path.suffix.lower() in MATRICES]
+    matrices = [path for path in paths if _has_matrices(path)]
     others = [path for path in paths if path not in matrices]
     component = _read_others(others) if others else None
     if matrices or component is None:
         component = read_matrices(matrices, component)
     return replace(component, source=", ".join(path.name for path in paths))
+
+
+def _has_matrices(path: Path) -> bool:
+    """Whether a file is named as those with matrices, and has no modes, as a punch file may."""
+    return path.suffix.lower() in MATRICES and not has_punched_modes(path)
 
 
 def _read_others(paths: Sequence[Path]) -> Component:

@@ -1,4 +1,4 @@
-"""Nastran: modes of SOL 103 from an OP2 or HDF5 file, with its geometry or that of the input file.
+"""Nastran: modes of SOL 103 from OP2, HDF5 and punch files, with the geometry of these or of the input.
 
 Both are read here, so that nothing is to be installed. Weighed were pyNastran 1.4.1 (8 MB; reads nearly
 all tables; declares numpy<2, so that pip exchanges a NumPy of today for 1.26.4) and pyyeti 1.4.7 (kept
@@ -8,5 +8,6 @@ dozen cards, and what damaged files may take of memory and time is in our hands.
 HDF5 takes h5py, an extra.
 """
 
+from modeviz.formats.nastran.punch_modes import has_punched_modes as has_punched_modes
 from modeviz.formats.nastran.reader import SUFFIXES as SUFFIXES
 from modeviz.formats.nastran.reader import read_nastran as read_nastran

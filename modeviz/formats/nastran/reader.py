@@ -16,13 +16,14 @@ from modeviz.formats.nastran.model import Model, basic_geometry
 from modeviz.formats.nastran.op2_geometry import read_model
 from modeviz.formats.nastran.op2_modes import eigenvalue_rows, read_shapes
 from modeviz.formats.nastran.op2_records import read_tables
+from modeviz.formats.nastran.punch_modes import PUNCH, read_punch_shapes
 from modeviz.formats.nastran.residual_vectors import residual_vectors
 from modeviz.formats.nastran.shapes import Shapes
 from modeviz.vehicle.arrays import Array, Floats
 
 DECKS = (".bdf", ".dat", ".nas")
 HDF5 = (".h5", ".hdf5")
-SUFFIXES = (*DECKS, ".op2", *HDF5)
+SUFFIXES = (*DECKS, ".op2", *HDF5, PUNCH)
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +52,7 @@ def read_nastran(paths: Sequence[Path]) -> Component:
     if len(decks) > 1 or len(others) > 1:
         raise VehicleError(
             f"found {', '.join(path.name for path in paths)}, expected one input file, one file of "
-            "results (OP2, HDF5) or one of each; files that are included are found"
+            "results (OP2, HDF5, punch) or one of each; files that are included are found"
         )
     results = [_read_results(path) for path in others]
     model = read_deck(decks[0]) if decks else results[0].model()
@@ -68,11 +69,17 @@ def _read_results(path: Path) -> _Results:
     if path.suffix.lower() in HDF5:
         shapes, rows = read_hdf5_shapes(path)
         model = partial(read_hdf5_model, path)
+    elif path.suffix.lower() == PUNCH:
+        shapes, rows, model = read_punch_shapes(path), np.zeros((0, 4)), _no_model
     else:
         tables = read_tables(path)
         shapes, rows = read_shapes(tables, path), eigenvalue_rows(tables)
         model = partial(read_model, tables, path)
     return _Results(path, shapes, rows, model)
+
+
+def _no_model() -> None:
+    """The geometry of files that never have one."""
 
 
 def _without_geometry(results: _Results) -> Component:
@@ -89,7 +96,7 @@ def _without_modes(model: Model, places: Floats, has_results: bool) -> Component
     missing = (
         "the file of results has no modes"
         if has_results
-        else "the modes are in a file of results (OP2, HDF5): give it too"
+        else "the modes are in a file of results (OP2, HDF5, punch): give it too"
     )
     none = np.zeros(0)
     modes = Modes(none, none, none, np.zeros((len(model.ids), 6, 0)))
