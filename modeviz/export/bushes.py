@@ -10,11 +10,12 @@ from typing import TypeVar
 
 import numpy as np
 
+from modeviz.export.axes import FileAxes
 from modeviz.export.cards import Field, card, comment
 from modeviz.formats.component import UnitSystem
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.connections import DIRECTIONS, GROUND, Mount
+from modeviz.vehicle.connections import GROUND, Mount
 from modeviz.vehicle.vehicle import Vehicle
 
 UNIT_NAMES = {
@@ -33,7 +34,8 @@ HELD = "123456"
 """Of a grid on the ground: all its directions."""
 
 Thing = TypeVar("Thing", bound=Hashable)
-Axes = tuple[float, ...]
+Frame = tuple[float, ...]
+"""Local axes as rows, one after the other."""
 
 
 @dataclass(frozen=True)
@@ -55,19 +57,20 @@ def bush_deck(vehicle: Vehicle, units: UnitSystem, first_id: int = 1) -> bytes:
         units: to write them in, one of `UNIT_SYSTEMS`.
         first_id: grids, elements, properties and coordinate systems are each counted from it.
     """
-    mounts = vehicle.mounts
-    properties = [_property(mount, units) for mount in mounts]
+    mounts, axes = vehicle.mounts, FileAxes(vehicle.axes)
+    properties = [_property(mount, units, axes) for mount in mounts]
     pids = _numbered(properties, first_id)
-    axes = [_axes(mount) for mount in mounts]
-    cids = {None: BASIC} | _numbered((a for a in axes if a is not None), first_id)
-    lines = [*_heading(vehicle, units)]
+    frames = [_frame(mount, axes) for mount in mounts]
+    cids = {None: BASIC} | _numbered((f for f in frames if f is not None), first_id)
+    lines = [*_heading(vehicle, units, axes)]
     for kind, pid in pids.items():
-        lines += _property_lines(vehicle, kind, pid, units)
-    lines += [_axes_card(cid, a) for a, cid in cids.items() if a is not None]
+        lines += _property_lines(vehicle, kind, pid, units, axes)
+    lines += [_frame_card(cid, frame) for frame, cid in cids.items() if frame is not None]
     for number, mount in enumerate(mounts):
         grids = first_id + 2 * number, first_id + 2 * number + 1
-        lines += _grid_lines(vehicle, mount, units, grids)
-        pid, cid = pids[properties[number]], cids[axes[number]]
+        places = axes.vectors(mount.points) / units.length
+        lines += _grid_lines(vehicle, mount, grids, places)
+        pid, cid = pids[properties[number]], cids[frames[number]]
         lines.append(_bush_card(mount, first_id + number, pid, grids, cid))
     return "".join(lines).encode("ascii")
 
@@ -77,36 +80,45 @@ def _numbered(things: Iterable[Thing], first: int) -> dict[Thing, int]:
     return {thing: first + i for i, thing in enumerate(dict.fromkeys(things))}
 
 
-def _property(mount: Mount, units: UnitSystem) -> _Property:
-    along, about = 1 / units.mass, 1 / (units.mass * units.length**2)
+def _property(mount: Mount, units: UnitSystem, axes: FileAxes) -> _Property:
+    of_force, of_moment = units.mass, units.mass * units.length**2
+
+    def six(along: Floats, about: Floats) -> tuple[float, ...]:
+        written = axes.rates(along) / of_force, axes.rates(about) / of_moment
+        return tuple(np.concatenate(written).tolist())
+
     return _Property(
         mount.group,
-        (*(mount.stiffness * along).tolist(), *(mount.rotational_stiffness * about).tolist()),
-        (*(mount.damping * along).tolist(), *(mount.rotational_damping * about).tolist()),
+        six(mount.stiffness, mount.rotational_stiffness),
+        six(mount.damping, mount.rotational_damping),
         mount.loss_factor,
     )
 
 
-def _axes(mount: Mount) -> Axes | None:
-    """The local axes of a mount as rows, one after the other; None if they are the vehicle's."""
-    return None if np.array_equal(mount.axes, np.eye(3)) else tuple(mount.axes.ravel().tolist())
+def _frame(mount: Mount, axes: FileAxes) -> Frame | None:
+    """The local axes of a mount; None if they are the basic ones."""
+    frame = axes.frame(mount.axes)
+    return None if np.array_equal(frame, np.eye(3)) else tuple(frame.ravel().tolist())
 
 
-def _heading(vehicle: Vehicle, units: UnitSystem) -> Iterator[str]:
+def _heading(vehicle: Vehicle, units: UnitSystem, axes: FileAxes) -> Iterator[str]:
     length, mass, force = UNIT_NAMES[units.name]
     yield comment(f"Mounts of {vehicle.name}, written by modeviz.")
     yield comment(
         f"Units: length {length}, mass {mass}, force {force}, time s; rates {force}/{length} and "
         f"{force} {length}/rad, viscous damping {force} s/{length} and {force} {length} s/rad."
     )
-    yield comment("Basic coordinates: x rearward, y to the right, z up, from the vehicle's origin.")
-    yield comment("Rates of a PBUSH are K1 fore-aft, K2 lateral, K3 vertical; GE is the loss factor.")
+    yield comment(f"Basic coordinates: {axes.text}, from the vehicle's origin.")
+    named = ", ".join(f"K{i} {direction}" for i, direction in enumerate(axes.directions, 1))
+    yield comment(f"Rates of a PBUSH are {named}; GE is the loss factor.")
 
 
-def _property_lines(vehicle: Vehicle, kind: _Property, pid: int, units: UnitSystem) -> Iterator[str]:
+def _property_lines(
+    vehicle: Vehicle, kind: _Property, pid: int, units: UnitSystem, axes: FileAxes
+) -> Iterator[str]:
     length, _, force = UNIT_NAMES[units.name]
     label = vehicle.mount_group(kind.group).label
-    rates = zip(DIRECTIONS, kind.stiffness[2::-1], strict=True)
+    rates = zip(axes.directions, kind.stiffness[:3], strict=True)
     said = ", ".join(f"{direction} {rate:.6g}" for direction, rate in rates)
     named = kind.group if label == kind.group else f"{kind.group} ({label})"
     yield comment(
@@ -124,20 +136,19 @@ def _unless_zero(values: Iterable[float]) -> list[float | None]:
     return [value or None for value in values]
 
 
-def _axes_card(cid: int, axes: Axes) -> str:
+def _frame_card(cid: int, frame: Frame) -> str:
     """The coordinate system of some axes: a point on its z and one on its x, from the origin."""
-    x, z = axes[:3], axes[6:]
+    x, z = frame[:3], frame[6:]
     return card("CORD2R", [cid, BASIC, 0.0, 0.0, 0.0, *z, *x])
 
 
 def _grid_lines(
-    vehicle: Vehicle, mount: Mount, units: UnitSystem, grids: tuple[int, int]
+    vehicle: Vehicle, mount: Mount, grids: tuple[int, int], places: Floats
 ) -> Iterator[str]:
     ends = list(zip(mount.bodies, mount.points, strict=True))
     held = " to ".join(_end(vehicle, body, point) for body, point in ends)
     yield comment(f"CBUSH {mount.name}, group {mount.group}: GRID {grids[0]} and {grids[1]}, {held}")
-    for grid, (body, point) in zip(grids, ends, strict=True):
-        place = (point / units.length).tolist()
+    for grid, body, place in zip(grids, mount.bodies, places.tolist(), strict=True):
         yield card("GRID", [grid, BASIC, *place, BASIC, *([HELD] if body == GROUND else [])])
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from modeviz.errors import ModevizError, VehicleError, listed, quoted
 from modeviz.export.bushes import bush_deck
+from modeviz.export.mount_table import mount_table
 from modeviz.export.solution import ExportOptions, Solution
 from modeviz.files.rate_files import rates_text
 from modeviz.formats.component import UNIT_SYSTEMS
@@ -83,12 +84,17 @@ def _deck(solution: Solution, options: ExportOptions) -> bytes:
     return bush_deck(_of_mounts(solution), UNIT_SYSTEMS[options.units], options.first_id)
 
 
+def _table(solution: Solution, _: ExportOptions) -> bytes:
+    return mount_table(_of_mounts(solution))
+
+
 def _as(endings: Iterable[str], make: Writer) -> dict[str, Writer]:
     return dict.fromkeys(endings, make)
 
 
 WHOLE: Mapping[str, Mapping[str, Writer]] = {
     "rates": {".csv": _rates_csv, ".json": _rates_json, **_as(DECKS, _deck)},
+    "mounts": {".csv": _table, **_as(DECKS, _deck)},
 }
 """What can be written of any vehicle."""
 

@@ -126,7 +126,8 @@ def vehicle_of(tables: Mapping[str, Any], source: Source) -> Vehicle:
     if not own.stand_ins:
         for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
             own.note(doubt)
-    return replace(vehicle, notes=own.notes, file=str(own.folder / VEHICLE_FILE))
+    file = str(own.folder / VEHICLE_FILE)
+    return replace(vehicle, notes=own.notes, file=file, axes=record.axes)
 
 
 def write_vehicle(vehicle: Vehicle, folder: Path | str) -> None:

@@ -45,6 +45,9 @@ USUAL_SPEED = 20.0
 FEWEST_LINES, MOST_LINES = 10, 5000
 """Of a band: each is a solution of the vehicle's equations, kept in memory."""
 
+OUR_AXES = "x rearward, y right, z up"
+"""Of everything that is computed."""
+
 WHOLE = 1e-9
 """Relative: a number of steps this close to a whole one is whole."""
 
@@ -83,6 +86,8 @@ class Vehicle:
     A sentence each, which names what it is about."""
     file: str = ""
     """Where it was read from, to say so; empty for one that was made in Python."""
+    axes: str = OUR_AXES
+    """Those of that file, in which things are written for other programs; all here is in ours."""
 
     def __post_init__(self) -> None:
         if not self.bodies:

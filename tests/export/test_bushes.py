@@ -4,18 +4,22 @@ import numpy as np
 import pytest
 from bulk_data import bulk_data
 from many_mounts import MOUNTS, many_mounts
+from turned_vehicles import text, turned_folder
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.export.bushes import UNIT_NAMES, bush_deck
+from modeviz.files import read_vehicle
+from modeviz.files.schema.axes import axes_of
 from modeviz.formats.component import UNIT_SYSTEMS
 from modeviz.units import UNITS
 from modeviz.vehicle.connections import GROUND
+from modeviz.vehicle.vehicle import Vehicle
 
 FIRST = 90001
 
 
-def deck(units: str) -> dict[str, list[list]]:
-    cards = bulk_data(bush_deck(many_mounts(), UNIT_SYSTEMS[units], FIRST).decode("ascii"))
+def deck(units: str, vehicle: Vehicle | None = None) -> dict[str, list[list]]:
+    cards = bulk_data(bush_deck(vehicle or many_mounts(), UNIT_SYSTEMS[units], FIRST).decode("ascii"))
     return {name: [card[1:] for card in cards if card[0] == name] for name in {c[0] for c in cards}}
 
 
@@ -29,7 +33,7 @@ def after(card, key):
     return six(card[card.index(key) + 1 :]) if key in card else np.zeros(6)
 
 
-def axes_of(cards, cid):
+def rows_of(cards, cid):
     """The axes of a coordinate system as rows, after the definition of CORD2R."""
     if cid == 0:
         return np.eye(3)
@@ -45,11 +49,23 @@ def carried(motion, arm):
     return np.concatenate([motion[:3] + np.cross(motion[3:], arm), motion[3:]])
 
 
-@pytest.mark.parametrize("units", UNIT_SYSTEMS)
-def test_cards_store_the_energy_of_the_mounts(units):
-    """½ Σ k u², u the motion of GA less that of GB at S of the way, along the system CID."""
-    cards, vehicle = deck(units), many_mounts()
-    system, unit = assemble(vehicle), UNIT_SYSTEMS[units]
+OTHERS = [("forward", "left", "up"), ("right", "forward", "up"), ("down", "right", "rearward")]
+
+
+@pytest.mark.parametrize(
+    ("units", "words"),
+    [*((units, None) for units in UNIT_SYSTEMS), *(("mm-t-s", words) for words in OTHERS)],
+)
+def test_cards_store_the_energy_of_the_mounts(units, words, tmp_path):
+    """½ Σ k u², u the motion of GA less that of GB at S of the way, along the system CID.
+
+    In the axes of the vehicle's file, whatever these are.
+    """
+    vehicle, turn = many_mounts(), np.eye(3)
+    if words:
+        vehicle = read_vehicle(turned_folder(tmp_path / "turned", vehicle, words))
+        turn = axes_of(text(words)).T
+    cards, system, unit = deck(units, vehicle), assemble(vehicle), UNIT_SYSTEMS[units]
     force = unit.mass * unit.length
     q = np.random.default_rng(1).standard_normal(system.n_dofs)
     grids = {card[0]: np.array(card[2:5], float) * unit.length for card in cards["GRID"]}
@@ -61,10 +77,15 @@ def test_cards_store_the_energy_of_the_mounts(units):
         first, second = (grids[end] for end in ends)
         center = first + s * (second - first)
         moved = [
-            carried(system.motion(body, place) @ q if body != GROUND else np.zeros(6), center - place)
+            carried(
+                np.kron(np.eye(2), turn) @ system.motion(body, turn.T @ place) @ q
+                if body != GROUND
+                else np.zeros(6),
+                center - place,
+            )
             for body, place in zip(mount.bodies, (first, second), strict=True)
         ]
-        stretch = np.kron(np.eye(2), axes_of(cards, cid)) @ (moved[0] - moved[1])
+        stretch = np.kron(np.eye(2), rows_of(cards, cid)) @ (moved[0] - moved[1])
         k = after(properties[pid], "K") * np.repeat([force / unit.length, force * unit.length], 3)
         expected = np.concatenate([mount.stiffness, mount.rotational_stiffness])
         relative = system.relative_motion(mount) @ q
@@ -95,13 +116,14 @@ def test_the_ground_is_a_grid_that_is_held():
 
 
 def test_comments_say_units_and_name_every_mount_and_property():
-    text = bush_deck(many_mounts(), UNIT_SYSTEMS["in-lbf-s"], FIRST).decode("ascii")
-    said = " ".join(line[2:] for line in text.splitlines() if line.startswith("$"))
+    lines = bush_deck(many_mounts(), UNIT_SYSTEMS["in-lbf-s"], FIRST).decode("ascii").splitlines()
+    said = " ".join(line[2:] for line in lines if line.startswith("$"))
     assert "length in, mass lbf s^2/in, force lbf, time s; rates lbf/in and lbf in/rad" in said
-    assert "x rearward, y to the right, z up" in said
+    assert "x rearward, y right, z up" in said
     for mount in MOUNTS:
         assert f"{mount.name}, group Z" in said
-    assert "PBUSH 90003: group Z (all kinds): vertical 1793.9" in said
+    assert "PBUSH 90003: group Z (all kinds): fore-aft 81.5" in said
+    assert "K1 fore-aft, K2 lateral, K3 vertical" in said
 
 
 @pytest.mark.parametrize(("name", "words"), UNIT_NAMES.items())

@@ -31,7 +31,6 @@ from modeviz.files.records.loads import (
 from modeviz.files.records.problems import ProblemRecord
 from modeviz.files.records.rates import RateSetRecord
 from modeviz.files.records.record import FileRecord, Record, built, tuples
-from modeviz.files.schema.axes import OURS
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
@@ -45,7 +44,7 @@ from modeviz.vehicle.connections import (
 )
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mode_damping import ModeDamping
-from modeviz.vehicle.vehicle import USUAL_SPEED, Vehicle, track_width
+from modeviz.vehicle.vehicle import OUR_AXES, USUAL_SPEED, Vehicle, track_width
 
 MOST_TABLES = 2_000
 """Of a kind."""
@@ -100,7 +99,7 @@ class VehicleRecord(FileRecord, kw_only=True):
     """The whole file."""
 
     name: Name
-    axes: str = OURS
+    axes: str = OUR_AXES
     """See `axes_of`."""
     speed: Speed | None = None
     """`USUAL_SPEED`, if not given."""

@@ -16,8 +16,6 @@ from modeviz.files.schema.hints import each_annotated
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
 
-OURS = "x rearward, y right, z up"
-
 _WAYS = {
     "rearward": (0, 1),
     "forward": (0, -1),

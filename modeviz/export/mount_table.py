@@ -1,0 +1,61 @@
+"""The mounts of a vehicle as a table that is read again, see docs/mount-tables.md."""
+
+import csv
+from collections.abc import Iterable, Iterator
+from io import StringIO
+
+import numpy as np
+
+from modeviz.export.axes import FileAxes
+from modeviz.files.schema.scaling import WRITTEN_UNITS, written
+from modeviz.units import QuantityName, factor
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Mount, MountGroup
+from modeviz.vehicle.vehicle import Vehicle
+
+AXES = ("x", "y", "z")
+
+
+def mount_table(vehicle: Vehicle) -> bytes:
+    """Return the mounts as comma-separated text in UTF-8, a line each, in the axes of its file."""
+    axes = FileAxes(vehicle.axes)
+    lines = [
+        dict(_cells(group, mount, axes)) for group in vehicle.mount_groups for mount in group.mounts
+    ]
+    text = StringIO()
+    table = csv.DictWriter(text, list(lines[0]), lineterminator="\n")
+    table.writeheader()
+    table.writerows(lines)
+    return text.getvalue().encode()
+
+
+def _cells(group: MountGroup, mount: Mount, axes: FileAxes) -> Iterator[tuple[str, str | float]]:
+    """The headers of all columns, and what stands there in the line of a mount."""
+    first, second = axes.vectors(mount.points)
+    softest, stiffest = (axes.rates(np.array(bound.local())) for bound in group.bounds)
+    frame = axes.frame(mount.axes)
+    yield "name", mount.name
+    yield "group", group.name
+    yield from zip(("body_1", "body_2"), mount.bodies, strict=True)
+    yield from _with_unit("{}", "length", first)
+    yield from _with_unit("{}_2", "length", second)
+    yield from _with_unit("k_{}", "stiffness", axes.rates(mount.stiffness))
+    yield from _with_unit("k_r{}", "rotational_stiffness", axes.rates(mount.rotational_stiffness))
+    yield from _with_unit("c_{}", "damping", axes.rates(mount.damping))
+    yield from _with_unit("c_r{}", "rotational_damping", axes.rates(mount.rotational_damping))
+    yield "loss_factor", mount.loss_factor
+    yield from _with_unit("softest_{}", "stiffness", softest)
+    yield from _with_unit("stiffest_{}", "stiffness", stiffest)
+    yield from _plain("x_axis_{}", frame[0])
+    yield from _plain("z_axis_{}", frame[2])
+    yield "elastic_center", mount.elastic_center
+
+
+def _with_unit(name: str, quantity: QuantityName, values: Floats) -> Iterable[tuple[str, float]]:
+    unit = WRITTEN_UNITS[quantity]
+    for axis, value in zip(AXES, values.tolist(), strict=True):
+        yield f"{name.format(axis)} [{unit}]", written(value, factor(unit, quantity))
+
+
+def _plain(name: str, values: Floats) -> Iterable[tuple[str, float]]:
+    return zip(map(name.format, AXES), values.tolist(), strict=True)

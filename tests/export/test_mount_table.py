@@ -1,0 +1,54 @@
+"""A mount table that is written puts the same mounts into a folder that has none."""
+
+import csv
+from dataclasses import replace
+from io import StringIO
+
+import numpy as np
+import pytest
+from many_mounts import many_mounts
+from turned_vehicles import turned_folder
+
+from modeviz.cli import main
+from modeviz.export.mount_table import mount_table
+from modeviz.files import read_vehicle
+from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.vehicle import Vehicle
+
+AXES = [("rearward", "right", "up"), ("forward", "left", "up"), ("up", "forward", "left")]
+
+
+def bare(vehicle: Vehicle) -> Vehicle:
+    return replace(vehicle, mount_groups=(), rate_sets={})
+
+
+@pytest.mark.parametrize("words", AXES)
+def test_mounts_are_read_again_as_they_were_in_any_axes(words, tmp_path):
+    before = read_vehicle(turned_folder(tmp_path / "all", many_mounts(), words))
+    tuned = before.with_rates({"Z": MountRates(1e6 / 3, 1e5 / 3, 1e4 / 7, 0.25)})
+    (tmp_path / "mounts.csv").write_bytes(mount_table(tuned))
+    folder = turned_folder(tmp_path / "bare", bare(many_mounts()), words)
+    assert main(["import", str(tmp_path / "mounts.csv"), "--output", str(folder)]) == 0
+    after = read_vehicle(folder)
+    assert [mount.name for mount in after.mounts] == [mount.name for mount in tuned.mounts]
+    for found, expected in zip(after.mounts, tuned.mounts, strict=True):
+        assert (found.group, found.bodies) == (expected.group, expected.bodies)
+        for name in ("points", "stiffness", "rotational_stiffness", "damping", "axes", "loss_factor",
+                     "elastic_center"):  # fmt: skip
+            np.testing.assert_allclose(
+                getattr(found, name), getattr(expected, name), rtol=1e-14, atol=1e-15
+            )
+    for found, expected in zip(after.mount_groups, tuned.mount_groups, strict=True):
+        for one, other in zip(found.bounds, expected.bounds, strict=True):
+            np.testing.assert_allclose(one.as_tuple(), other.as_tuple(), rtol=1e-14)
+
+
+def test_every_number_stands_below_its_unit():
+    """By hand: the first mount of the cabin's group A, 0.6 m behind the axle, 800 N/mm vertically."""
+    first = next(csv.DictReader(StringIO(mount_table(many_mounts()).decode())))
+    assert (first["name"], first["group"]) == ("A -0.5", "A")
+    assert (first["body_1"], first["body_2"]) == ("cab", "chassis")
+    assert [first[f"{axis} [m]"] for axis in "xyz"] == ["0.6", "-0.5", "0.7"]
+    assert [first[f"k_{axis} [N/mm]"] for axis in "xyz"] == ["400.0", "300.0", "800.0"]
+    assert (first["softest_z [N/mm]"], first["stiffest_z [N/mm]"]) == ("10.0", "10000.0")
+    assert first["loss_factor"] == "0.15"
