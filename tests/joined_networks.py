@@ -1,4 +1,4 @@
-"""A vehicle of two free networks, one above the other on mounts and the lower one on springs."""
+"""A vehicle of two free networks, the lower hung on mounts in the upper one, and that on springs."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -31,7 +31,7 @@ def joined_networks(scratch: Path) -> Vehicle:
         for node in ATTACHED
     )
     springs = tuple(
-        Spring(f"S {node}", "S", ("lower", GROUND), at[node], stiffness=np.diag(GROUNDED))
+        Spring(f"S {node}", "S", ("upper", GROUND), at[node], stiffness=np.diag(GROUNDED))
         for node in ATTACHED
     )
     return replace(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from modeviz.cli.command import Command
 from modeviz.cli.options import RoadOptions, VehicleOptions, add_road, add_vehicle
-from modeviz.cli.terminal import Teller, say
+from modeviz.cli.terminal import Teller, remark, say
 from modeviz.export.catalogue import ENDINGS
 from modeviz.export.solution import ExportOptions
 from modeviz.formats.component import UNIT_SYSTEMS
@@ -38,7 +38,7 @@ def export(options: ExportCommandOptions) -> None:
     tuned.rates.use(rates)
     tuned.speed = options.chosen_speed(vehicle)
     try:
-        export_files(options.files, tuned, options.road, options)
+        export_files(options.files, tuned, options.road, options, remark)
     finally:
         say("")
     print(*options.files, sep="\n")

@@ -28,7 +28,7 @@ class FileAxes:
 
     def motions(self, motions: Array) -> Array:
         """Return motions and rotations (..., 6, n), which are in our axes, in these."""
-        back = np.kron(np.eye(2), self.turn.T).astype(motions.real.dtype)
+        back = np.kron(np.eye(2), self.turn.T).astype(np.real(motions).dtype)
         return back @ motions
 
     def frame(self, axes: Floats) -> Floats:

@@ -23,12 +23,22 @@ class Solution:
     """With these rates."""
     rates: Rates
     """Of every mount group."""
-    conditions: Conditions | None
-    """Road and speed; None for a vehicle that nothing shakes at random, or that nobody feels."""
+    conditions: Callable[[], Conditions]
+    """Gives road and speed; raises ModevizError for a vehicle that nothing shakes, or nobody feels."""
     modes: Callable[[float], ModalResults]
     """Gives the modes, those below a frequency, Hz, at least."""
     prepared: Callable[[], Prepared]
     """Gives the vehicle made ready for responses."""
+    note: Callable[[str], None]
+    """Told what is left out of a file."""
+
+    @property
+    def ride(self) -> Conditions | None:
+        """Road and speed; None if there are none."""
+        try:
+            return self.conditions()
+        except ModevizError:
+            return None
 
 
 @dataclass(frozen=True, kw_only=True)

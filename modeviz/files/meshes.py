@@ -14,6 +14,7 @@ from modeviz.files.mesh_formats.obj import read_obj
 from modeviz.files.mesh_formats.parts import RawPart, mesh
 from modeviz.files.mesh_formats.ply import read_ply
 from modeviz.files.mesh_formats.stl import read_stl
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 from modeviz.vehicle.srgb import srgb_to_linear
 
@@ -53,14 +54,24 @@ def read_mesh(path: Path, color: Color = DEFAULT_COLOR) -> Mesh:
 
 
 def write_mesh(path: Path, mesh: Mesh) -> None:
-    """Writes the parts as binary glTF, in single precision, each a node with its material."""
+    """Writes the parts as binary glTF, see `glb_file`."""
+    path.write_bytes(glb_file(mesh))
+
+
+def glb_file(mesh: Mesh, pose: Floats | None = None) -> bytes:
+    """The content of a file of binary glTF, in single precision, each part a node with its material.
+
+    Args:
+        mesh: the parts; their names differ.
+        pose: (4, 4), of all of them in the scene; None: they stand there as they are.
+    """
     import trimesh  # half a second, of which a vehicle that is read needs nothing
     from trimesh.exchange.gltf import export_glb
 
     scene = trimesh.Scene()
     for part in mesh:
         surface = trimesh.Trimesh(part.vertices, part.faces, process=False)
-        scene.add_geometry(surface, node_name=part.name, geom_name=part.name)
+        scene.add_geometry(surface, node_name=part.name, geom_name=part.name, transform=pose)
 
     def set_materials(tree: dict[str, Any]) -> None:
         # here and not as trimesh's materials, because those have 8-bit linear colours
@@ -68,7 +79,7 @@ def write_mesh(path: Path, mesh: Mesh) -> None:
         for index, surface in enumerate(tree["meshes"]):
             surface["primitives"][0]["material"] = index
 
-    path.write_bytes(export_glb(scene, tree_postprocessor=set_materials))
+    return export_glb(scene, tree_postprocessor=set_materials)
 
 
 def _gltf_material(part: MeshPart) -> dict[str, Any]:

@@ -101,20 +101,22 @@ def read_flexible_body(
 
 
 def write_flexible_body(path: Path, body: FlexibleBody) -> None:
-    """Writes the arrays of the body; the file depends on them alone, not on the day."""
+    """Writes the arrays of the body, see `arrays_file`."""
+    path.write_bytes(arrays_file(body_arrays(body)))
+
+
+def body_arrays(body: FlexibleBody) -> dict[str, np.ndarray]:
+    """The arrays of the body by their names, see `ARRAYS`."""
     attachments = body.attachments
-    _write_arrays(
-        path,
-        {
-            "omega_n_squared": body.omega_n_squared,
-            "n_residuals": np.array(body.n_residuals),
-            "attachment_names": np.array([a.name for a in attachments], np.str_),
-            "attachment_positions": np.array([a.position for a in attachments]).reshape(-1, 3),
-            "attachment_shapes": np.array([a.shapes for a in attachments]).reshape(-1, 6, body.n_modes),
-            "nodes": body.nodes,
-            "shapes": body.shapes,
-        },
-    )
+    return {
+        "omega_n_squared": body.omega_n_squared,
+        "n_residuals": np.array(body.n_residuals),
+        "attachment_names": np.array([a.name for a in attachments], np.str_),
+        "attachment_positions": np.array([a.position for a in attachments]).reshape(-1, 3),
+        "attachment_shapes": np.array([a.shapes for a in attachments]).reshape(-1, 6, body.n_modes),
+        "nodes": body.nodes,
+        "shapes": body.shapes,
+    }
 
 
 def with_zeros(omega_n_squared: Floats) -> tuple[Floats, int]:
@@ -209,9 +211,12 @@ def _read_array(archive: zipfile.ZipFile, name: str) -> np.ndarray:
     return array
 
 
-def _write_arrays(path: Path, arrays: dict[str, np.ndarray]) -> None:
-    with zipfile.ZipFile(path, "w") as archive:
+def arrays_file(arrays: Mapping[str, np.ndarray]) -> bytes:
+    """The content of an .npz file of arrays by their names; it depends on nothing else."""
+    content = BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
         for name, array in arrays.items():
-            content = BytesIO()
-            np.lib.format.write_array(content, np.array(array, order="C"), allow_pickle=False)
-            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), content.getvalue())
+            member = BytesIO()
+            np.lib.format.write_array(member, np.array(array, order="C"), allow_pickle=False)
+            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), member.getvalue())
+    return content.getvalue()

@@ -1,6 +1,6 @@
 """Files for other programs, as studies and the command line write them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -8,11 +8,16 @@ from modeviz.analysis.modal_results import ModalResults, solve_modal
 from modeviz.export.catalogue import writer
 from modeviz.export.solution import ExportOptions, Solution
 from modeviz.files.disk import check_writable, write_bytes
+from modeviz.study.conditions import road_conditions
 from modeviz.study.tuned_vehicle import TunedVehicle
 
 
 def export_files(
-    paths: Sequence[Path], tuned: TunedVehicle, road: str | None, options: ExportOptions
+    paths: Sequence[Path],
+    tuned: TunedVehicle,
+    road: str | None,
+    options: ExportOptions,
+    note: Callable[[str], None],
 ) -> None:
     """Writes files, each whole or not at all; nothing is solved before all can be written.
 
@@ -21,6 +26,7 @@ def export_files(
         tuned: the vehicle with its present rates and speed.
         road: its name; None: the vehicle's.
         options: where there is a choice.
+        note: told what is left out of a file.
 
     Raises:
         ModevizError: there is no such content, format or road, it cannot be solved, or a file cannot
@@ -29,12 +35,14 @@ def export_files(
     writers = [writer(path, tuned.vehicle) for path in paths]
     for path in paths:
         check_writable(path)
+    tuned.conditions(road)  # that there is no such road is said even if no file is of one
     solution = Solution(
         tuned.vehicle.with_rates(tuned.rates.by_group),
         tuned.rates.by_group,
-        tuned.conditions(road),
+        partial(road_conditions, tuned.vehicle, road, tuned.speed),
         partial(_modes, tuned),
         tuned.prepared,
+        note,
     )
     for path, make in zip(paths, writers, strict=True):
         write_bytes(path, make(solution, options))

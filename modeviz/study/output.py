@@ -1,5 +1,6 @@
 """What a study gives to look at: reports, pictures and the page."""
 
+import warnings
 from os import PathLike
 from pathlib import Path
 
@@ -76,7 +77,7 @@ class StudyOutput:
         units: str = "mm-t-s",
         first_id: int = 1,
     ) -> WrittenFile:
-        """Write a file for other programs, with the present rates.
+        """Write a file for other programs, with the present rates; what is left out is a warning.
 
         Args:
             path: of the file; its name ends in what it has, and says the format: "rates.bdf",
@@ -91,7 +92,7 @@ class StudyOutput:
                 file cannot be written.
         """
         options = ExportOptions(below_hz=below_hz, units=units, first_id=first_id)
-        export_files([Path(path)], self._tuned, road, options)
+        export_files([Path(path)], self._tuned, road, options, warnings.warn)
         return WrittenFile(Path(path))
 
     @one_thread()

@@ -52,7 +52,7 @@ def test_the_built_in_pickup_needs_no_name(here, capsys):
         (["rates.vtu"], "found 'rates.vtu', expected rates as one of .csv, .json, .bdf"),
         (
             ["mode.unv"],
-            "found 'mode.unv', expected a name that ends in what the file is to have: rates",
+            "found 'mode.unv', expected a name that ends in what the file is to have: ",
         ),
         (["integrates.csv"], "expected a name that ends in what"),
         (["rates.bdf", "--units", "mm"], "--units: found 'mm', expected one of m-kg-s, mm-t-s"),
