@@ -395,6 +395,10 @@ BAD = {
     "nothing": (lambda path: path.write_text(""), "expected those of mounts"),
     "a header alone": (bad([HEADER]), "a header and no mounts"),
     "no names": (bad([HEADER[1:], ROW[1:]]), "expected those of mounts"),
+    "rates of groups": (
+        bad([["group", "units", "vertical", "lateral", "fore_aft"], ["M", "N/mm", 1, 2, 3]]),
+        "with --rates",
+    ),
     "a road": (bad([["frequency_hz", "left"], [1, 2]]), "expected those of mounts"),
     "two columns of one meaning": (bad([[*HEADER, "Kx [N/m]"], [*ROW, 3]]), "both mean k_x"),
     "a column misspelt": (bad([[*HEADER, "loss_facter"], [*ROW, 3]]), "did you mean loss_factor"),

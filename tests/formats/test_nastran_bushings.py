@@ -99,6 +99,24 @@ def test_scalar_springs_and_grounded_bushes_hold_as_the_whole_matrices_do(pair, 
     np.testing.assert_allclose(found[2:30], expected[2:30], rtol=2e-4)
 
 
+def test_mounts_that_are_written_as_cards_come_back_as_they_were(pair, networks, tmp_path):
+    """But for their names; large fields hold all digits of a number that is not too long."""
+    table = tmp_path / "m.csv"
+    lines = ["name,group,node 1,node 2,body 1,body 2,kx [N/mm],ky [N/mm],kz [N/mm],yaw [deg],eta"]
+    lines += [f"m{n},M,{n},{n},upper,lower,10,20,30,{3 * n},0.1" for n in ATTACHED]
+    table.write_text("\n".join(lines))
+    assert main(["import", str(table), "--output", str(pair)]) == 0
+    deck = tmp_path / "rates.bdf"
+    assert main(["export", str(pair), str(deck)]) == 0
+    again = Path(shutil.copytree(networks, tmp_path / "again"))
+    assert main(["import", str(deck), "--output", str(again), "--units", "mm-t-s"]) == 0
+    first, second = (read_vehicle(folder) for folder in (pair, again))
+    frequencies = [solve_modes(assemble(vehicle)).frequency_hz[6:] for vehicle in (first, second)]
+    np.testing.assert_allclose(*frequencies, rtol=1e-9)
+    assert second.mount_groups[0].loss_factor == pytest.approx(0.1)
+    assert len(second.mount_groups) == 1
+
+
 def test_a_bush_has_the_axes_of_its_cid_also_at_its_grid_in_a_cylinder(read):
     cards = [*TWO, *grids([3], [[100, 100, 0]]), PBUSH, "CORD2C,6,,0.,0.,0.,0.,0.,1.,1.,0.,0."]
     (found,), _ = read(*cards, "CBUSH,1,7,3,2,,,,6")
@@ -215,7 +233,13 @@ def test_scalar_springs_that_are_apart_across_their_direction_are_said_to_be(rea
     _, notes = read(*TWO, "CELAS2,4,10.,1,1,2,1")
     assert notes == []
     _, notes = read(*TWO, "CELAS2,4,10.,1,3,2,3")
-    assert "CELAS2 4: its grids are 100 apart across its direction" in notes[0]
+    assert "CELAS2 4: the grids are apart across the direction; taken to act halfway" in notes[0]
+
+
+def test_springs_of_scalar_points_are_left_out_and_told(read):
+    found, notes = read(*TWO, "SPOINT,50", "CELAS2,4,10.,50,,1,1", "CELAS2,5,10.,1,1")
+    assert [bushing.name for bushing in found] == ["CELAS 5"]
+    assert notes == ["CELAS2 4: hold on to scalar points, which no body has, and are left out"]
 
 
 def test_fields_are_read_in_every_form(read):
@@ -284,6 +308,7 @@ CBUSH = "CBUSH,1,7,1,2,,,,0"
         ([*TWO, "CELAS2,1,3.,1,1,2,4"], "which is another direction; expected the same"),
         ([*TWO, "CELAS2,1,3.,1,7"], "found the component 7, expected 1 to 6"),
         ([*TWO, "CELAS2,1,3."], "names no grid"),
+        ([*TWO, "CELAS2,1,3.,1"], "found the component 0, expected 1 to 6"),
         ([*TWO, "CELAS2,1,-3.,1,1"], "expected zero or more"),
     ],
 )

@@ -75,7 +75,12 @@ class _Table:
         number, header = sheet.lines[0] if sheet.lines else (1, [])
         with located(f"line {number}"):
             columns, others = read_headers(header)
-            if "name" not in {column.name for column in columns.values()}:
+            names = {column.name for column in columns.values()}
+            if {"group", "k_vertical"} <= names and "name" not in names:
+                raise VehicleError(
+                    "found rates of groups without places; commands take such a file with --rates"
+                )
+            if "name" not in names:
                 raise VehicleError(
                     f"found the columns {listed(filter(None, header))}, expected those of mounts: "
                     "name, body 1, body 2, x, y, z, k_x, k_y, k_z and others; see docs/mount-tables.md"

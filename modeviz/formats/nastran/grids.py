@@ -35,11 +35,14 @@ class Grids:
         """Raises VehicleError for a coordinate system that is missing."""
         return cls(model, *basic_geometry(model), units, bodies)
 
+    def has(self, number: int) -> bool:
+        """Whether there is a grid of a number."""
+        return bool(np.isin(number, self.model.ids))
+
     def _row(self, number: int) -> int:
-        row = int(np.searchsorted(self.model.ids, number))
-        if self.model.ids[row : row + 1].tolist() != [number]:
+        if not self.has(number):
             raise VehicleError(f"grid {number}: is not in the file")
-        return row
+        return int(np.searchsorted(self.model.ids, number))
 
     def place(self, number: int) -> Floats:
         """Return where a grid is, (3,); raises VehicleError if there is none of that number."""
