@@ -1,13 +1,14 @@
 """The command that puts a component out of another program's files into a vehicle folder."""
 
 from argparse import ArgumentParser
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
 
 from modeviz.cli.command import Command
 from modeviz.cli.importing_mounts import MountOptions, holds_mounts, import_mounts
+from modeviz.cli.importing_roads import RoadOptions, holds_road, import_road
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
@@ -53,21 +54,21 @@ class ImportOptions:
     """Hz, at which mounts have the rates that an input file has over frequency."""
     bodies: tuple[str, ...] = ()
     """Two, that the springs of an input file join; none: those where its grids are."""
+    track_width: float | None = None
+    """m, of a road; None: the vehicle's."""
+
+    @property
+    def road(self) -> RoadOptions:
+        """What is asked for of a road; raises ModevizError for what a road does not have."""
+        self.check_only("a road", "name", "track_width")
+        return RoadOptions(
+            files=self.files, output=self.output, name=self.name, track_width=self.track_width
+        )
 
     @property
     def mounts(self) -> MountOptions:
-        """What is asked for of mounts; raises ModevizError if it is what a body alone has."""
-        if (
-            self.attach
-            or self.name
-            or self.residual
-            or self.modes is not None
-            or self.up_to is not None
-        ):
-            raise ModevizError(
-                "--attach, --name, --residual, --modes and --up-to are of a body, and the file is one "
-                "of mounts"
-            )
+        """What is asked for of mounts; raises ModevizError for what mounts do not have."""
+        self.check_only("mounts", "units", "frequency", "bodies")
         return MountOptions(
             files=self.files,
             output=self.output,
@@ -76,15 +77,30 @@ class ImportOptions:
             bodies=self.bodies,
         )
 
+    def check_only(self, what: str, *names: str) -> None:
+        """Checks that nothing else is asked for than what these fields say.
+
+        Raises:
+            ModevizError: something is, which is not of what the files hold.
+        """
+        for field in fields(self):
+            is_given = getattr(self, field.name) not in (None, ())
+            if is_given and field.name not in ("files", "output", *names):
+                raise ModevizError(
+                    f"--{field.name.replace('_', '-')}: found with a file of {what}, which has none"
+                )
+
 
 def import_component(options: ImportOptions) -> None:
     """Lists what files have of a component, and puts it into a vehicle folder if there is one."""
     check_printable()
+    if holds_road(options.files):
+        import_road(options.road)
+        return
     if holds_mounts(options.files, options.output):
         import_mounts(options.mounts)
         return
-    if options.frequency is not None or options.bodies:
-        raise ModevizError("--frequency and --bodies are of mounts, and the files are of a body")
+    options.check_only("a body", "units", "name", "attach", "residual", "modes", "up_to")
     wanted = _wanted(options)
     component = read_component(options.files)
     for note in component.notes:
@@ -233,6 +249,12 @@ def _add_options(command: ArgumentParser) -> None:
         action="append",
         metavar="COMPLIANCE",
         help=f"what the modes leave out: {RESIDUAL_FORMS}, in the files' units; may be repeated",
+    )
+    command.add_argument(
+        "--track-width",
+        type=float,
+        metavar="M",
+        help="of a road: how far its tracks are apart, m (default: as the vehicle's tyres are)",
     )
 
 

@@ -134,8 +134,8 @@ def _scratch_for(path: Path) -> Iterator[Path]:
         raise VehicleError(f"{path}: cannot be written ({reason(error)})") from None
 
 
-def inside(folder: Path, name: str) -> Path:
-    """The path of a file that must lie in the folder.
+def inside(folder: Path, name: str, what: str = "the vehicle folder") -> Path:
+    """The path of a file that must lie in the folder, which is `what` in words.
 
     Raises:
         VehicleError: the name leads out of the folder.
@@ -146,7 +146,7 @@ def inside(folder: Path, name: str) -> Path:
     except (OSError, RuntimeError) as error:  # a link to itself
         raise VehicleError(f"found {quoted(name)}, which leads nowhere ({reason(error)})") from None
     if leads_out:
-        raise VehicleError(f"found {quoted(name)}, expected a file inside the vehicle folder")
+        raise VehicleError(f"found {quoted(name)}, expected a file inside {what}")
     return path
 
 

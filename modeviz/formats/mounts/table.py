@@ -223,7 +223,7 @@ class _Line:
             if is_said:
                 raise VehicleError(f"{self.where('property')}: found rates beside it, expected either")
             with located(self.where("property")):
-                read = read_property(inside(path.parent, file))
+                read = read_property(inside(path.parent, file, "the folder of the table"))
             return read.stiffness, read.damping
         if twin and not is_said:
             return twin.stiffness, twin.damping

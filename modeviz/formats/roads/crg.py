@@ -1,0 +1,169 @@
+"""The heights of a road in an OpenCRG file: a grid along and across a reference line."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from modeviz.errors import VehicleError, listed, located, quoted
+from modeviz.files.limits import check_size
+from modeviz.formats.roads.crg_file import CrgFile, read_crg_file, road_data
+from modeviz.units import UNITS
+from modeviz.vehicle.arrays import Floats
+
+MOST_HEIGHTS = 50_000_000
+
+HIGHEST = 1e5
+"""m: of no road; what is beyond is no number of heights."""
+
+AT = re.compile(r"long section at v\s*=\s*(\S+)", re.IGNORECASE)
+NUMBERED = re.compile(r"long section\s+(\d+)", re.IGNORECASE)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Heights over a grid."""
+
+    increment: float
+    """m, along the road."""
+    v: Floats
+    """(n_sections,), rising, m: across, to the left of the reference line."""
+    heights: Floats
+    """(n_rows, n_sections), m; not a number where unknown."""
+
+    @property
+    def length(self) -> float:
+        """Along the road, m."""
+        return self.increment * (len(self.heights) - 1)
+
+    def track(self, v: float) -> Floats:
+        """Return the heights along a line at v, (n_rows,), between its sections or at the nearest."""
+        left = int(np.clip(np.searchsorted(self.v, v), 1, max(len(self.v) - 1, 1)))
+        if len(self.v) == 1:
+            return self.heights[:, 0]
+        low, high = self.v[left - 1], self.v[left]
+        part = float(np.clip((v - low) / (high - low), 0, 1))
+        if part in (0.0, 1.0):
+            return self.heights[:, left - 1 + int(part)]
+        return (1 - part) * self.heights[:, left - 1] + part * self.heights[:, left]
+
+
+def read_crg(path: Path) -> Surface:
+    """Return the surface in an OpenCRG file, with its slope, banking and scales.
+
+    Raises:
+        VehicleError: no such file, or none with a road; the text says what is wrong.
+    """
+    file = read_crg_file(path)
+    with located(path.name):
+        if not file.data:
+            raise VehicleError("has no road data, nor has a file that it names")
+        increment = file.parameters.get("REFERENCE_LINE_INCREMENT", 0.0)
+        if not increment > 0:
+            raise VehicleError(f"REFERENCE_LINE_INCREMENT: found {increment:g}, expected more than 0")
+        sections = _sections(file)
+        if not sections:
+            raise VehicleError(
+                f"found the channels {listed(file.channels)}, expected some of 'long section ...'"
+            )
+        data = road_data(file, _n_rows(file, increment))
+        check_size("heights", data.size, MOST_HEIGHTS)
+        heights = np.stack([unit * data[:, column] for column, _, unit in sections], axis=1)
+        if not (np.abs(heights[np.isfinite(heights)]) < HIGHEST).all() or np.isinf(heights).any():
+            raise VehicleError(
+                f"has heights beyond {HIGHEST:g} m; is it damaged, or in another format than "
+                f"{file.data_format}?"
+            )
+        v = np.array([place for _, place, _ in sections])
+        return _surface(file, increment, v, heights, data)
+
+
+def _n_rows(file: CrgFile, increment: float) -> int | None:
+    """How many cuts across the road there are, by its start and end; None: it has no end."""
+    end = file.parameters.get("REFERENCE_LINE_END_U")
+    if end is None:
+        return None
+    length = end - file.parameters.get("REFERENCE_LINE_START_U", 0.0)
+    n_rows = round(length / increment) + 1
+    check_size("heights", n_rows * len(file.channels), MOST_HEIGHTS)
+    if n_rows < 2:
+        raise VehicleError(f"REFERENCE_LINE_END_U: found {end:g}, expected more than where it starts")
+    return n_rows
+
+
+def _sections(file: CrgFile) -> list[tuple[int, float, float]]:
+    """Column, v and unit in m of each long section."""
+    found = []
+    numbers = [int(n[1]) for c in file.channels if (n := NUMBERED.match(c)) and not AT.match(c)]
+    for column, channel in enumerate(file.channels):
+        name, _, unit = channel.rpartition(",")
+        if at := AT.match(name):
+            found.append((column, _v(at[1]), _unit(channel, unit)))
+        elif number := NUMBERED.match(name):
+            v = _v_of_number(int(number[1]), max(numbers), file)
+            found.append((column, v, _unit(channel, unit)))
+    return sorted(found, key=lambda section: section[1])
+
+
+def _v(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise VehicleError(f"found a long section at v = {quoted(text)}, expected a number")
+    return value
+
+
+def _unit(channel: str, unit: str) -> float:
+    if unit.strip() not in UNITS["length"]:
+        raise VehicleError(f"found the channel {quoted(channel)}, expected heights in m")
+    return UNITS["length"][unit.strip()]
+
+
+def _v_of_number(number: int, count: int, file: CrgFile) -> float:
+    """Where a section is that is numbered from the right, 1 to `count`."""
+    p = file.parameters
+    right, left = p.get("LONG_SECTION_V_RIGHT"), p.get("LONG_SECTION_V_LEFT")
+    step = p.get("LONG_SECTION_V_INCREMENT")
+    if step is None and right is not None and left is not None:
+        step = (left - right) / max(count - 1, 1)
+    if step is None or not (step > 0 or count == 1):
+        raise VehicleError(
+            "LONG_SECTION_V_INCREMENT: missing, expected the distance of the sections that are numbered"
+        )
+    start = -step * (count - 1) / 2 if right is None else right
+    return start + step * (number - 1)
+
+
+def _surface(file: CrgFile, increment: float, v: Floats, grid: Floats, data: Floats) -> Surface:
+    """The surface with what the reference line adds to the grid, and its modifiers."""
+
+    def scale(name: str) -> float:
+        value = file.parameters.get(f"SCALE_{name}", 0.0)
+        return value if value else 1.0  # zero means none, as the specification has it
+
+    if len(v) > 1 and not (np.diff(v) > 0).all():
+        raise VehicleError("two long sections are at the same v")
+    slope, banking = (_along(file, data, name) for name in ("slope", "banking"))
+    rise = np.concatenate([[0.0], np.cumsum(slope[1:]) * increment])
+    heights = (
+        scale("Z_GRID") * grid
+        + scale("SLOPE") * rise[:, None]
+        + scale("BANKING") * banking[:, None] * v
+    )
+    return Surface(increment * scale("LENGTH"), v * scale("WIDTH"), heights)
+
+
+def _along(file: CrgFile, data: Floats, name: str) -> Floats:
+    """The slope or banking of the reference line, (n_rows,): a channel, or a constant."""
+    names = [channel.rpartition(",")[0].lower() for channel in file.channels]
+    if f"reference line {name}" not in names:
+        constant = file.parameters.get(f"REFERENCE_LINE_START_{name[0].upper()}", 0.0)
+        return np.full(len(data), constant)
+    values = data[:, names.index(f"reference line {name}")].copy()
+    values[:1] = np.nan_to_num(values[:1])  # the first is not used
+    if not np.isfinite(values).all():
+        raise VehicleError(f"channel 'reference line {name}': has values that are no numbers")
+    return values
