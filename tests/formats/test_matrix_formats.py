@@ -322,7 +322,7 @@ HEAD = "%%MatrixMarket matrix coordinate real symmetric\n"
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "no whole|no matrix"),
+        ("", "neither Matrix Market's nor Abaqus's"),
         (HEAD, "no whole Matrix Market file"),
         (HEAD + "3 3 2\n1 1 4.0\n", "no whole Matrix Market file"),
         (HEAD + "3 3 1\n1 4 4.0\n", "no whole Matrix Market file"),

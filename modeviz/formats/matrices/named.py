@@ -9,7 +9,7 @@ import scipy.sparse as sp
 
 from modeviz.errors import VehicleError, listed, quoted
 from modeviz.files.limits import check_size
-from modeviz.vehicle.arrays import Array
+from modeviz.vehicle.arrays import Array, Floats
 
 LARGEST_ENTRY = 1e30
 """Penalty stiffnesses reach 1e20; what is beyond this is no number that a program wrote."""
@@ -45,8 +45,23 @@ class NamedMatrix:
         return self.matrix.shape
 
 
+def from_entries(rows: Array, columns: Array, values: Floats, shape: tuple[int, int]) -> sp.csc_array:
+    """Return the sparse matrix of some entries; those of one place add up.
+
+    Raises:
+        VehicleError: a place is outside of it, or it is too large.
+    """
+    check_size("degrees of freedom in a matrix", max(shape), MOST_DOFS)
+    check_size("entries in a matrix", len(values), MOST_ENTRIES)
+    for what, places, count in (("row", rows, shape[0]), ("column", columns, shape[1])):
+        if len(places) and not 0 <= places.min() <= places.max() < count:
+            wrong = places[(places < 0) | (places >= count)][0] + 1
+            raise VehicleError(f"found an entry in {what} {wrong}, expected 1 to {count}")
+    return sp.csc_array(sp.coo_array((values, (rows, columns)), shape=shape))
+
+
 def symmetric(found: NamedMatrix) -> sp.csc_array:
-    """Return a matrix made exactly symmetric; one with nothing above or below its diagonal is mirrored.
+    """Return a matrix made exactly symmetric; one that has each entry on one side alone is mirrored.
 
     Raises:
         VehicleError: it is not square, not of finite numbers, or not symmetric.
@@ -64,9 +79,10 @@ def symmetric(found: NamedMatrix) -> sp.csc_array:
         raise VehicleError(
             f"matrix {found.name}: has values that are not finite numbers, or beyond {LARGEST_ENTRY:g}"
         )
-    lower, upper = sp.tril(A, -1), sp.triu(A, 1)
-    if bool(lower.nnz) != bool(upper.nnz):
-        return sp.csc_array(A + (lower + upper).T)
+    beside = sp.csc_array(A - sp.diags_array(A.diagonal()))
+    beside.eliminate_zeros()
+    if beside.nnz and not beside.multiply(beside.T).nnz:
+        return sp.csc_array(A + beside.T)
     _check_symmetric(found, A)
     return sp.csc_array((A + A.T) / 2)
 

@@ -9,16 +9,27 @@ import scipy.sparse as sp
 
 from modeviz.errors import VehicleError, listed, located
 from modeviz.fem.matrices import Matrices
+from modeviz.files.disk import opened
 from modeviz.formats.component import Component, Modes
+from modeviz.formats.limits import LARGEST_FILE
+from modeviz.formats.matrices.abaqus import read_abaqus
 from modeviz.formats.matrices.arrays import read_npz
-from modeviz.formats.matrices.market import read_market
+from modeviz.formats.matrices.market import BEGINNING, read_market
 from modeviz.formats.matrices.named import NamedMatrix, mass_and_stiffness, symmetric
 from modeviz.formats.matrices.node_table import NodeTable, read_node_table
 from modeviz.formats.matrices.soundness import check_structure
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.rigid import rigid_motions
 
-READERS: Mapping[str, Callable[[Path], list[NamedMatrix]]] = {".npz": read_npz, ".mtx": read_market}
+
+def _read_mtx(path: Path) -> list[NamedMatrix]:
+    """The matrices of a file of Matrix Market or of Abaqus, which end alike."""
+    with opened(path, LARGEST_FILE) as file:
+        is_market = file.read(len(BEGINNING)) == BEGINNING
+    return read_market(path) if is_market else read_abaqus(path)
+
+
+READERS: Mapping[str, Callable[[Path], list[NamedMatrix]]] = {".npz": read_npz, ".mtx": _read_mtx}
 """By the ending of a file's name."""
 
 TABLES = (".csv", ".txt")

@@ -1,0 +1,177 @@
+"""Matrices that Abaqus writes: of substructures, and of whole models, both in `.mtx`.
+
+After the Abaqus Keywords guide: `*SUBSTRUCTURE MATRIX OUTPUT` writes a linear user element with its
+matrices, the lower triangle row by row (the whole if UNSYM), each row beginning a line; CalculiX
+writes the same. `*MATRIX OUTPUT` writes an entry a line: row node, its direction, column node, its
+direction and value (FORMAT=MATRIX INPUT and LABELS), or row, column and value (FORMAT=COORDINATE).
+The package abaqus-mtx-parser reads the first of these alone, without checks: these lines are our own.
+"""
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+import scipy.sparse as sp
+
+from modeviz.errors import VehicleError, located, quoted
+from modeviz.files.disk import read_text
+from modeviz.files.limits import check_size
+from modeviz.formats.limits import LARGEST_FILE
+from modeviz.formats.matrices.named import MOST_ENTRIES, NamedMatrix, from_entries
+from modeviz.vehicle.arrays import Array, Floats
+
+HELD = 1e36
+"""What Abaqus writes on the diagonal of a direction that is held."""
+
+MOST_NODES = 100_000
+"""Of a substructure, whose matrices are full."""
+
+_KEYWORD = re.compile(r"^\*(?!\*)(.*)$", re.MULTILINE)
+
+
+def read_abaqus(path: Path) -> list[NamedMatrix]:
+    """Return the matrices of a file of Abaqus or CalculiX.
+
+    Raises:
+        VehicleError: the file is damaged or none of these, or has a direction that is held.
+    """
+    text = read_text(path, LARGEST_FILE)
+    with located(path):
+        if _KEYWORD.search(text):
+            return list(_substructure(text))
+        return [_of_model(path.stem, text)]
+
+
+def _substructure(text: str) -> Iterator[NamedMatrix]:
+    labels: Array | None = None
+    for keyword, options, comments, lines in _blocks(text):
+        if keyword == "USER ELEMENT":
+            if labels is not None:
+                raise VehicleError("found several elements, expected the matrices of one substructure")
+            labels = _labels(options, comments, lines)
+        elif keyword == "MATRIX":
+            if labels is None:
+                raise VehicleError("*MATRIX: stands before *USER ELEMENT, which names its nodes")
+            with located(f"*MATRIX, TYPE={options.get('TYPE', '')}"):
+                matrix = _filled(_numbers(lines), len(labels))
+            yield NamedMatrix(options.get("TYPE", "matrix"), matrix, labels)
+
+
+def _blocks(text: str) -> Iterator[tuple[str, dict[str, str], list[str], list[str]]]:
+    """Keywords with their options, their comments, and their lines of data."""
+    found = list(_KEYWORD.finditer(text))
+    for match, end in zip(found, [*(m.start() for m in found[1:]), len(text)], strict=True):
+        name, *options = (part.strip().upper() for part in match[1].split(","))
+        pairs = (option.partition("=") for option in options)
+        body = text[match.end() : end].splitlines()
+        comments = [line[2:] for line in body if line.startswith("**")]
+        lines = [line for line in body if line.strip() and not line.startswith("**")]
+        yield name, {key.strip(): value.strip() for key, _, value in pairs}, comments, lines
+
+
+def _labels(options: dict[str, str], comments: Sequence[str], lines: Sequence[str]) -> Array:
+    """The node and the direction of each row, (n_dofs, 2)."""
+    wholes = [_wholes(line) for line in comments if re.fullmatch(r"[\s\d,]+", line)]
+    nodes = [node for line in wholes for node in line]
+    n_nodes = options.get("NODES", "")
+    if not nodes or str(len(nodes)) != n_nodes:
+        raise VehicleError(
+            f"*USER ELEMENT: found NODES={n_nodes} and {len(nodes)} numbers under ** ELEMENT NODES"
+        )
+    check_size("nodes of a substructure", len(nodes), MOST_NODES)
+    directions = _directions([_wholes(line) for line in lines], len(nodes))
+    counts = [len(those) for those in directions]
+    return np.column_stack([np.repeat(nodes, counts), [d for those in directions for d in those]])
+
+
+def _wholes(line: str) -> list[int]:
+    try:
+        return [int(cell) for cell in line.split(",") if cell.strip()]
+    except ValueError:
+        raise VehicleError(f"*USER ELEMENT: found {quoted(line)}, expected whole numbers") from None
+
+
+def _directions(lines: Sequence[Sequence[int]], n_nodes: int) -> list[Sequence[int]]:
+    """Those of every node: the first line's, until a line that begins with a place changes them."""
+    if not lines:
+        raise VehicleError("*USER ELEMENT: found no line with the directions of its nodes")
+    changes = {1: lines[0]} | {line[0]: line[1:] for line in lines[1:] if line}
+    every: list[Sequence[int]] = []
+    for place in range(1, n_nodes + 1):
+        every.append(changes.get(place, every[-1] if every else ()))
+    wrong = [d for those in every for d in those if not 1 <= d <= 6]
+    if wrong or not all(1 <= place <= n_nodes for place in changes):
+        raise VehicleError(
+            "*USER ELEMENT: found directions other than 1 to 6, or of nodes that are not there"
+        )
+    return every
+
+
+def _numbers(lines: Sequence[str]) -> Floats:
+    try:
+        return np.array(" ".join(lines).replace(",", " ").replace("D", "E").split(), float)
+    except ValueError as error:
+        raise VehicleError(f"found no numbers ({error})") from None
+
+
+def _filled(numbers: Floats, n: int) -> sp.csc_array:
+    """The matrix of its lower triangle, row by row, or of all its numbers."""
+    if len(numbers) == n * n:
+        return sp.csc_array(numbers.reshape(n, n))
+    if len(numbers) != n * (n + 1) // 2:
+        raise VehicleError(
+            f"found {len(numbers)} numbers, expected {n * (n + 1) // 2} of the lower triangle of {n} "
+            f"rows, or {n * n} of all"
+        )
+    lower = np.zeros((n, n))
+    lower[np.tril_indices(n)] = numbers
+    return sp.csc_array(lower + np.tril(lower, -1).T)
+
+
+def _of_model(name: str, text: str) -> NamedMatrix:
+    """The matrix of a whole model, an entry a line."""
+    check_size("entries in a matrix", text.count("\n"), MOST_ENTRIES)
+    lines = (line for line in text.splitlines() if line.strip() and not line.startswith("**"))
+    try:
+        first = next(lines)
+        separator = "," if "," in first else None
+        table = np.loadtxt([first, *lines], delimiter=separator, ndmin=2, comments=None)
+    except (StopIteration, ValueError) as error:
+        raise VehicleError(f"is neither Matrix Market's nor Abaqus's ({error})") from None
+    if table.shape[1] not in (3, 5):
+        raise VehicleError(
+            f"found lines of {table.shape[1]} numbers, expected node, direction, node, direction and "
+            "value, or row, column and value"
+        )
+    places, values = table[:, :-1], table[:, -1]
+    if not (places == np.round(places)).all() or np.abs(places).max() >= 2**53:
+        raise VehicleError("found places in the matrix that are no whole numbers")
+    places = places.astype(np.int64)
+    if places.shape[1] == 2:
+        n = int(places.max())
+        return NamedMatrix(name, from_entries(*(places.T - 1), values, (n, n)))
+    return _labelled(name, places, values)
+
+
+def _labelled(name: str, places: Array, values: Floats) -> NamedMatrix:
+    """The matrix of entries by nodes and directions, (n_entries, 4)."""
+    if (places[:, [0, 2]] < 1).any():
+        raise VehicleError(
+            f"found node {places[:, [0, 2]].min()}, an internal one of Abaqus, as of a contact or a "
+            "connector, which is at no place; expected the nodes of the model"
+        )
+    if not ((places[:, [1, 3]] >= 1) & (places[:, [1, 3]] <= 6)).all():
+        raise VehicleError("found directions other than 1 to 6")
+    if len(held := np.flatnonzero(np.abs(values) >= HELD)):
+        node, direction = places[held[0], :2]
+        raise VehicleError(
+            f"node {node}, direction {direction}: is held, which Abaqus writes as {HELD:g}; generate "
+            "the matrices in a step without boundary conditions"
+        )
+    keys = places[:, [0, 2]] * 10 + places[:, [1, 3]]
+    every, rows = np.unique(keys, return_inverse=True)
+    rows = rows.reshape(keys.shape)
+    shape = (len(every), len(every))
+    matrix = from_entries(rows[:, 0], rows[:, 1], values, shape)
+    return NamedMatrix(name, matrix, np.column_stack([every // 10, every % 10]))
