@@ -86,6 +86,8 @@ class Component:
     """What was left out or taken otherwise than it stands, a sentence each."""
     matrices: Matrices | None = field(default=None, kw_only=True)
     """Mass and stiffness in the units of the files, of which `solving` makes modes; None: unknown."""
+    axes: Floats | None = field(default=None, kw_only=True)
+    """(n_nodes, 3, 3), columns are what matrices take for its x, y, z; None: the basic ones."""
     source: str = field(default="", kw_only=True)
     """The files, to say so."""
     node_sets: Mapping[str, NodeSet] = field(default_factory=dict, kw_only=True)

@@ -10,6 +10,8 @@ from modeviz.formats.matrices import SUFFIXES as MATRICES
 from modeviz.formats.matrices import read_matrices
 from modeviz.formats.nastran import SUFFIXES as NASTRAN
 from modeviz.formats.nastran import has_punched_modes, read_nastran
+from modeviz.formats.nastran.dmig import read_dmig
+from modeviz.formats.nastran.reader import DECKS, read_geometry
 from modeviz.formats.universal import SUFFIXES as UNIVERSAL
 from modeviz.formats.universal import read_universal
 
@@ -32,9 +34,15 @@ def read_component(paths: Sequence[Path]) -> Component:
     """
     matrices = [path for path in paths if _has_matrices(path)]
     others = [path for path in paths if path not in matrices]
-    component = _read_others(others) if others else None
-    if matrices or component is None:
-        component = read_matrices(matrices, component)
+    decks = others if all(path.suffix.lower() in DECKS for path in others) else []
+    of_decks = [matrix for deck in decks for matrix in read_dmig(deck)]
+    if matrices or of_decks or not others:
+        geometry = read_geometry(decks[0]) if len(decks) == 1 else None
+        if geometry is None and others:
+            geometry = _read_others(others)
+        component = read_matrices(matrices, geometry, decks, of_decks)
+    else:
+        component = _read_others(others)
     return replace(component, source=", ".join(path.name for path in paths))
 
 
@@ -54,7 +62,8 @@ def _read_others(paths: Sequence[Path]) -> Component:
 
 def are_results(paths: Sequence[Path]) -> bool:
     """Return whether paths are named as files that can be read here, all of them and one at least."""
-    named = [path.suffix.lower() in READERS and not path.is_dir() for path in paths]
+    known = {*READERS, *MATRICES}
+    named = [path.suffix.lower() in known and not path.is_dir() for path in paths]
     return bool(named) and all(named)
 
 

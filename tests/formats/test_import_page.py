@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from modeviz.formats.component import UNIT_SYSTEMS
+from modeviz.formats.matrices import SUFFIXES as MATRICES
 from modeviz.formats.reading import READERS
 from modeviz.units import UNITS
 
@@ -25,5 +26,6 @@ def test_the_page_has_every_system_of_units_with_what_it_is():
 
 def test_the_page_names_endings_of_every_format():
     named = set(re.findall(r"`(\.\w+)`", PAGE))
-    assert named <= set(READERS)
-    assert {READERS[ending] for ending in named} == set(READERS.values())
+    assert named <= {*READERS, *MATRICES}
+    assert {READERS[ending] for ending in named & set(READERS)} == set(READERS.values())
+    assert set(MATRICES) <= named

@@ -18,7 +18,7 @@ from modeviz.errors import VehicleError, located, quoted
 from modeviz.files.disk import read_text
 from modeviz.files.limits import check_size
 from modeviz.formats.limits import LARGEST_FILE
-from modeviz.formats.matrices.named import MOST_ENTRIES, NamedMatrix, from_entries
+from modeviz.formats.named_matrices import MOST_ENTRIES, NamedMatrix, from_entries
 from modeviz.vehicle.arrays import Array, Floats
 
 HELD = 1e36
@@ -150,7 +150,7 @@ def _of_model(name: str, text: str) -> NamedMatrix:
     places = places.astype(np.int64)
     if places.shape[1] == 2:
         n = int(places.max())
-        return NamedMatrix(name, from_entries(*(places.T - 1), values, (n, n)))
+        return NamedMatrix(name, from_entries(places[:, 0] - 1, places[:, 1] - 1, values, (n, n)))
     return _labelled(name, places, values)
 
 

@@ -11,7 +11,7 @@ from modeviz.errors import VehicleError, listed, located, reason
 from modeviz.files.disk import opened
 from modeviz.files.limits import check_size
 from modeviz.formats.limits import LARGEST_FILE
-from modeviz.formats.matrices.named import MOST_DOFS, MOST_ENTRIES, NamedMatrix
+from modeviz.formats.named_matrices import MOST_DOFS, MOST_ENTRIES, NamedMatrix
 from modeviz.vehicle.arrays import Array
 
 MOST_BYTES = 12 * MOST_ENTRIES

@@ -9,7 +9,7 @@ import scipy.sparse as sp
 
 from modeviz.errors import VehicleError, cut, located, reason
 from modeviz.files.limits import check_size
-from modeviz.formats.matrices.named import MOST_DOFS, MOST_ENTRIES, NamedMatrix
+from modeviz.formats.named_matrices import MOST_DOFS, MOST_ENTRIES, NamedMatrix
 
 BEGINNING = b"%%MatrixMarket"
 

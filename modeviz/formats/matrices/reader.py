@@ -10,16 +10,25 @@ import scipy.sparse as sp
 from modeviz.errors import VehicleError, listed, located
 from modeviz.fem.matrices import Matrices
 from modeviz.files.disk import opened
-from modeviz.formats.component import Component, Modes
+from modeviz.formats.component import Component, ElementKind, Modes, rows_of
 from modeviz.formats.limits import LARGEST_FILE
 from modeviz.formats.matrices.abaqus import read_abaqus
 from modeviz.formats.matrices.arrays import read_npz
 from modeviz.formats.matrices.market import BEGINNING, read_market
-from modeviz.formats.matrices.named import NamedMatrix, mass_and_stiffness, symmetric
 from modeviz.formats.matrices.node_table import NodeTable, read_node_table
 from modeviz.formats.matrices.soundness import check_structure
+from modeviz.formats.named_matrices import NamedMatrix, mass_and_stiffness, symmetric
+from modeviz.formats.nastran.dmig import read_dmig, read_orders
+from modeviz.formats.nastran.op4 import read_op4
+from modeviz.formats.nastran.reader import read_geometry
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.rigid import rigid_motions
+
+TABLES = (".csv", ".txt")
+"""Endings of node tables."""
+
+PUNCH = ".pch"
+"""The ending of what Nastran punches: cards with matrices, or with the geometry of a superelement."""
 
 
 def _read_mtx(path: Path) -> list[NamedMatrix]:
@@ -29,21 +38,30 @@ def _read_mtx(path: Path) -> list[NamedMatrix]:
     return read_market(path) if is_market else read_abaqus(path)
 
 
-READERS: Mapping[str, Callable[[Path], list[NamedMatrix]]] = {".npz": read_npz, ".mtx": _read_mtx}
+READERS: Mapping[str, Callable[[Path], list[NamedMatrix]]] = {
+    ".npz": read_npz,
+    ".mtx": _read_mtx,
+    ".op4": read_op4,
+    PUNCH: read_dmig,
+}
 """By the ending of a file's name."""
-
-TABLES = (".csv", ".txt")
-"""Endings of node tables."""
 
 SUFFIXES = (*READERS, *TABLES)
 
 
-def read_matrices(paths: Sequence[Path], geometry: Component | None) -> Component:
+def read_matrices(
+    paths: Sequence[Path],
+    geometry: Component | None,
+    decks: Sequence[Path] = (),
+    of_decks: Sequence[NamedMatrix] = (),
+) -> Component:
     """Return the component of mass and stiffness matrices and of the nodes that they move.
 
     Args:
         paths: of matrices and, if wanted, of a node table.
         geometry: places of nodes, and elements to draw, from other files.
+        decks: Nastran input files that the geometry is from.
+        of_decks: matrices that these have.
 
     Raises:
         VehicleError: a file is damaged, something is missing or there twice, or the matrices are none
@@ -56,13 +74,24 @@ def read_matrices(paths: Sequence[Path], geometry: Component | None) -> Componen
         )
     found = [m for path in paths if path not in tables for m in READERS[path.suffix.lower()](path)]
     table = read_node_table(tables[0]) if tables else None
-    with located(", ".join(map(str, paths))):
-        mass, stiffness, others = mass_and_stiffness(found)
-        geometry = _geometry(geometry, table)
-        component = _component(mass, stiffness, geometry, table)
+    punches = [path for path in paths if path.suffix.lower() == PUNCH]
+    if geometry is None and table is None and len(punches) == 1:
+        geometry = read_geometry(punches[0])
+    with located(", ".join(map(str, [*paths, *decks]))):
+        mass, stiffness, others = mass_and_stiffness([*found, *of_decks])
+        nodes = _geometry(geometry, table)
+        orders = [] if table else [o for path in (*decks, *punches) for o in read_orders(path)]
+        component = _component(mass, stiffness, nodes, table, orders)
     left_out = f"the matrices {listed(others)} are left out: neither mass nor stiffness"
-    notes = (*geometry.notes, *component.notes, *([left_out] if others else []))
-    return replace(component, notes=notes)
+    drawn = (
+        "the elements of the input file are only drawn: mass and stiffness are those of its DMIG cards"
+    )
+    notes = [
+        *component.notes,
+        *([left_out] if others else []),
+        *([drawn] if of_decks and component.elements else []),
+    ]
+    return replace(component, notes=tuple(notes))
 
 
 def _geometry(geometry: Component | None, table: NodeTable | None) -> Component:
@@ -77,15 +106,35 @@ def _geometry(geometry: Component | None, table: NodeTable | None) -> Component:
         return replace(geometry, modes=_no_modes(len(geometry.node_ids)))
     is_node = np.ones(len(table.ids), bool) if table.masks is None else table.masks > 0
     order = np.flatnonzero(is_node)[np.argsort(table.ids[is_node], kind="stable")]
-    nodes = Component(table.ids[order], table.places[order], {}, _no_modes(len(order)))
+    ids, places = table.ids[order], table.places[order]
     if geometry is None:
-        return nodes
-    elements = {
-        kind: corners[np.isin(geometry.node_ids[corners], nodes.node_ids).all(axis=1)]
-        for kind, corners in geometry.elements.items()
+        return Component(ids, places, {}, _no_modes(len(ids)))
+    named = _restricted(geometry, ids)
+    rows = rows_of(ids, named.node_ids)
+    elements: dict[ElementKind, Array] = {
+        kind: rows[corners] for kind, corners in named.elements.items()
     }
-    rows = {kind: nodes.rows(geometry.node_ids[corners]) for kind, corners in elements.items()}
-    return replace(nodes, elements=rows, units=geometry.units, notes=geometry.notes)
+    return replace(
+        named, node_ids=ids, nodes=places, elements=elements, modes=_no_modes(len(ids)), axes=None
+    )
+
+
+def _restricted(geometry: Component, ids: Array) -> Component:
+    """The part of a component without modes that those nodes are."""
+    kept = np.flatnonzero(np.isin(geometry.node_ids, ids))
+    elements: dict[ElementKind, Array] = {}
+    for kind, corners in geometry.elements.items():
+        whole = corners[np.isin(corners, kept).all(axis=1)]
+        if len(whole):
+            elements[kind] = np.searchsorted(kept, whole)
+    return replace(
+        geometry,
+        node_ids=geometry.node_ids[kept],
+        nodes=geometry.nodes[kept],
+        elements=elements,
+        modes=_no_modes(len(kept)),
+        axes=None if geometry.axes is None else geometry.axes[kept],
+    )
 
 
 def _no_modes(n_nodes: int) -> Modes:
@@ -94,23 +143,30 @@ def _no_modes(n_nodes: int) -> Modes:
 
 
 def _component(
-    mass: NamedMatrix, stiffness: NamedMatrix, geometry: Component, table: NodeTable | None
+    mass: NamedMatrix,
+    stiffness: NamedMatrix,
+    geometry: Component,
+    table: NodeTable | None,
+    orders: Sequence[Array],
 ) -> Component:
     M, K = symmetric(mass), symmetric(stiffness)
-    labels = _labels(mass, stiffness, geometry, table)
+    labels = _labels(mass, stiffness, table or NodeTable(geometry.node_ids, geometry.nodes), orders)
     if mass.labels is not None and stiffness.labels is not None:
         M, K = _expanded(M, mass.labels, labels), _expanded(K, stiffness.labels, labels)
     _check_mass(M, labels)
+    n_given = len(geometry.node_ids)
+    geometry = _restricted(geometry, labels[labels[:, 1] > 0, 0])
+    n_unmoved = n_given - len(geometry.node_ids)
     matrices, n_empty = _without_empty(_matrices(M, K, labels, geometry))
     check_structure(matrices, geometry.node_ids)
-    notes = []
-    if n_empty:
-        notes.append(f"{n_empty} degrees of freedom have neither mass nor stiffness and are left out")
+    empty = f"{n_empty} degrees of freedom have neither mass nor stiffness and are left out"
+    unmoved = f"{n_unmoved} nodes are none of the matrices' and are left out"
+    notes = [*geometry.notes, *([empty] if n_empty else []), *([unmoved] if n_unmoved else [])]
     return replace(geometry, matrices=matrices, notes=tuple(notes))
 
 
 def _labels(
-    mass: NamedMatrix, stiffness: NamedMatrix, geometry: Component, table: NodeTable | None
+    mass: NamedMatrix, stiffness: NamedMatrix, table: NodeTable, orders: Sequence[Array]
 ) -> Array:
     """The node and the direction of each degree of freedom, (n_dofs, 2)."""
     if mass.labels is not None and stiffness.labels is not None:
@@ -123,7 +179,8 @@ def _labels(
     known = mass.labels if mass.labels is not None else stiffness.labels
     if known is not None:
         return known
-    return (table or NodeTable(geometry.node_ids, geometry.nodes)).labels(mass.shape[0])
+    fitting = [order for order in orders if len(order) == mass.shape[0]]
+    return fitting[0] if fitting else table.labels(mass.shape[0])
 
 
 def _expanded(A: sp.csc_array, own: Array, labels: Array) -> sp.csc_array:
@@ -166,9 +223,24 @@ def _matrices(M: sp.csc_array, K: sp.csc_array, labels: Array, geometry: Compone
         raise VehicleError(
             f"node {geometry.node_ids[dof // 6]}, direction {dof % 6 + 1}: is there twice"
         )
-    shape = (6 * len(geometry.node_ids), len(labels))
-    motion = sp.csr_array((np.ones(len(dofs)), (dofs, moves)), shape=shape)
+    motion = _motion(geometry, dofs, moves, len(labels))
     return Matrices(geometry.nodes, M, K, motion, _rigid(motion, geometry.nodes))
+
+
+def _motion(geometry: Component, dofs: Array, moves: Array, n_dofs: int) -> sp.csr_array:
+    """How degrees of freedom move the nodes, (6 n_nodes, n_dofs), along the basic axes.
+
+    Args:
+        geometry: has the nodes, and what they take for axes.
+        dofs: (n_moves,), 6 node + (0 to 5), along these.
+        moves: (n_moves,), the degrees of freedom that they are; others are scalars.
+        n_dofs: of all.
+    """
+    shape = (6 * len(geometry.node_ids), n_dofs)
+    own = sp.csr_array((np.ones(len(dofs)), (dofs, moves)), shape=shape)
+    if geometry.axes is None:
+        return own
+    return sp.csr_array(sp.block_diag(np.repeat(geometry.axes, 2, axis=0), format="csr") @ own)
 
 
 def _rigid(motion: sp.csr_array, nodes: Floats) -> Floats:

@@ -1,6 +1,6 @@
 """Nastran's files as a component."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -9,7 +9,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, located
 from modeviz.formats.component import Component, ElementKind, Modes, rows_of
-from modeviz.formats.frames import turn_to_basic
+from modeviz.formats.frames import Frame, turn_to_basic
 from modeviz.formats.nastran.deck import read_deck
 from modeviz.formats.nastran.hdf5 import read_hdf5_model, read_hdf5_shapes
 from modeviz.formats.nastran.model import Model, basic_geometry
@@ -61,7 +61,12 @@ def read_nastran(paths: Sequence[Path]) -> Component:
     with located(", ".join(map(str, paths))):
         places, frames = basic_geometry(model)
         if not results or results[0].shapes is None:
-            return _without_modes(model, places, bool(results))
+            missing = (
+                "the file of results has no modes"
+                if results
+                else "the modes are in a file of results (OP2, HDF5, punch): give it too"
+            )
+            return _without_modes(model, places, frames, missing)
         return _component(model, places, frames, results[0])
 
 
@@ -92,12 +97,16 @@ def _without_geometry(results: _Results) -> Component:
     return replace(component, notes=(note,))
 
 
-def _without_modes(model: Model, places: Floats, has_results: bool) -> Component:
-    missing = (
-        "the file of results has no modes"
-        if has_results
-        else "the modes are in a file of results (OP2, HDF5, punch): give it too"
-    )
+def read_geometry(path: Path) -> Component:
+    """Return the geometry of an input file, or of a part of one; errors as `read_nastran`."""
+    model = read_deck(path)
+    with located(path):
+        return _without_modes(model, *basic_geometry(model))
+
+
+def _without_modes(
+    model: Model, places: Floats, frames: Mapping[int, Frame], missing: str = ""
+) -> Component:
     none = np.zeros(0)
     modes = Modes(none, none, none, np.zeros((len(model.ids), 6, 0)))
     elements: dict[ElementKind, Array] = {
@@ -108,9 +117,21 @@ def _without_modes(model: Model, places: Floats, has_results: bool) -> Component
         places,
         elements,
         modes,
-        notes=(*model.notes, missing),
+        notes=(*model.notes, *filter(None, [missing])),
         node_sets=model.node_sets,
+        axes=_axes(model, places, frames),
     )
+
+
+def _axes(model: Model, places: Floats, frames: Mapping[int, Frame]) -> Floats | None:
+    """The directions of the grids' own motions; none if all are those of the basic system."""
+    systems = model.systems[:, 1]
+    if not (systems > 0).any():
+        return None
+    axes = np.tile(np.eye(3), (len(systems), 1, 1))
+    for number in np.unique(systems[systems > 0]).tolist():
+        axes[systems == number] = frames[number].directions(places[systems == number])
+    return axes
 
 
 def _component(model: Model, places: Floats, frames: dict, results: _Results) -> Component:

@@ -23,7 +23,7 @@ ASYMMETRIC = 1e-6
 """Part of the largest entries about it by which an entry may differ from its mirror image."""
 
 _MATRIX_OF = {"stiffness": "k", "mass": "m"}
-_SETS = r"(?:[1-4]?(?:aa|cc|ff|gg|jj|ll|nn|oo|pp|qq|tt|xx)x?|mat|matrix|global|e|red|reduced)?\d*"
+_SETS = r"(?!4)(?:2?(?:aa|cc|ff|gg|jj|ll|nn|oo|pp|qq|tt|xx)x?|mat|matrix|global|e|red|reduced)?\d*"
 _WORDS = {"stiffness": re.compile(rf"k{_SETS}|.*stif.*"), "mass": re.compile(rf"m{_SETS}|.*mass.*")}
 
 
