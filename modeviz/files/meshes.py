@@ -8,21 +8,31 @@ import numpy as np
 
 from modeviz.errors import VehicleError, located
 from modeviz.files.disk import read_bytes
+from modeviz.files.mesh_formats.dae import read_dae
 from modeviz.files.mesh_formats.glb import read_glb
 from modeviz.files.mesh_formats.limits import LARGEST_FILE
 from modeviz.files.mesh_formats.obj import read_obj
-from modeviz.files.mesh_formats.parts import RawPart, mesh
+from modeviz.files.mesh_formats.parts import RawMesh, RawPart
 from modeviz.files.mesh_formats.ply import read_ply
 from modeviz.files.mesh_formats.stl import read_stl
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 from modeviz.vehicle.srgb import srgb_to_linear
 
-READERS: Mapping[str, Callable[[bytes, Material], list[RawPart]]] = {
-    ".glb": read_glb,
-    ".stl": read_stl,
-    ".obj": read_obj,
-    ".ply": read_ply,
+Reader = Callable[[bytes, Material], RawMesh]
+
+
+def _unsaid(read: Callable[[bytes, Material], list[RawPart]]) -> Reader:
+    """The reader of a format that says neither unit nor axes."""
+    return lambda content, plain: RawMesh(read(content, plain))
+
+
+READERS: Mapping[str, Reader] = {
+    ".glb": _unsaid(read_glb),
+    ".stl": _unsaid(read_stl),
+    ".obj": _unsaid(read_obj),
+    ".ply": _unsaid(read_ply),
+    ".dae": read_dae,
 }
 """By the ending of a file."""
 
@@ -32,12 +42,19 @@ DEFAULT_COLOR: Color = (150, 156, 164)
 """sRGB, of what comes without a material."""
 
 
-def read_mesh(path: Path, color: Color = DEFAULT_COLOR) -> Mesh:
+def read_mesh(
+    path: Path,
+    color: Color = DEFAULT_COLOR,
+    length: float | None = None,
+    turn: Floats | None = None,
+) -> Mesh:
     """The parts of a mesh file, without the vertices that no face names, the others in their order.
 
     Args:
-        path: binary glTF with its materials, STL, OBJ or PLY.
+        path: binary glTF with its materials, STL, OBJ, PLY or COLLADA.
         color: of the parts without a material.
+        length: m of one unit; None: as the file says, else a metre.
+        turn: (3, 3), of its axes; None: what makes z up, if the file says which axis is.
 
     Raises:
         VehicleError: not such a file, not there, damaged, empty or too large.
@@ -47,10 +64,10 @@ def read_mesh(path: Path, color: Color = DEFAULT_COLOR) -> Mesh:
         raise VehicleError(f"{path}: found {suffix!r}, expected one of {', '.join(READERS)}")
     content = read_bytes(path, LARGEST_FILE)
     with located(path):
-        parts = READERS[suffix](content, Material(color))
-        if not parts:
+        found = READERS[suffix](content, Material(color))
+        if not found.parts:
             raise VehicleError("found no triangles")
-        return mesh(parts)
+        return found.placed(length, turn)
 
 
 def write_mesh(path: Path, mesh: Mesh) -> None:

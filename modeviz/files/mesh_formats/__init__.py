@@ -1,1 +1,1 @@
-"""Display meshes as other programs write them: binary glTF, STL, OBJ and PLY, one module each."""
+"""Display meshes as other programs write them: binary glTF, STL, OBJ, PLY and COLLADA."""

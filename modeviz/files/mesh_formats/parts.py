@@ -3,7 +3,7 @@
 import warnings
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 
 import numpy as np
@@ -24,6 +24,33 @@ class RawPart:
     faces: Array
     """(n_faces, 3), indices of vertices."""
     material: Material
+
+
+@dataclass(frozen=True, eq=False)
+class RawMesh:
+    """What a file has of a surface."""
+
+    parts: Sequence[RawPart]
+    length: float | None = None
+    """m of one of its units, if it says so."""
+    up: Floats | None = None
+    """(3, 3): what turns its axes so that z is up, if it says which of them is."""
+
+    def placed(self, length: float | None, turn: Floats | None) -> Mesh:
+        """The display mesh.
+
+        Args:
+            length: m of one unit; None: as the file says, else a metre.
+            turn: (3, 3), of its axes; None: what makes z up, if the file says that.
+        """
+        unit = length or self.length or 1.0
+        T = turn if turn is not None else self.up
+        with np.errstate(all="ignore"):  # what is not finite is refused when the mesh is made
+            return mesh([replace(p, vertices=_turned(p.vertices, T) * unit) for p in self.parts])
+
+
+def _turned(vertices: Array, T: Floats | None) -> Array:
+    return vertices if T is None else vertices @ T.T
 
 
 def mesh(parts: Sequence[RawPart]) -> Mesh:

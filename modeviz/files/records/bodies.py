@@ -18,6 +18,7 @@ from modeviz.files.records.fields import (
     Ratio,
 )
 from modeviz.files.records.record import Record, tuples
+from modeviz.files.schema.axes import axes_of
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
 from modeviz.units import factor
@@ -32,9 +33,12 @@ class BodyRecord(Record, kw_only=True):
     label: str = ""
     """The name, if not given."""
     mesh: str | None = None
-    """A file of the folder: .glb, .stl, .obj or .ply."""
-    mesh_unit: str = "m"
-    """Of the mesh's coordinates."""
+    """A file of the folder: .glb, .stl, .obj, .ply or .dae."""
+    mesh_unit: str | None = None
+    """Of the mesh's coordinates; that which its file says, else m, if not given."""
+    mesh_axes: str | None = None
+    """Of the mesh, see `axes_of`; if not given those of the vehicle's file, into which a mesh that says
+    which axis is up is turned."""
     color: Annotated[tuple[int, int, int], UNITLESS] = DEFAULT_COLOR
     """sRGB, of the mesh parts that have no material."""
 
@@ -49,13 +53,15 @@ class BodyRecord(Record, kw_only=True):
         with at_key("color"):
             Material(self.color)
         with at_key("mesh_unit"):
-            factor(self.mesh_unit, "length")
-        conventions = source.conventions.with_units({"length": self.mesh_unit})
+            length = factor(self.mesh_unit, "length") if self.mesh_unit is not None else None
+        with at_key("mesh_axes"):
+            turn = axes_of(self.mesh_axes) if self.mesh_axes is not None else None
         with at_key("mesh"):
-            return tuple(
-                replace(part, vertices=conventions.positions(part.vertices))
-                for part in read_mesh(source.path(self.mesh), self.color)
-            )
+            mesh = read_mesh(source.path(self.mesh), self.color, length, turn)
+            if turn is not None:
+                return mesh
+            conventions = source.conventions.with_units({"length": "m"})
+            return tuple(replace(p, vertices=conventions.positions(p.vertices)) for p in mesh)
 
 
 class FlexibleBodyRecord(BodyRecord, kw_only=True):
