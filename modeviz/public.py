@@ -9,6 +9,8 @@ from modeviz.files import builtin_vehicle as builtin_vehicle
 from modeviz.files import read_problem as read_problem
 from modeviz.files import read_vehicle as read_vehicle
 from modeviz.files import write_vehicle as write_vehicle
+from modeviz.formats.imported import Imported as Imported
+from modeviz.formats.imported import import_component as import_component
 from modeviz.optimise.active_limits import ActiveConstraint as ActiveConstraint
 from modeviz.ride.rating import Rating as Rating
 from modeviz.scatter.tolerance import Tolerance as Tolerance
@@ -49,6 +51,7 @@ from modeviz.vehicle.loads import Roughness as Roughness
 from modeviz.vehicle.loads import Spectrum as Spectrum
 from modeviz.vehicle.loads import WheelLoad as WheelLoad
 from modeviz.vehicle.mode_damping import ModeDamping as ModeDamping
+from modeviz.vehicle.pose import Pose as Pose
 from modeviz.vehicle.problem import DesignGroup as DesignGroup
 from modeviz.vehicle.problem import FrequencyWindow as FrequencyWindow
 from modeviz.vehicle.problem import Performance as Performance

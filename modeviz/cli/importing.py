@@ -12,14 +12,14 @@ from modeviz.cli.importing_roads import RoadOptions, holds_road, import_road
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
-from modeviz.formats.attachments import Found, find_attachments
-from modeviz.formats.body import chosen_units, flexible_body, uncoupled_because
+from modeviz.formats.attachments import Found
+from modeviz.formats.body import uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
-from modeviz.formats.into_folder import add_body
-from modeviz.formats.places import FORMS, parse_place
+from modeviz.formats.imported import USUAL_PLANE, ImportSettings, import_body
+from modeviz.formats.places import FORMS
+from modeviz.formats.poses import FORMS as POSE_FORMS
 from modeviz.formats.reading import read_component
 from modeviz.formats.residuals import FORMS as RESIDUAL_FORMS
-from modeviz.formats.residuals import with_given_compliance
 from modeviz.formats.solving import USUAL_MODES, Wanted, solved
 from modeviz.report.tables import table
 from modeviz.report.truncation import import_notes
@@ -28,6 +28,9 @@ from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.residuals import estimated_residual_compliance, modal_compliance
 
 UNKNOWN = "unknown"
+
+OF_A_BODY = ("units", "name", "attach", "residual", "pose", "antisymmetric", "plane")
+"""What only a body that is written has."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +49,12 @@ class ImportOptions:
     """Places, as `parse_place` reads them."""
     residual: tuple[str, ...] = ()
     """What the modes leave out, as `with_given_compliance` reads it."""
+    pose: str | None = None
+    """Where it stands in the vehicle, as `parse_pose` reads it."""
+    antisymmetric: tuple[Path, ...] = ()
+    """The files of a half model's antisymmetric run."""
+    plane: str | None = None
+    """Where the half is cut; None: `USUAL_PLANE`."""
     modes: int | None = None
     """How many to compute where the files have matrices; None: `USUAL_MODES`."""
     up_to: float | None = None
@@ -100,31 +109,32 @@ def import_component(options: ImportOptions) -> None:
     if holds_mounts(options.files, options.output):
         import_mounts(options.mounts)
         return
-    options.check_only("a body", "units", "name", "attach", "residual", "modes", "up_to")
+    options.check_only("a body", "modes", "up_to", *OF_A_BODY)
     wanted = _wanted(options)
     component = read_component(options.files)
     for note in component.notes:
         remark(f"{component.source}: {note}")
     if options.output is None:
-        if options.attach or options.name or options.units or options.residual:
-            raise ModevizError(
-                "--attach, --name, --units and --residual are of a body that is written; say where "
-                "with --output"
-            )
+        if given := [name for name in OF_A_BODY if getattr(options, name)]:
+            raise ModevizError(f"--{given[0]} is of a body that is written; say where with --output")
         print_result(listing(solved(component, wanted)))
         return
-    name = options.name or options.files[0].stem
-    units = chosen_units(component, options.units)
-    with located("--attach"):
-        found = find_attachments(component, [parse_place(text) for text in options.attach], units)
-    component = solved(component, wanted, found, units.length)
-    body, remarks = flexible_body(component, units, name, found)
-    with located("--residual"):
-        body = with_given_compliance(body, options.residual, units)
-    vehicle = add_body(body, options.output, component.source)
-    for note in (*remarks, *import_notes(body), *vehicle.notes):
+    if options.plane and not options.antisymmetric:
+        raise ModevizError("--plane is of two halves: give the files of the other with --antisymmetric")
+    settings = ImportSettings(
+        units=options.units,
+        attach=options.attach,
+        residual=options.residual,
+        pose=options.pose,
+        antisymmetric=options.antisymmetric,
+        plane=options.plane or USUAL_PLANE,
+        wanted=wanted,
+    )
+    imported = import_body(component, options.name or options.files[0].stem, settings, options.output)
+    assert imported.vehicle
+    for note in (*imported.notes, *import_notes(imported.body), *imported.vehicle.notes):
         remark(note)
-    print_result(summary(body, found, options.output))
+    print_result(summary(imported.body, imported.attachments, options.output))
 
 
 def _wanted(options: ImportOptions) -> Wanted:
@@ -221,6 +231,20 @@ def _add_options(command: ArgumentParser) -> None:
         action="append",
         metavar="PLACE",
         help=f"where others hold on to it: {FORMS}; may be repeated",
+    )
+    command.add_argument("--pose", metavar="POSE", help=f"where it stands in the vehicle: {POSE_FORMS}")
+    command.add_argument(
+        "--antisymmetric",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help="of a half model's run with antisymmetric conditions at the plane in which it is cut; the "
+        "other files are of the symmetric run, and both become the whole",
+    )
+    command.add_argument(
+        "--plane",
+        metavar="PLANE",
+        help=f"in which a half model is cut, in the files' units (default: {USUAL_PLANE})",
     )
     command.add_argument(
         "--modes",

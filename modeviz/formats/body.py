@@ -70,10 +70,11 @@ def uncoupled_because(component: Component) -> str | None:
         )
     n_rigid = int((zeros == 0).sum())
     if n_rigid not in (FlexibleBody.N_RIGID - 1, FlexibleBody.N_RIGID):
+        half = "; of a half model, give its other run with --antisymmetric" if n_rigid == 3 else ""
         return (
             f"{n_rigid} of its modes are near zero Hz (the lowest is at {modes.frequency_hz[0]:.4g} "
             "Hz), expected the six rigid ones of a free structure: solve it without supports and "
-            "with all modes from zero up"
+            f"with all modes from zero up{half}"
         )
     return None
 

@@ -1,0 +1,163 @@
+"""A component out of another program's files as a body, in one step: what the command and Python do."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from modeviz.errors import VehicleError, located
+from modeviz.files.folder import VEHICLE_FILE
+from modeviz.files.records.vehicle import VehicleRecord
+from modeviz.files.schema.axes import axes_of
+from modeviz.files.toml_reader import read_toml
+from modeviz.formats.attachments import Found, find_attachments
+from modeviz.formats.body import chosen_units, flexible_body
+from modeviz.formats.component import Component
+from modeviz.formats.halves import Whole, join_halves, parse_plane
+from modeviz.formats.into_folder import add_body
+from modeviz.formats.places import parse_place
+from modeviz.formats.poses import parse_pose
+from modeviz.formats.reading import read_component
+from modeviz.formats.residuals import with_given_compliance
+from modeviz.formats.solving import USUAL_MODES, Wanted, solved
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.pose import Pose
+from modeviz.vehicle.vehicle import Vehicle
+
+USUAL_PLANE = "y=0"
+
+LEFT = np.array([0.0, -1.0, 0.0])
+"""In our axes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImportSettings:
+    """How a component becomes a body; texts are as the command has them."""
+
+    units: str | None = None
+    """One of `UNIT_SYSTEMS`; None: as the files say."""
+    attach: tuple[str, ...] = ()
+    """Places, as `parse_place` reads them."""
+    residual: tuple[str, ...] = ()
+    """What the modes leave out, as `with_given_compliance` reads it."""
+    pose: str | Pose | None = None
+    """Where it stands in the vehicle, as `parse_pose` reads it; None: as its coordinates say."""
+    antisymmetric: tuple[Path, ...] = ()
+    """Of a half model's antisymmetric run; the component is then that of the symmetric one."""
+    plane: str = USUAL_PLANE
+    """Where the half is cut."""
+    wanted: Wanted = field(default_factory=Wanted)
+    """The modes of matrices."""
+
+
+@dataclass(frozen=True, eq=False)
+class Imported:
+    """A body, and what there is to know of how it was made."""
+
+    body: FlexibleBody
+    attachments: tuple[Found, ...]
+    """Where they were found, in the component's coordinates."""
+    notes: tuple[str, ...]
+    vehicle: Vehicle | None = None
+    """Of the folder that it was put into."""
+
+
+def import_component(
+    *files: Path | str,
+    output: Path | str | None = None,
+    name: str | None = None,
+    units: str | None = None,
+    attach: Sequence[str] = (),
+    residual: Sequence[str] = (),
+    pose: str | Pose | None = None,
+    antisymmetric: Sequence[Path | str] = (),
+    plane: str = USUAL_PLANE,
+    n_modes: int | None = None,
+    up_to_hz: float | None = None,
+) -> Imported:
+    """Return a body made of another program's files, as `modeviz import` makes it.
+
+    Args:
+        files: of one component.
+        output: the vehicle folder to put it into, new or there; if not given, it is not written.
+        name: of the body; if not given, that of the first file.
+        units: one of "m-kg-s", "mm-t-s", "mm-kg-mN", "in-lbf-s", "ft-lbf-s"; if not given, the files'.
+        attach: where others hold on to it, such as "seat=12" or "seat=mean:12,13,14".
+        residual: what its modes leave out there, such as "seat=0.001,0,0.002", or a CSV file.
+        pose: where it stands in the vehicle.
+        antisymmetric: files of a half model's antisymmetric run; `files` are of the symmetric one.
+        plane: where the half is cut.
+        n_modes: of matrices, how many to compute.
+        up_to_hz: of matrices, up to which frequency instead.
+
+    Raises:
+        VehicleError: the files cannot be read, or make no body that can be coupled to others.
+    """
+    paths = [Path(file) for file in files]
+    if not paths:
+        raise VehicleError("found no file, expected those of a component")
+    wanted = Wanted(n_modes=USUAL_MODES if n_modes is None else n_modes, up_to_hz=up_to_hz)
+    settings = ImportSettings(
+        units=units,
+        attach=tuple(attach),
+        residual=tuple(residual),
+        pose=pose,
+        antisymmetric=tuple(map(Path, antisymmetric)),
+        plane=plane,
+        wanted=wanted,
+    )
+    folder = None if output is None else Path(output)
+    component = read_component(paths)
+    imported = import_body(component, name or paths[0].stem, settings, folder)
+    return replace(imported, notes=(*component.notes, *imported.notes))
+
+
+def import_body(
+    component: Component, name: str, settings: ImportSettings, folder: Path | None = None
+) -> Imported:
+    """Return a component that was read as a body, put into a vehicle folder if there is one.
+
+    The notes are those beyond the component's own.
+
+    Raises:
+        VehicleError: it cannot be coupled to others, or the settings do not fit to it.
+    """
+    units = chosen_units(component, settings.units)
+    axes = _axes_of(folder)
+    pose = settings.pose
+    if isinstance(pose, str):
+        with located("--pose"):
+            pose = parse_pose(pose, component, units.length, axes)
+    read, whole = component, _whole(component, settings) if settings.antisymmetric else None
+    if whole:
+        component = whole.component
+    with located("--attach"):
+        found = find_attachments(component, [parse_place(text) for text in settings.attach], units)
+    if whole:
+        left = axes.T @ LEFT if pose is None else pose.rotation.T @ axes.T @ LEFT
+        found = whole.attachments(found, left, units.length)
+    component = solved(component, settings.wanted, found, units.length)
+    body, notes = flexible_body(component, units, name, found)
+    with located("--residual"):
+        body = with_given_compliance(body, settings.residual, units)
+    if pose is not None:
+        body = pose.moved(body)
+    vehicle = add_body(body, folder, component.source) if folder else None
+    others = (note for note in component.notes if note not in read.notes)
+    return Imported(body, found, (*others, *notes), vehicle)
+
+
+def _whole(half: Component, settings: ImportSettings) -> Whole:
+    """The structure of which a component is the symmetric half."""
+    with located("--plane"):
+        plane = parse_plane(settings.plane)
+    with located("--antisymmetric"):
+        return join_halves(half, read_component(settings.antisymmetric), plane)
+
+
+def _axes_of(folder: Path | None) -> Floats:
+    """What turns the axes of a vehicle folder's file into ours; those of a new one are ours."""
+    path = folder / VEHICLE_FILE if folder else None
+    return axes_of(read_toml(path, VehicleRecord).axes) if path and path.is_file() else np.eye(3)
