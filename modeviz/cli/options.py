@@ -36,7 +36,10 @@ class VehicleOptions:
         Raises:
             VehicleError: something is wrong in a file, or there are no such rates.
         """
-        vehicle = read_vehicle(self.vehicle or builtin_vehicle())
+        return self.with_rates(read_vehicle(self.vehicle or builtin_vehicle()))
+
+    def with_rates(self, vehicle: Vehicle) -> tuple[Vehicle, Rates]:
+        """Return a vehicle with the rates chosen, as `read`; says the notes on the vehicle."""
         for note in vehicle.notes:
             remark(note)
         return vehicle, resolve_rates(vehicle, self.rates, self.settings)

@@ -7,8 +7,9 @@ from pathlib import Path
 from modeviz.cli.command import Command
 from modeviz.cli.interrupt import ended_by_interrupt
 from modeviz.cli.options import RoadOptions, VehicleOptions, add_rates, add_road
-from modeviz.cli.terminal import progress
+from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError
+from modeviz.files import builtin_vehicle
 from modeviz.formats.reading import are_results
 
 DEFAULT_PORT = 8080
@@ -59,19 +60,22 @@ def view(options: ViewOptions) -> None:
     with ended_by_interrupt():
         from modeviz.viewer.app import serve  # viser alone takes a second to import
         from modeviz.viewer.inspection.app import inspect
-        from modeviz.viewer.inspection.content import content_of_files, content_of_vehicle
+        from modeviz.viewer.inspection.sources import ResultFiles, VehicleFolder, finished_vehicle
         from modeviz.viewer.page.tokens import chosen_token
 
     token = chosen_token(options.token, options.token_file, options.has_token)
     door = (options.host, options.port, token, options.dark)
     if are_results(options.what):
         options.check_no_vehicle()
-        inspect(content_of_files(options.what), *door, options.public_names)
+        inspect(ResultFiles(options.what), *door, options.public_names, remark)
         return
-    vehicle, start = options.of_folder().read()
-    if not vehicle.all_connections:
-        inspect(content_of_vehicle(vehicle), *door, options.public_names)
+    options = options.of_folder()
+    vehicle = finished_vehicle(options.vehicle or builtin_vehicle())
+    if vehicle is None:
+        assert options.vehicle is not None
+        inspect(VehicleFolder(options.vehicle), *door, options.public_names, remark)
         return
+    vehicle, start = options.with_rates(vehicle)
     vehicle, chosen = options.shown(vehicle)
     serve(vehicle, start, chosen, *door, progress("preparing"), options.public_names)
 

@@ -6,6 +6,7 @@ import re
 import stat
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from difflib import get_close_matches
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,6 +20,9 @@ LARGEST_TEXT = 2_000_000
 
 LARGEST_TABLE = 20_000_000
 """Bytes of comma-separated text."""
+
+_confines: ContextVar[Path | None] = ContextVar("confines", default=None)
+"""The folder outside of which nothing is read."""
 
 WESTERN = "cp1252"
 """In which spreadsheets write text that is not UTF-8."""
@@ -40,8 +44,21 @@ def read_bytes(path: Path, most: int) -> bytes:
 
 
 @contextmanager
+def confined_to(folder: Path) -> Iterator[None]:
+    """While this lasts, no file outside a folder is read here: what is in it may be a stranger's."""
+    before = _confines.set(folder.resolve())
+    try:
+        yield
+    finally:
+        _confines.reset(before)
+
+
+@contextmanager
 def opened(path: Path, most: int) -> Iterator[BinaryIO]:
     """A file to be read, see `read_bytes`."""
+    confines = _confines.get()
+    if confines is not None and not path.resolve().is_relative_to(confines):
+        raise VehicleError(f"{path.name}: is in another folder, where nothing is read for a page")
     try:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode):  # opening a pipe would wait for ever

@@ -23,6 +23,9 @@ READERS: Mapping[str, Reader] = {
 }
 """By the ending of a file's name."""
 
+ENDINGS = (*READERS, *MATRICES)
+"""Of all files that are read."""
+
 
 def read_component(paths: Sequence[Path]) -> Component:
     """Return what files of one structure have of it, such as its geometry and its modes.
@@ -62,14 +65,16 @@ def _read_others(paths: Sequence[Path]) -> Component:
 
 def are_results(paths: Sequence[Path]) -> bool:
     """Return whether paths are named as files that can be read here, all of them and one at least."""
-    known = {*READERS, *MATRICES}
-    named = [path.suffix.lower() in known and not path.is_dir() for path in paths]
-    return bool(named) and all(named)
+    return bool(paths) and all(is_read(path) and not path.is_dir() for path in paths)
+
+
+def is_read(path: Path) -> bool:
+    """Return whether a file is named as one of a format that is read."""
+    return path.suffix.lower() in ENDINGS
 
 
 def _reader(path: Path) -> Reader:
     suffix = path.suffix.lower()
     if suffix not in READERS:
-        known = (*READERS, *MATRICES)
-        raise VehicleError(f"{path}: found {quoted(suffix)}, expected one of {', '.join(known)}")
+        raise VehicleError(f"{path}: found {quoted(suffix)}, expected one of {', '.join(ENDINGS)}")
     return READERS[suffix]

@@ -1,14 +1,22 @@
 """The page of bodies in a browser."""
 
+import base64
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
+from free_network import MASSES
 from looked_at import heaving_and_twisting, plate
+from network_files import network_unv
 from pages import wait_for
 
+from modeviz.files import read_vehicle
 from modeviz.shapes.motion import DRAWN_FRACTION
 from modeviz.viewer.inspection.app import InspectionApp
+from modeviz.viewer.inspection.sources import VehicleFolder
 from modeviz.viewer.inspection.state import Content
 from modeviz.viewer.inspection.subject import subject_of_component
+from modeviz.viewer.page.server import open_server
 
 SHAPE = """
 (() => {
@@ -22,15 +30,28 @@ SHAPE = """
 """
 
 
+@dataclass(frozen=True)
+class Given:
+    """What there is to look at, without files."""
+
+    content: Content
+    folder: None = None
+
+    def read(self):
+        return self.content
+
+
 @pytest.fixture(scope="module")
 def app(server):
     subjects = [
         subject_of_component(plate(heaving_and_twisting(kind)), name, None)
         for name, kind in (("computed", float), ("measured", complex))
     ]
-    app = InspectionApp(server, Content("plates", tuple(subjects), ("Nothing holds them.",)))
+    source = Given(Content("plates", tuple(subjects), ("Nothing holds them.",)))
+    app = InspectionApp(server, source)
     server.scene.configure_environment_map(None)
-    return app
+    yield app
+    app.end()
 
 
 @pytest.fixture(scope="module")
@@ -65,3 +86,72 @@ def test_a_measured_body_moves_in_quadrature(page, app):
     wait_for(page, "document.querySelector('.mv .title').innerText.startsWith('Measured')")
     assert not app.scene.driver.is_real
     assert page.get_by_text("Complex mode 2", exact=True).is_visible()
+
+
+DROP = """([names, contents]) => {
+  const carrier = new DataTransfer();
+  names.forEach((name, i) => {
+    const bytes = Uint8Array.from(atob(contents[i]), (letter) => letter.charCodeAt(0));
+    carrier.items.add(new File([bytes], name));
+  });
+  const event = { dataTransfer: carrier, bubbles: true, cancelable: true };
+  const canvas = document.querySelector("canvas");
+  return ["dragover", "drop"].map((kind) => !canvas.dispatchEvent(new DragEvent(kind, event)));
+}"""
+
+
+def drop(page, files):
+    contents = [base64.b64encode(content.encode()).decode() for content in files.values()]
+    assert page.evaluate(DROP, [[*files], contents]) == [True, True]  # or the browser would open them
+
+
+@pytest.fixture
+def new_vehicle(tmp_path, open_page):
+    """An empty folder's page."""
+    server = open_server(port=0)
+    app = InspectionApp(server, VehicleFolder(tmp_path))
+    server.scene.configure_environment_map(None)
+    page = open_page(server, (1100, 800))
+    yield tmp_path, page
+    page.close()
+    app.end()
+    server.stop()
+
+
+def test_dropped_files_become_a_body_of_the_vehicle(new_vehicle):
+    folder, page = new_vehicle
+    geometry, modes = network_unv(n_modes=0), network_unv().replace("2411", "9999", 1)
+    drop(page, {"shape.unv": geometry, "modes.unv": modes})
+    page.get_by_text("shape.unv, modes.unv").wait_for()
+    wait_for(page, "document.querySelector('.mv .title').innerText.startsWith('Shape')")
+    page.get_by_role("button", name="Put it into the vehicle").click()
+    page.get_by_text("the file doesn't say its units").wait_for()
+    assert not any(folder.iterdir())
+
+    page.get_by_role("combobox", name="Units").click()
+    page.get_by_role("option", name="mm-t-s").click()
+    page.get_by_text("Units: mm-t-s.").wait_for(state="attached")
+    page.get_by_text("Attachments", exact=True).last.locator(
+        "xpath=ancestor::*[.//input][1]//input"
+    ).fill("left=11; right=12")
+    page.wait_for_timeout(1000)
+    page.get_by_role("button", name="Put it into the vehicle").click()
+    page.get_by_text("shape is in the vehicle").wait_for()
+    (body,) = read_vehicle(folder).bodies
+    assert [attachment.name for attachment in body.attachments] == ["left", "right"]
+    assert body.mass == pytest.approx(MASSES.sum() * 1000)
+    assert page.get_by_text("Nothing holds its bodies together").is_visible()
+
+
+def test_files_that_make_no_body_say_why_on_the_page(new_vehicle):
+    folder, page = new_vehicle
+    drop(page, {"held.unv": network_unv(first=7)})
+    page.get_by_text("held.unv", exact=True).wait_for()
+    page.get_by_role("combobox", name="Units").click()
+    page.get_by_role("option", name="mm-t-s").click()
+    page.wait_for_timeout(500)
+    page.get_by_role("button", name="Put it into the vehicle").click()
+    page.locator(".bad").get_by_text("expected the six rigid ones of a free structure").wait_for()
+    assert not any(folder.iterdir())
+    page.get_by_role("button", name="Other files").click()
+    page.get_by_text("Drop files here").wait_for()

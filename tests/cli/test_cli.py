@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
+from modeviz.cli.export import EXPORT
 from modeviz.cli.importing import IMPORT
 from modeviz.cli.parser import COMMANDS, parse
 from modeviz.cli.render import RENDER
@@ -209,6 +210,7 @@ def test_a_wrong_option_is_status_2_too(capsys):
 NEEDED = {
     RENDER.name: (["--output", "x.png"], {"output": Path("x.png")}),
     IMPORT.name: (["x.unv"], {"files": (Path("x.unv"),)}),
+    EXPORT.name: (["x.csv"], {"files": (Path("x.csv"),)}),
 }
 """What a command cannot do without, as it is typed and as an option."""
 

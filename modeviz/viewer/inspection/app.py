@@ -1,14 +1,20 @@
 """The page of bodies as a whole."""
 
 import threading
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import viser
 
+from modeviz.formats.component import UNIT_SYSTEMS, Component
+from modeviz.viewer.inspection.import_panel import TAB, ImportPanel
 from modeviz.viewer.inspection.panels import LookPanel, MissingPanel, ModesPanel
 from modeviz.viewer.inspection.scene import InspectionScene
+from modeviz.viewer.inspection.sources import Source
 from modeviz.viewer.inspection.state import Content, Inspection, State
+from modeviz.viewer.inspection.subject import subject_of_component
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
@@ -39,15 +45,24 @@ class Named:
 class InspectionApp:
     """A server with one page of bodies; everybody who opens it sees the same."""
 
-    def __init__(self, server: Server, content: Content, dark: bool = False) -> None:
+    def __init__(
+        self,
+        server: Server,
+        source: Source,
+        dark: bool = False,
+    ) -> None:
         """Builds the page and shows what there is.
 
         Args:
             server: an open one, see `page.server.open_server`.
-            content: what there is to look at.
+            source: of what is looked at.
             dark: whether the page is dark.
+
+        Raises:
+            VehicleError: it cannot be read.
         """
         self.server: Server = server
+        self._source, self._content = source, source.read()
         gui = server.gui
         self._title = Title(server)
         for script, *arguments in (
@@ -59,13 +74,22 @@ class InspectionApp:
         gui.configure_theme(
             dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
         )
-        self.inspection: Inspection = Inspection(content, self._show)
+        self.inspection: Inspection = Inspection(self._content, self._show)
         self.scene: InspectionScene = InspectionScene(server, dark)
         self._hotkeys = Hotkeys(gui)
-        self._lay_out()
+        self._lay_out(source.folder)
         self._show(self.inspection.state)
 
-    def _lay_out(self) -> None:
+    @property
+    def content(self) -> Content:
+        """What was there when it was last read."""
+        return self._content
+
+    def end(self) -> None:
+        """Forgets what pages have sent."""
+        self._import.close()
+
+    def _lay_out(self, folder: Path | None) -> None:
         gui, inspection = self.server.gui, self.inspection
         gui.main_panel.dock_left()
         tabs = gui.add_tab_group()
@@ -73,6 +97,8 @@ class InspectionApp:
             self._modes = ModesPanel(gui, inspection)
         with tabs.add_tab("View", viser.Icon.EYE):
             self._look = LookPanel(gui, inspection, self.scene.look)
+        with tabs.add_tab(TAB, viser.Icon.PACKAGE_IMPORT):
+            self._import = ImportPanel(self.server, folder, self._look_at, self._added)
         self._missing = MissingPanel(gui)
         card = gui.add_panel()
         with card.add_tab("Motion", viser.Icon.PLAYER_PLAY):
@@ -83,14 +109,33 @@ class InspectionApp:
         self._hotkeys.add("Next mode", "N", lambda _: inspection.step(1))
         self._hotkeys.add("Mode before", "P", lambda _: inspection.step(-1))
 
+    def _look_at(self, component: Component, name: str, units: str | None) -> None:
+        """Shows a component that is not in the vehicle beside what is."""
+        taken = {subject.name for subject in self._content.subjects}
+        chosen = component.units or UNIT_SYSTEMS.get(units or "")
+        subject = subject_of_component(component, f"{name} (new)" if name in taken else name, chosen)
+        subjects = (*self._content.subjects, subject)
+        self.inspection.replace_content(replace(self._content, subjects=subjects), subject.name)
+
+    def _added(self, name: str) -> None:
+        """Shows a body that has been put into the vehicle."""
+        self._content = self._source.read()
+        self.inspection.replace_content(self._content, name)
+
     def _show(self, state: State) -> None:
         with self.server.atomic():
-            self._title.show(state.content.name, state.subject)
+            self._title.show(state.content.name, state.subject or "no bodies")
             self._modes.show(state)
             self._look.show()
             self._missing.show(state.content.missing)
-            self._animation.show(_named(state), MOTION if state.coloring != "bodies" else None)
+            self._animation.show(
+                _named(state), MOTION if state.coloring != "bodies" and _moves(state) else None
+            )
         self.scene.show(state)
+
+
+def _moves(state: State) -> bool:
+    return state.moving is not None and bool(state.moving.modes)
 
 
 def _named(state: State) -> Named:
@@ -102,18 +147,34 @@ def _named(state: State) -> Named:
 
 
 def inspect(
-    content: Content,
+    source: Source,
     host: str,
     port: int,
     token: str | None,
     dark: bool,
-    public_names: Sequence[str] = (),
+    public_names: Sequence[str],
+    tell: Callable[[str], None],
 ) -> None:
-    """Shows bodies until interrupted; arguments and errors as `viewer.app.serve`."""
-    server = open_server(host, port, token, f"{content.name} · modeviz", public_names)
-    try:
-        InspectionApp(server, content, dark)
-        print(f"{content.name} is at {server.link}  (Ctrl+C ends)", flush=True)
+    """Shows bodies until interrupted.
+
+    Args:
+        source: of the bodies.
+        host: address to listen on.
+        port: to listen on.
+        token: asked of every visitor, if any.
+        dark: whether the page is dark.
+        public_names: under which a proxy makes the page known.
+        tell: told what cannot be computed yet, a sentence at a time.
+
+    Raises:
+        ModevizError: they cannot be read, the port is in use, or the address needs a token.
+    """
+    with ExitStack() as ending:
+        server = open_server(host, port, token, "modeviz", public_names)
+        ending.callback(server.stop)
+        app = InspectionApp(server, source, dark)
+        ending.callback(app.end)
+        for sentence in app.content.missing:
+            tell(sentence)
+        print(f"{app.content.name} is at {server.link}  (Ctrl+C ends)", flush=True)
         threading.Event().wait()
-    finally:
-        server.stop()

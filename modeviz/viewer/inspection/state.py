@@ -90,3 +90,11 @@ class Inspection:
             moving = self.state.moving
             if moving is not None and moving.modes:
                 self.change(mode=(self.state.mode + by) % len(moving.modes))
+
+    def replace_content(self, content: Content, subject: str) -> None:
+        """Shows something else, and of that one subject."""
+        with self._lock:
+            found = first_state(content)
+            self.state = replace(self.state, content=content, subject=found.subject, mode=found.mode)
+            self.look_at(subject)
+            self._show(self.state)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
 import viser
+from viser.infra import ClientId
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
@@ -72,6 +73,8 @@ class PageConnection(ServerConnection):
         self._places: list[Places] = []
         self._messages = Allowance(MESSAGES_PER_S, MOST_MESSAGES)
         self._bytes = Allowance(BYTES_PER_S, MOST_BYTES)
+        self._n_expected = 0
+        """Bytes of files that may come beyond the fair number."""
         self._hurried_since: float | None = None
         self._n_wrong = 0
         self._is_heard = self._is_ending = False
@@ -118,6 +121,10 @@ class PageConnection(ServerConnection):
         """Lets the page send messages that are as large as what it is asked for, or no longer."""
         self._is_asked = n_bytes is not None
         self.protocol.max_message_size = max(n_bytes or 0, LARGEST_MESSAGE)
+
+    def expect(self, n_bytes: int) -> None:
+        """Lets the page send so much more: a file of which it told, and which is taken."""
+        self._n_expected += n_bytes
 
     async def wait_to_open(self) -> bool:
         """Waits until another page may be sent all there is; whether that is soon enough."""
@@ -166,7 +173,9 @@ class PageConnection(ServerConnection):
 
     async def _turn(self, n_bytes: int) -> None:
         """Waits until this page may be heard, as it has said so much."""
-        if not self._is_asked and self._bytes.take(n_bytes):
+        expected = min(n_bytes, self._n_expected)
+        self._n_expected -= expected
+        if not self._is_asked and self._bytes.take(n_bytes - expected):
             await self._end(f"sent more than {MOST_BYTES / 1e6:.0f} MB at once")
         wait = self._messages.take()
         if self._messages.is_plenty:
@@ -198,9 +207,8 @@ class PageConnection(ServerConnection):
 @contextmanager
 def asked(client: viser.ClientHandle, n_bytes: int) -> Iterator[None]:
     """While this lasts, a page may send as much at once as what it is asked for."""
-    connections = client._viser_server._websock_server._live_connections
-    connection = connections.get(client.client_id)
-    if not isinstance(connection, PageConnection):
+    connection = _connection(client._viser_server, client.client_id)
+    if connection is None:
         yield
         return
     connection.ask(n_bytes)
@@ -208,3 +216,15 @@ def asked(client: viser.ClientHandle, n_bytes: int) -> Iterator[None]:
         yield
     finally:
         connection.ask(None)
+
+
+def expect(server: viser.ViserServer, client_id: ClientId, n_bytes: int) -> None:
+    """Lets a page send a file of so many bytes beyond what it may send otherwise."""
+    connection = _connection(server, client_id)
+    if connection is not None:
+        connection.expect(n_bytes)
+
+
+def _connection(server: viser.ViserServer, client_id: int) -> PageConnection | None:
+    connection = server._websock_server._live_connections.get(client_id)
+    return connection if isinstance(connection, PageConnection) else None

@@ -14,6 +14,7 @@ import viser
 from viser import _messages
 from viser.infra import ClientId, WebsockClientConnection
 
+from modeviz.viewer.page.connection import expect
 from modeviz.viewer.page.decoding import LONGEST_TEXT
 from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.page.uploads import UPLOADS, is_upload_allowed, refuse_upload
@@ -49,6 +50,8 @@ def _gate(
         if isinstance(message, UPLOADS):
             if connection is None:  # only shared widgets take files
                 if is_upload_allowed(server, client_id, message):
+                    if isinstance(message, _messages.FileTransferStartUpload):
+                        expect(server, client_id, message.size_bytes)
                     await handle(client_id, message)
                 else:
                     refuse_upload(server, client_id, message)

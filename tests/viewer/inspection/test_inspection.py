@@ -57,3 +57,9 @@ def test_nothing_at_all_is_a_page_too(shown):
     empty = Inspection(Content("empty", ()), shown.append)
     empty.step(1)
     assert empty.state.moving is None
+
+
+def test_other_content_is_shown_with_the_body_that_is_asked_for(inspection):
+    inspection.replace_content(Content("new", (subject("c"), subject("d"))), "d")
+    assert inspection.state.content.name == "new"
+    assert inspection.state.subject == "d"

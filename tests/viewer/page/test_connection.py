@@ -28,6 +28,7 @@ from modeviz.viewer.page import server as doors
 from modeviz.viewer.page.connection import MOST_BYTES, MOST_PAGES_OF_ONE, MOST_WRONG
 from modeviz.viewer.page.decoding import PART
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.page.uploads import take_files_of
 
 
 @contextmanager
@@ -152,6 +153,24 @@ def test_a_page_that_sends_megabytes_in_small_messages_is_closed(server, capfd, 
                 assert socket.ping(ack_on_close=True).wait(PATIENCE_S)
         assert closed(socket) == (1008, "This page sent more than 8 MB at once.")
     assert next_lines(capfd) == ["modeviz: 127.0.0.1 sent more than 8 MB at once: its page is closed"]
+
+
+def test_a_page_may_send_a_file_that_is_taken_however_large(server, monkeypatch):
+    monkeypatch.setattr(connection, "BYTES_PER_S", 1.0)
+    button = server.gui.add_upload_button("file")
+    size = int(2 * MOST_BYTES)
+    take_files_of(button, size)
+    parts = -(-size // PART)
+    told = {"source_component_uuid": button._impl.uuid, "transfer_uuid": "a file"}
+    begin = {"filename": "a.op2", "mime_type": "", "part_count": parts, "size_bytes": size}
+    with page(server) as socket:
+        socket.send(encoded({"type": "FileTransferStartUpload", **told, **begin}))
+        for index in range(parts):
+            content = bytes(min(PART, size - index * PART))
+            part = {"part_index": index, "content": content}
+            socket.send(encoded({"type": "FileTransferPart", **told, **part}))
+            assert socket.ping(ack_on_close=True).wait(PATIENCE_S)
+        wait_until(lambda: len(button.value.content) == size)
 
 
 def test_a_page_that_hurries_on_and_on_is_closed(server, slider, monkeypatch):

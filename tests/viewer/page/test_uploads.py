@@ -5,7 +5,13 @@ import viser
 from viser import _messages
 
 from modeviz.viewer.page.decoding import PART
-from modeviz.viewer.page.uploads import LARGEST_FILE, MOST_AT_ONCE, is_upload_allowed
+from modeviz.viewer.page.uploads import (
+    LARGEST_FILE,
+    LARGEST_IN_ALL,
+    MOST_AT_ONCE,
+    is_upload_allowed,
+    take_files_of,
+)
 
 
 def on_the_way(client_id=1, total=100):
@@ -80,3 +86,25 @@ def test_a_page_may_send_few_files_at_once():
     full = {f"file {i}": on_the_way() for i in range(MOST_AT_ONCE)}
     assert not is_upload_allowed(server(**full), 1, start())
     assert is_upload_allowed(server(**full), 2, start())
+
+
+def large_button_server(most, **transfers):
+    large = server(**transfers)
+    take_files_of(large.gui._gui_input_handle_from_uuid["button"], most)
+    return large
+
+
+def test_a_button_may_take_larger_files():
+    most = 10 * LARGEST_FILE
+    parts = -(-most // PART)
+    assert is_upload_allowed(large_button_server(most), 1, start(most, parts))
+    assert not is_upload_allowed(server(), 1, start(most, parts))
+    assert not is_upload_allowed(large_button_server(most), 1, start(most + PART, parts + 1))
+
+
+def test_what_all_pages_send_at_once_is_bounded():
+    most = LARGEST_IN_ALL
+    parts = -(-most // PART)
+    other = {"file": on_the_way(client_id=2, total=1)}
+    assert is_upload_allowed(large_button_server(most), 1, start(most, parts))
+    assert not is_upload_allowed(large_button_server(most, **other), 1, start(most, parts))

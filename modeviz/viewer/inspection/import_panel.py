@@ -1,0 +1,175 @@
+"""Files of other programs dropped into the page: looked at, then put into the vehicle folder."""
+
+import io
+import threading
+import zipfile
+from collections.abc import Callable
+from html import escape
+from pathlib import Path, PurePath
+from tempfile import TemporaryDirectory
+
+import viser
+
+from modeviz.errors import ModevizError
+from modeviz.formats.attachments import find_attachments
+from modeviz.formats.body import chosen_units, flexible_body
+from modeviz.formats.component import UNIT_SYSTEMS, Component
+from modeviz.formats.into_folder import add_body
+from modeviz.formats.places import parse_place
+from modeviz.formats.reading import ENDINGS
+from modeviz.viewer.inspection.received import Received
+from modeviz.viewer.page import scripts
+from modeviz.viewer.page.handles import assign, name_of
+from modeviz.viewer.page.html import block, heading, span
+from modeviz.viewer.page.server import Server
+from modeviz.viewer.page.uploads import take_files_of
+
+TAB = "Import"
+LARGEST_FILE = 200_000_000
+"""Bytes of a file from a page; larger ones are for `modeviz import`."""
+
+AS_THE_FILES_SAY = "As the files say"
+
+
+class ImportPanel:
+    """Takes files, asks for what they don't say, and puts their component into a vehicle folder."""
+
+    def __init__(
+        self,
+        server: Server,
+        folder: Path | None,
+        look_at: Callable[[Component, str, str | None], None],
+        added: Callable[[str], None],
+    ) -> None:
+        """Builds the controls.
+
+        Args:
+            server: of the pages.
+            folder: of the vehicle; None: a new one is downloaded.
+            look_at: shows a component that has come, under a name, in units if they are chosen.
+            added: told the name of a body that has been put into the folder.
+        """
+        gui = server.gui
+        self._server, self._folder = server, folder
+        self._look_at, self._added = look_at, added
+        self._received = Received()
+        self._lock = threading.Lock()
+        self._upload = gui.add_upload_button(
+            "Choose a file…",
+            icon=viser.Icon.UPLOAD,
+            hint="Or drop files anywhere on the page; a component may be in several",
+        )
+        take_files_of(self._upload, LARGEST_FILE)
+        self._upload.on_upload(self._take)
+        self._content = gui.add_html("")
+        self._units = gui.add_dropdown(
+            "Units", (AS_THE_FILES_SAY, *UNIT_SYSTEMS), hint="Of the files; they are never guessed"
+        )
+        self._name = gui.add_text("Name", "", hint="Of the body in the vehicle")
+        self._attach = gui.add_text(
+            "Attachments",
+            "",
+            hint="Where others hold on to it, with semicolons between: a node's number, NAME=NODE, or "
+            "NAME=X,Y,Z in the files' units for the nearest node",
+        )
+        where = "Put it into the vehicle" if folder else "Download as a vehicle…"
+        add = gui.add_button(where, icon=viser.Icon.PACKAGE_IMPORT, hint=self._destination())
+        add.on_click(self._add)
+        forget = gui.add_button(
+            "Other files", icon=viser.Icon.X, color="gray", hint="Forgets the files that have come"
+        )
+        forget.on_click(lambda _: self._forget())
+        self._units.on_update(self._redraw)
+        scripts.run(gui, "inspection/drop.js", name_of(self._upload), TAB)
+        self._say(span(f"Drop files here: {', '.join(ENDINGS)}", "dim"))
+
+    def close(self) -> None:
+        """Deletes what has come."""
+        self._received.close()
+
+    def _destination(self) -> str:
+        if self._folder is None:
+            return "As a folder in a .zip file, for modeviz view"
+        return f"Writes into {self._folder}"
+
+    def _take(self, event: viser.GuiEvent) -> None:
+        """Keeps a file that has come, and shows what there is now."""
+        file = self._upload.value
+        with self._lock:
+            try:
+                self._received.add(file.name, file.content)
+                if not self._name.value:
+                    self._name.value = PurePath(self._received.names[0]).stem
+                self._show()
+            except ModevizError as error:
+                self._say(self._listed(), f'<div class="bad">{escape(str(error))}</div>')
+
+    def _redraw(self, event: viser.GuiEvent) -> None:
+        if event.client is not None and self._received.names:
+            with self._lock:
+                try:
+                    self._show()
+                except ModevizError as error:
+                    self._say(self._listed(), f'<div class="bad">{escape(str(error))}</div>')
+
+    def _show(self) -> None:
+        component = self._received.read()
+        self._look_at(component, self._name.value, self._chosen_units())
+        self._say(self._listed())
+
+    def _add(self, event: viser.GuiEvent) -> None:
+        """Puts the component into the folder, or into one that the page downloads."""
+        client = event.client
+        if client is None:
+            return
+        with self._lock:
+            try:
+                name = self._put(client)
+            except ModevizError as error:
+                self._say(self._listed(), f'<div class="bad">{escape(str(error))}</div>')
+                return
+            self._clear()
+            self._say(f"<div>{escape(name)} is in the vehicle. Drop the files of another body.</div>")
+
+    def _put(self, client: viser.ClientHandle) -> str:
+        component = self._received.read()
+        units = chosen_units(component, self._chosen_units())
+        texts = [text.strip() for text in self._attach.value.split(";")]
+        found = find_attachments(component, [parse_place(text) for text in texts if text], units)
+        body, _ = flexible_body(component, units, self._name.value.strip() or "body", found)
+        if self._folder is not None:
+            add_body(body, self._folder, component.source)
+            self._added(body.name)
+            return body.name
+        with TemporaryDirectory(prefix="modeviz-") as home:
+            folder = Path(home, "vehicle")
+            add_body(body, folder, component.source)
+            client.send_file_download("vehicle.zip", _zipped(folder), save_immediately=True)
+        return body.name
+
+    def _chosen_units(self) -> str | None:
+        return None if self._units.value == AS_THE_FILES_SAY else self._units.value
+
+    def _forget(self) -> None:
+        with self._lock:
+            self._clear()
+            self._say(span(f"Drop files here: {', '.join(ENDINGS)}", "dim"))
+
+    def _clear(self) -> None:
+        self._received.clear()
+        self._name.value = self._attach.value = ""
+
+    def _listed(self) -> str:
+        return heading("Files", escape(", ".join(self._received.names)))
+
+    def _say(self, *content: str) -> None:
+        assign(self._content, content=block(*content))
+
+
+def _zipped(folder: Path) -> bytes:
+    """A folder as a .zip file."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as file:
+        for path in sorted(folder.rglob("*")):
+            file.write(path, Path(folder.name, path.relative_to(folder)))
+    return content.getvalue()

@@ -1,0 +1,87 @@
+"""Files that a page sends are kept apart from everything else on this machine."""
+
+from contextlib import suppress
+
+import pytest
+from network_files import network_unv
+
+from modeviz.errors import VehicleError
+from modeviz.viewer.inspection import received as module
+from modeviz.viewer.inspection.received import Received
+
+
+@pytest.fixture
+def received():
+    received = Received()
+    yield received
+    received.close()
+
+
+DECK = "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nPLOTEL,1,1,2\n{}\nENDDATA\n"
+
+
+def test_what_came_is_read(received):
+    received.add("network.unv", network_unv().encode())
+    assert received.read().n_modes == 24
+    assert received.names == ("network.unv",)
+
+
+def test_a_file_that_another_includes_is_found_among_what_came(received):
+    received.add("more.inc", b"GRID,3,,0.,1.,0.\n")
+    received.add("deck.bdf", DECK.format("INCLUDE 'more.inc'").encode())
+    assert received.read().node_ids.tolist() == [1, 2, 3]
+
+
+@pytest.mark.parametrize("way", ["{outside}", "../{name}", "link/secret.inc"])
+def test_nothing_else_on_this_machine_is_read(received, tmp_path, way):
+    secret = tmp_path / "secret.inc"
+    secret.write_text("GRID,99,,7.,7.,7.\n", encoding="utf-8")
+    name = f"{tmp_path.parent.name}/{tmp_path.name}/secret.inc"
+    included = way.format(outside=secret, name=name)
+    received.add("deck.bdf", DECK.format(f"INCLUDE '{included}'").encode())
+    with suppress(VehicleError):
+        assert received.read().node_ids.tolist() == [1, 2]
+
+
+@pytest.mark.parametrize("name", ["../../up.unv", "/there/up.unv", "..\\up.unv"])
+def test_a_name_with_a_way_is_only_a_name(received, name):
+    received.add(name, network_unv().encode())
+    assert received.names == ("up.unv",)
+
+
+def test_messages_do_not_say_where_files_are_kept(received):
+    received.add("broken.unv", b"nothing")
+    with pytest.raises(VehicleError, match=r"^broken\.unv: "):
+        received.read()
+
+
+@pytest.mark.parametrize("name", ["", "..", "/"])
+def test_a_file_has_a_name(received, name):
+    with pytest.raises(VehicleError, match="without a name"):
+        received.add(name, b"")
+
+
+def test_files_and_bytes_are_bounded(received, monkeypatch):
+    monkeypatch.setattr(module, "MOST_FILES", 2)
+    monkeypatch.setattr(module, "MOST_BYTES", 10)
+    received.add("a.unv", b"12345")
+    received.add("b.unv", b"12345")
+    received.add("b.unv", b"54321")
+    with pytest.raises(VehicleError, match=r"c\.unv: is one more than 2 files"):
+        received.add("c.unv", b"")
+    with pytest.raises(VehicleError, match=r"b\.unv: with the others more than"):
+        received.add("b.unv", b"123456")
+
+
+def test_without_a_file_of_a_format_it_says_which_there_are(received):
+    received.add("notes.md", b"hello")
+    with pytest.raises(VehicleError, match=r"no file to read yet, expected one of .*\.op2"):
+        received.read()
+
+
+def test_all_are_deleted_in_the_end():
+    received = Received()
+    received.add("a.unv", b"1")
+    folder = received._folder.name
+    received.close()
+    assert not module.Path(folder).exists()
