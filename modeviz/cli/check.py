@@ -2,7 +2,7 @@
 
 from argparse import ArgumentParser
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from modeviz.cli.command import Command
@@ -12,6 +12,7 @@ from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
 from modeviz.files.survey import Problem, Survey, survey
 from modeviz.report.check import Summary, summarised, summary_record, summary_text
+from modeviz.report.truncation import truncation_doubts
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +32,8 @@ def check(options: CheckOptions) -> None:
     check_printable()
     folder = options.vehicle or builtin_vehicle()
     found = survey(folder)
+    if found.vehicle and not found.problems:
+        found = replace(found, doubts=(*found.doubts, *truncation_doubts(found.vehicle)))
     summary = summarised(found.vehicle) if found.vehicle else None
     print_result(
         _record(folder, found, summary) if options.json else "\n".join(_lines(folder, found, summary))

@@ -1,7 +1,7 @@
 """Words for how much too stiff bodies are that lack residual vectors, and which connections feel it."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.component_trust import component_trust
@@ -34,10 +34,7 @@ def truncation_doubts(vehicle: Vehicle) -> Iterator[str]:
         return
     for body in gap.bodies:
         if stiff := [s for s in stiff_connections(vehicle) if s.body == body]:
-            yield (
-                f"body {quoted(body)} lacks residual vectors where these hold it, which are stiffer "
-                f"than a tenth of it: {listed(map(_stiff_words, stiff))}"
-            )
+            yield f"body {quoted(body)} lacks residual vectors where {_stiff_words(stiff)}"
     if gap.change > SMALL:
         yield f"{_gap_words(gap)} are {_too_high(gap)}; {REMEDY}"
 
@@ -81,10 +78,22 @@ def _too_high(gap: TruncationGap) -> str:
     return f"too high by up to about {100 * gap.change:.2g} % (at {gap.at_hz:.3g} Hz; {sure})"
 
 
-def _stiff_words(stiff: StiffConnection) -> str:
-    per_mm = factor("N/mm", "stiffness")
-    own = "rigid" if math.isinf(stiff.stiffness) else f"{stiff.stiffness / per_mm:.3g}"
+def _stiff_words(every: Sequence[StiffConnection]) -> str:
+    """Which connections are stiff in which directions, and the stiffest of them."""
+    directions: dict[str, str] = {}
+    for stiff in every:
+        directions[stiff.connection] = directions.get(stiff.connection, "") + stiff.direction
+    names = listed(f"{quoted(name)} ({', '.join(along)})" for name, along in directions.items())
+    most = max(every, key=lambda stiff: stiff.stiffness / stiff.local_stiffness)
+    own = "is rigid" if math.isinf(most.stiffness) else f"has {_rate(most.stiffness)} N/mm"
     return (
-        f"{quoted(stiff.connection)} along {stiff.direction} ({own} of "
-        f"{stiff.local_stiffness / per_mm:.3g} N/mm at {quoted(stiff.attachment)})"
+        f"connections are stiffer than a tenth of it: {names}; the most, {quoted(most.connection)} "
+        f"along {most.direction}, {own}, and the body about {_rate(most.local_stiffness)} N/mm at "
+        f"{quoted(most.attachment)}"
     )
+
+
+def _rate(stiffness: float) -> str:
+    """N/mm, without powers of ten."""
+    value = stiffness / factor("N/mm", "stiffness")
+    return f"{value:,.0f}" if value >= 1000 else f"{value:.3g}"

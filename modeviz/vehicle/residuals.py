@@ -11,8 +11,9 @@ from modeviz.vehicle.bodies import Attachment, FlexibleBody
 ABOVE = 30.0
 """How many times as high as its highest mode the residual coordinates of a body ring."""
 
-COVERED = 0.25
-"""Residual vectors that add this part of what is estimated are taken to add all there is."""
+COVERED = 0.02
+"""Residual vectors that add this part of what is estimated, which may be many times too much, are taken
+to add all there is: by so little do those of other directions move a place."""
 
 FEW = 12
 """Of fewer elastic modes an estimate is no more than an order of magnitude."""
@@ -36,7 +37,7 @@ def estimated_residual_compliance(body: FlexibleBody) -> Floats:
     dynamic response of complex vibrators", 1980; sheets have a constant density of modes in bending).
     Of bodies of sheet metal with `FEW` modes or more, across their sheets, it is mostly within a factor
     of two. It may be several times off in the plane of sheets, in solids, and where symmetry lets few
-    modes move an attachment. Zero in directions in which residual vectors add about as much already.
+    modes move an attachment. Zero in directions in which residual vectors of the body act.
     """
     elastic = slice(body.n_rigid, body.n_normal)
     n_elastic = body.n_normal - body.n_rigid
