@@ -49,11 +49,11 @@ class Op2:
             text += self.record(self.words(0)) + self.record(one) + self.key(-number)
         return text + self.record(self.words(0)) + self.key(0)
 
-    def file(self, *tables: bytes) -> bytes:
-        label = self.key(3) + self.fortran(self.words(11, 29, 26))
-        label += self.key(7) + self.fortran(self.words("NASTRAN FORT TAPE ID CODE - "))
-        label += self.key(2) + self.fortran(self.words("XXXXXXXX")) + self.key(-1) + self.key(0)
-        return label + b"".join(tables) + self.key(0)
+    def file(self, *tables: bytes, label: str = "XXXXXXXX") -> bytes:
+        head = self.key(3) + self.fortran(self.words(11, 29, 26))
+        head += self.key(7) + self.fortran(self.words("NASTRAN FORT TAPE ID CODE - "))
+        head += self.key(2) + self.fortran(self.words(label)) + self.key(-1) + self.key(0)
+        return head + b"".join(tables) + self.key(0)
 
     def grids(self, rows: Sequence[tuple]) -> bytes:
         """Of id, CP, three coordinates and CD."""

@@ -16,6 +16,10 @@ ELEMENTS = {"line": 4, "triangle": 8, "quad": 4, "tetra": 2, "wedge": 2, "hexa":
 SQUARE = [(1, 0, (0, 0, 0), 0), (2, 0, (1, 0, 0), 0), (3, 0, (1, 1, 0), 0), (4, 0, (0, 1, 0), 0)]
 
 
+OP2 = Op2()
+GEOMETRY = OP2.table("GEOM1", OP2.grids(SQUARE))
+
+
 @pytest.fixture
 def read(tmp_path):
     def read(op2=None, deck=None, **others):
@@ -427,11 +431,89 @@ def test_only_modes_normalised_to_mass_have_a_modal_mass_without_a_table(read, n
 
 def test_a_factor_of_masses_is_told(read):
     (note, _) = read(deck="PARAM,WTMASS,.00259\nGRID,1,,0.,0.,0.\n").notes
-    assert note.startswith("PARAM,WTMASS is .00259")
+    assert note.startswith("PARAM,WTMASS is 0.00259")
 
 
-OP2 = Op2()
-GEOMETRY = OP2.table("GEOM1", OP2.grids(SQUARE))
+@pytest.mark.parametrize("op2", [Op2(), Op2(">", 8)])
+def test_a_factor_of_masses_of_an_op2_file_is_told_once(read, op2):
+    parameters = op2.words("POST    ", 1, -1, "AUTOSPC ", 3, "YES     ", "WTMASS  ", 2, 0.00259)
+    content = op2.file(op2.table("PVT0", parameters), op2.table("GEOM1", op2.grids(SQUARE)))
+    assert any(note.startswith("PARAM,WTMASS is 0.00259") for note in read(content).notes)
+    deck = "PARAM,WTMASS,.00259\n" + "".join(f"GRID,{i},,{i}.,0.,0.\n" for i in (1, 2))
+    assert sum("WTMASS" in note for note in read(content, deck).notes) == 1
+
+
+def test_a_factor_of_masses_in_double_precision(read):
+    op2 = Op2()
+    double = np.array([0.031081], "<f8").tobytes()
+    content = op2.file(
+        op2.table("PVT0", op2.words("WTMASS  ", 4) + double), op2.table("GEOM1", op2.grids(SQUARE))
+    )
+    assert any(note.startswith("PARAM,WTMASS is 0.031081") for note in read(content).notes)
+
+
+def test_a_file_of_a_version_unknown_is_read_with_a_notice(read):
+    op2 = Op2()
+    tables = [op2.table("GEOM1", op2.grids(SQUARE))]
+    for label in ("XXXXXXXX", "NX2412  ", "OS2022.2", "V2005R3B", "202110  "):
+        assert not any("labelled" in note for note in read(op2.file(*tables, label=label)).notes)
+    component = read(op2.file(*tables, label="NEW2031 "))
+    assert len(component.node_ids) == 4
+    assert any("labelled 'NEW2031', as by no version known" in note for note in component.notes)
+
+
+@pytest.mark.parametrize("by", ["GPL", "EQEXIN"])
+def test_grids_without_geom1_are_in_the_tables_of_the_solvers_order(read, by):
+    """As PARAM,POST,-4 writes them: grid 30 in a cylinder, and a scalar point among the grids."""
+    op2 = Op2()
+    numbers = [10, 30, 20]
+    ids = op2.words(*numbers) if by == "GPL" else op2.words(10, 1, 20, 3, 30, 2)
+    points = op2.words(1, 0, 1.0, 2.0, 3.0, 0, 0) + op2.words(2, 7, 2.0, 90.0, 5.0, 7, 0)
+    points += op2.words(3, -1, 0.0, 0.0, 0.0, 0, 0)
+    frame = op2.words(7, 2, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0)  # x is y
+    motion = op2.shape([10, 30], [[1.0, 0, 0, 0, 0, 0], [0.0, 1, 0, 0, 0, 0]])
+    rod = op2.table("GEOM2", op2.words(3001, 30, 48, 7, 1, 10, 30))
+    component = read(
+        op2.file(
+            op2.table(by, ids),
+            op2.table("GPDT", points),
+            op2.table("CSTM", frame),
+            rod,
+            op2.table("OPHIG", op2.header(MODES, 1, 400.0), motion),
+        )
+    )
+    assert component.node_ids.tolist() == [10, 30]
+    np.testing.assert_allclose(component.nodes, [[1, 2, 3], [6, 0, 2]], atol=1e-6)
+    np.testing.assert_allclose(component.modes.shapes[1, :3, 0], [0, -1, 0], atol=1e-6)
+    assert component.elements["line"].tolist() == [[0, 1]]
+
+
+@pytest.mark.parametrize(
+    ("tables", "words"),
+    [
+        ([("GPL", OP2.words(1, 2)), ("GPDT", OP2.words(*[0] * 13))], "13 words, expected 7 for each"),
+        ([("GPL", OP2.words(1)), ("GPDT", OP2.words(*[9] * 7))], "beyond those that have a number"),
+        ([("EQEXIN", OP2.words(1, 5)), ("GPDT", OP2.words(*[1] * 7))], "does not say one place"),
+        (
+            [
+                ("GPL", OP2.words(1)),
+                ("GPDT", OP2.words(1, *[0] * 6)),
+                ("CSTM", OP2.words(1, 9, *[0] * 12)),
+            ],
+            "of kind 9 in CSTM",
+        ),
+    ],
+)
+def test_damaged_tables_of_points_are_refused(read, tables, words):
+    with pytest.raises(VehicleError, match=words):
+        read(OP2.file(*(OP2.table(*table) for table in tables)))
+
+
+def test_names_may_have_eight_letters_in_words_of_eight_bytes(read):
+    op2 = Op2(size=8)
+    content = op2.file(op2.table("GEOM1", op2.grids(SQUARE)))
+    usual, other = op2.words("GEOM1   "), b"GEOM1   " + b" " * 8
+    assert len(read(content.replace(usual, other)).node_ids) == 4
 
 
 def placed(*records: bytes) -> bytes:

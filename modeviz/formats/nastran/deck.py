@@ -125,4 +125,4 @@ def _norm(card: Card) -> str:
 def _parameter(card: Card) -> Iterator[str]:
     """A sentence if masses are given as weights."""
     if card.text(0).upper() == "WTMASS" and card.real(1) != 1:
-        yield weights_note(card.text(1))
+        yield weights_note(f"{card.real(1):.6g}")

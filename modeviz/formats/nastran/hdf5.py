@@ -170,4 +170,4 @@ def _weights(tables: Tables) -> Iterator[str]:
     values = tables.real(name, ("VALUE",))[:, 0].tolist()
     for key, value in zip(tables.texts(name, "NAME"), values, strict=True):
         if key.upper() == "WTMASS" and value != 1:
-            yield weights_note(f"{value:g}")
+            yield weights_note(f"{value:.6g}")

@@ -20,6 +20,7 @@ from modeviz.formats.nastran.model import (
     sorted_grids,
     unread_note,
 )
+from modeviz.formats.nastran.op2_points import read_points
 from modeviz.formats.nastran.op2_records import Table
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -81,7 +82,11 @@ def read_model(tables: Sequence[Table], path: Path) -> Model | None:
                 grids += [sorted_grids(*own)] if own else []
                 frames = own_frames | frames
     if not grids:
-        return None
+        with located(path):
+            points = read_points(tables)
+        if points is None:
+            return None
+        grids, frames = [sorted_grids(*points[0])], points[1]
     ids, systems, coordinates = _together(grids)
     lots: dict[ElementKind, list[Array]] = {}
     notes: list[str] = []

@@ -8,7 +8,7 @@ and little-endian, with words of four and of eight bytes.
 
 import mmap
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +49,8 @@ class Words:
     """Of their bytes: "<" or ">"."""
     size: int
     """4 or 8 bytes."""
+    label: str = ""
+    """Who wrote the file, if it says so."""
 
     def read(self, spans: list[Span], kind: str) -> Array:
         """Return the words of a record, of kind "i" or "f"."""
@@ -57,6 +59,11 @@ class Words:
             np.frombuffer(self.content, dtype, n_bytes // self.size, start) for start, n_bytes in spans
         ]
         return parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype), *parts])
+
+    def letters(self, text: str) -> bytes:
+        """Return the bytes of words that have a text, four letters each."""
+        raw = text.encode()
+        return b"".join(raw[i : i + 4].ljust(self.size) for i in range(0, len(raw), 4))
 
 
 def read_tables(path: Path) -> list[Table]:
@@ -70,8 +77,8 @@ def read_tables(path: Path) -> list[Table]:
             content = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
         except ValueError:
             raise VehicleError(f"{path}: the file is empty") from None
-    words = _words(content, path)
-    return list(_tables(_Chain(words, path), words))
+    chain = _Chain(_words(content, path), path)
+    return list(_tables(chain, replace(chain.words, label=_label(chain))))
 
 
 def _words(content: memoryview, path: Path) -> Words:
@@ -155,7 +162,6 @@ class _Chain:
 
 
 def _tables(chain: _Chain, words: Words) -> Iterator[Table]:
-    _skip_label(chain)
     while not chain.is_at_end:
         chain.table = ""
         key = chain.key()
@@ -168,17 +174,19 @@ def _tables(chain: _Chain, words: Words) -> Iterator[Table]:
         yield Table(chain.table, list(_records(chain)), words)
 
 
-def _skip_label(chain: _Chain) -> None:
-    """Goes over the date and the label that a file may begin with."""
+def _label(chain: _Chain) -> str:
+    """The label that a file may begin with, after a date; goes over both."""
     before = chain.at
     if chain.key() != 3:
         chain.at = before
-        return
+        return ""
     chain.chunk(3)
+    label = ""
     while (key := chain.key()) > 0:
-        chain.chunk(key)
+        label = _text(chain.words, *chain.chunk(key))
     while chain.key() != 0:
         pass
+    return label
 
 
 def _records(chain: _Chain) -> Iterator[list[Span]]:
@@ -201,8 +209,7 @@ def _records(chain: _Chain) -> Iterator[list[Span]]:
 
 
 def _text(words: Words, start: int, n_bytes: int) -> str:
-    """A name of letters, four to a word."""
+    """A name of letters, four to a word; some files have eight in words of eight bytes."""
     raw = bytes(words.content[start : start + n_bytes])
-    if words.size == 8:
-        raw = b"".join(raw[i : i + 4] for i in range(0, len(raw), 8))
-    return raw.decode("latin-1").strip()
+    text = raw.replace(b"\0", b" ").decode("latin-1")
+    return "".join(text[i : i + words.size].rstrip() for i in range(0, len(text), words.size)).strip()

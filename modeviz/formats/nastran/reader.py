@@ -16,6 +16,7 @@ from modeviz.formats.nastran.model import Model, basic_geometry
 from modeviz.formats.nastran.op2_geometry import read_model
 from modeviz.formats.nastran.op2_modes import eigenvalue_rows, read_shapes
 from modeviz.formats.nastran.op2_records import read_tables
+from modeviz.formats.nastran.op2_remarks import remarks
 from modeviz.formats.nastran.punch_modes import PUNCH, read_punch_shapes
 from modeviz.formats.nastran.residual_vectors import residual_vectors
 from modeviz.formats.nastran.shapes import Shapes
@@ -36,6 +37,8 @@ class _Results:
     """(n, 4): number, eigenvalue, generalised mass and RESFLG in tables of eigenvalues."""
     model: Callable[[], Model | None]
     """Reads its geometry; none if it has none."""
+    notes: tuple[str, ...] = ()
+    """What there is to know of the file."""
 
 
 def read_nastran(paths: Sequence[Path]) -> Component:
@@ -66,7 +69,8 @@ def read_nastran(paths: Sequence[Path]) -> Component:
                 if results
                 else "the modes are in a file of results (OP2, HDF5, punch): give it too"
             )
-            return _without_modes(model, places, frames, missing)
+            said = [*(note for one in results for note in one.notes), missing]
+            return _without_modes(model, places, frames, said)
         return _component(model, places, frames, results[0])
 
 
@@ -79,7 +83,7 @@ def _read_results(path: Path) -> _Results:
     else:
         tables = read_tables(path)
         shapes, rows = read_shapes(tables, path), eigenvalue_rows(tables)
-        model = partial(read_model, tables, path)
+        return _Results(path, shapes, rows, partial(read_model, tables, path), tuple(remarks(tables)))
     return _Results(path, shapes, rows, model)
 
 
@@ -94,7 +98,7 @@ def _without_geometry(results: _Results) -> Component:
     with located(results.path):
         component = _component(nothing, np.zeros((0, 3)), {}, results)
     note = "the file of results has no geometry: give the input file too"
-    return replace(component, notes=(note,))
+    return replace(component, notes=(*results.notes, *results.shapes.notes, note))
 
 
 def read_geometry(path: Path) -> Component:
@@ -105,7 +109,7 @@ def read_geometry(path: Path) -> Component:
 
 
 def _without_modes(
-    model: Model, places: Floats, frames: Mapping[int, Frame], missing: str = ""
+    model: Model, places: Floats, frames: Mapping[int, Frame], notes: Sequence[str] = ()
 ) -> Component:
     none = np.zeros(0)
     modes = Modes(none, none, none, np.zeros((len(model.ids), 6, 0)))
@@ -117,7 +121,7 @@ def _without_modes(
         places,
         elements,
         modes,
-        notes=(*model.notes, *filter(None, [missing])),
+        notes=_once(model.notes, notes),
         node_sets=model.node_sets,
         axes=_axes(model, places, frames),
     )
@@ -138,7 +142,7 @@ def _component(model: Model, places: Floats, frames: dict, results: _Results) ->
     shapes = results.shapes
     assert shapes is not None
     known, placed, systems = _places(model, places, shapes.ids)
-    notes = [*model.notes, *shapes.notes, *_remarks(model, shapes.ids, known)]
+    notes = [*shapes.notes, *_remarks(model, shapes.ids, known)]
     array = shapes.array
     if not shapes.is_basic:
         is_fluid = systems < 0
@@ -158,7 +162,19 @@ def _component(model: Model, places: Floats, frames: dict, results: _Results) ->
         array = array[:, :, order]
     modes = Modes(frequency[order], masses[order], damping[order], array, n_residuals)
     elements = _elements(model, shapes.ids)
-    return Component(shapes.ids, placed, elements, modes, notes=tuple(notes), node_sets=model.node_sets)
+    return Component(
+        shapes.ids,
+        placed,
+        elements,
+        modes,
+        notes=_once(results.notes, model.notes, notes),
+        node_sets=model.node_sets,
+    )
+
+
+def _once(*notes: Sequence[str]) -> tuple[str, ...]:
+    """All notes in order; the input file and the results may say the same."""
+    return tuple(dict.fromkeys(note for some in notes for note in some))
 
 
 def _places(model: Model, places: Floats, ids: Array) -> tuple[Array, Floats, Array]:
