@@ -21,7 +21,7 @@ def feature_edges(vertices: Floats, faces: Array) -> NDArray[np.int32]:
         vertices: (n_vertices, 3), m.
         faces: (n_faces, 3), indices of vertices.
     """
-    corners = _welded(vertices)[faces]
+    corners = welded(vertices)[faces]
     normals = _unit_normals(vertices[corners])
     edges = np.sort(corners[:, [[0, 1], [1, 2], [2, 0]]], axis=-1).reshape(-1, 2)
     of_face = np.repeat(np.arange(len(faces)), 3)
@@ -32,7 +32,7 @@ def feature_edges(vertices: Floats, faces: Array) -> NDArray[np.int32]:
     return unique[visible & (unique[:, 0] != unique[:, 1])].astype(np.int32)
 
 
-def _welded(vertices: Floats) -> NDArray[np.intp]:
+def welded(vertices: Floats) -> NDArray[np.intp]:
     """For every vertex the first one that lies in its place, (n_vertices,)."""
     step = WELD * np.abs(vertices).max(initial=0.0) or 1.0
     places = np.round(vertices / step).astype(np.int64)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.shapes.edges import feature_edges
+from modeviz.shapes.simplify import simplified
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Material, Mesh
 
@@ -36,7 +37,11 @@ class Surface:
 
 
 def surface(mesh: Mesh) -> Surface:
-    """The drawn surface of a display mesh; its vertices are those of the parts, one after the other."""
+    """The drawn surface of a display mesh; its vertices are those of the parts, one after the other.
+
+    A mesh of very many faces is made coarser, see `simplified`.
+    """
+    mesh = simplified(mesh)
     starts = np.cumsum([0, *(len(part.vertices) for part in mesh)])
     areas = np.array([_face_areas(part.vertices, part.faces).sum() for part in mesh])
     skin = areas >= SKIN_FRACTION * areas.sum()

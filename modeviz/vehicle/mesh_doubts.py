@@ -23,6 +23,9 @@ FACTORS = {
 }
 """How many times too large a mesh is, and what was taken for what."""
 
+MOST_DRAWN = 100_000
+"""Faces of a body that are drawn: a page sends a shape of all their vertices at every change."""
+
 NEAR_FACTOR = 2.0
 """How far off a factor may be from how much a mesh is too large, which is known roughly."""
 
@@ -32,6 +35,12 @@ def mesh_doubts(vehicle: Vehicle) -> Iterator[str]:
     for body in vehicle.bodies:
         if not body.mesh:
             continue
+        n_faces = sum(len(part.faces) for part in body.mesh)
+        if n_faces > MOST_DRAWN:
+            yield (
+                f"body {body.name!r}: mesh: has {n_faces:,} faces; a coarser surface is drawn, of at "
+                f"most {MOST_DRAWN:,}"
+            )
         mesh = _ends(np.concatenate([part.vertices[part.faces].reshape(-1, 3) for part in body.mesh]))
         known = _known(vehicle, body)
         doubt = _of_size(mesh, known) or _of_place(mesh, known)
