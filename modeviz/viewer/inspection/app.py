@@ -8,7 +8,9 @@ from pathlib import Path
 
 import viser
 
+from modeviz.errors import ModevizError
 from modeviz.formats.component import UNIT_SYSTEMS, Component
+from modeviz.formats.solving import Wanted, solved
 from modeviz.viewer.inspection.import_panel import TAB, ImportPanel
 from modeviz.viewer.inspection.panels import LookPanel, MissingPanel, ModesPanel
 from modeviz.viewer.inspection.scene import InspectionScene
@@ -22,6 +24,8 @@ from modeviz.viewer.page.layout import NARROW, WIDE, Layout
 from modeviz.viewer.page.server import Server, open_server
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
+from modeviz.viewer.panels.pictures import PicturePanel
+from modeviz.viewer.scene.stage import DARK, LIGHT
 from modeviz.viewer.session.coloring import ColorScale
 
 LEFT = {WIDE: 420, NARROW: 320}
@@ -77,7 +81,7 @@ class InspectionApp:
         self.inspection: Inspection = Inspection(self._content, self._show)
         self.scene: InspectionScene = InspectionScene(server, dark)
         self._hotkeys = Hotkeys(gui)
-        self._lay_out(source.folder)
+        self._lay_out(source.folder, dark)
         self._show(self.inspection.state)
 
     @property
@@ -89,7 +93,7 @@ class InspectionApp:
         """Forgets what pages have sent."""
         self._import.close()
 
-    def _lay_out(self, folder: Path | None) -> None:
+    def _lay_out(self, folder: Path | None, dark: bool) -> None:
         gui, inspection = self.server.gui, self.inspection
         gui.main_panel.dock_left()
         tabs = gui.add_tab_group()
@@ -97,6 +101,12 @@ class InspectionApp:
             self._modes = ModesPanel(gui, inspection)
         with tabs.add_tab("View", viser.Icon.EYE):
             self._look = LookPanel(gui, inspection, self.scene.look)
+        with tabs.add_tab("Pictures", viser.Icon.CAMERA):
+            theme = DARK if dark else LIGHT
+            driver = self.scene.driver
+            self._pictures = PicturePanel(
+                gui, self.server, theme, self._subject, lambda: driver.is_real, self._scale
+            )
         with tabs.add_tab(TAB, viser.Icon.PACKAGE_IMPORT):
             self._import = ImportPanel(self.server, folder, self._look_at, self._added)
         self._missing = MissingPanel(gui)
@@ -113,7 +123,8 @@ class InspectionApp:
         """Shows a component that is not in the vehicle beside what is."""
         taken = {subject.name for subject in self._content.subjects}
         chosen = component.units or UNIT_SYSTEMS.get(units or "")
-        subject = subject_of_component(component, f"{name} (new)" if name in taken else name, chosen)
+        label = f"{name} (new)" if name in taken else name
+        subject = subject_of_component(solved(component, Wanted()), label, chosen)
         subjects = (*self._content.subjects, subject)
         self.inspection.replace_content(replace(self._content, subjects=subjects), subject.name)
 
@@ -122,20 +133,31 @@ class InspectionApp:
         self._content = self._source.read()
         self.inspection.replace_content(self._content, name)
 
+    def _subject(self) -> str:
+        """Return what is to be seen in a picture: "frame.op2 mode 7"."""
+        named = _named(self.inspection.state)
+        return f"{named.title} {named.about}"
+
+    def _scale(self) -> ColorScale | None:
+        """Return what the colours mean; raises ModevizError if there is nothing to be seen."""
+        if not self.inspection.state.content.subjects:
+            raise ModevizError("there is nothing to draw yet")
+        return _scale_of(self.inspection.state)
+
     def _show(self, state: State) -> None:
         with self.server.atomic():
             self._title.show(state.content.name, state.subject or "no bodies")
             self._modes.show(state)
             self._look.show()
             self._missing.show(state.content.missing)
-            self._animation.show(
-                _named(state), MOTION if state.coloring != "bodies" and _moves(state) else None
-            )
+            self._animation.show(_named(state), _scale_of(state))
         self.scene.show(state)
 
 
-def _moves(state: State) -> bool:
-    return state.moving is not None and bool(state.moving.modes)
+def _scale_of(state: State) -> ColorScale | None:
+    """What the colours mean, if they mean something."""
+    moves = state.moving is not None and bool(state.moving.modes)
+    return MOTION if moves and state.coloring != "bodies" else None
 
 
 def _named(state: State) -> Named:

@@ -11,11 +11,10 @@ from tempfile import TemporaryDirectory
 import viser
 
 from modeviz.errors import ModevizError
-from modeviz.formats.attachments import find_attachments
-from modeviz.formats.body import chosen_units, flexible_body
 from modeviz.formats.component import UNIT_SYSTEMS, Component
-from modeviz.formats.into_folder import add_body
-from modeviz.formats.places import parse_place
+from modeviz.formats.imported import ImportSettings, import_body
+from modeviz.formats.places import FORMS
+from modeviz.formats.poses import FORMS as POSE_FORMS
 from modeviz.formats.reading import ENDINGS
 from modeviz.viewer.inspection.received import Received
 from modeviz.viewer.page import scripts
@@ -27,6 +26,9 @@ from modeviz.viewer.page.uploads import take_files_of
 TAB = "Import"
 LARGEST_FILE = 200_000_000
 """Bytes of a file from a page; larger ones are for `modeviz import`."""
+
+LABELS = {"--attach": "Attachments", "--pose": "Place"}
+"""What options are called here."""
 
 AS_THE_FILES_SAY = "As the files say"
 
@@ -69,9 +71,9 @@ class ImportPanel:
         self._attach = gui.add_text(
             "Attachments",
             "",
-            hint="Where others hold on to it, with semicolons between: a node's number, NAME=NODE, or "
-            "NAME=X,Y,Z in the files' units for the nearest node",
+            hint=f"Where others hold on to it, with semicolons between: {FORMS}",
         )
+        self._pose = gui.add_text("Place", "", hint=f"Where it stands in the vehicle: {POSE_FORMS}")
         where = "Put it into the vehicle" if folder else "Download as a vehicle…"
         add = gui.add_button(where, icon=viser.Icon.PACKAGE_IMPORT, hint=self._destination())
         add.on_click(self._add)
@@ -102,7 +104,7 @@ class ImportPanel:
                     self._name.value = PurePath(self._received.names[0]).stem
                 self._show()
             except ModevizError as error:
-                self._say(self._listed(), f'<div class="bad">{escape(str(error))}</div>')
+                self._refuse(error)
 
     def _redraw(self, event: viser.GuiEvent) -> None:
         if event.client is not None and self._received.names:
@@ -110,7 +112,7 @@ class ImportPanel:
                 try:
                     self._show()
                 except ModevizError as error:
-                    self._say(self._listed(), f'<div class="bad">{escape(str(error))}</div>')
+                    self._refuse(error)
 
     def _show(self) -> None:
         component = self._received.read()
@@ -126,26 +128,26 @@ class ImportPanel:
             try:
                 name = self._put(client)
             except ModevizError as error:
-                self._say(self._listed(), f'<div class="bad">{escape(str(error))}</div>')
+                self._refuse(error)
                 return
             self._clear()
             self._say(f"<div>{escape(name)} is in the vehicle. Drop the files of another body.</div>")
 
     def _put(self, client: viser.ClientHandle) -> str:
         component = self._received.read()
-        units = chosen_units(component, self._chosen_units())
-        texts = [text.strip() for text in self._attach.value.split(";")]
-        found = find_attachments(component, [parse_place(text) for text in texts if text], units)
-        body, _ = flexible_body(component, units, self._name.value.strip() or "body", found)
+        texts = tuple(filter(None, (text.strip() for text in self._attach.value.split(";"))))
+        pose = self._pose.value.strip() or None
+        settings = ImportSettings(units=self._chosen_units(), attach=texts, pose=pose)
+        name = self._name.value.strip() or "body"
         if self._folder is not None:
-            add_body(body, self._folder, component.source)
-            self._added(body.name)
-            return body.name
+            import_body(component, name, settings, self._folder)
+            self._added(name)
+            return name
         with TemporaryDirectory(prefix="modeviz-") as home:
             folder = Path(home, "vehicle")
-            add_body(body, folder, component.source)
+            import_body(component, name, settings, folder)
             client.send_file_download("vehicle.zip", _zipped(folder), save_immediately=True)
-        return body.name
+        return name
 
     def _chosen_units(self) -> str | None:
         return None if self._units.value == AS_THE_FILES_SAY else self._units.value
@@ -157,7 +159,13 @@ class ImportPanel:
 
     def _clear(self) -> None:
         self._received.clear()
-        self._name.value = self._attach.value = ""
+        self._name.value = self._attach.value = self._pose.value = ""
+
+    def _refuse(self, error: ModevizError) -> None:
+        words = str(error)
+        for option, label in LABELS.items():
+            words = words.replace(f"{option}: ", f"{label}: ")
+        self._say(self._listed(), f'<div class="bad">{escape(words)}</div>')
 
     def _listed(self) -> str:
         return heading("Files", escape(", ".join(self._received.names)))

@@ -3,6 +3,7 @@
 import math
 import threading
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import count
 from typing import Literal
 
@@ -63,8 +64,8 @@ class PicturePanel:
         subject: Callable[[], str],
         is_real: Callable[[], bool],
         scale: Callable[[], ColorScale | None],
-        offline: Callable[[Floats, Floats], bytes],
-        report: Callable[[bytes], bytes],
+        offline: Callable[[Floats, Floats], bytes] | None = None,
+        report: Callable[[bytes], bytes] | None = None,
     ) -> None:
         """Builds the controls.
 
@@ -75,12 +76,12 @@ class PicturePanel:
             subject: what is to be seen, after which files are named.
             is_real: tells whether the shape that is shown is real.
             scale: gives what the colours of bodies mean; raises ModevizError if nothing is drawn.
-            offline: makes the file that needs no server, for a camera's place and what it looks at.
-            report: makes the report of the comparison, for a picture of the scene as a PNG file.
+            offline: makes the file that needs no server, for a camera's place and what it looks at; if
+                not given, there is none.
+            report: makes the report of the comparison, for a picture of the scene as PNG; likewise.
         """
         self._server, self._theme = server, theme
         self._subject, self._is_real, self._scale = subject, is_real, scale
-        self._offline, self._report = offline, report
         self._pages = Places(MOST_PAGES, 1)
         self._jobs, self._browsers = threading.Semaphore(N_JOBS), threading.Semaphore(N_BROWSERS)
         self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Progress], bytes]]] = {
@@ -88,15 +89,18 @@ class PicturePanel:
             "Loop, GIF": ("", "gif", self._gif),
             "Film, MP4": ("", "mp4", self._mp4),
             "Whole page, PNG": ("page", "png", self._page),
-            "Offline page, HTML": ("", "html", self._html),
-            "Report, HTML": ("report", "html", self._illustrated),
         }
+        if offline:
+            self._makers["Offline page, HTML"] = "", "html", partial(_html, offline)
+        if report:
+            self._makers["Report, HTML"] = "report", "html", partial(self._illustrated, report)
         self._kind = gui.add_dropdown(
             "Save",
             tuple(self._makers),
             hint="The 3-D view as it is; one cycle of its motion; the page with its plots, opened anew "
-            "with the first tab of each panel in front; a file that moves without a server; or the "
-            "present rates compared with the chosen set",
+            "with the first tab of each panel in front"
+            + ("; a file that moves without a server" if offline else "")
+            + ("; or the present rates compared with the chosen set" if report else ""),
         )
         preset = gui.add_dropdown("Size", tuple(PRESETS), hint="Width and height, pixels")
         first = PRESETS[preset.value]
@@ -193,13 +197,18 @@ class PicturePanel:
         with turn(self._browsers, tell), HeadlessPage(lambda: self._server, tick=tick) as studio:
             return studio.page_png(like=client)
 
-    def _html(self, client: viser.ClientHandle, tell: Progress) -> bytes:
-        """The scene with its plots in a file."""
-        tell(0.0)
-        return self._offline(client.camera.position, client.camera.look_at)
-
-    def _illustrated(self, client: viser.ClientHandle, tell: Progress) -> bytes:
+    def _illustrated(
+        self, report: Callable[[bytes], bytes], client: viser.ClientHandle, tell: Progress
+    ) -> bytes:
         """The comparison on paper."""
         png = self._picture(client, tell)
         tell(0.5)
-        return self._report(png)
+        return report(png)
+
+
+def _html(
+    offline: Callable[[Floats, Floats], bytes], client: viser.ClientHandle, tell: Progress
+) -> bytes:
+    """The scene with its plots in a file."""
+    tell(0.0)
+    return offline(client.camera.position, client.camera.look_at)
