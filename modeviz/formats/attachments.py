@@ -101,7 +101,7 @@ def _of_set(component: Component, place: Place, length: float) -> Found:
     else:
         position = places.mean(axis=0)
     weights = np.ones(len(rows)) if chosen.weights is None else np.array(chosen.weights)
-    turns = chosen.kind == "rigid" and bool(component.has_rotations[rows].all())
+    turns = chosen.kind == "rigid" and component.turn(rows)
     try:
         motion = set_motion(position, places, weights, turns)
     except VehicleError as error:

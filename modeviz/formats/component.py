@@ -115,12 +115,11 @@ class Component:
         """Whether each node has a place, (n_nodes,)."""
         return np.asarray(np.isfinite(self.nodes).all(axis=1))
 
-    @property
-    def has_rotations(self) -> Array:
-        """Whether each node turns in a mode, or can, (n_nodes,): those of solids do not."""
+    def turn(self, rows: Array) -> bool:
+        """Return whether all of some nodes turn in a mode, or can; those of solids do not."""
         if self.matrices is not None:
-            return self.matrices.turns
-        return np.asarray(self.modes.shapes[:, 3:].any(axis=(1, 2)))
+            return bool(self.matrices.turns[rows].all())
+        return bool(self.modes.shapes[rows, 3:].any(axis=(1, 2)).all())
 
     def rows(self, ids: Array) -> Array:
         """Return the rows of nodes of those ids; raises VehicleError for one that is not there."""

@@ -63,7 +63,7 @@ def _pose(text: str, component: Component, length: float, axes: Floats) -> Pose:
 
 def _point(component: Component, text: str) -> Floats:
     """The place of a node, or a place, in the file's units."""
-    if not text.isdigit():
+    if not text.isdecimal():
         return _numbers(text)
     places = component.nodes[component.node_ids == int(text)]
     if len(places) != 1 or not np.isfinite(places).all():

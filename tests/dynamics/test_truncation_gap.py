@@ -125,7 +125,6 @@ def test_a_flat_plate_gives_way_across_alone():
     assert len(list(import_notes(body))) == 2
 
 
-@pytest.mark.slow
 def test_the_truck_without_residual_vectors_is_off_by_what_is_said_within_a_factor_of_two():
     truck = read_vehicle(builtin_vehicle())
     without = replace(modes_only(truck), connections=truck.connections)

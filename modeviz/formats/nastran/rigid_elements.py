@@ -47,7 +47,7 @@ def _unique(*grids: int) -> tuple[int, ...]:
 
 def _is_id(card: Card, number: int) -> bool:
     """Whether a field is a grid, and not the coefficient of expansion that may end a card."""
-    return card.text(number).isdigit()
+    return card.text(number).isdecimal()
 
 
 def _listed_grids(card: Card) -> Iterator[int]:
@@ -58,7 +58,7 @@ def _listed_grids(card: Card) -> Iterator[int]:
         text = card.text(number).upper()
         if text == "THRU":
             thru = True
-        elif text.isdigit():
+        elif text.isdecimal():
             last = int(text)
             if thru and not 0 < last - first < MOST_IN_LIST:
                 raise VehicleError(f"{card.name} {card.text(0)}: found {first} THRU {last}")
@@ -74,7 +74,7 @@ def _weights(card: Card) -> dict[int, tuple[float, str]]:
         text = card.text(number)
         if text.isalpha():  # UM and ALPHA end the grids
             break
-        if text and not text.isdigit():
+        if text and not text.isdecimal():
             weight, directions = card.real(number), ""
         elif text and not directions:
             directions = text
