@@ -15,6 +15,7 @@ from modeviz.formats.limits import LARGEST_FILE
 from modeviz.formats.matrices.abaqus import read_abaqus
 from modeviz.formats.matrices.arrays import read_npz
 from modeviz.formats.matrices.market import BEGINNING, read_market
+from modeviz.formats.matrices.matlab import read_matlab
 from modeviz.formats.matrices.node_table import NodeTable, read_node_table
 from modeviz.formats.matrices.soundness import check_structure
 from modeviz.formats.named_matrices import NamedMatrix, mass_and_stiffness, symmetric
@@ -41,6 +42,7 @@ def _read_mtx(path: Path) -> list[NamedMatrix]:
 READERS: Mapping[str, Callable[[Path], list[NamedMatrix]]] = {
     ".npz": read_npz,
     ".mtx": _read_mtx,
+    ".mat": read_matlab,
     ".op4": read_op4,
     PUNCH: read_dmig,
 }

@@ -1,0 +1,136 @@
+"""Matrices in MATLAB's files: of versions 4, 5 and 7 as SciPy writes them, of 7.3 as MATLAB does."""
+
+import io
+
+import h5py
+import numpy as np
+import pytest
+import scipy.io
+import scipy.sparse as sp
+from free_network import CORNERS, LABELS, free_network
+
+from modeviz.errors import VehicleError
+from modeviz.formats.reading import read_component
+
+NETWORK = free_network()
+M, K = NETWORK.mass, NETWORK.stiffness
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read(content):
+        (tmp_path / "block.mat").write_bytes(content)
+        rows = [f"{n}, {x}, {y}, {z}" for n, (x, y, z) in zip(LABELS, CORNERS, strict=True)]
+        (tmp_path / "nodes.csv").write_text("\n".join(rows))
+        return read_component([tmp_path / "block.mat", tmp_path / "nodes.csv"])
+
+    return read
+
+
+def saved(arrays, **options):
+    content = io.BytesIO()
+    scipy.io.savemat(content, arrays, **options)
+    return content.getvalue()
+
+
+def saved_73(arrays, change=None):
+    """As MATLAB writes -v7.3: a block of 512 bytes before the HDF5 file, full matrices by columns."""
+    content = io.BytesIO()
+    with h5py.File(content, "w", userblock_size=512) as file:
+        for name, A in arrays.items():
+            if not sp.issparse(A):
+                dataset = file.create_dataset(name, data=np.asarray(A).T)
+                dataset.attrs["MATLAB_class"] = np.bytes_("double")
+                continue
+            group = file.create_group(name)
+            group.attrs["MATLAB_class"] = np.bytes_("double")
+            group.attrs["MATLAB_sparse"] = np.uint64(A.shape[0])
+            for part, values in (("data", A.data), ("ir", A.indices), ("jc", A.indptr)):
+                kind = np.float64 if part == "data" else np.uint64
+                group.create_dataset(part, data=values.astype(kind))
+        if change:
+            change(file)
+    head = b"MATLAB 7.3 MAT-file, Platform: GLNXA64, Created on: Mon Jan  1 00:00:00 2024".ljust(512)
+    return head + content.getvalue()[512:]
+
+
+ARRAYS = {"K": K, "M": M, "name": "block", "C": np.zeros((0, 0)), "x": np.arange(3.0)}
+SPARSE = {"K": sp.csc_array(K), "M": sp.csc_array(M)}
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        saved(ARRAYS),
+        saved(SPARSE),
+        saved(ARRAYS, do_compression=True),
+        saved(SPARSE, do_compression=True),
+        saved({"K": K, "M": M}, format="4"),
+        saved_73({"K": K, "M": M}),
+        saved_73(SPARSE),
+        saved_73({"K": sp.csc_array(np.triu(K)), "M": sp.csc_array(M), "L": sp.csc_array((24, 24))}),
+    ],
+)
+def test_full_and_sparse_matrices_of_every_version(read, content):
+    component = read(content)
+    np.testing.assert_allclose(component.matrices.stiffness.toarray(), K, rtol=1e-14)
+    np.testing.assert_allclose(component.matrices.mass.toarray(), M, rtol=1e-14)
+
+
+def linked(file):
+    file["K2"] = h5py.ExternalLink("other.mat", "K")
+
+
+def test_links_to_other_files_are_not_followed(read):
+    np.testing.assert_allclose(read(saved_73(SPARSE, linked)).matrices.mass.toarray(), M, rtol=1e-14)
+
+
+def external(file):
+    del file["K"]
+    file.create_dataset("K", (24, 24), "f8", external=[("other.bin", 0, 24 * 24 * 8)])
+    file["K"].attrs["MATLAB_class"] = np.bytes_("double")
+
+
+def wrong_rows(file):
+    file["K/ir"][0] = 500
+
+
+def bomb(file):
+    del file["K"]
+    file.create_dataset("K", (20_000, 20_000), "f8", chunks=(1000, 1000), compression="gzip")
+    file["K"].attrs["MATLAB_class"] = np.bytes_("double")
+
+
+GOOD, GOOD_73 = saved(SPARSE), saved_73(SPARSE)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "no whole .mat file"),
+        (b"\0" * 200, r"no whole .mat file|no square matrix"),
+        (GOOD[:700], "no whole .mat file"),
+        (saved(ARRAYS, do_compression=True)[:300], "no whole .mat file"),
+        (GOOD_73[:3000], "no whole .mat file"),
+        (GOOD_73[:512], "no whole .mat file"),
+        (saved({"name": "block", "K": K[:, :3]}), "has no square matrix"),
+        (saved({"K": K}), "no mass matrix"),
+        (saved({"K": K + 1j, "M": M}), "complex numbers"),
+        (saved({"K": K * np.nan, "M": M}), "not finite numbers"),
+        (saved_73(SPARSE, external), "in another file"),
+        (saved_73(SPARSE, wrong_rows), "no whole .mat file"),
+        (saved_73(SPARSE, bomb), "no room for"),
+    ],
+)
+def test_damaged_files_are_refused_in_a_sentence(read, content, words):
+    with pytest.raises(VehicleError, match=words):
+        read(content)
+
+
+def test_a_matrix_larger_than_its_file_can_be_is_not_unpacked(read):
+    """Its header says 20 000 rows of doubles, behind 100 bytes."""
+    content = bytearray(saved({"K": np.zeros((20, 20)), "M": M}))
+    place = content.index((20).to_bytes(4, "little") * 2)
+    content[place : place + 8] = (20_000).to_bytes(4, "little") * 2
+    with pytest.raises(VehicleError, match="no room for|no whole"):
+        read(bytes(content))
