@@ -10,6 +10,7 @@ import scipy.sparse.linalg as spl
 
 from modeviz.errors import SolveError
 from modeviz.fem.matrices import Matrices
+from modeviz.fem.ordering import elimination_order
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.rigid import rigid_motions
 
@@ -78,7 +79,8 @@ def free_modes(matrices: Matrices, n_modes: int) -> ModalBasis:
             f"modes: found {n_modes}, expected {N_RIGID} (the rigid ones) to {matrices.n_dofs - 1}"
         )
     # One more than the rigid ones, even if none is wanted, tells whether the body is in one piece.
-    found = lowest_modes(matrices.mass, matrices.stiffness, max(n_modes, N_RIGID + 1))
+    solve = _solver_of_large(matrices)
+    found = lowest_modes(matrices.mass, matrices.stiffness, max(n_modes, N_RIGID + 1), solve)
     return _free(matrices, *found, n_modes)
 
 
@@ -94,7 +96,7 @@ def free_modes_up_to(matrices: Matrices, frequency_hz: float, most: int) -> Moda
         SolveError: there are more, or it is no such body.
     """
     limit = (2 * np.pi * frequency_hz) ** 2
-    solve = factorised(matrices.stiffness + SHIFT * matrices.mass).solve
+    solve = _solver_of_large(matrices)
     n_modes, whole = 4 * N_RIGID, matrices.n_dofs - 1
     while True:
         n_modes = min(n_modes, most + 1, whole)
@@ -110,6 +112,12 @@ def free_modes_up_to(matrices: Matrices, frequency_hz: float, most: int) -> Moda
         n_modes *= 2
     n_wanted = above[0] + 1 if len(above) else len(found[0])
     return _free(matrices, *found, max(int(n_wanted), N_RIGID))
+
+
+def _solver_of_large(matrices: Matrices) -> Callable[[Floats], Floats] | None:
+    """What solves by K + s M of a large body, factorised once; None of others, which are quick."""
+    order = elimination_order(matrices)
+    return None if order is None else solver(matrices.stiffness + SHIFT * matrices.mass, order)
 
 
 def _free(matrices: Matrices, omega_n_squared: Floats, phi: Floats, n_modes: int) -> ModalBasis:
@@ -210,11 +218,14 @@ def inertia_relief(matrices: Matrices) -> Callable[[Floats], Floats]:
     # Balanced loads leave a determinate support without reaction: holding six changes nothing.
     support = most_independent(np.sqrt(matrices.stiffness.diagonal())[:, None] * R)
     free = np.setdiff1d(np.arange(matrices.n_dofs), support)
-    factors = factorised(matrices.stiffness[free][:, free])
+    order = elimination_order(matrices)
+    if order is not None:
+        order = np.searchsorted(free, order[np.isin(order, free)])
+    solve = solver(matrices.stiffness[free][:, free], order)
 
     def response(loads: Floats) -> Floats:
         u = np.zeros(loads.shape)
-        u[free] = factors.solve((loads - matrices.mass @ (R @ (R.T @ loads)))[free])
+        u[free] = solve((loads - matrices.mass @ (R @ (R.T @ loads)))[free])
         return without(R, u, matrices.mass)
 
     return response
@@ -239,11 +250,30 @@ def most_independent(rows: Floats) -> np.ndarray:
     return by_choice[: rows.shape[1]]
 
 
-def factorised(A: sp.csc_array) -> spl.SuperLU:
-    """Sparse factors of a symmetric definite matrix, which needs no pivoting."""
+def solver(A: sp.csc_array, order: np.ndarray | None = None) -> Callable[[Floats], Floats]:
+    """Return what solves by a symmetric definite matrix, (n,) or (n, n_loads).
+
+    Args:
+        A: (n, n).
+        order: (n,), in which its rows are eliminated; None: by minimum degree.
+    """
+    if order is None:
+        return factorised(A).solve
+    factors = factorised(A[order][:, order], "NATURAL")
+
+    def solve(loads: Floats) -> Floats:
+        u = np.empty_like(loads)
+        u[order] = factors.solve(loads[order])
+        return u
+
+    return solve
+
+
+def factorised(A: sp.csc_array, order: str = "MMD_AT_PLUS_A") -> spl.SuperLU:
+    """Sparse factors of a symmetric definite matrix, without pivoting, in an order of SuperLU."""
     return spl.splu(
         A.tocsc(),
-        permc_spec="MMD_AT_PLUS_A",
+        permc_spec=order,
         diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},
     )

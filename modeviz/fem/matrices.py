@@ -37,6 +37,15 @@ class Matrices:
         moved = abs(self.motion).sum(axis=1) > 0
         return np.asarray(moved.reshape(-1, 6)[:, 3:].any(axis=1))
 
+    @property
+    def owners(self) -> np.ndarray:
+        """The node that each degree of freedom moves, (n_dofs,), the first of several; -1: none."""
+        columns = sp.csc_array(self.motion)
+        moves = np.diff(columns.indptr) > 0
+        owners = np.full(self.n_dofs, -1)
+        owners[moves] = columns.indices[columns.indptr[:-1][moves]] // 6
+        return owners
+
     def scaled(self, stiffness_factor: float, mass_factor: float) -> "Matrices":
         """The body in a material so many times as stiff and as heavy."""
         return replace(self, mass=self.mass * mass_factor, stiffness=self.stiffness * stiffness_factor)

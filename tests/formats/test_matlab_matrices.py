@@ -132,5 +132,5 @@ def test_a_matrix_larger_than_its_file_can_be_is_not_unpacked(read):
     content = bytearray(saved({"K": np.zeros((20, 20)), "M": M}))
     place = content.index((20).to_bytes(4, "little") * 2)
     content[place : place + 8] = (20_000).to_bytes(4, "little") * 2
-    with pytest.raises(VehicleError, match="no room for|no whole"):
+    with pytest.raises(VehicleError, match=r"no room for|no whole"):
         read(bytes(content))

@@ -90,7 +90,7 @@ def _of_hdf5(path: Path) -> Iterator[NamedMatrix]:
             "with -v7"
         ) from None
     with h5py.File(path, "r", locking=False) as file:
-        for name in file:
+        for name in map(str, file):
             if not isinstance(file.get(name, getlink=True), h5py.HardLink):
                 continue
             variable = file[name]

@@ -41,10 +41,8 @@ def check_structure(matrices: Matrices, node_ids: Array) -> None:
 def _check_pieces(matrices: Matrices, node_ids: Array) -> None:
     """Raises VehicleError for nodes and scalars that neither stiffness nor mass joins to the others."""
     n_nodes = len(node_ids)
-    moved = sp.csc_array(matrices.motion)
-    owner = n_nodes + np.arange(matrices.n_dofs)  # of scalars
-    moves = np.diff(moved.indptr) > 0
-    owner[moves] = moved.indices[moved.indptr[:-1][moves]] // 6
+    owner = matrices.owners
+    owner = np.where(owner < 0, n_nodes + np.arange(matrices.n_dofs), owner)
     joined = sp.coo_array(abs(matrices.stiffness) + abs(matrices.mass))
     rows, columns = joined.coords
     size = n_nodes + matrices.n_dofs
