@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.cli.command import Command
-from modeviz.cli.importing_mounts import MountOptions, holds_mounts, import_mounts
+from modeviz.cli.importing_mounts import MountOptions, holds_mounts, import_mounts, springs_beside
 from modeviz.cli.importing_roads import RoadOptions, holds_road, import_road
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
@@ -117,6 +117,8 @@ def import_component(options: ImportOptions) -> None:
     if options.output is None:
         if given := [name for name in OF_A_BODY if getattr(options, name)]:
             raise ModevizError(f"--{given[0]} is of a body that is written; say where with --output")
+        if words := springs_beside(options.files):
+            remark(words)
         print_result(listing(solved(component, wanted)))
         return
     if options.plane and not options.antisymmetric:

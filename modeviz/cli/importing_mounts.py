@@ -48,8 +48,19 @@ def holds_mounts(files: Sequence[Path], output: Path | None) -> bool:
     """
     if all(path.suffix.lower() in SUFFIXES for path in files):
         return True
+    return output is not None and _is_deck_with_springs(files)
+
+
+def _is_deck_with_springs(files: Sequence[Path]) -> bool:
     is_deck = len(files) == 1 and files[0].suffix.lower() in DECK_SUFFIXES
-    return is_deck and output is not None and has_bushings(files[0])
+    return is_deck and has_bushings(files[0])
+
+
+def springs_beside(files: Sequence[Path]) -> str | None:
+    """Return what there is to say of springs in an input file that is only listed; None if nothing."""
+    if not _is_deck_with_springs(files):
+        return None
+    return f"{files[0].name}: has CBUSH or CELAS; --output and --units put them into a vehicle"
 
 
 def import_mounts(options: MountOptions) -> None:

@@ -546,8 +546,30 @@ def test_a_workbook_that_would_fill_the_memory_is_refused(tmp_path):
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("[Content_Types].xml", "<Types/>")
         archive.writestr("xl/worksheets/sheet1.xml", b" " * 250_000_000)
-    with pytest.raises(VehicleError, match="bytes unpacked, expected at most 200,000,000"):
+    with pytest.raises(VehicleError, match="bytes unpacked, expected at most 100,000,000"):
         read(path)
+
+
+def test_more_mounts_than_a_vehicle_has_are_refused_at_once(tmp_path):
+    rows = [HEADER, *([f"m{i}", *ROW[1:]] for i in range(2001))]
+    with pytest.raises(VehicleError, match="lines, expected at most 2,001"):
+        read(written(tmp_path / "m.csv", rows))
+    book = Workbook(write_only=True)
+    sheet = book.create_sheet()
+    for row in rows:
+        sheet.append(row)
+    book.save(tmp_path / "m.xlsx")
+    with pytest.raises(VehicleError, match="lines, expected at most 2,001"):
+        read(tmp_path / "m.xlsx")
+
+
+def test_a_formula_whose_value_is_not_stored_is_said_to_be_one(tmp_path):
+    book = Workbook()
+    for row in (HEADER, [*ROW[:8], "=2*A1"]):
+        book.active.append(row)
+    book.save(tmp_path / "m.xlsx")
+    with pytest.raises(VehicleError, match=r"line 2, column k_z \[N/mm\]: found '=2\*A1', a formula"):
+        read(tmp_path / "m.xlsx")
 
 
 def test_units_that_cannot_be_added_are_asked_for(tmp_path, capsys):

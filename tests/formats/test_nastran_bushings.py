@@ -342,6 +342,13 @@ def test_grids_that_no_body_is_at_and_attachments_elsewhere_are_refused(pair, tm
     )
 
 
+def test_a_file_that_is_listed_says_that_it_has_springs(tmp_path, capsys):
+    path = tmp_path / "joints.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *TWO, PBUSH, CBUSH]))
+    assert main(["import", str(path)]) == 0
+    assert "joints.bdf: has CBUSH or CELAS; --output and --units put" in capsys.readouterr().err
+
+
 def test_units_are_asked_for(pair, tmp_path, capsys):
     path = tmp_path / "joints.bdf"
     path.write_text("\n".join(["BEGIN BULK", *TWO, PBUSH, CBUSH]))

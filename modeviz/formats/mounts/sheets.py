@@ -4,6 +4,7 @@ import zipfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from io import BytesIO
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +17,13 @@ TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
 EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".xlsb", ".ods")
 """Those of workbooks, of which the first two are read."""
 
-LARGEST_UNPACKED = 200_000_000
+LARGEST_UNPACKED = 100_000_000
 """Bytes of a workbook."""
 
-MOST_CELLS = 1000
+MOST_MOUNTS = 2000
+"""Lines of a table, as many as a vehicle's file has of a kind."""
+
+MOST_CELLS = 200
 """Of a line of a workbook."""
 
 
@@ -42,8 +46,10 @@ def read_sheet(path: Path) -> Sheet:
         return Sheet(_of_workbook(path), decimal_comma=True)
     text = read_text(path, LARGEST_TABLE, otherwise=WESTERN)
     with located(path):
-        lines, decimal_comma = read_cells(text)
-        return Sheet(list(lines), decimal_comma)
+        found, decimal_comma = read_cells(text)
+        lines = list(islice(found, MOST_MOUNTS + 2))
+        check_size("lines", len(lines), MOST_MOUNTS + 1)
+        return Sheet(lines, decimal_comma)
 
 
 def _of_workbook(path: Path) -> list[tuple[int, list[str]]]:
@@ -61,9 +67,12 @@ def _of_workbook(path: Path) -> list[tuple[int, list[str]]]:
                 "to read Excel's files needs openpyxl; pip install 'modeviz[excel]', or save it as .csv"
             ) from None
         try:
-            book = load_workbook(BytesIO(content), read_only=True, data_only=True)
-            for sheet in book.worksheets:
-                if lines := list(_lines(sheet)):
+            books = [
+                load_workbook(BytesIO(content), read_only=True, data_only=values)
+                for values in (True, False)
+            ]
+            for sheets in zip(*(book.worksheets for book in books), strict=True):
+                if lines := list(_lines(*sheets)):
                     return lines
         except VehicleError:
             raise
@@ -72,14 +81,24 @@ def _of_workbook(path: Path) -> list[tuple[int, list[str]]]:
         return []
 
 
-def _lines(sheet: Any) -> Iterator[tuple[int, list[str]]]:
-    """The lines of a sheet that are not empty."""
-    sheet.reset_dimensions()  # what a file says of them may be wrong
-    for number, row in enumerate(sheet.iter_rows(values_only=True), 1):
+def _lines(values: Any, formulas: Any) -> Iterator[tuple[int, list[str]]]:
+    """The lines of a sheet that are not empty: values, or formulas of which no value is stored."""
+    rows = []
+    for sheet in (values, formulas):
+        sheet.reset_dimensions()  # what a file says of them may be wrong
+        rows.append(sheet.iter_rows(values_only=True))
+    n_lines = 0
+    for number, row in enumerate(zip(*rows, strict=True), 1):
         check_size("lines", number, MOST_LINES)
-        check_size("columns", len(row), MOST_CELLS)
-        cells = [_text(value) for value in row]
-        if any(cells):
+        cells = [
+            _text(formula if value is None else value) for value, formula in zip(*row, strict=True)
+        ]
+        while cells and not cells[-1]:
+            cells.pop()
+        check_size("columns", len(cells), MOST_CELLS)
+        if cells:
+            n_lines += 1
+            check_size("lines", n_lines, MOST_MOUNTS + 1)
             yield number, cells
 
 

@@ -108,6 +108,12 @@ class _Table:
             column.header: cells[place] if place < len(cells) else ""
             for place, column in self.columns.items()
         }
+        for header, text in by_header.items():
+            if text[:1] == "=":
+                raise VehicleError(
+                    f"line {number}, column {header}: found {quoted(text)}, a formula whose value isn't "
+                    "stored; open the workbook in Excel and save it"
+                )
         by_name = {column.name: column for column in self.columns.values()}
         return _Line(Row(number, by_header, sheet.decimal_comma), by_name, self.units)
 
