@@ -416,6 +416,7 @@ BAD = {
     ),
     "not finite": (cell("k_y [N/mm]", "inf"), "expected a finite number"),
     "not a number": (cell("x [mm]", "nan"), "line 2, column x [mm]: found 'nan'"),
+    "a rate beyond any vehicle": (cell("k_z [N/mm]", "1e40"), "found 1e40, which is beyond any"),
     "a negative rate": (
         cell("k_z [N/mm]", -5),
         "line 2, column k_z [N/mm]: found -5, expected zero or more",

@@ -130,6 +130,7 @@ def test_a_gbs_file_has_the_rates_of_its_active_formulations(read):
         ("c.gbs", adams(), "without \\[DIRECTIONS\\]"),
         ("c.gbs", ALTAIR.replace("'CUBIC_STIFFNESS'          0", "'CUBIC_STIFFNESS' 1"), "not linear"),
         ("c.gbs", ALTAIR.replace("1  0  1  1  0  0", "1  0  1  1"), "six of 0 and 1"),
+        ("c.gbs", ALTAIR.replace("[CONSTANT_STIFFNESS_FX]", "''\n[CONSTANT_FX]"), "six of"),
         ("c.gbs", ALTAIR.replace("K = 6000.0", ""), "\\[CONSTANT_STIFFNESS_FX\\] K: missing"),
         ("c.txt", adams(), "expected one of .bus, .gbs"),
     ],

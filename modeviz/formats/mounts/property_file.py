@@ -16,6 +16,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, listed, located, quoted
 from modeviz.files.disk import LARGEST_TEXT, read_text
+from modeviz.formats.component import LARGEST
 from modeviz.units import UNITS
 from modeviz.vehicle.arrays import Floats
 
@@ -162,7 +163,7 @@ def _activity(blocks: Mapping[str, _Block]) -> dict[str, list[bool]]:
     for number, line in blocks["DIRECTIONS"].lines:
         if line[0] in "{(":
             continue
-        name, *switches = line.replace("'", " ").replace('"', " ").split()
+        name, *switches = line.replace("'", " ").replace('"', " ").split() or [""]
         if len(switches) != 6 or not set(switches) <= {"0", "1"}:
             raise VehicleError(
                 f"line {number}: found {quoted(line)}, expected a formulation and six of 0 and 1"
@@ -182,7 +183,7 @@ def _number(where: str, text: str) -> float:
         value = float(text.upper().replace("D", "E"))
     except ValueError:
         value = np.nan
-    if not np.isfinite(value):
+    if not abs(value) < LARGEST:
         raise VehicleError(f"{where}: found {quoted(text)}, expected a number")
     return value
 

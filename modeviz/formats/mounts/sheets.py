@@ -1,5 +1,6 @@
 """Tables of text and of Excel as lines of cells."""
 
+import warnings
 import zipfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -67,10 +68,12 @@ def _of_workbook(path: Path) -> list[tuple[int, list[str]]]:
                 "to read Excel's files needs openpyxl; pip install 'modeviz[excel]', or save it as .csv"
             ) from None
         try:
-            books = [
-                load_workbook(BytesIO(content), read_only=True, data_only=values)
-                for values in (True, False)
-            ]
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of styles, and what else is nothing here
+                books = [
+                    load_workbook(BytesIO(content), read_only=True, data_only=values)
+                    for values in (True, False)
+                ]
             for sheets in zip(*(book.worksheets for book in books), strict=True):
                 if lines := list(_lines(*sheets)):
                     return lines

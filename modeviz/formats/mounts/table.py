@@ -8,6 +8,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, listed, located, quoted
 from modeviz.files.disk import inside
+from modeviz.files.schema.scaling import BEYOND_ANY_VEHICLE
 from modeviz.files.tables import Row
 from modeviz.formats.component import UnitSystem
 from modeviz.formats.mounts.axes import axes_of_angles, axes_of_vectors
@@ -111,8 +112,8 @@ class _Table:
         for header, text in by_header.items():
             if text[:1] == "=":
                 raise VehicleError(
-                    f"line {number}, column {header}: found {quoted(text)}, a formula whose value isn't "
-                    "stored; open the workbook in Excel and save it"
+                    f"line {number}, column {header}: found {quoted(text)}, a formula whose value "
+                    "isn't stored; open the workbook in Excel and save it"
                 )
         by_name = {column.name: column for column in self.columns.values()}
         return _Line(Row(number, by_header, sheet.decimal_comma), by_name, self.units)
@@ -166,6 +167,10 @@ class _Line:
             raise VehicleError(
                 f"{self.where(name)}: found {self.text(name)} without a unit; write it in the header, "
                 f"'{column.header} [...]', such as {advice}"
+            )
+        if abs(value * factor) > BEYOND_ANY_VEHICLE:
+            raise VehicleError(
+                f"{self.where(name)}: found {self.text(name)}, which is beyond any vehicle"
             )
         return value * factor
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeviz.errors import VehicleError, listed, located, quoted
+from modeviz.formats.component import check_range
 from modeviz.formats.mounts.bushing import DIRECTIONS
 from modeviz.formats.nastran.bulk import Card
 from modeviz.vehicle.arrays import Floats
@@ -128,6 +129,7 @@ class BushProperties:
         card = self._tables[number]
         with located(f"TABLED1 {number}"):
             points = np.array(list(_points(card)))
+            check_range("its points", points)
             if len(points) < 2 or (np.diff(points[:, 0]) < 0).any():
                 raise VehicleError("expected two or more points of rising frequencies")
             first, last = points[0, 0], points[-1, 0]
@@ -175,8 +177,7 @@ def _lines(card: Card) -> Iterator[tuple[str, int]]:
 
 def _numbers(card: Card, texts: list[str]) -> Floats:
     numbers = np.array([Card(f"{card.name} {card.text(0)}", ["", text]).real(1) for text in texts])
-    if not np.isfinite(numbers).all():
-        raise VehicleError(f"found {listed(texts)}, expected finite numbers")
+    check_range("its rates", numbers)
     return numbers
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.errors import VehicleError, located
-from modeviz.formats.component import UnitSystem
+from modeviz.formats.component import UnitSystem, check_range
 from modeviz.formats.mounts.bushing import Bushing
 from modeviz.formats.nastran.bulk import Card, cards
 from modeviz.formats.nastran.bush_properties import NAMES as PROPERTIES
@@ -100,7 +100,7 @@ def _offset(card: Card, grids: Grids) -> Floats | None:
     if system < 0:
         return None
     place = grids.place(card.whole(2))
-    offset = np.array([card.real(i) for i in (10, 11, 12)])
+    offset = _vector(card, 10)
     return (place + offset @ grids.axes(system, place)) * grids.units.length
 
 
@@ -140,4 +140,11 @@ def _in_plane(card: Card, grids: Grids, a: Floats) -> Floats:
     """The vector that lies in the xy plane of a CBUSH: to GO, or X in the system of its first grid."""
     if card.text(4).isdigit() and not card.text(5) and not card.text(6):
         return grids.place(card.whole(4)) - a
-    return np.array([card.real(i) for i in (4, 5, 6)]) @ grids.directions(card.whole(2))
+    return _vector(card, 4) @ grids.directions(card.whole(2))
+
+
+def _vector(card: Card, first: int) -> Floats:
+    """Three fields as a vector; raises VehicleError for numbers that nobody has."""
+    vector = np.array([card.real(i) for i in range(first, first + 3)])
+    check_range("its vectors", vector)
+    return vector

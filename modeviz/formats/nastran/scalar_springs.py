@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from modeviz.errors import VehicleError, listed, located
+from modeviz.formats.component import check_range
 from modeviz.formats.mounts.bushing import Bushing
 from modeviz.formats.nastran.bulk import Card
 from modeviz.formats.nastran.bush_properties import BushProperties, BushRates
@@ -66,7 +67,8 @@ def _rate(card: Card, properties: BushProperties) -> tuple[float, float]:
         k, g = properties.spring(card.whole(1, card.whole(0)))
     else:
         k, g = card.real(1), card.real(6)
-    if not (0 <= k < np.inf and 0 <= g < np.inf):
+    check_range("its K and GE", np.array([k, g]))
+    if k < 0 or g < 0:
         raise VehicleError(f"found K {k:g} and GE {g:g}, expected zero or more")
     return k, g
 
