@@ -77,13 +77,14 @@ class ImportOptions:
     @property
     def mounts(self) -> MountOptions:
         """What is asked for of mounts; raises ModevizError for what mounts do not have."""
-        self.check_only("mounts", "units", "frequency", "bodies")
+        self.check_only("mounts", "units", "frequency", "bodies", "pose")
         return MountOptions(
             files=self.files,
             output=self.output,
             units=self.units,
             frequency=self.frequency,
             bodies=self.bodies,
+            pose=self.pose,
         )
 
     def check_only(self, what: str, *names: str) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeviz.cli.results import print_result
 from modeviz.cli.terminal import remark
-from modeviz.errors import ModevizError, VehicleError, quoted
+from modeviz.errors import ModevizError, VehicleError, located, quoted
 from modeviz.formats.component import UNIT_SYSTEMS, UnitSystem
 from modeviz.formats.mounts.bushing import DIRECTIONS, Bushing
 from modeviz.formats.mounts.into_folder import Target, add_bushings
@@ -17,6 +17,8 @@ from modeviz.formats.mounts.property_file import read_property
 from modeviz.formats.mounts.sheets import EXCEL_SUFFIXES, TEXT_SUFFIXES
 from modeviz.formats.mounts.table import read_mount_table
 from modeviz.formats.nastran.bushings import has_bushings, read_bushings
+from modeviz.formats.poses import parse_pose
+from modeviz.formats.reading import read_component
 from modeviz.report.tables import table
 from modeviz.report.truncation import truncation_doubts
 from modeviz.units import factor
@@ -39,6 +41,8 @@ class MountOptions:
     """Hz, at which rates over frequency are taken."""
     bodies: tuple[str, ...]
     """Of the first and the second grids of an input file; none if they are to be found."""
+    pose: str | None
+    """Where an input file stands in the vehicle, as `parse_pose` reads it."""
 
 
 def holds_mounts(files: Sequence[Path], output: Path | None) -> bool:
@@ -96,13 +100,22 @@ def _read(path: Path, options: MountOptions, target: Target | None) -> tuple[Bus
 
     units = _system(options.units)
     if path.suffix.lower() not in DECK_SUFFIXES:
+        if options.frequency is not None or options.bodies or options.pose:
+            raise ModevizError(
+                "--frequency, --bodies and --pose are of an input file of Nastran, and this is a table"
+            )
         return read_mount_table(path, units, target.named if target else OURS, note)
     if units is None:
         raise VehicleError(
             f"{path.name}: the file doesn't say its units, and they are not guessed; say them with "
             f"--units, one of {', '.join(UNIT_SYSTEMS)}"
         )
-    return read_bushings(path, units, options.frequency, options.bodies, note)
+    bushings = read_bushings(path, units, options.frequency, options.bodies, note)
+    if options.pose is None or target is None:
+        return bushings
+    with located("--pose"):
+        pose = parse_pose(options.pose, read_component([path]), units.length, target.axes)
+    return tuple(bushing.moved(pose) for bushing in bushings)
 
 
 def import_property(path: Path, output: Path | None) -> None:

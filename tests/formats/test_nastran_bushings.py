@@ -344,6 +344,22 @@ def test_grids_that_no_body_is_at_and_attachments_elsewhere_are_refused(pair, tm
     )
 
 
+def test_a_file_stands_in_the_vehicle_as_its_pose_says(pair, tmp_path):
+    """By grids whose places in the vehicle are known, turned a quarter about z and moved."""
+    turn = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+    there = (CORNERS - [500, 20, 30]) @ turn.T
+    cards = [*grids(LABELS, there), "PBUSH,7,K,10.,20.,30.", "CBUSH,1,7,11,,,,,0", ",,0,5.,0.,0."]
+    path = tmp_path / "joints.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    pose = "; ".join(f"{n}={','.join(map(str, place(n)))}" for n in (11, 12, 13, 23))
+    options = ["--units", "mm-t-s", "--bodies", "upper", "ground", "--pose", pose]
+    assert main(["import", str(path), "--output", str(pair), *options]) == 0
+    (mount,) = read_vehicle(pair).mounts
+    np.testing.assert_allclose(1000 * mount.points[0], place(11) + turn.T @ [5, 0, 0], atol=1e-9)
+    K = mount.axes.T * mount.stiffness @ mount.axes
+    np.testing.assert_allclose(K, np.diag([20e3, 10e3, 30e3]), atol=1e-6)
+
+
 def test_a_file_that_is_listed_says_that_it_has_springs(tmp_path, capsys):
     path = tmp_path / "joints.bdf"
     path.write_text("\n".join(["BEGIN BULK", *TWO, PBUSH, CBUSH]))

@@ -1,10 +1,12 @@
 """A connection as a file of another program has it: what every reader of mounts returns."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 
 from modeviz.vehicle.arrays import Floats, frozen
+from modeviz.vehicle.pose import Pose
 
 AXES = ("x", "y", "z")
 """Of a bushing: along the first three of its six directions, about the last three."""
@@ -58,3 +60,16 @@ class Bushing:
         frozen(self, "stiffness", self.stiffness, (6,))
         frozen(self, "damping", self.damping, (6,))
         frozen(self, "axes", self.axes, (3, 3))
+
+    def moved(self, pose: Pose) -> Self:
+        """Return the bushing in the vehicle that is in the coordinates of a component."""
+        first, second = (
+            end if end.place is None else replace(end, place=pose.places(end.place))
+            for end in self.ends
+        )
+        return replace(
+            self,
+            ends=(first, second),
+            axes=self.axes @ pose.rotation.T,
+            acts_at=None if self.acts_at is None else pose.places(self.acts_at),
+        )
