@@ -13,7 +13,7 @@ from modeviz.files.schema.axes import axes_of
 from modeviz.files.toml_reader import read_toml
 from modeviz.formats.attachments import Found, find_attachments
 from modeviz.formats.body import chosen_units, flexible_body
-from modeviz.formats.component import Component
+from modeviz.formats.component import Component, UnitSystem
 from modeviz.formats.halves import Whole, join_halves, parse_plane
 from modeviz.formats.into_folder import add_body
 from modeviz.formats.places import parse_place
@@ -30,6 +30,11 @@ USUAL_PLANE = "y=0"
 
 LEFT = np.array([0.0, -1.0, 0.0])
 """In our axes."""
+
+ASSUMED_SIDES = (
+    "left is where y is below zero, since no axes are said (x rearward, y right, z up are taken); "
+    "where the component's are others, say so with --pose, such as 'x forward, y left, z up'"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,15 +134,8 @@ def import_body(
     pose = settings.pose
     if isinstance(pose, str):
         with located("--pose"):
-            pose = parse_pose(pose, component, units.length, axes)
-    read, whole = component, _whole(component, settings) if settings.antisymmetric else None
-    if whole:
-        component = whole.component
-    with located("--attach"):
-        found = find_attachments(component, [parse_place(text) for text in settings.attach], units)
-    if whole:
-        left = axes.T @ LEFT if pose is None else pose.rotation.T @ axes.T @ LEFT
-        found = whole.attachments(found, left, units.length)
+            pose = parse_pose(pose, component, units.length, np.eye(3) if axes is None else axes)
+    component, found, said = _attached(component, settings, units, pose, axes)
     component = solved(component, settings.wanted, found, units.length)
     body, notes = flexible_body(component, units, name, found)
     with located("--residual"):
@@ -145,8 +143,29 @@ def import_body(
     if pose is not None:
         body = pose.moved(body)
     vehicle = add_body(body, folder, component.source) if folder else None
-    others = (note for note in component.notes if note not in read.notes)
-    return Imported(body, found, (*others, *notes), vehicle)
+    return Imported(body, found, (*said, *notes), vehicle)
+
+
+def _attached(
+    component: Component,
+    settings: ImportSettings,
+    units: UnitSystem,
+    pose: Pose | None,
+    axes: Floats | None,
+) -> tuple[Component, tuple[Found, ...], tuple[str, ...]]:
+    """The component, the whole if it is a half, its attachments, and what is to be said of that."""
+    half, whole = component, _whole(component, settings) if settings.antisymmetric else None
+    component = whole.component if whole else half
+    with located("--attach"):
+        found = find_attachments(component, [parse_place(text) for text in settings.attach], units)
+    if whole is None:
+        return component, found, ()
+    turn = (np.eye(3) if axes is None else axes) @ (np.eye(3) if pose is None else pose.rotation)
+    both = whole.attachments(found, turn.T @ LEFT, units.length)
+    notes = [note for note in component.notes if note not in half.notes]
+    if axes is None and pose is None and len(both) > len(found):
+        notes.append(ASSUMED_SIDES)
+    return component, both, tuple(notes)
 
 
 def _whole(half: Component, settings: ImportSettings) -> Whole:
@@ -157,7 +176,7 @@ def _whole(half: Component, settings: ImportSettings) -> Whole:
         return join_halves(half, read_component(settings.antisymmetric), plane)
 
 
-def _axes_of(folder: Path | None) -> Floats:
-    """What turns the axes of a vehicle folder's file into ours; those of a new one are ours."""
+def _axes_of(folder: Path | None) -> Floats | None:
+    """What turns the axes of a vehicle folder's file into ours; None if there is none yet."""
     path = folder / VEHICLE_FILE if folder else None
-    return axes_of(read_toml(path, VehicleRecord).axes) if path and path.is_file() else np.eye(3)
+    return axes_of(read_toml(path, VehicleRecord).axes) if path and path.is_file() else None

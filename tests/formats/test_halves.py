@@ -245,7 +245,9 @@ def test_a_command_joins_two_runs_to_a_body(tmp_path, files, full, capsys):
     expected = full.natural_frequency_hz[6:30]
     np.testing.assert_allclose(body.natural_frequency_hz[6:30], expected, rtol=1e-5)
     assert body.mass == pytest.approx(full.mass, rel=1e-4)
-    assert "6 rigid and 34 elastic modes" in capsys.readouterr().out
+    said = capsys.readouterr()
+    assert "6 rigid and 34 elastic modes" in said.out
+    assert "left is where y is below zero" in said.err
     assert "symmetric.unv and antisymmetric.unv" in (folder / "vehicle.toml").read_text()
 
 
@@ -257,6 +259,28 @@ def test_sides_of_a_command_go_by_the_axes_of_the_vehicle(tmp_path, files):
     main(["import", str(files[0]), *common, "--antisymmetric", str(files[1])])
     (body,) = read_vehicle(folder).bodies
     assert body.attachment("corner left").position[1] < 0  # ours: y is to the right
+
+
+def test_sides_of_a_command_go_by_the_pose(tmp_path, files, capsys):
+    folder = tmp_path / "vehicle"
+    common = ["--output", str(folder), "--units", "mm-t-s", "--attach", "corner=6"]
+    pose = ["--pose", "x forward, y left, z up at 100,0,0"]
+    main(["import", str(files[0]), *common, *pose, "--antisymmetric", str(files[1])])
+    (body,) = read_vehicle(folder).bodies
+    left = body.attachment("corner left").position
+    np.testing.assert_allclose(left, run("symmetric").nodes[5] * [-1, -1, 1] + [0.1, 0, 0], atol=1e-6)
+    assert "left is where" not in capsys.readouterr().err
+
+
+def test_residual_vectors_of_both_halves_come_last(halves):
+    symmetric, antisymmetric = (
+        changed(half, n_residuals=n) for half, n in zip(halves, (2, 3), strict=True)
+    )
+    modes = join_halves(symmetric, antisymmetric, Plane(1)).component.modes
+    assert modes.n_residuals == 5
+    tops = [half.modes.frequency_hz[-n:] for half, n in zip(halves, (2, 3), strict=True)]
+    np.testing.assert_array_equal(modes.frequency_hz[-5:], np.sort(np.concatenate(tops)))
+    assert (np.diff(modes.frequency_hz[:-5]) >= 0).all()
 
 
 @pytest.mark.parametrize(

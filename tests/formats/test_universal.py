@@ -347,4 +347,5 @@ def test_damaged_files_are_refused_in_a_sentence(read, text, words):
     with pytest.raises(VehicleError) as caught:
         read(text)
     assert words in str(caught.value)
+    assert ": :" not in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
