@@ -29,7 +29,17 @@ from modeviz.vehicle.residuals import estimated_residual_compliance, modal_compl
 
 UNKNOWN = "unknown"
 
-OF_A_BODY = ("units", "name", "attach", "residual", "pose", "antisymmetric", "plane")
+OF_A_BODY = (
+    "units",
+    "name",
+    "attach",
+    "residual",
+    "pose",
+    "antisymmetric",
+    "plane",
+    "mesh",
+    "mesh_unit",
+)
 """What only a body that is written has."""
 
 
@@ -55,6 +65,10 @@ class ImportOptions:
     """The files of a half model's antisymmetric run."""
     plane: str | None = None
     """Where the half is cut; None: `USUAL_PLANE`."""
+    mesh: Path | None = None
+    """What it looks like."""
+    mesh_unit: str | None = None
+    """Of the mesh; None: as it says, else that of the files."""
     modes: int | None = None
     """How many to compute where the files have matrices; None: `USUAL_MODES`."""
     up_to: float | None = None
@@ -117,13 +131,16 @@ def import_component(options: ImportOptions) -> None:
         remark(f"{component.source}: {note}")
     if options.output is None:
         if given := [name for name in OF_A_BODY if getattr(options, name)]:
-            raise ModevizError(f"--{given[0]} is of a body that is written; say where with --output")
+            option = given[0].replace("_", "-")
+            raise ModevizError(f"--{option} is of a body that is written; say where with --output")
         if words := springs_beside(options.files):
             remark(words)
         print_result(listing(solved(component, wanted)))
         return
     if options.plane and not options.antisymmetric:
         raise ModevizError("--plane is of two halves: give the files of the other with --antisymmetric")
+    if options.mesh_unit and not options.mesh:
+        raise ModevizError("--mesh-unit is of a mesh: give its file with --mesh")
     settings = ImportSettings(
         units=options.units,
         attach=options.attach,
@@ -131,6 +148,8 @@ def import_component(options: ImportOptions) -> None:
         pose=options.pose,
         antisymmetric=options.antisymmetric,
         plane=options.plane or USUAL_PLANE,
+        mesh=options.mesh,
+        mesh_unit=options.mesh_unit,
         wanted=wanted,
     )
     imported = import_body(component, options.name or options.files[0].stem, settings, options.output)
@@ -248,6 +267,16 @@ def _add_options(command: ArgumentParser) -> None:
         "--plane",
         metavar="PLANE",
         help=f"in which a half model is cut, in the files' units (default: {USUAL_PLANE})",
+    )
+    command.add_argument(
+        "--mesh",
+        type=Path,
+        metavar="FILE",
+        help="what it looks like, in the files' coordinates (.stl, .obj, .ply, .glb, .dae), moved by "
+        "its nodes (default: the faces of its elements)",
+    )
+    command.add_argument(
+        "--mesh-unit", metavar="UNIT", help="of the mesh (default: as it says, else that of the files)"
     )
     command.add_argument(
         "--modes",

@@ -47,14 +47,16 @@ def read_mesh(
     color: Color = DEFAULT_COLOR,
     length: float | None = None,
     turn: Floats | None = None,
+    usual: float = 1.0,
 ) -> Mesh:
     """The parts of a mesh file, without the vertices that no face names, the others in their order.
 
     Args:
         path: binary glTF with its materials, STL, OBJ, PLY or COLLADA.
         color: of the parts without a material.
-        length: m of one unit; None: as the file says, else a metre.
+        length: m of one unit; None: as the file says.
         turn: (3, 3), of its axes; None: what makes z up, if the file says which axis is.
+        usual: m of one unit, where the file says nothing and is not told.
 
     Raises:
         VehicleError: not such a file, not there, damaged, empty or too large.
@@ -67,7 +69,7 @@ def read_mesh(
         found = READERS[suffix](content, Material(color))
         if not found.parts:
             raise VehicleError("found no triangles")
-        return found.placed(length, turn)
+        return found.placed(length, turn, usual)
 
 
 def write_mesh(path: Path, mesh: Mesh) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, located
 from modeviz.files.folder import VEHICLE_FILE
+from modeviz.files.meshes import read_mesh
 from modeviz.files.records.vehicle import VehicleRecord
 from modeviz.files.schema.axes import axes_of
 from modeviz.files.toml_reader import read_toml
@@ -21,8 +22,10 @@ from modeviz.formats.poses import parse_pose
 from modeviz.formats.reading import read_component
 from modeviz.formats.residuals import with_given_compliance
 from modeviz.formats.solving import USUAL_MODES, Wanted, solved
+from modeviz.formats.surface import COLOR
+from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.bodies import FlexibleBody, Mesh
 from modeviz.vehicle.pose import Pose
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -53,6 +56,10 @@ class ImportSettings:
     """Of a half model's antisymmetric run; the component is then that of the symmetric one."""
     plane: str = USUAL_PLANE
     """Where the half is cut."""
+    mesh: Path | None = None
+    """Of its looks, in the coordinates of the component; None: the faces of its elements."""
+    mesh_unit: str | None = None
+    """Of that; None: as the mesh says, else as the component."""
     wanted: Wanted = field(default_factory=Wanted)
     """The modes of matrices."""
 
@@ -79,6 +86,8 @@ def import_component(
     pose: str | Pose | None = None,
     antisymmetric: Sequence[Path | str] = (),
     plane: str = USUAL_PLANE,
+    mesh: Path | str | None = None,
+    mesh_unit: str | None = None,
     n_modes: int | None = None,
     up_to_hz: float | None = None,
 ) -> Imported:
@@ -94,6 +103,8 @@ def import_component(
         pose: where it stands in the vehicle.
         antisymmetric: files of a half model's antisymmetric run; `files` are of the symmetric one.
         plane: where the half is cut.
+        mesh: what it looks like, in its coordinates; if not given, the faces of its elements.
+        mesh_unit: of the mesh, such as "mm"; if not given, as it says, else that of the files.
         n_modes: of matrices, how many to compute.
         up_to_hz: of matrices, up to which frequency instead.
 
@@ -111,6 +122,8 @@ def import_component(
         pose=pose,
         antisymmetric=tuple(map(Path, antisymmetric)),
         plane=plane,
+        mesh=None if mesh is None else Path(mesh),
+        mesh_unit=mesh_unit,
         wanted=wanted,
     )
     folder = None if output is None else Path(output)
@@ -140,6 +153,8 @@ def import_body(
     body, notes = flexible_body(component, units, name, found)
     with located("--residual"):
         body = with_given_compliance(body, settings.residual, units)
+    if settings.mesh:
+        body = replace(body, mesh=_looks(settings.mesh, settings.mesh_unit, units))
     if pose is not None:
         body = pose.moved(body)
     vehicle = add_body(body, folder, component.source) if folder else None
@@ -166,6 +181,14 @@ def _attached(
     if axes is None and pose is None and len(both) > len(found):
         notes.append(ASSUMED_SIDES)
     return component, both, tuple(notes)
+
+
+def _looks(path: Path, unit: str | None, units: UnitSystem) -> Mesh:
+    """The mesh of a file, m, in the component's coordinates."""
+    with located("--mesh-unit"):
+        length = factor(unit, "length") if unit is not None else None
+    with located("--mesh"):
+        return read_mesh(path, COLOR, length, usual=units.length)
 
 
 def _whole(half: Component, settings: ImportSettings) -> Whole:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from modeviz.files.meshes import READERS as MESHES
 from modeviz.formats.component import UNIT_SYSTEMS
 from modeviz.formats.matrices import SUFFIXES as MATRICES
 from modeviz.formats.reading import READERS
@@ -26,6 +27,6 @@ def test_the_page_has_every_system_of_units_with_what_it_is():
 
 def test_the_page_names_endings_of_every_format():
     named = set(re.findall(r"`(\.\w+)`", PAGE))
-    assert named <= {*READERS, *MATRICES}
+    assert named <= {*READERS, *MATRICES, *MESHES}
     assert {READERS[ending] for ending in named & set(READERS)} == set(READERS.values())
-    assert set(MATRICES) <= named
+    assert set(MATRICES) | set(MESHES) <= named

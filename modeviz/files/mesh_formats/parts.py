@@ -36,14 +36,15 @@ class RawMesh:
     up: Floats | None = None
     """(3, 3): what turns its axes so that z is up, if it says which of them is."""
 
-    def placed(self, length: float | None, turn: Floats | None) -> Mesh:
+    def placed(self, length: float | None, turn: Floats | None, usual: float) -> Mesh:
         """The display mesh.
 
         Args:
-            length: m of one unit; None: as the file says, else a metre.
+            length: m of one unit; None: as the file says.
             turn: (3, 3), of its axes; None: what makes z up, if the file says that.
+            usual: m of one unit, where nothing says it.
         """
-        unit = length or self.length or 1.0
+        unit = length or self.length or usual
         T = turn if turn is not None else self.up
         with np.errstate(all="ignore"):  # what is not finite is refused when the mesh is made
             return mesh([replace(p, vertices=_turned(p.vertices, T) * unit) for p in self.parts])
