@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import partial
+from itertools import chain, count
 from pathlib import Path
 
 from modeviz.errors import ModevizError, VehicleError, listed, quoted
@@ -63,12 +64,20 @@ def writer(path: Path, vehicle: Vehicle) -> Writer:
 
 
 def contents(vehicle: Vehicle) -> dict[str, Mapping[str, Writer]]:
-    """Return what can be written of a vehicle, and for each the writers by the ending of the file.
+    """Return what can be written of a vehicle, and for each the writers by the ending of the file."""
+    words = body_words(vehicle)
+    return {**{words[body.name]: _of_body(body) for body in vehicle.bodies}, **WHOLE}
 
-    Bodies are found by their names in small letters, with "-" for all that is no letter.
-    """
-    bodies = {_slug(body.name): _of_body(body) for body in vehicle.bodies}
-    return {**bodies, **WHOLE}
+
+def body_words(vehicle: Vehicle) -> dict[str, str]:
+    """Return what file names call each body: its name in small letters, with "-" between words."""
+    words: dict[str, str] = {}
+    for body in vehicle.bodies:
+        slug = _slug(body.name) or "body"
+        numbered = (f"{slug}-{number}" for number in count(2))
+        taken = {*words.values(), *WHOLE}
+        words[body.name] = next(word for word in chain([slug], numbered) if word not in taken)
+    return words
 
 
 def _slug(name: str) -> str:

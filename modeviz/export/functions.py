@@ -75,7 +75,8 @@ class Functions:
 
 
 def power_spectra(conditions: Conditions, prepared: Prepared, rates: Rates) -> Functions:
-    """Return the PSDs of a ride; arguments and errors as `analysis.results.solve`."""
+    """Return the PSDs of a ride; as `analysis.results.solve`, or VehicleError if nobody feels it."""
+    _check_felt(prepared.vehicle)
     results = solve(prepared, rates, conditions)
     axes = FileAxes(prepared.vehicle.axes)
     psd = results.psd * STANDARD_GRAVITY**2
@@ -106,11 +107,11 @@ def frequency_responses(prepared: Prepared, rates: Rates, conditions: Conditions
     vehicle, axes = prepared.vehicle, FileAxes(prepared.vehicle.axes)
     loads = list(_unit_loads(vehicle, conditions))
     inputs = [one for load in loads for one in _inputs(load, axes)]
-    where = f"vehicle {vehicle.name!r}"
-    if not vehicle.response_points:
-        raise VehicleError(f"{where} has no response point: give its vehicle.toml a [[response_point]]")
+    _check_felt(vehicle)
     if not inputs:
-        raise VehicleError(f"{where} has no load: give its vehicle.toml a [[tyre]] or a [[force]]")
+        raise VehicleError(
+            f"vehicle {vehicle.name!r} has no load: give its vehicle.toml a [[tyre]] or a [[force]]"
+        )
     stiffness = prepared.mount_stiffness(rates)
     under = driven(prepared, loads, conditions.speed if conditions else vehicle.speed)
     f = under.lines(resonances_at(prepared.basis, stiffness))
@@ -127,6 +128,15 @@ def frequency_responses(prepared: Prepared, rates: Rates, conditions: Conditions
     )
     about = f"at {conditions.speed:.6g} m/s" if conditions else "standing"
     return Functions(vehicle, axes, about, f, _ordered(functions))
+
+
+def _check_felt(vehicle: Vehicle) -> None:
+    """Raises VehicleError unless somebody feels what the vehicle does."""
+    if not vehicle.response_points:
+        raise VehicleError(
+            f"vehicle {vehicle.name!r} has no response point: give its vehicle.toml a "
+            "[[response_point]]"
+        )
 
 
 def _ordered(functions: Iterator[Function] | Sequence[Function]) -> tuple[Function, ...]:

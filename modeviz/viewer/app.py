@@ -22,6 +22,7 @@ from modeviz.viewer.page.layout import NARROW, WIDE, Layout
 from modeviz.viewer.page.server import Server, open_server
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
+from modeviz.viewer.panels.data_files import DataPanel
 from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.excitation import ExcitationPanel
 from modeviz.viewer.panels.figures import TablePanel
@@ -193,6 +194,7 @@ class App:
                 self.offline,
                 self._illustrated_report,
             )
+            self._data = DataPanel(gui, session, self._pictures.downloads, self._solved)
         self._status = StatusPanel(gui, session.vehicle.notes)
         self.guide: Guide = Guide(self.server, self._hotkeys)
 

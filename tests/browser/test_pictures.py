@@ -13,9 +13,11 @@ import av
 import numpy as np
 import pytest
 from builtin_truck import builtin_truck, truck_modes
+from bulk_data import bulk_data
 from pages import CLOSE_NOTICES, wait_for, wait_until
 from PIL import Image
 from session_commands import Alter
+from vtk_files import read_vtu
 
 from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.results import Conditions
@@ -419,3 +421,36 @@ def test_report_of_the_command_line_has_a_picture_of_the_mode_with_each_set(tmp_
         modes = printed_json("modes", "--rates", rates)["modes"]
         (yaw,) = [mode["frequency_hz"] for mode in modes if mode["name"] == "cab yaw"]
         assert f"ab yaw, {yaw:.2f} Hz, {rates}" in text
+
+
+def downloaded(app, page, content, kind):
+    """The name and the content of a file of data that the page downloads."""
+    panel = app._data
+    panel._content.value = content
+    panel._offer()
+    panel._format.value = kind
+    with page.expect_download(timeout=2000 * SOLVE_S) as downloading:
+        page.get_by_role("button", name="Download").click()
+    wait_for(page, "!document.querySelector('.mantine-Modal-content')")
+    return downloading.value.suggested_filename, Path(downloading.value.path()).read_bytes()
+
+
+def test_rates_on_the_screen_are_downloaded_as_cards(app, bench):
+    name, content = downloaded(app, bench, "Mount rates", "Nastran cards")
+    cards = bulk_data(content.decode("ascii"))
+    rates = app.session.state.design.rates["C2"]
+    assert name == "pickup-optimised-rates.bdf"
+    assert [rate / 1000 for rate in rates.local()] in [
+        card[3:6] for card in cards if card[0] == "PBUSH"
+    ]
+    assert bench.get_by_label("Units", exact=True).is_visible()
+
+
+def test_modes_on_the_screen_are_downloaded_whole_though_they_are_megabytes(app, bench):
+    name, content = downloaded(app, bench, "Modes", "ParaView, VTU")
+    arrays = read_vtu(content)
+    modes = app.session.answer.now.modes
+    assert name == "pickup-optimised-modes.vtu"
+    assert len(content) > 5_000_000
+    below = modes.frequency_hz < app.session.vehicle.highest_frequency
+    np.testing.assert_allclose(arrays["FieldData"]["frequency, Hz"], modes.frequency_hz[below])

@@ -14,9 +14,8 @@ from modeviz.report.images import check_films, gif_bytes, mp4_bytes, png_bytes
 from modeviz.text.time_left import TimeLeft
 from modeviz.text.wording import file_name
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page.connection import MOST_PAGES
-from modeviz.viewer.page.limits import Places
 from modeviz.viewer.page.server import Server
+from modeviz.viewer.panels.downloads import Downloads
 from modeviz.viewer.pictures.headless import HeadlessPage
 from modeviz.viewer.pictures.pictures import (
     CYCLE_S,
@@ -34,7 +33,7 @@ from modeviz.viewer.pictures.pictures import (
 from modeviz.viewer.scene.driver import held
 from modeviz.viewer.scene.stage import Theme
 from modeviz.viewer.session.coloring import ColorScale
-from modeviz.viewer.tasks.page_jobs import Progress, run, turn
+from modeviz.viewer.tasks.page_jobs import Progress, turn
 
 PRESETS = {
     "1920 × 1080": (1920, 1080),
@@ -82,8 +81,8 @@ class PicturePanel:
         """
         self._server, self._theme = server, theme
         self._subject, self._is_real, self._scale = subject, is_real, scale
-        self._pages = Places(MOST_PAGES, 1)
-        self._jobs, self._browsers = threading.Semaphore(N_JOBS), threading.Semaphore(N_BROWSERS)
+        self.downloads: Downloads = Downloads(server, N_JOBS)
+        self._browsers = threading.Semaphore(N_BROWSERS)
         self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Progress], bytes]]] = {
             "Picture, PNG": ("", "png", self._picture),
             "Loop, GIF": ("", "gif", self._gif),
@@ -120,28 +119,15 @@ class PicturePanel:
         button.on_click(lambda event: self._save(event.client))
 
     def _save(self, client: viser.ClientHandle | None) -> None:
-        """Begins to make a file for a page, one at a time; nobody's controls wait for it."""
-        if client is not None and self._pages.take(str(client.client_id)):
-            threading.Thread(target=self._make, args=(client,), name="picture", daemon=True).start()
-
-    def _make(self, client: viser.ClientHandle) -> None:
+        """Begins to make a file for a page."""
         kind = self._kind.value
         what, ending, make = self._makers[kind]
 
-        def work(tell: Progress) -> None:
-            with turn(self._jobs, tell):
-                content = make(client, tell)
-            tell(1.0)  # the last moment to cancel
-            name = file_name(f"{self._subject()} {what}", ending)
-            client.send_file_download(name, content, save_immediately=True)
+        def named(client: viser.ClientHandle, tell: Progress) -> tuple[str, bytes]:
+            content = make(client, tell)
+            return file_name(f"{self._subject()} {what}", ending), content
 
-        def is_there() -> bool:
-            return client.client_id in self._server.get_clients()
-
-        try:
-            run(client, kind, work, is_there, self._server.notices.mistake)
-        finally:
-            self._pages.leave(str(client.client_id))
+        self.downloads.begin(client, kind, named)
 
     def _shot(self, client: viser.ClientHandle) -> ImageSettings:
         width, height = round(self._width.value), round(self._height.value)
