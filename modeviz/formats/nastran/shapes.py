@@ -10,6 +10,8 @@ from modeviz.formats.component import check_range, rows_of
 from modeviz.formats.limits import check_shapes
 from modeviz.vehicle.arrays import Array, Floats
 
+OTHER_GRIDS = "moves other grids than the first mode"
+
 
 @dataclass(frozen=True, eq=False)
 class Shape:
@@ -139,14 +141,27 @@ def _is_more(shape: Shape, first: Shape) -> bool:
 
 def _motions(ids: Array, parts: Sequence[Shape]) -> Array:
     """The motions of a mode along ids, (n, 6), of which each table has some; the first that has one."""
-    if len(np.unique(np.concatenate([part.ids for part in parts]))) != len(ids):
-        raise VehicleError("moves other grids than the first mode")
     first = parts[0].motions()
     motions = np.empty((len(ids), 6), first.dtype.newbyteorder("="))
+    is_there = np.zeros(len(ids), bool)
     for part in reversed(parts):
-        motions[rows_of(ids, part.ids)] = first if part is parts[0] else part.motions()
+        rows = _rows(ids, part)
+        motions[rows] = first if part is parts[0] else part.motions()
+        is_there[rows] = True
+    if not is_there.all():
+        raise VehicleError(OTHER_GRIDS)
     check_range("its motions", motions)
     return motions
+
+
+def _rows(ids: Array, part: Shape) -> Array | slice:
+    """Where the grids of a part stand among rising ids."""
+    if np.array_equal(ids, part.ids):
+        return slice(None)
+    try:
+        return rows_of(ids, part.ids)
+    except VehicleError:
+        raise VehicleError(OTHER_GRIDS) from None
 
 
 def left_out(n_scalar: int, n_other: int, subcase: int) -> tuple[str, ...]:
