@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from free_network import CORNERS, LABELS, free_network
 from network_files import network_unv
+from op2_files import Op2
 from scipy.linalg import eigh
 
 from modeviz.cli import main
@@ -159,6 +160,50 @@ RBE3,78,,9,123456,1.,12,1,2,3
 SET1,5,1,THRU,3,9
 ENDDATA
 """
+
+
+@pytest.mark.parametrize(("order", "size"), [("<", 4), (">", 4), ("<", 8)])
+@pytest.mark.parametrize("after", [(), (0.0,), (1e-5, 20.0)])
+def test_sets_of_an_op2_file_are_those_of_its_deck(tmp_path, order, size, after):
+    """With none, one or two words after each element, as versions have them."""
+    op2 = Op2(order, size)
+    places = [(1, 0, 0), (2, 2, 0), (3, 2, 3), (4, 0, 3)]
+    grids = [(i, 0, (x, y, 0), 0) for i, x, y in places] + [(9, 0, (1, 1, 5), 0)]
+    rigid = [901, 9, 123456, 1, 2, 3, 4, -1, *after, 902, 1, 12, 2, -1, *after]
+    mean = [77, 9, 123456, 1.0, 123, 1, 2, -1, 2.5, 123, 3, 4, -1, -2, 4, 3, -3, *after]
+    others = [78, 9, 123456, 1.0, 12, 1, 2, 3, -1, -3, *after]
+    (tmp_path / "a.op2").write_bytes(
+        op2.file(
+            op2.table("GEOM1", op2.grids(grids)),
+            op2.table(
+                "GEOM4", op2.words(6901, 69, 295, *rigid), op2.words(7101, 71, 187, *mean, *others)
+            ),
+        )
+    )
+    (tmp_path / "a.bdf").write_text(DECK)
+    deck = {
+        name: s for name, s in read_nastran([tmp_path / "a.bdf"]).node_sets.items() if "RBE" in name
+    }
+    assert read_nastran([tmp_path / "a.op2"]).node_sets == deck
+    assert set(deck) == {"RBE2:901", "RBE3:77"}
+
+
+def test_damaged_sets_of_an_op2_file_are_left_out(tmp_path):
+    op2 = Op2()
+    for words in (
+        [901],
+        [901, 9, 123456, 1, 2],
+        [901, 9, 7, 1, -1],
+        [-1, -1, -1, -1],
+        [1, 2, 3, -5, -1],
+    ):
+        (tmp_path / "a.op2").write_bytes(
+            op2.file(
+                op2.table("GEOM1", op2.grids([(1, 0, (0, 0, 0), 0)])),
+                op2.table("GEOM4", op2.words(6901, 69, 295, *words)),
+            )
+        )
+        assert read_nastran([tmp_path / "a.op2"]).node_sets == {}
 
 
 def test_sets_of_a_nastran_deck_go_by_their_cards(tmp_path):

@@ -22,6 +22,7 @@ from modeviz.formats.nastran.model import (
 )
 from modeviz.formats.nastran.op2_points import read_points
 from modeviz.formats.nastran.op2_records import Table
+from modeviz.formats.nastran.op2_sets import read_sets
 from modeviz.vehicle.arrays import Array, Floats
 
 GRID_KEY = (4501, 45)
@@ -96,7 +97,15 @@ def read_model(tables: Sequence[Table], path: Path) -> Model | None:
             notes += _add_elements(lots, table, ids)
     if len(of_elements) > 1:  # some files have all of them twice
         lots = {kind: [np.unique(np.concatenate(rows), axis=0)] for kind, rows in lots.items()}
-    return Model(ids, systems, coordinates, frames, grouped(lots), notes=tuple(dict.fromkeys(notes)))
+    return Model(
+        ids,
+        systems,
+        coordinates,
+        frames,
+        grouped(lots),
+        notes=tuple(dict.fromkeys(notes)),
+        node_sets=read_sets(tables),
+    )
 
 
 def _together(tables: Sequence[tuple[Array, Array, Floats]]) -> tuple[Array, Array, Floats]:
