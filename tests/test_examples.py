@@ -189,3 +189,19 @@ def test_modes_alone_leave_the_engines_bounce_on_the_frame_too_high():
     assert 0.02 < by_name["engine bounce"] < 0.098  # the most there is at any rates, as README says
     assert min(alone.too_high) > -1e-3  # what is left out stiffens, but for softened bolts
     assert abs(by_name["steering linkage pitch"]) < 1e-3
+
+
+def test_components_of_ones_own_become_a_tuned_vehicle():
+    own = example("08_own_components")
+    study = own.study
+    weight = (2 * 4.2 + 4 * 0.8) * own.RAIL.area * own.STEEL["density"] + 2 * 150
+    assert study.vehicle.body("frame").mass == pytest.approx(weight, rel=1e-4)
+    tuned = study.ride().rms("seat", "vertical")
+    rates = [
+        [study.rates[f"{group}.{name}"] for name in ("fore-aft", "lateral", "vertical")]
+        for group in ("front", "rear")
+    ]
+    study.rates.use("original")
+    assert tuned < 0.7 * study.ride().rms("seat", "vertical")
+    cards = re.findall(r"PBUSH\*\s+\d+\s+K(.{16})(.{16})\s*\n\*.{7}(.{16})", own.cards)
+    assert [[1000 * float(k) for k in card] for card in cards] == [pytest.approx(r) for r in rates]

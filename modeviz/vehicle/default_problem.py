@@ -5,6 +5,7 @@ import numpy as np
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup
+from modeviz.vehicle.iso_8608 import USUAL_ROAD
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
@@ -33,6 +34,8 @@ def problem_called(vehicle: Vehicle, name: str) -> Problem:
 def default_problem(vehicle: Vehicle) -> Problem:
     """Every rate that can change, for the first road and all wheel loads at every response point.
 
+    Where the vehicle has neither, but tyres, for the usual road of ISO 8608.
+
     At the paper's frequencies, as far as the road's table holds them at the vehicle's speed.
 
     Raises:
@@ -43,7 +46,7 @@ def default_problem(vehicle: Vehicle) -> Problem:
     lacking = {
         "a [[mount_group]] with rates above zero": groups,
         "a [[response_point]]": vehicle.response_points,
-        "a [[road]] with a [[tyre]] or a [[wheel_load]]": performance,
+        "a [[tyre]] with stiffness along z, which roads move, or a [[wheel_load]]": performance,
     }
     missing = [what for what, found in lacking.items() if not found]
     if missing:
@@ -70,10 +73,11 @@ def _reference(vehicle: Vehicle) -> str:
 def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
     loads = tuple(load.name for load in vehicle.harmonic_loads)
     shaken = [Performance(WHEEL_HZ, wheel_loads=loads)] if loads else []
-    for road in list(filter(vehicle.is_shaken_by, vehicle.roads))[:1]:
-        f = _held(road, vehicle.speed)
-        if len(f):
-            shaken.insert(0, Performance(f, roads=(road.name,)))
+    road = next(filter(vehicle.is_shaken_by, vehicle.roads), None)
+    if road is None and not shaken and vehicle.has_driven_tyres:
+        road = vehicle.random_load(USUAL_ROAD)
+    if isinstance(road, Road) and len(f := _held(road, vehicle.speed)):
+        shaken.insert(0, Performance(f, roads=(road.name,)))
     return tuple(shaken)
 
 

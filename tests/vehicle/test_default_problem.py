@@ -10,7 +10,7 @@ from mounted_cabin import mounted_cabin
 from modeviz.errors import VehicleError
 from modeviz.optimise.search import prepare_search
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.default_problem import default_problem
+from modeviz.vehicle.default_problem import ROAD_HZ, default_problem
 
 
 def test_it_has_every_rate_the_first_road_and_all_wheel_loads():
@@ -70,7 +70,10 @@ def test_of_a_short_road_only_the_frequencies_it_holds_at_the_vehicles_speed_are
     ("lacking", "named"),
     [
         ({"response_points": ()}, "a [[response_point]];"),
-        ({"roads": (), "wheel_loads": ()}, "a [[road]] with a [[tyre]] or a [[wheel_load]];"),
+        (
+            {"roads": (), "wheel_loads": (), "connections": ()},
+            "a [[tyre]] with stiffness along z, which roads move, or a [[wheel_load]];",
+        ),
         (
             {"mount_groups": (), "rate_sets": {}, "response_points": ()},
             "a [[mount_group]] with rates above zero and a [[response_point]];",
@@ -81,3 +84,10 @@ def test_what_is_missing_is_named(lacking, named):
     with pytest.raises(VehicleError) as error:
         default_problem(replace(mounted_cabin(), **lacking))
     assert named in str(error.value)
+
+
+def test_a_vehicle_on_tyres_without_a_road_is_tuned_for_the_usual_one():
+    cabin = mounted_cabin()
+    (performance,) = default_problem(replace(cabin, roads=(), wheel_loads=(), problems=())).performance
+    assert performance.roads == ("ISO C",)
+    assert len(performance.frequency_hz) == len(ROAD_HZ)
