@@ -11,7 +11,7 @@ from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, VehicleError, located, quoted
 from modeviz.formats.component import UNIT_SYSTEMS, UnitSystem
 from modeviz.formats.mounts.bushing import DIRECTIONS, Bushing
-from modeviz.formats.mounts.into_folder import Target, add_bushings
+from modeviz.formats.mounts.into_folder import Target, add_bushings, near_bushings
 from modeviz.formats.mounts.property_file import SUFFIXES as PROPERTIES
 from modeviz.formats.mounts.property_file import read_property
 from modeviz.formats.mounts.sheets import EXCEL_SUFFIXES, TEXT_SUFFIXES
@@ -111,11 +111,13 @@ def _read(path: Path, options: MountOptions, target: Target | None) -> tuple[Bus
             f"--units, one of {', '.join(UNIT_SYSTEMS)}"
         )
     bushings = read_bushings(path, units, options.frequency, options.bodies, note)
-    if options.pose is None or target is None:
+    if target is None:
         return bushings
-    with located("--pose"):
-        pose = parse_pose(options.pose, read_component([path]), units.length, target.axes)
-    return tuple(bushing.moved(pose) for bushing in bushings)
+    if options.pose is not None:
+        with located("--pose"):
+            pose = parse_pose(options.pose, read_component([path]), units.length, target.axes)
+        bushings = tuple(bushing.moved(pose) for bushing in bushings)
+    return near_bushings(bushings, target, note)
 
 
 def import_property(path: Path, output: Path | None) -> None:

@@ -20,7 +20,7 @@ from modeviz.files.toml_writer import toml_lines, toml_value
 from modeviz.units import QuantityName
 from modeviz.vehicle.vehicle import Vehicle
 
-UNITS_HEADER = re.compile(r"^[ \t]*\[[ \t]*units[ \t]*\][ \t]*(?:#.*)?$", re.MULTILINE)
+UNITS_HEADER = re.compile(r"^[ \t]*\[[ \t]*units[ \t]*\][ \t]*(?:#.*)?\r?$", re.MULTILINE)
 
 
 def append_tables(
@@ -52,7 +52,8 @@ def append_tables(
     text = _with_units(text, missing, path, has_some=bool(units))
     known = {**WRITTEN_UNITS, **units}
     lines = toml_lines(from_si(data, VehicleRecord, known), "")
-    text = f"{text.rstrip()}\n\n{heading}\n" + "\n".join(lines).strip() + "\n"
+    gap = "\n" if text.endswith("\n") else "\n\n"
+    text = f"{text}{gap}{heading}\n" + "\n".join(lines).strip() + "\n"
     vehicles = []
 
     def fill(new: Path) -> None:
@@ -93,4 +94,4 @@ def _with_units(text: str, missing: Sequence[QuantityName], path: Path, has_some
             f"{path}: units: has no {missing[0]}, in which numbers are to be added; write "
             f'{missing[0]} = "{WRITTEN_UNITS[missing[0]]}" into it'
         )
-    return f"{text.rstrip()}\n\n[units]{lines}\n"
+    return f"{text}\n\n[units]{lines}\n"

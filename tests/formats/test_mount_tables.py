@@ -119,6 +119,14 @@ def test_bodies_are_those_whose_attachments_are_at_a_place_that_names_none(pair,
         np.testing.assert_allclose(1000 * mount.points, [np.add(place(node), [3, 4, 0])] * 2)
 
 
+def test_an_end_without_a_place_is_where_the_other_one_is(pair, tmp_path):
+    header = ["name", "node 1", "body 1", "body 2", "kx [N/mm]"]
+    rows = [["a", 11, "upper", "ground", 1], ["b", 14, "upper", "lower", 1]]
+    vehicle = imported(written(tmp_path / "m.csv", [header, *rows]), pair)
+    for mount, node in zip(vehicle.mounts, (11, 14), strict=True):
+        np.testing.assert_allclose(1000 * mount.points, [place(node)] * 2)
+
+
 def test_what_stands_in_the_file_stays_and_numbers_come_in_its_units(block, tmp_path):
     before = (block / "vehicle.toml").read_text()
     header = [*HEADER, "k_rx [Nm/deg]", "loss factor [%]", "group"]
@@ -399,7 +407,7 @@ BAD = {
         bad([["group", "units", "vertical", "lateral", "fore_aft"], ["M", "N/mm", 1, 2, 3]]),
         "with --rates",
     ),
-    "a road": (bad([["frequency_hz", "left"], [1, 2]]), "expected those of mounts"),
+    "a road": (bad([["frequency_hz", "left"], [1, 2]]), "the table of a road or a load is named in"),
     "two columns of one meaning": (bad([[*HEADER, "Kx [N/m]"], [*ROW, 3]]), "both mean k_x"),
     "a column misspelt": (bad([[*HEADER, "loss_facter"], [*ROW, 3]]), "did you mean loss_factor"),
     "an unknown unit": (
@@ -571,6 +579,16 @@ def test_a_formula_whose_value_is_not_stored_is_said_to_be_one(tmp_path):
     book.save(tmp_path / "m.xlsx")
     with pytest.raises(VehicleError, match=r"line 2, column k_z \[N/mm\]: found '=2\*A1', a formula"):
         read(tmp_path / "m.xlsx")
+
+
+def test_line_ends_of_windows_stay_where_units_and_tables_are_added(block, tmp_path):
+    toml = block / "vehicle.toml"
+    before = toml.read_bytes().replace(b"\n", b"\r\n")
+    toml.write_bytes(before)
+    rows = [[*HEADER, "k_rx [N m/rad]"], [*ROW, 3]]
+    assert imported(written(tmp_path / "m.csv", rows), block).mounts
+    after = toml.read_bytes().replace(b'rotational_stiffness = "N m/rad"\n', b"", 1)
+    assert after.startswith(before)
 
 
 def test_units_that_cannot_be_added_are_asked_for(tmp_path, capsys):

@@ -344,6 +344,35 @@ def test_grids_that_no_body_is_at_and_attachments_elsewhere_are_refused(pair, tm
     )
 
 
+def test_a_grid_that_is_held_is_the_ground(pair, networks, tmp_path):
+    table = tmp_path / "m.csv"
+    lines = ["name,group,node 1,body 1,body 2,kx [N/mm],ky [N/mm],kz [N/mm]"]
+    lines += [f"m{n},M,{n},upper,ground,10,20,30" for n in ATTACHED]
+    table.write_text("\n".join(lines))
+    assert main(["import", str(table), "--output", str(pair)]) == 0
+    deck = tmp_path / "rates.bdf"
+    assert main(["export", str(pair), str(deck)]) == 0
+    again = Path(shutil.copytree(networks, tmp_path / "again"))
+    options = ["--units", "mm-t-s", "--bodies", "upper", "lower"]
+    assert main(["import", str(deck), "--output", str(again), *options]) == 0
+    first, second = (read_vehicle(folder) for folder in (pair, again))
+    assert {mount.bodies for mount in second.mounts} == {("upper", GROUND)}
+    frequencies = [solve_modes(assemble(vehicle)).frequency_hz[6:] for vehicle in (first, second)]
+    np.testing.assert_allclose(*frequencies, rtol=1e-9)
+
+
+def test_springs_that_are_near_no_attachment_are_left_out_and_told(pair, tmp_path, capsys):
+    inner = grids([900, 901], [[5000, 0, 0], [5000, 0, 10]])
+    mounts = ["CBUSH,1,7,11,1011,,,,0", "CBUSH,2,7,900,901,,,,0", "CELAS2,3,5.,900,1,901,1"]
+    path = tmp_path / "joints.bdf"
+    cards = [*grids(LABELS, CORNERS), *grids(LABELS + 1000, CORNERS), *inner, PBUSH, *mounts]
+    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s"]) == 0
+    assert [c.name for c in read_vehicle(pair).all_connections] == ["CBUSH 1"]
+    said = capsys.readouterr().err
+    assert "CBUSH 2, CELAS 3: no body has an attachment near, and are left out" in said
+
+
 def test_a_file_stands_in_the_vehicle_as_its_pose_says(pair, tmp_path):
     """By grids whose places in the vehicle are known, turned a quarter about z and moved."""
     turn = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])

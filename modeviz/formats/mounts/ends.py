@@ -31,7 +31,8 @@ class _Candidate:
     """A body that an end may hold on to."""
 
     body: str
-    place: Floats
+    place: Floats | None
+    """(3,), m; None: it is not said."""
     distance: float
     """m, of the end's place from the body's nearest attachment."""
 
@@ -54,20 +55,38 @@ class Ends:
         """
         known: dict[int, _Candidate] = {}
         for i, end in enumerate(bushing.ends):
-            if candidate := self._known(end, bushing.ends[1 - i].place):
+            if candidate := self._known(end):
                 known[i] = candidate
         if len(known) < 2:
             known |= self._nearest(bushing, known)
         first, second = known[0], known[1]
         if first.body == second.body:
             raise VehicleError(f"{bushing.ends[1].where}: joins {quoted(first.body)} to itself")
-        places = first.place, second.place
-        if bushing.acts_at is not None:
-            places = bushing.acts_at, bushing.acts_at
-            for end, candidate in zip(bushing.ends, (first, second), strict=True):
-                if candidate.body != GROUND:
-                    self._reached(end, self._vehicle.body(candidate.body), bushing.acts_at)
-        return Joined((first.body, second.body), places)
+        return Joined((first.body, second.body), self._places(bushing, first, second))
+
+    def _places(
+        self, bushing: Bushing, first: "_Candidate", second: "_Candidate"
+    ) -> tuple[Floats, Floats]:
+        """Where a bushing acts on both; an end without a place is where the other one is.
+
+        Raises:
+            VehicleError: neither has a place, or one is beyond the reach of its body's attachments.
+        """
+        found = [
+            one.place if one.place is not None else other.place
+            for one, other in ((first, second), (second, first))
+        ]
+        places = [bushing.acts_at] * 2 if bushing.acts_at is not None else found
+        reached: list[Floats] = []
+        for end, candidate, place in zip(bushing.ends, (first, second), places, strict=True):
+            if place is None:
+                raise VehicleError(
+                    f"{end.where}: on {quoted(candidate.body)}, but neither place nor attachment"
+                )
+            if candidate.body != GROUND:
+                self._reached(end, self._vehicle.body(candidate.body), place)
+            reached.append(place)
+        return reached[0], reached[1]
 
     def _attachments(self) -> Iterator[tuple[str, Attachment]]:
         """Those of all bodies, each with its body's name."""
@@ -75,22 +94,28 @@ class Ends:
             if isinstance(body, FlexibleBody):
                 yield from ((body.name, attachment) for attachment in body.attachments)
 
-    def _known(self, end: End, other: Floats | None) -> _Candidate | None:
-        """What an end names, if anything; on the ground it may be at the place of the other end."""
+    def is_far(self, bushing: Bushing) -> bool:
+        """Whether nothing of the vehicle is near a bushing, as far as that is looked for at all."""
+        return all(
+            end.body == GROUND or (end.may_be_elsewhere and not end.body and not self._is_near(end))
+            for end in bushing.ends
+        )
+
+    def _is_near(self, end: End) -> bool:
+        named = any(attachment.name == end.attachment for _, attachment in self._attachments())
+        return named or bool(self._candidates(end))
+
+    def _known(self, end: End) -> _Candidate | None:
+        """What an end names, if anything."""
         if end.body.lower() == GROUND:
-            place = other if end.place is None else end.place
-            return _Candidate(GROUND, np.full(3, np.nan) if place is None else place, 0.0)
+            return _Candidate(GROUND, end.place, 0.0)
         body = self._body(end)
         if end.may_be_elsewhere:
             if likely := self._likely(end, body):
                 return likely
         elif end.attachment:
             return self._at_attachment(end, body)
-        if body is None:
-            return None
-        if end.place is None:
-            raise VehicleError(f"{end.where}: on {quoted(body.name)}, but neither place nor attachment")
-        return _Candidate(body.name, end.place, self._reached(end, body, end.place))
+        return None if body is None else _Candidate(body.name, end.place, 0.0)
 
     def _likely(self, end: End, body: Body | None) -> _Candidate | None:
         """The body with an attachment of an end's number at its place; None if not one has it.

@@ -1,12 +1,12 @@
 """Bushings put into a vehicle folder, as mount groups that are tuned, springs and dampers."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from modeviz.errors import VehicleError, located, quoted
+from modeviz.errors import VehicleError, listed, located, quoted
 from modeviz.files.folder import VEHICLE_FILE, read_vehicle
 from modeviz.files.records.connections import (
     ConnectionRecord,
@@ -55,6 +55,26 @@ class Target:
         """Along which of x, y and z of the file the directions of rates are."""
         ours = {"fore_aft": 0, "lateral": 1, "vertical": 2}
         return {name: AXES[int(np.abs(self.axes[row]).argmax())] for name, row in ours.items()}
+
+
+def near_bushings(
+    bushings: Sequence[Bushing], target: Target, note: Callable[[str], None]
+) -> tuple[Bushing, ...]:
+    """Return the bushings that something of a vehicle is near, or all if there is nothing near any.
+
+    Those of an input file may be within bodies, as spot welds are.
+
+    Args:
+        bushings: in SI and the axes of the vehicle's file.
+        target: of the vehicle.
+        note: told which are left out.
+    """
+    ends = Ends(target.vehicle, target.axes)
+    far = [bushing.name for bushing in bushings if ends.is_far(bushing)]
+    if not far or len(far) == len(bushings):
+        return tuple(bushings)
+    note(f"{listed(far)}: no body has an attachment near, and are left out")
+    return tuple(bushing for bushing in bushings if bushing.name not in far)
 
 
 def add_bushings(bushings: Sequence[Bushing], target: Target, source: str) -> Vehicle:
@@ -129,8 +149,6 @@ def _placed(bushing: Bushing, joined: Joined) -> dict[str, object]:
     bodies, places, center = joined.bodies, joined.places, bushing.elastic_center
     if bodies[0] == GROUND:
         bodies, places, center = bodies[::-1], places[::-1], 1 - center
-    if not np.isfinite(places).all():
-        raise VehicleError(f"{bushing.where}: {quoted(bushing.name)} has no place")
     first, second = map(tuples, places)
     return {
         "bodies": bodies,

@@ -24,6 +24,8 @@ PASSED_OVER = frozenset(
 )
 """Elements between bodies that are not read, which is told."""
 
+ALL_DIRECTIONS = frozenset("123456")
+
 MATRICES = frozenset({"DMIG"})
 
 
@@ -56,16 +58,29 @@ def read_bushings(
     """
     model = read_deck(path)
     with located(path.name):
-        every = list(cards(path, ELEMENTS | PASSED_OVER | PROPERTIES))
+        every, held = _cards(path)
         if left := Counter(card.name for card in every if card.name in PASSED_OVER):
             note(f"{', '.join(f'{n} {name}' for name, n in left.items())} are left out")
         elements = [card for card in every if card.name in ELEMENTS]
         _check_numbers(elements)
         properties = BushProperties(every, frequency, note)
-        grids = Grids.of(model, units, bodies)
+        grids = Grids.of(model, units, bodies, held)
         bushes = [_bush(card, grids, properties, note) for card in elements if card.name == "CBUSH"]
         scalar = [card for card in elements if card.name != "CBUSH"]
         return (*bushes, *scalar_springs(scalar, grids, properties, note))
+
+
+def _cards(path: Path) -> tuple[list[Card], frozenset[int]]:
+    """The cards of springs, and the grids that are held in all directions where they are given."""
+    every, held, usual = [], [], ""
+    for card in cards(path, ELEMENTS | PASSED_OVER | PROPERTIES | {"GRID", "GRDSET"}):
+        if card.name == "GRDSET":
+            usual = card.text(6)
+        elif card.name != "GRID":
+            every.append(card)
+        elif ALL_DIRECTIONS.issubset(card.text(6) or usual):
+            held.append(card.whole(0))
+    return every, frozenset(held)
 
 
 def _check_numbers(elements: list[Card]) -> None:

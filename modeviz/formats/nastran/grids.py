@@ -29,11 +29,15 @@ class Grids:
     units: UnitSystem
     bodies: tuple[str, ...]
     """Of the first and the second grids of springs; none if they are to be found."""
+    held: frozenset[int]
+    """Those that do not move, which are the ground."""
 
     @classmethod
-    def of(cls, model: Model, units: UnitSystem, bodies: tuple[str, ...]) -> "Grids":
+    def of(
+        cls, model: Model, units: UnitSystem, bodies: tuple[str, ...], held: frozenset[int]
+    ) -> "Grids":
         """Raises VehicleError for a coordinate system that is missing."""
-        return cls(model, *basic_geometry(model), units, bodies)
+        return cls(model, *basic_geometry(model), units, bodies, held)
 
     def has(self, number: int) -> bool:
         """Whether there is a grid of a number."""
@@ -92,10 +96,8 @@ class Grids:
     def _end(self, name: str, side: int, field: str, grid: int) -> End:
         if not grid:
             return End(f"{name}, {field}", GROUND)
-        return End(
-            f"{name}, {field} {grid}",
-            self.bodies[side] if self.bodies else "",
-            str(grid),
-            self.place(grid) * self.units.length,
-            may_be_elsewhere=True,
-        )
+        where, place = f"{name}, {field} {grid}", self.place(grid) * self.units.length
+        if grid in self.held:
+            return End(where, GROUND, place=place)
+        body = self.bodies[side] if self.bodies else ""
+        return End(where, body, str(grid), place, may_be_elsewhere=True)

@@ -1,0 +1,204 @@
+"""A line of a mount table as a bushing."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from modeviz.errors import VehicleError, located, quoted
+from modeviz.files.disk import inside
+from modeviz.files.schema.scaling import BEYOND_ANY_VEHICLE
+from modeviz.files.tables import Row
+from modeviz.formats.component import UnitSystem
+from modeviz.formats.mounts.axes import axes_of_angles, axes_of_vectors
+from modeviz.formats.mounts.bushing import AXES, DIRECTIONS, Bushing, End
+from modeviz.formats.mounts.columns import NAMED, Column, column_factor, rate_unit
+from modeviz.formats.mounts.property_file import read_property
+from modeviz.vehicle.arrays import Floats
+
+RATES = tuple(f"k_{direction}" for direction in DIRECTIONS)
+DAMPINGS = tuple(f"c_{direction}" for direction in DIRECTIONS)
+
+
+@dataclass(frozen=True)
+class MountLine:
+    """The line of a mount."""
+
+    row: Row
+    columns: Mapping[str, Column]
+    units: UnitSystem | None
+
+    def where(self, name: str) -> str:
+        """The place of a cell, for errors."""
+        header = self.columns[name].header if name in self.columns else name
+        return self.row.where(header)
+
+    def text(self, name: str) -> str:
+        """What stands in a column; nothing if there is none."""
+        return self.row.cells[self.columns[name].header] if name in self.columns else ""
+
+    def number(self, name: str, at_least: float = -np.inf) -> float | None:
+        """The number in a column, SI; None if it is empty.
+
+        Raises:
+            VehicleError: it is no number, too small, or without a unit.
+        """
+        if not self.text(name):
+            return None
+        column = self.columns[name]
+        value = self.row.number(column.header, at_least)
+        factor = column_factor(column, self.units)
+        if column.kind == "stiffness" and not column.unit and self.text("units"):
+            with located(self.where("units")):
+                factor = rate_unit(self.text("units"))
+        if factor is None:
+            advice = "deg or rad" if column.kind == "angle" else "N/mm, or give --units"
+            raise VehicleError(
+                f"{self.where(name)}: found {self.text(name)} without a unit; write it in the header, "
+                f"'{column.header} [...]', such as {advice}"
+            )
+        if abs(value * factor) > BEYOND_ANY_VEHICLE:
+            raise VehicleError(
+                f"{self.where(name)}: found {self.text(name)}, which is beyond any vehicle"
+            )
+        return value * factor
+
+    def numbers(
+        self, names: tuple[str, ...], at_least: float = -np.inf, empty: float = 0.0
+    ) -> Floats | None:
+        """Those in columns, `empty` where one is; None if all are."""
+        found = [self.number(name, at_least) for name in names]
+        if all(value is None for value in found):
+            return None
+        return np.array([empty if value is None else value for value in found])
+
+    def bushing(self, path: Path, named: Mapping[str, str], before: Mapping[str, Bushing]) -> Bushing:
+        """The mount of this line.
+
+        Args:
+            path: of the table.
+            named: as of `read_mount_table`.
+            before: the mounts of the lines above it, by name.
+        """
+        name = self.text("name")
+        if not name:
+            raise VehicleError(f"{self.where('name')}: empty, expected the mount's name")
+        group = self.text("group") if "group" in self.columns else name
+        twin = next((b for b in before.values() if group and b.group == group), None)
+        stiffness, damping = self._rates(path, named, twin)
+        loss_factor = self.number("loss_factor", 0)
+        if loss_factor is None:
+            loss_factor = twin.loss_factor if twin else 0.0
+        bounds = [self._bound(which, named) for which in ("softest", "stiffest")]
+        if twin and np.isnan(bounds).all():
+            bounds = [twin.softest, twin.stiffest]
+        return Bushing(
+            f"line {self.row.line}",
+            name,
+            (self._end("1", self._place("")), self._end("2", self._second_place())),
+            group or None,
+            stiffness,
+            damping,
+            loss_factor,
+            *bounds,
+            axes=self._axes(),
+            elastic_center=self._elastic_center(),
+        )
+
+    def _elastic_center(self) -> float:
+        value = self.number("elastic_center", 0)
+        if value is not None and value > 1:
+            raise VehicleError(
+                f"{self.where('elastic_center')}: found {value:g}, expected 0 (at the first end) to 1"
+            )
+        return 0.5 if value is None else value
+
+    def _rates(
+        self, path: Path, named: Mapping[str, str], twin: Bushing | None
+    ) -> tuple[Floats, Floats]:
+        """Stiffness and damping of a line, or else of the first of its group."""
+        stiffness, damping = self._directed("k", named, RATES, 0.0), self.numbers(DAMPINGS, 0)
+        is_said = stiffness is not None or damping is not None
+        if file := self.text("property"):
+            if is_said:
+                raise VehicleError(f"{self.where('property')}: found rates beside it, expected either")
+            with located(self.where("property")):
+                read = read_property(inside(path.parent, file, "the folder of the table"))
+            return read.stiffness, read.damping
+        if twin and not is_said:
+            return twin.stiffness, twin.damping
+        if not is_said:
+            raise VehicleError(
+                f"{self.row.where(self.columns['name'].header)}: {quoted(self.text('name'))} has no "
+                "rates; expected numbers in k_x, k_y, k_z or others"
+            )
+        zeros = np.zeros(6)
+        return (zeros if stiffness is None else stiffness), (zeros if damping is None else damping)
+
+    def _directed(
+        self, prefix: str, named: Mapping[str, str], names: tuple[str, ...], empty: float
+    ) -> Floats | None:
+        """Values along the local axes, of which some columns are called by directions."""
+        values = self.numbers(names, 0, empty)
+        for direction in NAMED:
+            value = self.number(f"{prefix}_{direction}", 0)
+            if value is None:
+                continue
+            axis = named[direction]
+            if self.text(f"{prefix}_{axis}"):
+                raise VehicleError(
+                    f"{self.where(f'{prefix}_{direction}')}: found a value beside that of "
+                    f"{self.columns[f'{prefix}_{axis}'].header}, which is the same direction"
+                )
+            values = np.full(len(names), empty) if values is None else values
+            values[AXES.index(axis)] = value
+        return values
+
+    def _bound(self, which: str, named: Mapping[str, str]) -> Floats:
+        """The softest or the stiffest rates, not numbers where they are not given."""
+        names = tuple(f"{which}_{axis}" for axis in AXES)
+        found = self._directed(which, named, names, np.nan)
+        return np.full(3, np.nan) if found is None else found
+
+    def _place(self, suffix: str) -> Floats | None:
+        """A place of which all coordinates are there, or none.
+
+        Raises:
+            VehicleError: some are missing.
+        """
+        names = tuple(f"{axis}{suffix}" for axis in AXES)
+        missing = [name for name in names if not self.text(name)]
+        if len(missing) == len(names):
+            return None
+        if missing:
+            raise VehicleError(f"{self.where(missing[0])}: empty, expected all of {', '.join(names)}")
+        return self.numbers(names)
+
+    def _second_place(self) -> Floats | None:
+        """That of the second end, the first one's unless it is given."""
+        place = self._place("_2")
+        return self._place("") if place is None else place
+
+    def _end(self, side: str, place: Floats | None) -> End:
+        body, attachment = self.text(f"body_{side}"), self.text(f"attachment_{side}")
+        column = f"attachment_{side}" if attachment and not body else f"body_{side}"
+        return End(self.where(column), body, attachment, place)
+
+    def _axes(self) -> Floats:
+        vectors = {
+            axis: self.numbers(names)
+            for axis in AXES
+            if any(map(self.text, names := tuple(f"{axis}_axis_{c}" for c in AXES)))
+        }
+        angles = self.numbers(("roll", "pitch", "yaw"))
+        if vectors and angles is not None:
+            raise VehicleError(
+                f"line {self.row.line}: found vectors and angles of its axes, expected one"
+            )
+        if angles is not None:
+            return axes_of_angles(*angles)
+        if not vectors:
+            return np.eye(3)
+        with located(f"line {self.row.line}, columns {', '.join(f'{a}_axis' for a in vectors)}"):
+            return axes_of_vectors({a: v for a, v in vectors.items() if v is not None})
