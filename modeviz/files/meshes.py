@@ -1,38 +1,34 @@
 """Display meshes as files, in metres and vehicle coordinates."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located
-from modeviz.files.disk import read_bytes
+from modeviz.files.disk import inside, read_bytes
 from modeviz.files.mesh_formats.dae import read_dae
 from modeviz.files.mesh_formats.glb import read_glb
-from modeviz.files.mesh_formats.limits import LARGEST_FILE
+from modeviz.files.mesh_formats.limits import LARGEST_DOCUMENT, LARGEST_FILE
 from modeviz.files.mesh_formats.obj import read_obj
-from modeviz.files.mesh_formats.parts import RawMesh, RawPart
+from modeviz.files.mesh_formats.parts import RawMesh
 from modeviz.files.mesh_formats.ply import read_ply
 from modeviz.files.mesh_formats.stl import read_stl
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
 from modeviz.vehicle.srgb import srgb_to_linear
 
-Reader = Callable[[bytes, Material], RawMesh]
+Beside = Callable[[str], bytes | None]
+"""The content of a file in the folder of a mesh, by its name; None if there is none."""
 
-
-def _unsaid(read: Callable[[bytes, Material], list[RawPart]]) -> Reader:
-    """The reader of a format that says neither unit nor axes."""
-    return lambda content, plain: RawMesh(read(content, plain))
-
-
-READERS: Mapping[str, Reader] = {
-    ".glb": _unsaid(read_glb),
-    ".stl": _unsaid(read_stl),
-    ".obj": _unsaid(read_obj),
-    ".ply": _unsaid(read_ply),
-    ".dae": read_dae,
+READERS: Mapping[str, Callable[[bytes, Material, Beside], RawMesh]] = {
+    ".glb": lambda content, plain, _: RawMesh(read_glb(content, plain)),
+    ".stl": lambda content, plain, _: RawMesh(read_stl(content, plain)),
+    ".obj": lambda content, plain, beside: RawMesh(read_obj(content, plain, beside)),
+    ".ply": lambda content, plain, _: RawMesh(read_ply(content, plain)),
+    ".dae": lambda content, plain, _: read_dae(content, plain),
 }
 """By the ending of a file."""
 
@@ -66,10 +62,16 @@ def read_mesh(
         raise VehicleError(f"{path}: found {suffix!r}, expected one of {', '.join(READERS)}")
     content = read_bytes(path, LARGEST_FILE)
     with located(path):
-        found = READERS[suffix](content, Material(color))
+        found = READERS[suffix](content, Material(color), partial(_beside, path.parent))
         if not found.parts:
             raise VehicleError("found no triangles")
         return found.placed(length, turn, usual)
+
+
+def _beside(folder: Path, name: str) -> bytes | None:
+    """The content of a file in a folder, if it is there; raises VehicleError if it is too large."""
+    path = inside(folder, name)
+    return read_bytes(path, LARGEST_DOCUMENT) if path.is_file() else None
 
 
 def write_mesh(path: Path, mesh: Mesh) -> None:

@@ -253,7 +253,7 @@ def test_whatever_is_damaged_is_a_mesh_or_one_sentence():
                 [b"9", b"<", b"-1 ", b"\xff", b"", b"#", b"1e99"]
             )
         try:
-            found = READERS[".dae"](bytes(broken), Material((1, 2, 3)))
+            found = READERS[".dae"](bytes(broken), Material((1, 2, 3)), lambda _: None)
         except VehicleError:
             continue
         assert isinstance(found, RawMesh)

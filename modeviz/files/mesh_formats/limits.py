@@ -10,7 +10,7 @@ LARGEST_TEXT = 128_000_000
 """Bytes of a file whose numbers are text."""
 
 LARGEST_DOCUMENT = 16_000_000
-"""Bytes of a glTF's JSON, which takes ten times as much memory."""
+"""Bytes of a glTF's JSON, which takes ten times as much memory, and of files beside a mesh."""
 
 MOST_POINTS = 1_000_000
 """Vertices of a file, and faces: what a page still turns."""
