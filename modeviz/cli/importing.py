@@ -1,8 +1,9 @@
 """The command that puts a component out of another program's files into a vehicle folder."""
 
 from argparse import ArgumentParser
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from modeviz.formats.places import FORMS
 from modeviz.formats.poses import FORMS as POSE_FORMS
 from modeviz.formats.reading import read_component
 from modeviz.formats.residuals import FORMS as RESIDUAL_FORMS
-from modeviz.formats.solving import USUAL_MODES, Wanted, solved
+from modeviz.formats.solving import USUAL_MODES, Condensation, Wanted, solved
 from modeviz.report.tables import table
 from modeviz.report.truncation import import_notes
 from modeviz.units import factor
@@ -73,6 +74,8 @@ class ImportOptions:
     """How many to compute where the files have matrices; None: `USUAL_MODES`."""
     up_to: float | None = None
     """Hz, instead: all modes up to it."""
+    condense: Condensation | None = None
+    """How matrices are condensed first, as `Wanted` has it."""
     frequency: float | None = None
     """Hz, at which mounts have the rates that an input file has over frequency."""
     bodies: tuple[str, ...] = ()
@@ -124,7 +127,7 @@ def import_component(options: ImportOptions) -> None:
     if holds_mounts(options.files, options.output):
         import_mounts(options.mounts)
         return
-    options.check_only("a body", "modes", "up_to", *OF_A_BODY)
+    options.check_only("a body", "modes", "up_to", "condense", *OF_A_BODY)
     wanted = _wanted(options)
     component = read_component(options.files)
     for note in component.notes:
@@ -164,7 +167,9 @@ def _wanted(options: ImportOptions) -> Wanted:
         raise ModevizError("--modes and --up-to: found both, expected one of them")
     with located("--modes" if options.modes is not None else "--up-to"):
         n_modes = USUAL_MODES if options.modes is None else options.modes
-        return Wanted(n_modes=n_modes, up_to_hz=options.up_to)
+        wanted = Wanted(n_modes=n_modes, up_to_hz=options.up_to)
+    with located("--condense"):
+        return replace(wanted, condensed=options.condense)
 
 
 def listing(component: Component) -> str:
@@ -287,6 +292,11 @@ def _add_options(command: ArgumentParser) -> None:
     )
     command.add_argument(
         "--up-to", type=float, metavar="HZ", help="of matrices: compute all modes up to this frequency"
+    )
+    command.add_argument(
+        "--condense",
+        choices=get_args(Condensation),
+        help="of matrices: to few degrees of freedom first, enough for --up-to and for attachments",
     )
     command.add_argument(
         "--frequency",

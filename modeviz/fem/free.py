@@ -216,7 +216,8 @@ def inertia_relief(matrices: Matrices) -> Callable[[Floats], Floats]:
     """
     R = rigid_modes(matrices)
     # Balanced loads leave a determinate support without reaction: holding six changes nothing.
-    support = most_independent(np.sqrt(matrices.stiffness.diagonal())[:, None] * R)
+    weights = np.sqrt(matrices.stiffness.diagonal() + SHIFT * matrices.mass.diagonal())
+    support = most_independent(weights[:, None] * R)
     free = np.setdiff1d(np.arange(matrices.n_dofs), support)
     order = elimination_order(matrices)
     if order is not None:

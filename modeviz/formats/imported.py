@@ -21,7 +21,7 @@ from modeviz.formats.places import parse_place
 from modeviz.formats.poses import parse_pose
 from modeviz.formats.reading import read_component
 from modeviz.formats.residuals import with_given_compliance
-from modeviz.formats.solving import USUAL_MODES, Wanted, solved
+from modeviz.formats.solving import USUAL_MODES, Condensation, Wanted, solved
 from modeviz.formats.surface import COLOR
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
@@ -90,6 +90,7 @@ def import_component(
     mesh_unit: str | None = None,
     n_modes: int | None = None,
     up_to_hz: float | None = None,
+    condense: Condensation | None = None,
 ) -> Imported:
     """Return a body made of another program's files, as `modeviz import` makes it.
 
@@ -107,6 +108,7 @@ def import_component(
         mesh_unit: of the mesh, such as "mm"; if not given, as it says, else that of the files.
         n_modes: of matrices, how many to compute.
         up_to_hz: of matrices, up to which frequency instead.
+        condense: of matrices, how to condense them first, "guyan" or "craig-bampton"; needs `up_to_hz`.
 
     Raises:
         VehicleError: the files cannot be read, or make no body that can be coupled to others.
@@ -114,7 +116,9 @@ def import_component(
     paths = [Path(file) for file in files]
     if not paths:
         raise VehicleError("found no file, expected those of a component")
-    wanted = Wanted(n_modes=USUAL_MODES if n_modes is None else n_modes, up_to_hz=up_to_hz)
+    wanted = Wanted(
+        n_modes=USUAL_MODES if n_modes is None else n_modes, up_to_hz=up_to_hz, condensed=condense
+    )
     settings = ImportSettings(
         units=units,
         attach=tuple(attach),
@@ -149,7 +153,9 @@ def import_body(
         with located("--pose"):
             pose = parse_pose(pose, component, units.length, np.eye(3) if axes is None else axes)
     component, found, said = _attached(component, settings, units, pose, axes)
+    n_notes = len(component.notes)
     component = solved(component, settings.wanted, found, units.length)
+    said = (*said, *component.notes[n_notes:])
     body, notes = flexible_body(component, units, name, found)
     with located("--residual"):
         body = with_given_compliance(body, settings.residual, units)

@@ -1,18 +1,28 @@
 """Modes of components whose files have mass and stiffness: computed here, with residual vectors."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
 import numpy as np
 
-from modeviz.errors import VehicleError, located
+from modeviz.errors import VehicleError, located, unknown
 from modeviz.fem.free import ModalBasis, free_modes, free_modes_up_to
 from modeviz.fem.matrices import Matrices
+from modeviz.fem.reduction import craig_bampton_reduction, guyan_reduction, retained_up_to
 from modeviz.fem.residuals import dynamic_residual_vectors
+from modeviz.files.limits import check_size
 from modeviz.formats.attachments import Found
 from modeviz.formats.component import Component, Modes
-from modeviz.formats.limits import check_shapes
+from modeviz.formats.limits import MOST_NUMBERS, check_shapes
 from modeviz.vehicle.arrays import Floats
+
+Condensation = Literal["guyan", "craig-bampton"]
+
+NAMES: Mapping[Condensation, str] = {"guyan": "Guyan", "craig-bampton": "Craig and Bampton"}
+
+MARGIN = 3.0
+"""Condensed bodies keep what vibrates below so many times the highest wanted frequency."""
 
 USUAL_MODES = 50
 
@@ -27,6 +37,8 @@ class Wanted:
     """The six rigid ones included; of smaller matrices, as many as they have."""
     up_to_hz: float | None = None
     """Instead, all up to this frequency, and the next."""
+    condensed: Condensation | None = None
+    """How the matrices are condensed first; needs the frequency."""
 
     def __post_init__(self) -> None:
         if not 7 <= self.n_modes <= MOST_MODES:
@@ -35,6 +47,13 @@ class Wanted:
             )
         if self.up_to_hz is not None and not 0 < self.up_to_hz < np.inf:
             raise VehicleError(f"highest frequency: found {self.up_to_hz:g} Hz, expected more than 0")
+        if self.condensed is not None and self.condensed not in get_args(Condensation):
+            raise VehicleError(unknown("reduction", self.condensed, get_args(Condensation)))
+        if self.condensed is not None and self.up_to_hz is None:
+            raise VehicleError(
+                f"{self.condensed}: says how to condense, and nothing says up to which frequency the "
+                "rest is needed (--up-to)"
+            )
 
 
 def solved(
@@ -62,8 +81,9 @@ def solved(
     matrices = component.matrices
     with located(component.source):
         check_shapes(len(component.node_ids), wanted.n_modes + 6 * len(attachments))
-        modes = _free_modes(matrices, wanted)
         loads = _loads(component, attachments, length)
+        matrices, said = _condensed(matrices, wanted, loads)
+        modes = _free_modes(matrices, wanted)
         residuals = dynamic_residual_vectors(matrices, modes, matrices.motion.T @ loads)
     n_modes, n_residuals = (len(basis.omega_n_squared) for basis in (modes, residuals))
     frequency_hz = np.sqrt(np.r_[modes.omega_n_squared, residuals.omega_n_squared]) / (2 * np.pi)
@@ -71,6 +91,7 @@ def solved(
     unknown = np.full(n_modes + n_residuals, np.nan)
     return replace(
         component,
+        notes=(*component.notes, *said),
         modes=Modes(
             frequency_hz,
             np.ones(n_modes + n_residuals),
@@ -79,6 +100,33 @@ def solved(
             n_residuals,
         ),
     )
+
+
+def _condensed(matrices: Matrices, wanted: Wanted, loads: Floats) -> tuple[Matrices, tuple[str, ...]]:
+    """The matrices in fewer degrees of freedom, if that is wanted, and a sentence on that.
+
+    Those that move loaded nodes are kept.
+    """
+    if wanted.condensed is None or wanted.up_to_hz is None:
+        return matrices, ()
+    highest = MARGIN * wanted.up_to_hz
+    held = np.flatnonzero(abs(matrices.motion.T) @ (loads != 0).any(axis=1))
+    if wanted.condensed == "guyan":
+        retained = retained_up_to(matrices, highest, held)
+        _check_room(matrices, len(retained))
+        condensed = guyan_reduction(matrices, retained).matrices
+    else:
+        _check_room(matrices, len(held))
+        condensed = craig_bampton_reduction(matrices, held, highest)
+    said = (
+        f"condensed from {matrices.n_dofs} to {condensed.n_dofs} degrees of freedom, {len(held)} of "
+        f"them at attachments, by {NAMES[wanted.condensed]}, with what vibrates up to {highest:g} Hz"
+    )
+    return condensed, (said,)
+
+
+def _check_room(matrices: Matrices, n_retained: int) -> None:
+    check_size(f"numbers in {n_retained} static modes", matrices.n_dofs * n_retained, MOST_NUMBERS)
 
 
 def _free_modes(matrices: Matrices, wanted: Wanted) -> ModalBasis:
