@@ -210,7 +210,7 @@ def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) ->
     lines = [
         f"{folder}: body {body.name!r}, {body.n_rigid} rigid and {n_elastic} elastic modes{residual}",
         f"mass {body.mass:.5g} kg, centre of gravity {_places(body.center_of_gravity)} m, "
-        f"moments of inertia {_places(np.diag(inertia))} kg m²",
+        f"moments of inertia {_listed(np.diag(inertia))} kg m²",
         f"first elastic modes {', '.join(f'{f:.4g}' for f in elastic) or 'none'} Hz",
     ]
     modal, missing = modal_compliance(body), estimated_residual_compliance(body)
@@ -229,10 +229,15 @@ def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) ->
 def _stiffness(compliance: np.ndarray) -> str:
     """N/mm of what gives way so much, infinite where it does not."""
     rates = np.divide(1.0, compliance, out=np.full(3, np.inf), where=compliance > 0)
-    return _places(rates / factor("N/mm", "stiffness"))
+    return _listed(rates / factor("N/mm", "stiffness"))
 
 
-def _places(values: np.ndarray) -> str:
+def _places(metres: np.ndarray) -> str:
+    """To a nanometre, so that rounding is no place."""
+    return _listed(np.round(metres, 9) + 0.0)
+
+
+def _listed(values: np.ndarray) -> str:
     return f"[{', '.join(f'{value:.4g}' for value in values)}]"
 
 

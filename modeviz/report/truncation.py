@@ -16,6 +16,7 @@ from modeviz.errors import ModevizError, listed, quoted
 from modeviz.report.components import change_words
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.residuals import estimated_residual_compliance
 from modeviz.vehicle.vehicle import Vehicle
 
 SMALL = 0.005
@@ -45,16 +46,18 @@ def import_notes(body: FlexibleBody) -> Iterator[str]:
     gap = _gap(vehicle) if body.attachments else None
     if gap is None:
         return
+    lacking = estimated_residual_compliance(body).any(axis=1)
+    names = [quoted(a.name) for a, lacks in zip(body.attachments, lacking, strict=True) if lacks]
+    yield (
+        f"body {quoted(body.name)} lacks residual vectors, so it is too stiff at {listed(names)}: on "
+        f"mounts a tenth as stiff as it is there, {_gap_words(gap)} are {_too_high(gap)}"
+    ) + (f"; {REMEDY}" if gap.change > SMALL else "")
     (trust,) = component_trust(assemble(vehicle), gap.below_hz)
     n_elastic = body.n_normal - body.n_rigid
-    yield (
-        "it lacks residual vectors, so it is too stiff at its attachments: on mounts a tenth as stiff "
-        f"as it is there, {_gap_words(gap)} are {_too_high(gap)}; {REMEDY}"
-    )
     wanted = math.ceil(n_elastic * gap.change / SMALL)
     more = f"; for {SMALL:.1%} about {wanted} are wanted" if wanted > n_elastic else ""
     fewer = f"{trust.n_left_out} of its {n_elastic} elastic modes"
-    yield f"without the last {fewer} {change_words(trust)} on them{more}"
+    yield f"body {quoted(body.name)}: without the last {fewer} {change_words(trust)} there{more}"
 
 
 def _gap(vehicle: Vehicle) -> TruncationGap | None:

@@ -1,5 +1,6 @@
 """Symmetric and antisymmetric runs of a half model, joined, against the whole model."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -247,6 +248,7 @@ def test_a_command_joins_two_runs_to_a_body(tmp_path, files, full, capsys):
     assert body.mass == pytest.approx(full.mass, rel=1e-4)
     said = capsys.readouterr()
     assert "6 rigid and 34 elastic modes" in said.out
+    assert re.search(r"centre of gravity \[[-0-9.]+, 0, [0-9.]+\] m", said.out)
     assert "left is where y is below zero" in said.err
     assert "symmetric.unv and antisymmetric.unv" in (folder / "vehicle.toml").read_text()
 

@@ -104,7 +104,7 @@ def test_compliance_may_stand_in_a_table(imported, tmp_path):
 def test_an_import_without_residual_vectors_says_what_that_does(imported, capsys):
     imported()
     said = capsys.readouterr()
-    assert "lacks residual vectors, so it is too stiff at its attachments" in said.err
+    assert "body 'block' lacks residual vectors, so it is too stiff at 'a', 'b': on mounts" in said.err
     assert "without the last 2 of its 8 elastic modes" in said.err
     assert "with those left out" in said.out
 
