@@ -2,11 +2,15 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from io import BytesIO
 from pathlib import Path
+from typing import TypeVar
 
 import h5py
 import numpy as np
 from free_network import CORNERS, HEXA, LABELS, free_network
+
+T = TypeVar("T", Path, BytesIO)
 
 MODES, COMPLEX_MODES, BUCKLING = 2, 9, 8
 
@@ -107,7 +111,13 @@ class Hdf5:
             every[f"INDEX/NASTRAN/RESULT/NODAL/{name}"] = np.array(self.index[name], INDEX)
         return every
 
-    def write(self, path: Path) -> Path:
+    def content(self) -> bytes:
+        """The bytes of the file."""
+        out = BytesIO()
+        self.write(out)
+        return out.getvalue()
+
+    def write(self, path: T) -> T:
         with h5py.File(path, "w") as file:
             file.attrs["SCHEMA"] = np.array([20200])
             file.create_group("NASTRAN")

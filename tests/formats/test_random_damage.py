@@ -5,6 +5,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from hdf5_files import network_hdf5
 from network_files import network_op2, network_unv
 from op2_files import Op2
 from universal_files import shape_55
@@ -12,7 +13,25 @@ from universal_files import shape_55
 from modeviz.cli import main
 from modeviz.files import read_vehicle
 
+DECK = """SOL 103
+CEND
+BEGIN BULK
+CORD2C,5,,0.,0.,0.,0.,0.,1.,+C
++C,1.,0.,0.
+GRID,1,,0.,0.,0.
+=,*1,=,*(10.),==
+=(6)
+GRID*                 20               5              3.             45.
+*                     7.               5
+CHEXA,7,1,1,2,3,4,5,6,+H
++H      7       8
+PLOTEL,9,1,2,,10,3,4
+EIGRL,1,,,24
+ENDDATA
+"""
 SOURCES = [
+    ("a.h5", network_hdf5().content()),
+    ("a.bdf", DECK.encode()),
     ("a.unv", network_unv().encode()),
     ("a.unv", network_unv(write=shape_55).encode()),
     ("a.op2", network_op2(Op2())),

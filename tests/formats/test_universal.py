@@ -58,13 +58,15 @@ def test_elements_of_test_systems_are_as_many_as_their_source_tells():
 
 
 @pytest.mark.shared
-@pytest.mark.parametrize("name", ["testlab_geometry_15_82_18.uff", "artemis_geometry_15_82_2412.uff"])
-def test_trace_lines_of_test_systems_are_those_that_pyuff_reads(name):
-    expected = []
-    for one in pyuff.UFF(str(SHARED / name)).read_sets():
-        if one["type"] == 82:
-            nodes = [int(node) for node in one["nodes"]]
-            expected += [pair for pair in pairwise(nodes) if 0 not in pair]
+@pytest.mark.parametrize(
+    ("name", "lengths"),
+    [("testlab_geometry_15_82_18.uff", [16, 32, 16]), ("artemis_geometry_15_82_2412.uff", [249, 75])],
+)
+def test_trace_lines_of_test_systems_are_those_that_pyuff_reads(name, lengths):
+    lines = [one for one in pyuff.UFF(str(SHARED / name)).read_sets() if one["type"] == 82]
+    assert [len(one["nodes"]) for one in lines] == lengths  # with zeros that fill the last line
+    pairs = [pair for one in lines for pair in pairwise(map(int, one["nodes"]))]
+    expected = [pair for pair in pairs if 0 not in pair]
     component = read_universal([SHARED / name])
     assert component.node_ids[component.elements["line"]].tolist() == [list(pair) for pair in expected]
 
@@ -187,6 +189,16 @@ def test_a_system_that_is_given_in_a_cylinder_has_points_in_its_coordinates(read
     np.testing.assert_allclose(component.nodes, [[0, 1.5, 0]], atol=1e-12)
 
 
+def test_a_trace_line_may_have_more_nodes_than_it_says(read):
+    """As Test.Lab writes some: seven for each line of eight."""
+    nodes = "".join(f"{n:10d}" for n in (1, 2, 0, 3, 4, 1, 0, 0))
+    line = block(82, f"{1:10d}{4:10d}{8:10d}", "NONE", nodes)
+    component = read(
+        nodes_15([1, 2, 3, 4], SQUARE) + line.replace("         7         8", "         4         8")
+    )
+    assert component.elements["line"].tolist() == [[0, 1], [2, 3], [3, 0]]
+
+
 def test_systems_that_stand_in_many_others_are_refused(read):
     frames = [frame_18(n, 0, n + 1, [0, 0, 0], [1, 0, 0], [0, 0, 1]) for n in range(1, 2000)]
     with pytest.raises(VehicleError, match="or in too many others"):
@@ -217,6 +229,8 @@ def test_binary_data_sets_are_gone_over_by_their_length(read, end):
     for length in (99999999999, 10**30):
         with pytest.raises(VehicleError, match="the file is cut"):
             read(text.replace(f"{len(raw):12d}".encode(), f"{length:12d}".encode()) + after)
+    with pytest.raises(VehicleError, match="the file is cut"):  # found at random
+        read(b"    -1\n    58b\nNONE\n")
 
 
 @pytest.mark.parametrize("write", ["18", "2420"])

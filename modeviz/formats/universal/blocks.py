@@ -85,7 +85,7 @@ def _end(content: bytes, begin: int, first: bytes) -> re.Match[bytes] | None:
     words = first.split()
     if not (words and words[0].endswith(b"b")):
         return DELIMITER.search(content, begin)
-    n_lines, n_bytes = (int(word) if word.isdigit() else 0 for word in [*words, b"", b"", b""][3:5])
+    n_lines, n_bytes = (int(word) if word.isdigit() else 0 for word in [*words, *[b""] * 4][3:5])
     for _ in range(min(n_lines, MOST_BINARY_LINES) + 1):
         begin = content.find(b"\n", begin) + 1 or len(content)
     return BINARY_END.match(content, min(begin + n_bytes, len(content)))
