@@ -247,7 +247,7 @@ def _add_options(command: ArgumentParser) -> None:
         nargs="+",
         type=Path,
         metavar="FILE",
-        help="of one component; its geometry and its modes may be in several",
+        help="of one body, whose geometry and modes may be in several; or a table of mounts, or a road",
     )
     command.add_argument(
         "--output", type=Path, metavar="FOLDER", help="vehicle folder to put it into, new or there"
@@ -331,7 +331,7 @@ def _add_options(command: ArgumentParser) -> None:
 
 IMPORT = Command(
     "import",
-    "a component out of other programs' files into a vehicle folder",
+    "bodies, mounts and roads of other programs into a vehicle folder",
     ImportOptions,
     _add_options,
     import_component,

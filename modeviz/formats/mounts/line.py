@@ -13,7 +13,8 @@ from modeviz.files.tables import Row
 from modeviz.formats.component import UnitSystem
 from modeviz.formats.mounts.axes import axes_of_angles, axes_of_vectors
 from modeviz.formats.mounts.bushing import AXES, DIRECTIONS, Bushing, End
-from modeviz.formats.mounts.columns import NAMED, Column, column_factor, rate_unit
+from modeviz.formats.mounts.column_units import column_factor, rate_unit
+from modeviz.formats.mounts.columns import NAMED, Column
 from modeviz.formats.mounts.property_file import read_property
 from modeviz.vehicle.arrays import Floats
 

@@ -8,7 +8,8 @@ from modeviz.errors import VehicleError, listed, located, quoted
 from modeviz.files.tables import Row
 from modeviz.formats.component import UnitSystem
 from modeviz.formats.mounts.bushing import Bushing
-from modeviz.formats.mounts.columns import Column, column_factor, is_unit, read_headers
+from modeviz.formats.mounts.column_units import column_factor, is_unit
+from modeviz.formats.mounts.columns import Column, read_headers
 from modeviz.formats.mounts.line import MountLine
 from modeviz.formats.mounts.sheets import Sheet, read_sheet
 

@@ -1,0 +1,90 @@
+"""The units of the columns of a mount table, however people spell them."""
+
+import re
+import unicodedata
+from collections.abc import Mapping
+
+import numpy as np
+
+from modeviz.errors import VehicleError, located, quoted
+from modeviz.formats.component import UnitSystem
+from modeviz.formats.mounts.columns import Column
+from modeviz.units import UNITS, QuantityName, spoken
+
+ANGLES = {"deg": np.pi / 180, "rad": 1.0}
+RATIOS = {"": 1.0, "%": 0.01, "-": 1.0, "1": 1.0}
+
+
+def column_factor(column: Column, units: UnitSystem | None) -> float | None:
+    """Return one of a column's numbers in SI; None if neither it nor `units` say it.
+
+    Args:
+        column: of numbers.
+        units: of columns that say none.
+
+    Raises:
+        VehicleError: it says a unit of something else.
+    """
+    kind = column.kind
+    with located(f"column {quoted(column.header)}"):
+        if kind == "text":
+            return None
+        if kind == "number":
+            return 1.0
+        if kind == "ratio":
+            return _one_of(column.unit, RATIOS, "loss factor")
+        if kind == "angle":
+            return _one_of(column.unit, ANGLES, "angle") if column.unit else None
+        if column.unit:
+            return _one_of(column.unit, UNITS[kind], spoken(kind))
+        return _of_system(kind, units) if units else None
+
+
+def rate_unit(text: str) -> float:
+    """Return one of a unit of stiffness in SI; raises VehicleError if it is none."""
+    return _one_of(text, UNITS["stiffness"], "stiffness")
+
+
+def is_unit(text: str, column: Column) -> bool:
+    """Whether a cell under a header says its unit."""
+    if text in ("", "-"):
+        return True
+    try:
+        return column.kind != "text" and column_factor(Column("", column.name, text), None) is not None
+    except VehicleError:
+        return False
+
+
+def _one_of(text: str, known: Mapping[str, float], what: str) -> float:
+    """The value of a unit, however it is spelt."""
+    by_spelling = {_spelling(unit): value for unit, value in known.items()}
+    spelling = _spelling(text)
+    if spelling in by_spelling:
+        return by_spelling[spelling]
+    folded = {unit.lower(): value for unit, value in by_spelling.items()}
+    if spelling.lower() in folded:
+        return folded[spelling.lower()]
+    units = ", ".join(unit for unit in known if unit)
+    raise VehicleError(f"unknown unit of {what} {quoted(text)}, expected one of {units}")
+
+
+def _spelling(unit: str) -> str:
+    """A unit without what people write differently: "N·s/m", "N s / m" and "N/(m/s)" are one."""
+    text = unicodedata.normalize("NFKC", unit.replace("°", "deg")).replace("\u2212", "-")
+    text = re.sub(r"degrees?|grad\b", "deg", text)
+    text = re.sub(r"radians?", "rad", text)
+    text = re.sub(r"/\s*\(\s*(\w+)\s*/\s*(\w+)\s*\)", r" \2/\1", text)
+    return re.sub(r"[\s·⋅*.()^]", "", text)
+
+
+def _of_system(kind: QuantityName, units: UnitSystem) -> float:
+    """One of a quantity in a system of units with seconds and radians."""
+    powers = {
+        "length": (0, 1),
+        "stiffness": (1, 0),
+        "damping": (1, 0),
+        "rotational_stiffness": (1, 2),
+        "rotational_damping": (1, 2),
+    }
+    of_mass, of_length = powers[kind]
+    return units.mass**of_mass * units.length**of_length
