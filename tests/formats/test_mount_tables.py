@@ -296,6 +296,23 @@ def test_units_below_the_header_and_a_column_that_means_nothing_here(tmp_path):
     assert notes == ["columns Comment are left out"]
 
 
+def test_a_unit_that_one_column_says_holds_for_others_of_its_quantity(tmp_path):
+    header = ["name", "from", "to", "x [mm]", "y", "z", "kx [kN/m]", "ky", "vertical", "krx [N m/deg]"]
+    (found,) = read(written(tmp_path / "m.csv", [header, [*ROW, 2]]))
+    np.testing.assert_allclose(found.stiffness[:3], [17_500, 18_250, 19_000])
+    np.testing.assert_allclose(found.ends[0].place, [0.254, -0.1275, 0.508])
+    (own,) = read(
+        written(
+            tmp_path / "m.csv",
+            [["name", "from", "to", "kx", "kx min [N/mm]", "units"], ["a", "b", "c", 3, 1, "N/m"]],
+        )
+    )
+    assert (own.stiffness[0], own.softest[0]) == (3, 1000)
+    header[4] = "y [cm]"
+    with pytest.raises(VehicleError, match="line 2, column z: found 508 without a unit"):
+        read(written(tmp_path / "m.csv", [header, [*ROW, 2]]))
+
+
 def test_numbers_without_units_are_in_those_that_are_named(tmp_path):
     names = ["name", "body_1", "body_2", "x", "y", "z", "kx", "ky", "kz", "krx", "cx", "crx"]
     path = written(tmp_path / "m.csv", [names, ["a", "b", GROUND, 1, 2, 3, 4, 5, 6, 7, 8, 9]])
@@ -416,7 +433,7 @@ BAD = {
     ),
     "a unit of something else": (bad([["name", "x [N/mm]"], ["a", 1]]), "unknown unit of length"),
     "no unit": (bad([["name", "kx"], ["a", 1]]), "line 2, column kx: found 1 without a unit"),
-    "no unit of an angle": (bad([[*HEADER, "roll"], [*ROW, 3]]), "such as deg or rad"),
+    "no unit of an angle": (bad([[*HEADER, "roll"], [*ROW, 3]]), "'roll [deg]'"),
     "no name": (cell("name", ""), "line 2, column name: empty"),
     "no number": (
         cell("k_y [N/mm]", "soft"),

@@ -3,12 +3,13 @@
 import re
 import unicodedata
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located, quoted
 from modeviz.formats.component import UnitSystem
-from modeviz.formats.mounts.columns import Column
+from modeviz.formats.mounts.columns import Column, Kind
 from modeviz.units import UNITS, QuantityName, spoken
 
 ANGLES = {"deg": np.pi / 180, "rad": 1.0}
@@ -38,6 +39,25 @@ def column_factor(column: Column, units: UnitSystem | None) -> float | None:
         if column.unit:
             return _one_of(column.unit, UNITS[kind], spoken(kind))
         return _of_system(kind, units) if units else None
+
+
+def with_shared_units(columns: Mapping[int, Column]) -> dict[int, Column]:
+    """Return columns of which those without a unit have the one that others of their kind say.
+
+    So "x [mm], y, z" is in mm, if no length is said to be in something else. Rates may have their unit
+    in a column of its own.
+    """
+    said: dict[Kind, set[str]] = {}
+    of_lines = {"stiffness"} if any(column.name == "units" for column in columns.values()) else set()
+    for column in columns.values():
+        if column.unit and column.kind not in of_lines:
+            said.setdefault(column.kind, set()).add(column.unit)
+    return {
+        place: replace(column, unit=next(iter(said[column.kind])))
+        if not column.unit and len(said.get(column.kind, ())) == 1
+        else column
+        for place, column in columns.items()
+    }
 
 
 def rate_unit(text: str) -> float:

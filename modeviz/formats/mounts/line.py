@@ -8,7 +8,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, located, quoted
 from modeviz.files.disk import inside
-from modeviz.files.schema.scaling import BEYOND_ANY_VEHICLE
+from modeviz.files.schema.scaling import BEYOND_ANY_VEHICLE, WRITTEN_UNITS
 from modeviz.files.tables import Row
 from modeviz.formats.component import UnitSystem
 from modeviz.formats.mounts.axes import axes_of_angles, axes_of_vectors
@@ -54,10 +54,10 @@ class MountLine:
             with located(self.where("units")):
                 factor = rate_unit(self.text("units"))
         if factor is None:
-            advice = "deg or rad" if column.kind == "angle" else "N/mm, or give --units"
+            usual = next((u for kind, u in WRITTEN_UNITS.items() if kind == column.kind), "deg")
             raise VehicleError(
                 f"{self.where(name)}: found {self.text(name)} without a unit; write it in the header, "
-                f"'{column.header} [...]', such as {advice}"
+                f"'{column.header} [{usual}]', or give --units"
             )
         if abs(value * factor) > BEYOND_ANY_VEHICLE:
             raise VehicleError(

@@ -8,7 +8,7 @@ from modeviz.errors import VehicleError, listed, located, quoted
 from modeviz.files.tables import Row
 from modeviz.formats.component import UnitSystem
 from modeviz.formats.mounts.bushing import Bushing
-from modeviz.formats.mounts.column_units import column_factor, is_unit
+from modeviz.formats.mounts.column_units import column_factor, is_unit, with_shared_units
 from modeviz.formats.mounts.columns import Column, read_headers
 from modeviz.formats.mounts.line import MountLine
 from modeviz.formats.mounts.sheets import Sheet, read_sheet
@@ -79,6 +79,7 @@ class _Table:
         first = 1
         if len(sheet.lines) > 1 and (said := _units_below(sheet.lines[1][1], columns)):
             columns, first = said, 2
+        columns = with_shared_units(columns)
         for column in columns.values():
             with located(f"line {number}"):
                 column_factor(column, units)

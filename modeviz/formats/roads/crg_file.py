@@ -53,8 +53,9 @@ def read_crg_file(path: Path) -> CrgFile:
 def _read(path: Path, home: Path, depth: int) -> CrgFile:
     if depth > DEEPEST:
         raise VehicleError(f"{path.name}: names files that name others, more than {DEEPEST} deep")
+    content = read_bytes(path, LARGEST)
     with located(path.name):
-        header, data = _split(read_bytes(path, LARGEST))
+        header, data = _split(content)
         sections = _sections(header)
         parameters: dict[str, float] = {}
         for name in PARAMETERS:
