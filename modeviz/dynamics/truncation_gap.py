@@ -22,9 +22,6 @@ from modeviz.vehicle.vehicle import Vehicle
 STIFF = 0.1
 """A connection stiffer than this part of what it holds on to feels that the body is too stiff there."""
 
-GIVES_WAY = 1e-6
-"""Of the largest compliance of a body: less is none, as that of a flat plate along itself."""
-
 BELIEVED = 0.5
 """Up to this part of its highest frequency a body's modes are taken to describe it."""
 
@@ -104,12 +101,21 @@ def stiff_connections(vehicle: Vehicle) -> Iterator[StiffConnection]:
 
 
 def on_trial_mounts(body: FlexibleBody) -> Vehicle:
-    """Return a body on springs to the ground, a tenth as stiff as it is itself at each attachment."""
+    """Return a body on springs to the ground, at each attachment a tenth as stiff as it is itself.
+
+    That is in its softest direction there: rubber has about the same rates in all.
+    """
     compliance = modal_compliance(body) + estimated_residual_compliance(body)
-    gives_way = compliance > GIVES_WAY * compliance.max(initial=0.0)
-    stiffness = STIFF * np.divide(1.0, compliance, out=np.zeros_like(compliance), where=gives_way)
+    softest = compliance.max(axis=1, initial=0.0)
+    stiffness = STIFF * np.divide(1.0, softest, out=np.zeros_like(softest), where=softest > 0)
     springs = tuple(
-        Spring(a.name, "trial mounts", (body.name, GROUND), np.tile(a.position, (2, 1)), stiffness=k)
+        Spring(
+            a.name,
+            "trial mounts",
+            (body.name, GROUND),
+            np.tile(a.position, (2, 1)),
+            stiffness=np.full(3, k),
+        )
         for a, k in zip(body.attachments, stiffness, strict=True)
     )
     return Vehicle("trial", (body,), springs)
