@@ -26,6 +26,15 @@ def read_vtu(content: bytes) -> dict[str, dict[str, np.ndarray]]:
     return groups
 
 
+def time_steps(content: bytes) -> np.ndarray:
+    """Where points are at each of a file's time steps, (n_steps, n_points, 3)."""
+    (grid,) = ElementTree.fromstring(content)
+    (points,) = grid.iter("Points")
+    steps = {int(element.attrib["TimeStep"]): _array(element) for element in points}
+    assert list(steps) == list(range(len(grid.attrib["TimeValues"].split())))
+    return np.array([*steps.values()])
+
+
 def cells(groups: dict[str, dict[str, np.ndarray]], kind: int) -> np.ndarray:
     """The corners of cells of a type."""
     its = groups["Cells"]

@@ -62,6 +62,9 @@ def _add_options(command: ArgumentParser) -> None:
         help="modes above are left out (default: those above the vehicle's band)",
     )
     command.add_argument(
+        "--mode", metavar="NAME", help='of a motion, such as "cab yaw" (default: the lowest)'
+    )
+    command.add_argument(
         "--units",
         metavar="NAME",
         help=f"of Nastran cards: {', '.join(UNIT_SYSTEMS)} (default mm-t-s); all else is in SI",

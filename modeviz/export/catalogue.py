@@ -17,11 +17,11 @@ from modeviz.export.functions import Functions, frequency_responses, power_spect
 from modeviz.export.glb import bodies_glb
 from modeviz.export.mount_table import mount_table
 from modeviz.export.points import Points, body_points, vehicle_points
-from modeviz.export.shapes import ShapeSet, body_modes, complex_modes, vehicle_modes
+from modeviz.export.shapes import ShapeSet, body_modes, complex_modes, one_of, vehicle_modes
 from modeviz.export.solution import ExportOptions, Solution
 from modeviz.export.universal.functions import functions_file
 from modeviz.export.universal.modes import modes_file
-from modeviz.export.vtu import vtu_file
+from modeviz.export.vtu import motion_file, vtu_file
 from modeviz.files.rate_files import rates_text
 from modeviz.formats.component import UNIT_SYSTEMS
 from modeviz.vehicle.bodies import Body, FlexibleBody
@@ -152,6 +152,13 @@ def _vtu(modes: Modes | None, solution: Solution, options: ExportOptions) -> byt
     return vtu_file(vehicle.name, drawn, shapes, FileAxes(vehicle.axes))
 
 
+def _motion(solution: Solution, options: ExportOptions) -> bytes:
+    vehicle = solution.vehicle
+    mode = one_of(_real(solution, options), options.mode)
+    drawn = drawn_bodies(vehicle, vehicle.bodies)
+    return motion_file(vehicle.name, drawn, mode, FileAxes(vehicle.axes))
+
+
 def _of_modes(modes: Modes) -> dict[str, Writer]:
     """The formats of modes of the vehicle."""
     universal = {
@@ -216,6 +223,7 @@ WHOLE: Mapping[str, Mapping[str, Writer]] = {
     "mounts": {".csv": _table, **_as(DECKS, _deck)},
     "modes": _of_modes(_real),
     "complex-modes": _of_modes(_complex),
+    "motion": {".vtu": _motion},
     "psd": _of_functions(_spectra),
     "frf": _of_functions(_responses),
     "bodies": {".glb": _bodies_glb, ".vtu": partial(_vtu, None)},

@@ -1,7 +1,7 @@
 """The modes that are written: of a vehicle, real or with their damping, or of one of its bodies."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,7 +9,8 @@ from modeviz.analysis.deflection_shapes import complex_mode
 from modeviz.analysis.modal_results import ModalResults
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.damped import DampedMode
-from modeviz.errors import SolveError
+from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.errors import SolveError, VehicleError, unknown
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.bodies import FlexibleBody
 
@@ -53,6 +54,33 @@ def vehicle_modes(results: ModalResults, below_hz: float) -> ShapeSet:
     )
 
 
+def one_of(modes: ShapeSet, name: str) -> ShapeSet:
+    """Return one of real modes.
+
+    Args:
+        modes: of a vehicle.
+        name: of it; "": the lowest that vibrates.
+
+    Raises:
+        VehicleError: none has that name, or none vibrates.
+    """
+    vibrating = np.flatnonzero(modes.frequency_hz > RESOLVED_HZ).tolist()
+    if name and name not in modes.names:
+        raise VehicleError(unknown("mode", name, modes.names))
+    if not name and not vibrating:
+        raise VehicleError("no mode vibrates")
+    number = modes.names.index(name) if name else vibrating[0]
+    chosen = slice(number, number + 1)
+    return replace(
+        modes,
+        names=modes.names[chosen],
+        numbers=modes.numbers[chosen],
+        frequency_hz=modes.frequency_hz[chosen],
+        damping_ratio=modes.damping_ratio[chosen],
+        coordinates=modes.coordinates[:, chosen],
+    )
+
+
 def complex_modes(results: ModalResults, below_hz: float, note: Callable[[str], None]) -> ShapeSet:
     """Return the modes of a vehicle with their damping, those of undamped ones below a frequency.
 
@@ -70,7 +98,7 @@ def complex_modes(results: ModalResults, below_hz: float, note: Callable[[str], 
         try:
             found[number] = complex_mode(results, number - 1)
         except SolveError as error:
-            note(f"{error}; it is left out")
+            note(f"{str(error).partition(': ')[0]}: it is left out")
     if not found:
         raise SolveError(f"no mode below {below_hz:g} Hz vibrates")
     eigenvalue = np.array([mode.eigenvalue for mode in found.values()])

@@ -47,6 +47,8 @@ class ExportOptions:
 
     below_hz: float | None = None
     """Modes above are left out; None: those above the vehicle's band."""
+    mode: str = ""
+    """The name of the one that moves in a motion; "": the lowest that vibrates."""
     units: str = "mm-t-s"
     """Of Nastran cards, one of `UNIT_SYSTEMS`; the others are in SI units."""
     first_id: int = 1

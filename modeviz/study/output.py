@@ -74,6 +74,7 @@ class StudyOutput:
         *,
         road: str | None = None,
         below_hz: float | None = None,
+        mode: str = "",
         units: str = "mm-t-s",
         first_id: int = 1,
     ) -> WrittenFile:
@@ -84,6 +85,7 @@ class StudyOutput:
                 "optimised-modes.unv", "psd.csv", "cab.vtu"; docs/export.md lists them.
             road: of responses, as of `ride`.
             below_hz: modes above are left out; None: those above the vehicle's band.
+            mode: of a motion, its name; "": the lowest that vibrates.
             units: of Nastran cards, such as "mm-t-s"; all else is in SI.
             first_id: of the grids, elements, properties and coordinate systems in Nastran cards.
 
@@ -91,7 +93,7 @@ class StudyOutput:
             ModevizError: there is no such content, format, road or unit, it cannot be solved, or the
                 file cannot be written.
         """
-        options = ExportOptions(below_hz=below_hz, units=units, first_id=first_id)
+        options = ExportOptions(below_hz=below_hz, mode=mode, units=units, first_id=first_id)
         export_files([Path(path)], self._tuned, road, options, warnings.warn)
         return WrittenFile(Path(path))
 

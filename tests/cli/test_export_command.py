@@ -3,11 +3,14 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
+import pyuff
 from bulk_data import bulk_data
 from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
+from modeviz.errors import SolveError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.rate_files import read_rates
 
@@ -73,6 +76,46 @@ def test_what_cannot_be_written_is_one_message_and_leaves_nothing(
     assert captured.err.count("\n") == 1
     assert message in captured.err
     assert not list(here.iterdir())
+
+
+def test_a_file_that_is_there_is_replaced_whole_and_a_folder_is_not(folder, here, capsys):
+    (here / "rates.csv").write_text("of last week")
+    (here / "mounts.csv").mkdir()
+    assert main(["export", folder, "rates.csv", "mounts.csv"]) == 2
+    assert "found a folder or device" in capsys.readouterr().err
+    assert (here / "rates.csv").read_text() == "of last week"
+    assert main(["export", folder, "rates.csv"]) == 0
+    assert (here / "rates.csv").read_text().startswith("group,units")
+
+
+def test_a_file_that_fails_leaves_the_one_that_is_there(folder, here, monkeypatch, capsys):
+    (here / "modes.unv").write_text("of last week")
+
+    def fail(*_):
+        raise SolveError("an undamped resonance lies on 10 Hz")
+
+    monkeypatch.setattr("modeviz.study.exporting.solve_modal", fail)
+    assert main(["export", folder, "modes.unv"]) == 2
+    assert capsys.readouterr().err == "modeviz: an undamped resonance lies on 10 Hz\n"
+    assert [path.name for path in here.iterdir()] == ["modes.unv"]
+    assert (here / "modes.unv").read_text() == "of last week"
+
+
+def test_modes_that_do_not_vibrate_are_left_out_of_complex_ones_and_told(here, capsys):
+    cabin = mounted_cabin()
+    damped = tuple(replace(c, damping=np.full(3, 1e6)) for c in cabin.connections)
+    groups = tuple(replace(group, loss_factor=0.0) for group in cabin.mount_groups)
+    write_vehicle(replace(cabin, connections=damped, mount_groups=groups), here / "stiff")
+    assert main(["export", "stiff", "complex-modes.uff"]) == 0
+    assert "does not vibrate: it is left out" in capsys.readouterr().err
+    kept = [s for s in pyuff.UFF(str(here / "complex-modes.uff")).get_set_types() if s == 55]
+    assert 0 < len(kept) < 12
+
+
+@pytest.mark.parametrize("name", ["psd.csv", "frf.uff", "cab.vtu", "complex-modes.npz", "Bodies.VTU"])
+def test_whatever_can_be_written_is(folder, here, name):
+    assert main(["export", folder, name, "--road", "rough", "--speed", "90 km/h"]) == 0
+    assert (here / name).stat().st_size > 100
 
 
 def test_a_vehicle_without_mounts_has_no_rates_to_write(here, capsys):

@@ -9,7 +9,7 @@ import trimesh
 from joined_networks import joined_networks
 from mounted_cabin import mounted_cabin
 from turned_vehicles import turned_folder
-from vtk_files import cells, read_vtu
+from vtk_files import cells, read_vtu, time_steps
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import ModevizError
@@ -112,6 +112,32 @@ def test_complex_modes_of_a_grid_have_real_and_imaginary_parts(study, tmp_path):
     for i, psi in enumerate(np.moveaxis(arrays["shapes"][at, :3], -1, 0)):
         vectors = groups["PointData"][names[2 * i]] + 1j * groups["PointData"][names[2 * i + 1]]
         np.testing.assert_allclose(vectors, psi, rtol=0, atol=4 * SINGLE * np.abs(psi).max())
+
+
+def test_a_motion_is_a_cycle_of_the_mode_asked_for_and_drawn_as_large_as_on_the_screen(tmp_path):
+    study = Study(boxed())
+    mode = study.modes()["cab yaw"]
+    content = study.export(tmp_path / "motion.vtu", mode="cab yaw").path.read_bytes()
+    moving, (name, vectors) = time_steps(content), *read_vtu(content)["PointData"].items()
+    assert name == f"mode {mode.number:03d}, {mode.frequency_hz:.4g} Hz, cab yaw"
+    rest = moving.mean(axis=0)
+    scale = (moving[0] - rest)[0] @ vectors[0] / (vectors[0] @ vectors[0])
+    for step, places in enumerate(moving):
+        expected = rest + scale * np.cos(2 * np.pi * step / len(moving)) * vectors
+        np.testing.assert_allclose(places, expected, atol=10 * SINGLE)
+    length = np.ptp(rest, axis=0).max()
+    assert 0.01 < np.linalg.norm(moving[0] - rest, axis=1).max() / length < 0.06
+
+
+def test_a_motion_of_a_mode_that_is_not_there_is_refused(tmp_path):
+    with pytest.raises(ModevizError, match="unknown mode 'cab jaw': did you mean 'cab yaw'"):
+        Study(boxed()).export(tmp_path / "motion.vtu", mode="cab jaw")
+    assert not list(tmp_path.iterdir())
+
+
+def test_names_that_xml_does_not_have_are_written_without_what_it_lacks(tmp_path):
+    named = replace(boxed(), name="odd -- \x01 & <name>\n")
+    read_vtu(Study(named).export(tmp_path / "bodies.vtu").path.read_bytes())
 
 
 def row_of(arrays, body, place):

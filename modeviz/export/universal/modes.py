@@ -47,7 +47,8 @@ def modes_file(name: str, points: Points, shapes: ShapeSet, axes: FileAxes, numb
         axes: in which it is written.
         number: of the data set of a mode, 2414 or 55.
     """
-    return "".join(_sets(name, points, shapes, axes, number)).encode("ascii")
+    sets = _sets(name, points, shapes, axes, number)
+    return b"".join(text.encode("ascii") for text in sets)  # megabytes each
 
 
 def _sets(name: str, points: Points, shapes: ShapeSet, axes: FileAxes, number: int) -> Iterator[str]:

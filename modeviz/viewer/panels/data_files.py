@@ -1,7 +1,7 @@
 """Left column: what is on the screen as files for other programs."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import viser
@@ -23,6 +23,7 @@ CONTENTS = {
     "Mounts": "mounts",
     "Modes": "modes",
     "Modes with damping": "complex-modes",
+    "Motion of the mode shown": "motion",
     "Spectra on the road": "psd",
     "Frequency responses": "frf",
     "All bodies": "bodies",
@@ -119,7 +120,8 @@ class DataPanel:
         def note(text: str) -> None:
             client.add_notification("Left out", text, color="orange")
 
-        made = file.write(_solution(solved, note), options)
+        shown = replace(options, mode=solved.followed.name.name)
+        made = file.write(_solution(solved, note), shown)
         vehicle = solved.now.prepared.vehicle
         variant = variant_name(vehicle, solved.state.design)
         return file_name(f"{vehicle.name} {variant} {file.word}", file.ending), made
