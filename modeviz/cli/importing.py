@@ -282,8 +282,8 @@ def _add_options(command: ArgumentParser) -> None:
         "--mesh",
         type=Path,
         metavar="FILE",
-        help="what it looks like, in the files' coordinates (.stl, .obj, .ply, .glb, .dae), moved by "
-        "its nodes (default: the faces of its elements)",
+        help="what it looks like, in the files' coordinates (.stl, .obj, .ply, .glb, .dae, .step); its "
+        "nodes move that (default: the faces of its elements)",
     )
     command.add_argument(
         "--mesh-unit", metavar="UNIT", help="of the mesh (default: as it says, else that of the files)"

@@ -15,6 +15,7 @@ from modeviz.files.mesh_formats.limits import LARGEST_DOCUMENT, LARGEST_FILE
 from modeviz.files.mesh_formats.obj import read_obj
 from modeviz.files.mesh_formats.parts import RawMesh
 from modeviz.files.mesh_formats.ply import read_ply
+from modeviz.files.mesh_formats.step import read_step
 from modeviz.files.mesh_formats.stl import read_stl
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Material, Mesh, MeshPart
@@ -29,6 +30,7 @@ READERS: Mapping[str, Callable[[bytes, Material, Beside], RawMesh]] = {
     ".obj": lambda content, plain, beside: RawMesh(read_obj(content, plain, beside)),
     ".ply": lambda content, plain, _: RawMesh(read_ply(content, plain)),
     ".dae": lambda content, plain, _: read_dae(content, plain),
+    **dict.fromkeys((".step", ".stp"), lambda content, plain, _: read_step(content, plain)),
 }
 """By the ending of a file."""
 
@@ -48,7 +50,7 @@ def read_mesh(
     """The parts of a mesh file, without the vertices that no face names, the others in their order.
 
     Args:
-        path: binary glTF with its materials, STL, OBJ, PLY or COLLADA.
+        path: binary glTF with its materials, STL, OBJ, PLY, COLLADA or STEP.
         color: of the parts without a material.
         length: m of one unit; None: as the file says.
         turn: (3, 3), of its axes; None: what makes z up, if the file says which axis is.

@@ -1,1 +1,1 @@
-"""Display meshes as other programs write them: binary glTF, STL, OBJ, PLY and COLLADA."""
+"""Display meshes as other programs write them: binary glTF, STL, OBJ, PLY, COLLADA and STEP."""

@@ -33,7 +33,7 @@ class BodyRecord(Record, kw_only=True):
     label: str = ""
     """The name, if not given."""
     mesh: str | None = None
-    """A file of the folder: .glb, .stl, .obj, .ply or .dae."""
+    """A file of the folder: .glb, .stl, .obj, .ply, .dae or .step."""
     mesh_unit: str | None = None
     """Of the mesh's coordinates; that which its file says, else m, if not given."""
     mesh_axes: str | None = None
