@@ -72,6 +72,10 @@ def symmetric(found: NamedMatrix) -> sp.csc_array:
             f"matrix {found.name}: found {shape[0]} rows and {shape[1]} columns, expected as many"
         )
     check_size("entries in a matrix", A.nnz, MOST_ENTRIES)
+    try:
+        A.check_format(full_check=True)
+    except ValueError as error:
+        raise VehicleError(f"matrix {found.name}: its parts make no matrix ({error})") from None
     if np.iscomplexobj(A.data):
         raise VehicleError(f"matrix {found.name}: has complex numbers, expected real ones")
     A = sp.csc_array(A, dtype=float)

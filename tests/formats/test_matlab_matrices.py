@@ -134,3 +134,13 @@ def test_a_matrix_larger_than_its_file_can_be_is_not_unpacked(read):
     content[place : place + 8] = (20_000).to_bytes(4, "little") * 2
     with pytest.raises(VehicleError, match=r"no room for|no whole"):
         read(bytes(content))
+
+
+def test_a_sparse_matrix_with_rows_outside_of_it_is_refused(read):
+    """SciPy reads it as it is, and would read beyond its memory with it."""
+    content = bytearray(saved(SPARSE))
+    rows = sp.csc_array(K).indices.astype("<i4").tobytes()
+    place = content.index(rows)
+    content[place : place + 4] = (1_000_000).to_bytes(4, "little")
+    with pytest.raises(VehicleError, match="matrix K: its parts make no matrix"):
+        read(bytes(content))

@@ -317,23 +317,33 @@ def test_damaged_archives_are_refused_in_a_sentence(tmp_path, content, words):
 
 
 HEAD = "%%MatrixMarket matrix coordinate real symmetric\n"
+GENERAL = HEAD.replace("symmetric", "general")
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
         ("", "neither Matrix Market's nor Abaqus's"),
-        (HEAD, "no whole Matrix Market file"),
-        (HEAD + "3 3 2\n1 1 4.0\n", "no whole Matrix Market file"),
-        (HEAD + "3 3 1\n1 4 4.0\n", "no whole Matrix Market file"),
-        (HEAD + "3 3 1\n1 1 four\n", "no whole Matrix Market file"),
-        (HEAD + "3 3 1\n1 1 nan\n", "not finite numbers"),
-        (HEAD + "24 23 1\n1 1 4.0\n", "found 24 rows and 23 columns|no whole"),
+        ("%%MatrixMarket\n", "expected that of a matrix"),
+        (HEAD, "expected 3 whole numbers of its size"),
+        (HEAD + "3 3\n", "expected 3 whole numbers of its size"),
+        (HEAD + "3 3 -2\n", "expected 3 whole numbers of its size"),
+        (HEAD + "3 3 2\n1 1 4.0\n", "found 1 lines of 3 numbers, expected 2"),
+        (HEAD + "3 3 1\n1 1 4.0\n2 2 4.0\n", "found more lines"),
+        (HEAD + "3 3 1\n1 4 4.0\n", "an entry in column 4, expected 1 to 3"),
+        (HEAD + "3 3 1\n1 1 four\n", "no table of numbers"),
+        (HEAD + "3 3 1\n1 1.5 4.0\n", "no whole numbers"),
+        (HEAD + "3 3 1\n1 1e300 4.0\n", "an entry in column"),
+        (HEAD + "3 3 1\n1 1\n", "found 1 lines of 2 numbers, expected 1 of 3"),
+        (HEAD + "24 24 1\n1 1 nan\n", "not finite numbers"),
+        (GENERAL + "24 23 1\n1 1 4.0\n", "found 24 rows and 23 columns"),
         (HEAD + "24 24 900000000000\n1 1 4.0\n", "entries in a matrix"),
-        (HEAD + "24 24 90000000\n1 1 4.0\n", "which it has no room for"),
+        (HEAD + "24 24 90000000\n1 1 4.0\n", "found 1 lines"),
         (HEAD + "99000000 99000000 1\n1 1 4.0\n", "degrees of freedom in a matrix"),
         (HEAD.replace("coordinate", "array") + "9000000 9000000\n1.0\n", "entries in a matrix"),
-        (HEAD.replace("real", "complex") + "24 24 1\n1 1 4.0 1.0\n", "complex numbers"),
+        (HEAD.replace("coordinate", "array") + "24 23\n1.0\n", "of a symmetric matrix"),
+        (HEAD.replace("real", "complex") + "24 24 1\n1 1 4.0 1.0\n", "of complex numbers"),
+        (HEAD.replace("symmetric", "hermitian") + "24 24 1\n1 1 4.0\n", "found a hermitian matrix"),
     ],
 )
 def test_damaged_matrix_market_files_are_refused_in_a_sentence(tmp_path, text, words):
