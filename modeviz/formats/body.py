@@ -1,6 +1,7 @@
 """A component as a flexible body in SI, as far as its files say enough for that."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from modeviz.vehicle.rigid_fit import fit_rigid
 
 USUAL_DAMPING_RATIO = 0.01
 """Of a component whose file has none."""
+
+STILL = 1e-6
+"""So small a part of the largest motion of a rigid mode is none."""
 
 MOST_NODES_TIMES_MODES = 2_000_000
 """Of a body that is written, 48 MB: more nodes are thinned out, since they only carry the drawing."""
@@ -109,6 +113,7 @@ def flexible_body(
         raise VehicleError(f"{component.source}: cannot be coupled to others: {reason}")
     modes = component.modes
     omega_n_squared, n_near_zero = with_zeros(_omega_n_squared(modes.frequency_hz))
+    component, n_still = _without_still_nodes(component, omega_n_squared == 0, attachments)
     kind = modes.shapes.dtype.type
     normalised = modes.shapes / np.sqrt(modes.modal_mass * units.mass).astype(kind)
     normalised[:, 3:] /= kind(units.length)
@@ -129,10 +134,34 @@ def flexible_body(
         mesh=mesh,
     )
     remarks = [
-        *_remarks(n_near_zero, modes.frequency_hz, thinned),
+        *_remarks(n_near_zero, modes.frequency_hz, thinned, n_still),
         *_attachment_remarks(attachments, places, normalised, is_turned),
     ]
     return body, tuple(remarks)
+
+
+def _without_still_nodes(
+    component: Component, is_rigid: Array, attachments: Sequence[Found]
+) -> tuple[Component, int]:
+    """A free component without the places of nodes that its rigid modes do not move, and their number.
+
+    Solvers hold what nothing is tied to, such as grids that only say which way a beam is turned.
+
+    Raises:
+        VehicleError: an attachment is at one.
+    """
+    size = np.abs(component.modes.shapes[:, :3, is_rigid]).max(axis=(1, 2))
+    moves = size > STILL * size.max()
+    for attachment in attachments:
+        if not moves[attachment.rows].all():
+            raise VehicleError(
+                f"attachment {quoted(attachment.name)}: a node of it stays where it is in all rigid "
+                "modes, so it is not tied to the structure"
+            )
+    n_still = int(np.sum(component.has_place & ~moves))
+    if not n_still:
+        return component, 0
+    return replace(component, nodes=np.where(moves[:, None], component.nodes, np.nan)), n_still
 
 
 def _with_rigid_rotations(shapes: Floats, places: Floats, placed: Array, is_rigid: Array) -> Array:
@@ -166,10 +195,15 @@ def _damping(ratios: Floats) -> float | tuple[float, ...]:
     return USUAL_DAMPING_RATIO
 
 
-def _remarks(n_near_zero: int, frequency_hz: Floats, thinned: int) -> Iterator[str]:
+def _remarks(n_near_zero: int, frequency_hz: Floats, thinned: int, n_still: int) -> Iterator[str]:
     if n_near_zero:
         largest = np.abs(frequency_hz[:n_near_zero]).max()
         yield (f"{n_near_zero} modes are near zero, up to {largest:.1g} Hz; taken for the rigid ones")
+    if n_still:
+        yield (
+            f"{n_still:,} nodes stay where they are in all rigid modes, as grids that nothing is tied "
+            "to; they are left out"
+        )
     if thinned:
         yield f"{thinned:,} nodes are left out of what moves the drawing, which its neighbours carry"
 
