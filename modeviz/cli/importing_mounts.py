@@ -17,7 +17,7 @@ from modeviz.formats.mounts.property_file import read_property
 from modeviz.formats.mounts.sheets import EXCEL_SUFFIXES, TEXT_SUFFIXES
 from modeviz.formats.mounts.table import read_mount_table
 from modeviz.formats.nastran.bushings import has_bushings, read_bushings
-from modeviz.formats.poses import parse_pose
+from modeviz.formats.poses import misfit_notes, parse_pose
 from modeviz.formats.reading import read_component
 from modeviz.report.tables import table
 from modeviz.report.truncation import truncation_doubts
@@ -116,6 +116,8 @@ def _read(path: Path, options: MountOptions, target: Target | None) -> tuple[Bus
     if options.pose is not None:
         with located("--pose"):
             pose = parse_pose(options.pose, read_component([path]), units.length, target.axes)
+        for text in misfit_notes(pose):
+            note(text)
         bushings = tuple(bushing.moved(pose) for bushing in bushings)
     return near_bushings(bushings, target, note)
 

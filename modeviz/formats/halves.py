@@ -6,7 +6,7 @@ components of his truck as halves: "one-half of each component was modeled", wit
 boundary condition along the centerline").
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,6 +25,9 @@ STILL = 1e-4
 
 LARGEST_ID = 10**17
 """Of nodes that get images."""
+
+ALIKE = 0.8
+"""Modes of both runs reach as far if one's highest is above this part of the other's."""
 
 N_RIGID = 3
 """How many rigid modes each half has."""
@@ -146,7 +149,7 @@ def join_halves(symmetric: Component, antisymmetric: Component, plane: Plane) ->
         _elements(symmetric.elements, image, in_plane),
         _modes(symmetric.modes, antisymmetric.modes, plane, own),
         symmetric.units or antisymmetric.units,
-        tuple(dict.fromkeys((*symmetric.notes, *antisymmetric.notes))),
+        tuple(dict.fromkeys((*symmetric.notes, *antisymmetric.notes, *_reach_notes(halves)))),
         source=f"{symmetric.source} and {antisymmetric.source}",
         node_sets=symmetric.node_sets,
     )
@@ -235,6 +238,20 @@ def _check_rigid(name: str, half: Component) -> None:
         raise VehicleError(
             f"the {name} run, {half.source}, has {n_rigid} modes near zero Hz, expected the three "
             "rigid ones of a half that is held at the plane alone: all modes from zero up"
+        )
+
+
+def _reach_notes(halves: Mapping[str, Component]) -> Iterator[str]:
+    """A sentence if one run's modes end far below the other's."""
+    tops = {
+        name: float(half.modes.frequency_hz[half.n_modes - half.modes.n_residuals - 1])
+        for name, half in halves.items()
+    }
+    lower, higher = sorted(tops, key=tops.__getitem__)
+    if tops[lower] < ALIKE * tops[higher]:
+        yield (
+            f"the modes of the {lower} run end at {tops[lower]:.4g} Hz, those of the {higher} one at "
+            f"{tops[higher]:.4g} Hz: between them half of the whole's are missing"
         )
 
 

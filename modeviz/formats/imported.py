@@ -18,7 +18,7 @@ from modeviz.formats.component import Component, UnitSystem
 from modeviz.formats.halves import Whole, join_halves, parse_plane
 from modeviz.formats.into_folder import add_body
 from modeviz.formats.places import parse_place
-from modeviz.formats.poses import parse_pose
+from modeviz.formats.poses import misfit_notes, parse_pose
 from modeviz.formats.reading import read_component
 from modeviz.formats.residuals import with_given_compliance
 from modeviz.formats.solving import USUAL_MODES, Condensation, Wanted, solved
@@ -162,7 +162,7 @@ def import_body(
     if settings.mesh:
         body = replace(body, mesh=_looks(settings.mesh, settings.mesh_unit, units))
     if pose is not None:
-        body = pose.moved(body)
+        body, said = pose.moved(body), (*misfit_notes(pose), *said)
     vehicle = add_body(body, folder, component.source) if folder else None
     return Imported(body, found, (*said, *notes), vehicle)
 

@@ -17,6 +17,9 @@ FORMS = (
 )
 
 AXIS = re.compile(r"([xyz])\s*=\s*([^xyz=\s]+)")
+WORTH_A_WORD = 1e-4
+"""m: points of a pose that are nearer to their places are at them."""
+
 AT = re.compile(r"(?:^|,?\s)at\s+([^=]+)$")
 
 
@@ -36,6 +39,13 @@ def parse_pose(text: str, component: Component, length: float, axes: Floats) -> 
         return _pose(text.strip(), component, length, axes)
     except ValueError:
         raise VehicleError(f"found {quoted(text)}, expected {FORMS}") from None
+
+
+def misfit_notes(pose: Pose) -> tuple[str, ...]:
+    """Return a sentence on a pose whose points do not quite fit their places, or none."""
+    if pose.misfit < WORTH_A_WORD:
+        return ()
+    return (f"the points of the pose are up to {1000 * pose.misfit:.2g} mm from their places",)
 
 
 def _pose(text: str, component: Component, length: float, axes: Floats) -> Pose:

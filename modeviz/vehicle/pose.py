@@ -27,6 +27,8 @@ class Pose:
     """R (3, 3): columns are the component's axes in the vehicle."""
     origin: Floats
     """t (3,), m: where the component's origin is in the vehicle."""
+    misfit: float = 0.0
+    """m: how far the points that tell it are from their places at most."""
 
     def __post_init__(self) -> None:
         frozen(self, "rotation", self.rotation, (3, 3))
@@ -107,7 +109,7 @@ class Pose:
                 f"no turn takes the points to their places: point {off.argmax() + 1} is "
                 f"{off.max():.3g} m off; is one side mirrored?"
             )
-        return pose
+        return replace(pose, misfit=float(off.max()))
 
     def places(self, positions: ArrayLike) -> Floats:
         """Return where places of the component are in the vehicle, (..., 3), m."""

@@ -274,6 +274,21 @@ def test_sides_of_a_command_go_by_the_pose(tmp_path, files, capsys):
     assert "left is where" not in capsys.readouterr().err
 
 
+def test_a_run_whose_modes_end_far_below_the_others_is_told(halves):
+    symmetric, antisymmetric = halves
+    fewer = changed(
+        antisymmetric,
+        shapes=antisymmetric.modes.shapes[..., :12],
+        **{
+            name: getattr(antisymmetric.modes, name)[:12]
+            for name in ("frequency_hz", "modal_mass", "damping_ratio")
+        },
+    )
+    (note,) = join_halves(symmetric, fewer, Plane(1)).component.notes
+    assert "the modes of the antisymmetric run end at" in note
+    assert not join_halves(*halves, Plane(1)).component.notes
+
+
 def test_residual_vectors_of_both_halves_come_last(halves):
     symmetric, antisymmetric = (
         changed(half, n_residuals=n) for half, n in zip(halves, (2, 3), strict=True)

@@ -53,6 +53,13 @@ def test_a_component_is_put_where_its_pose_says(path, tmp_path, pose, capsys):
     assert f"attachment 'a' at [{x:.4g}, {y:.4g}, {z:.4g}] m" in capsys.readouterr().out
 
 
+def test_points_that_do_not_quite_fit_are_told(path, tmp_path, capsys):
+    pose = "11=0,0,0; 12=1001,0,0; 13=0,700,0"
+    options = ["--units", "mm-t-s", "--pose", pose]
+    assert main(["import", str(path), "--output", str(tmp_path / "vehicle"), *options]) == 0
+    assert "the points of the pose are up to 0.6" in capsys.readouterr().err
+
+
 def test_words_for_axes_go_by_those_of_the_vehicle(path, tmp_path):
     folder = tmp_path / "vehicle"
     folder.mkdir()

@@ -31,6 +31,8 @@ def test_points_that_are_a_little_off_are_fitted():
     pose = Pose.from_points(POINTS, places)
     np.testing.assert_allclose(pose.places(POINTS), places, atol=2e-3)
     np.testing.assert_allclose(pose.rotation, TURN, atol=3e-3)
+    assert pose.misfit == np.linalg.norm(pose.places(POINTS) - places, axis=1).max()
+    assert 1e-4 < pose.misfit < 2e-3
 
 
 @pytest.mark.parametrize("given", [2, 3])
