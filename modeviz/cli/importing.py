@@ -8,8 +8,8 @@ from typing import get_args
 import numpy as np
 
 from modeviz.cli.command import Command
-from modeviz.cli.importing_mounts import MountOptions, holds_mounts, import_mounts, springs_beside
-from modeviz.cli.importing_roads import RoadOptions, holds_road, import_road
+from modeviz.cli.importing_mounts import import_mounts, springs_beside
+from modeviz.cli.importing_roads import import_road_file
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, located
@@ -17,10 +17,12 @@ from modeviz.formats.attachments import Found
 from modeviz.formats.body import uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
 from modeviz.formats.imported import USUAL_PLANE, ImportSettings, import_body
+from modeviz.formats.mounts.imported import MountSettings, holds_mounts
 from modeviz.formats.places import FORMS
 from modeviz.formats.poses import FORMS as POSE_FORMS
 from modeviz.formats.reading import read_component
 from modeviz.formats.residuals import FORMS as RESIDUAL_FORMS
+from modeviz.formats.roads.imported import RoadSettings, holds_road
 from modeviz.formats.solving import USUAL_MODES, Condensation, Wanted, solved
 from modeviz.report.tables import table
 from modeviz.report.truncation import import_notes
@@ -84,24 +86,17 @@ class ImportOptions:
     """m, of a road; None: the vehicle's."""
 
     @property
-    def road(self) -> RoadOptions:
+    def road(self) -> RoadSettings:
         """What is asked for of a road; raises ModevizError for what a road does not have."""
         self.check_only("a road", "name", "track_width")
-        return RoadOptions(
-            files=self.files, output=self.output, name=self.name, track_width=self.track_width
-        )
+        return RoadSettings(name=self.name, track_width=self.track_width)
 
     @property
-    def mounts(self) -> MountOptions:
+    def mounts(self) -> MountSettings:
         """What is asked for of mounts; raises ModevizError for what mounts do not have."""
         self.check_only("mounts", "units", "frequency", "bodies", "pose")
-        return MountOptions(
-            files=self.files,
-            output=self.output,
-            units=self.units,
-            frequency=self.frequency,
-            bodies=self.bodies,
-            pose=self.pose,
+        return MountSettings(
+            units=self.units, frequency=self.frequency, bodies=self.bodies, pose=self.pose
         )
 
     def check_only(self, what: str, *names: str) -> None:
@@ -122,10 +117,10 @@ def import_component(options: ImportOptions) -> None:
     """Lists what files have of a component, and puts it into a vehicle folder if there is one."""
     check_printable()
     if holds_road(options.files):
-        import_road(options.road)
+        import_road_file(options.files, options.output, options.road)
         return
-    if holds_mounts(options.files, options.output):
-        import_mounts(options.mounts)
+    if holds_mounts(options.files, is_put=options.output is not None):
+        import_mounts(options.files, options.output, options.mounts)
         return
     options.check_only("a body", "modes", "up_to", "condense", *OF_A_BODY)
     wanted = _wanted(options)

@@ -136,7 +136,7 @@ def test_dropped_files_become_a_body_of_the_vehicle(new_vehicle):
     ).fill("left=11; right=12")
     page.wait_for_timeout(1000)
     page.get_by_role("button", name="Put it into the vehicle").click()
-    page.get_by_text("shape is in the vehicle").wait_for()
+    page.get_by_text("Body shape: in the vehicle").wait_for()
     (body,) = read_vehicle(folder).bodies
     assert [attachment.name for attachment in body.attachments] == ["left", "right"]
     assert body.mass == pytest.approx(MASSES.sum() * 1000)

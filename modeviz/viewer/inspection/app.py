@@ -129,9 +129,9 @@ class InspectionApp:
         self.inspection.replace_content(replace(self._content, subjects=subjects), subject.name)
 
     def _added(self, name: str) -> None:
-        """Shows a body that has been put into the vehicle."""
+        """Shows the vehicle after something was put into it, and the body if it is one."""
         self._content = self._source.read()
-        self.inspection.replace_content(self._content, name)
+        self.inspection.replace_content(self._content, name or self.inspection.state.subject)
 
     def _subject(self) -> str:
         """Return what is to be seen in a picture: "frame.op2 mode 7"."""

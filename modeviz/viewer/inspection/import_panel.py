@@ -12,11 +12,11 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.formats.component import UNIT_SYSTEMS, Component
-from modeviz.formats.imported import ImportSettings, import_body
 from modeviz.formats.places import FORMS
 from modeviz.formats.poses import FORMS as POSE_FORMS
-from modeviz.formats.reading import ENDINGS
-from modeviz.viewer.inspection.received import Received
+from modeviz.text.wording import sentence_case
+from modeviz.viewer.inspection.putting import Asked, Put, component_in, put
+from modeviz.viewer.inspection.received import TAKEN, Received
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.handles import assign, name_of
 from modeviz.viewer.page.html import block, heading, span
@@ -83,7 +83,7 @@ class ImportPanel:
         forget.on_click(lambda _: self._forget())
         self._units.on_update(self._redraw)
         scripts.run(gui, "inspection/drop.js", name_of(self._upload), TAB)
-        self._say(span(f"Drop files here: {', '.join(ENDINGS)}", "dim"))
+        self._say(span(f"Drop files here: {', '.join(TAKEN)}", "dim"))
 
     def close(self) -> None:
         """Deletes what has come."""
@@ -115,8 +115,10 @@ class ImportPanel:
                     self._refuse(error)
 
     def _show(self) -> None:
-        component = self._received.read()
-        self._look_at(component, self._name.value, self._chosen_units())
+        with self._received.told() as paths:
+            component = component_in(paths)
+        if component is not None:
+            self._look_at(component, self._name.value, self._chosen_units())
         self._say(self._listed())
 
     def _add(self, event: viser.GuiEvent) -> None:
@@ -126,28 +128,31 @@ class ImportPanel:
             return
         with self._lock:
             try:
-                name = self._put(client)
+                done = self._put(client)
             except ModevizError as error:
                 self._refuse(error)
                 return
             self._clear()
-            self._say(f"<div>{escape(name)} is in the vehicle. Drop the files of another body.</div>")
+            notes = "".join(f'<div class="dim">{escape(note)}</div>' for note in done.notes)
+            self._say(f"<div>{escape(sentence_case(done.what))}: in the vehicle.</div>", notes)
 
-    def _put(self, client: viser.ClientHandle) -> str:
-        component = self._received.read()
-        texts = tuple(filter(None, (text.strip() for text in self._attach.value.split(";"))))
-        pose = self._pose.value.strip() or None
-        settings = ImportSettings(units=self._chosen_units(), attach=texts, pose=pose)
-        name = self._name.value.strip() or "body"
+    def _put(self, client: viser.ClientHandle) -> Put:
+        asked = Asked(
+            name=self._name.value.strip(),
+            units=self._chosen_units(),
+            attach=tuple(filter(None, (text.strip() for text in self._attach.value.split(";")))),
+            pose=self._pose.value.strip() or None,
+        )
         if self._folder is not None:
-            import_body(component, name, settings, self._folder)
-            self._added(name)
-            return name
+            with self._received.told() as paths:
+                done = put(paths, asked, self._folder)
+            self._added(done.body)
+            return done
         with TemporaryDirectory(prefix="modeviz-") as home:
-            folder = Path(home, "vehicle")
-            import_body(component, name, settings, folder)
+            with self._received.told() as paths:
+                done = put(paths, asked, folder := Path(home, "vehicle"))
             client.send_file_download("vehicle.zip", _zipped(folder), save_immediately=True)
-        return name
+        return done
 
     def _chosen_units(self) -> str | None:
         return None if self._units.value == AS_THE_FILES_SAY else self._units.value
@@ -155,7 +160,7 @@ class ImportPanel:
     def _forget(self) -> None:
         with self._lock:
             self._clear()
-            self._say(span(f"Drop files here: {', '.join(ENDINGS)}", "dim"))
+            self._say(span(f"Drop files here: {', '.join(TAKEN)}", "dim"))
 
     def _clear(self) -> None:
         self._received.clear()

@@ -1,12 +1,17 @@
 """Files that a page sent, on this machine's disk until the page of bodies ends."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path, PurePath
 from tempfile import TemporaryDirectory
 
-from modeviz.errors import VehicleError
-from modeviz.files.disk import confined_to
-from modeviz.formats.component import Component
-from modeviz.formats.reading import ENDINGS, is_read, read_component
+from modeviz.errors import ModevizError, VehicleError
+from modeviz.formats.mounts.imported import SUFFIXES as MOUNTS
+from modeviz.formats.reading import ENDINGS
+from modeviz.formats.roads.imported import SUFFIXES as ROADS
+
+TAKEN = tuple(dict.fromkeys((*ENDINGS, *MOUNTS, *ROADS)))
+"""Endings of the files that are read."""
 
 MOST_BYTES = 400_000_000
 """Of all of them."""
@@ -54,20 +59,20 @@ class Received:
             path.unlink(missing_ok=True)
         self._paths.clear()
 
-    def read(self) -> Component:
-        """Return what they have, of no file but these.
+    @contextmanager
+    def told(self) -> Iterator[list[Path]]:
+        """The files to read, not those that they may include; errors do not say where they are.
 
         Raises:
-            VehicleError: they cannot be read.
+            VehicleError: there is none, or something inside raised one.
         """
-        folder = Path(self._folder.name)
-        if not any(map(is_read, self._paths.values())):
-            raise VehicleError(f"no file to read yet, expected one of {', '.join(ENDINGS)}")
+        paths = [path for path in self._paths.values() if path.suffix.lower() in TAKEN]
+        if not paths:
+            raise VehicleError(f"no file to read yet, expected one of {', '.join(TAKEN)}")
         try:
-            with confined_to(folder):
-                return read_component([p for p in self._paths.values() if is_read(p)])
-        except VehicleError as error:
-            raise VehicleError(str(error).replace(f"{folder}/", "")) from None
+            yield paths
+        except ModevizError as error:
+            raise VehicleError(str(error).replace(f"{self._folder.name}/", "")) from None
 
     def close(self) -> None:
         """Deletes them."""

@@ -2,11 +2,14 @@
 
 from contextlib import suppress
 
+import numpy as np
 import pytest
 from network_files import network_unv
 
 from modeviz.errors import VehicleError
+from modeviz.files import read_vehicle
 from modeviz.viewer.inspection import received as module
+from modeviz.viewer.inspection.putting import Asked, component_in, put
 from modeviz.viewer.inspection.received import Received
 
 
@@ -17,19 +20,24 @@ def received():
     received.close()
 
 
+def component(received):
+    with received.told() as paths:
+        return component_in(paths)
+
+
 DECK = "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nPLOTEL,1,1,2\n{}\nENDDATA\n"
 
 
 def test_what_came_is_read(received):
     received.add("network.unv", network_unv().encode())
-    assert received.read().n_modes == 24
+    assert component(received).n_modes == 24
     assert received.names == ("network.unv",)
 
 
 def test_a_file_that_another_includes_is_found_among_what_came(received):
     received.add("more.inc", b"GRID,3,,0.,1.,0.\n")
     received.add("deck.bdf", DECK.format("INCLUDE 'more.inc'").encode())
-    assert received.read().node_ids.tolist() == [1, 2, 3]
+    assert component(received).node_ids.tolist() == [1, 2, 3]
 
 
 @pytest.mark.parametrize("way", ["{outside}", "../{name}", "link/secret.inc"])
@@ -40,7 +48,7 @@ def test_nothing_else_on_this_machine_is_read(received, tmp_path, way):
     included = way.format(outside=secret, name=name)
     received.add("deck.bdf", DECK.format(f"INCLUDE '{included}'").encode())
     with suppress(VehicleError):
-        assert received.read().node_ids.tolist() == [1, 2]
+        assert component(received).node_ids.tolist() == [1, 2]
 
 
 @pytest.mark.parametrize("name", ["../../up.unv", "/there/up.unv", "..\\up.unv"])
@@ -52,7 +60,7 @@ def test_a_name_with_a_way_is_only_a_name(received, name):
 def test_messages_do_not_say_where_files_are_kept(received):
     received.add("broken.unv", b"nothing")
     with pytest.raises(VehicleError, match=r"^broken\.unv: "):
-        received.read()
+        component(received)
 
 
 @pytest.mark.parametrize("name", ["", "..", "/"])
@@ -76,7 +84,7 @@ def test_files_and_bytes_are_bounded(received, monkeypatch):
 def test_without_a_file_of_a_format_it_says_which_there_are(received):
     received.add("notes.md", b"hello")
     with pytest.raises(VehicleError, match=r"no file to read yet, expected one of .*\.op2"):
-        received.read()
+        component(received)
 
 
 def test_all_are_deleted_in_the_end():
@@ -85,3 +93,41 @@ def test_all_are_deleted_in_the_end():
     folder = received._folder.name
     received.close()
     assert not module.Path(folder).exists()
+
+
+MOUNTS = """name,body 1,body 2,x [mm],y [mm],z [mm],kx [N/mm],ky [N/mm],kz [N/mm],property
+one,network,ground,0,0,0,{rates},{property}
+"""
+
+
+@pytest.fixture
+def vehicle(received, tmp_path):
+    """A folder with the network as its one body."""
+    folder = tmp_path / "vehicle"
+    received.add("network.unv", network_unv().encode())
+    with received.told() as paths:
+        put(paths, Asked(name="network", units="mm-t-s", attach=("corner=11",)), folder)
+    received.clear()
+    return folder
+
+
+def test_a_mount_table_becomes_mounts_of_the_vehicle(received, vehicle):
+    received.add("mounts.csv", MOUNTS.format(rates="1,2,3", property="").encode())
+    with received.told() as paths:
+        assert component_in(paths) is None
+        assert put(paths, Asked(name=""), vehicle).what == "1 connections"
+    (connection,) = read_vehicle(vehicle).all_connections
+    np.testing.assert_allclose(connection.stiffness, [1e3, 2e3, 3e3])
+
+
+@pytest.mark.parametrize("way", ["../secret.gbs", "{outside}"])
+def test_a_mount_table_reads_no_property_file_elsewhere(received, vehicle, tmp_path, way):
+    secret = tmp_path / "secret.gbs"
+    secret.write_text("$---\n[UNITS]\n(SECRET)\n", encoding="utf-8")
+    named = way.format(outside=secret)
+    received.add("mounts.csv", MOUNTS.format(rates=",,", property=named).encode())
+    before = (vehicle / "vehicle.toml").read_bytes()
+    with pytest.raises(VehicleError) as error, received.told() as paths:
+        put(paths, Asked(name=""), vehicle)
+    assert "SECRET" not in str(error.value)
+    assert (vehicle / "vehicle.toml").read_bytes() == before
