@@ -98,6 +98,13 @@ def test_modifiers_scale_a_road_and_zero_does_not(read):
     np.testing.assert_allclose(found.v, np.array(V) / 2)
 
 
+def test_parameters_that_nothing_depends_on_may_be_anything(read):
+    """A sample of the specification has GRID_NAN_MODE = 2.000000000+e00."""
+    z = heights()
+    found = read(crg(z, 0.5, V, "KDBI", modifiers={"GRID_NAN_MODE": "2.0+e00"}))
+    np.testing.assert_allclose(found.heights, z)
+
+
 def test_a_file_that_names_another_is_that_one_with_its_own_modifiers(read, tmp_path):
     (tmp_path / "data").mkdir()
     z = heights()
@@ -344,6 +351,14 @@ BAD = {
     "more rows than there are": (
         text_crg(b"END_U      = 29.9", b"END_U      = 31.9"),
         "found 300 lines of road data, expected 320",
+    ),
+    "a scale beyond measure": (
+        crg(heights(300, 3), 0.1, [-1, 0, 1], modifiers={"SCALE_Z_GRID": 1e300}),
+        "beyond 100000 m",
+    ),
+    "a length beyond measure": (
+        crg(heights(300, 3), 0.1, [-1, 0, 1], modifiers={"SCALE_LENGTH": 1e300}),
+        "has heights every 1e+299 m",
     ),
     "no sections": (
         text_crg(b"D:long section 1,m\nD:long section 2,m\nD:long section 3,m", b"D:color"),

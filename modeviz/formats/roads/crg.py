@@ -15,7 +15,10 @@ from modeviz.vehicle.arrays import Floats
 MOST_HEIGHTS = 50_000_000
 
 HIGHEST = 1e5
-"""m: of no road; what is beyond is no number of heights."""
+"""m: of no road."""
+
+FINEST, COARSEST = 1e-6, 1e3
+"""m, between heights along a road."""
 
 AT = re.compile(r"long section at v\s*=\s*(\S+)", re.IGNORECASE)
 NUMBERED = re.compile(r"long section\s+(\d+)", re.IGNORECASE)
@@ -31,6 +34,19 @@ class Surface:
     """(n_sections,), rising, m: across, to the left of the reference line."""
     heights: Floats
     """(n_rows, n_sections), m; not a number where unknown."""
+
+    def __post_init__(self) -> None:
+        if not FINEST <= self.increment <= COARSEST:
+            raise VehicleError(
+                f"has heights every {self.increment:g} m, expected every {FINEST:g} to {COARSEST:g} m"
+            )
+        if len(self.v) > 1 and not (np.diff(self.v) > 0).all():
+            raise VehicleError("two long sections are at the same v")
+        known = self.heights[~np.isnan(self.heights)]
+        if not (np.abs(known) < HIGHEST).all():
+            raise VehicleError(
+                f"has heights beyond {HIGHEST:g} m; is it damaged, or in another format than it says?"
+            )
 
     @property
     def length(self) -> float:
@@ -59,7 +75,7 @@ def read_crg(path: Path) -> Surface:
     with located(path.name):
         if not file.data:
             raise VehicleError("has no road data, nor has a file that it names")
-        increment = file.parameters.get("REFERENCE_LINE_INCREMENT", 0.0)
+        increment = file.number("REFERENCE_LINE_INCREMENT") or 0.0
         if not increment > 0:
             raise VehicleError(f"REFERENCE_LINE_INCREMENT: found {increment:g}, expected more than 0")
         sections = _sections(file)
@@ -69,23 +85,19 @@ def read_crg(path: Path) -> Surface:
             )
         data = road_data(file, _n_rows(file, increment))
         check_size("heights", data.size, MOST_HEIGHTS)
-        heights = np.stack([unit * data[:, column] for column, _, unit in sections], axis=1)
-        if not (np.abs(heights[np.isfinite(heights)]) < HIGHEST).all() or np.isinf(heights).any():
-            raise VehicleError(
-                f"has heights beyond {HIGHEST:g} m; is it damaged, or in another format than "
-                f"{file.data_format}?"
-            )
         v = np.array([place for _, place, _ in sections])
-        return _surface(file, increment, v, heights, data)
+        with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused
+            heights = np.stack([unit * data[:, column] for column, _, unit in sections], axis=1)
+            return _surface(file, increment, v, heights, data)
 
 
 def _n_rows(file: CrgFile, increment: float) -> int | None:
     """How many cuts across the road there are, by its start and end; None: it has no end."""
-    end = file.parameters.get("REFERENCE_LINE_END_U")
+    end = file.number("REFERENCE_LINE_END_U")
     if end is None:
         return None
-    length = end - file.parameters.get("REFERENCE_LINE_START_U", 0.0)
-    n_rows = round(length / increment) + 1
+    length = end - (file.number("REFERENCE_LINE_START_U") or 0.0)
+    n_rows = round(min(length / increment, 1e12)) + 1
     check_size("heights", n_rows * len(file.channels), MOST_HEIGHTS)
     if n_rows < 2:
         raise VehicleError(f"REFERENCE_LINE_END_U: found {end:g}, expected more than where it starts")
@@ -124,9 +136,8 @@ def _unit(channel: str, unit: str) -> float:
 
 def _v_of_number(number: int, count: int, file: CrgFile) -> float:
     """Where a section is that is numbered from the right, 1 to `count`."""
-    p = file.parameters
-    right, left = p.get("LONG_SECTION_V_RIGHT"), p.get("LONG_SECTION_V_LEFT")
-    step = p.get("LONG_SECTION_V_INCREMENT")
+    right, left = file.number("LONG_SECTION_V_RIGHT"), file.number("LONG_SECTION_V_LEFT")
+    step = file.number("LONG_SECTION_V_INCREMENT")
     if step is None and right is not None and left is not None:
         step = (left - right) / max(count - 1, 1)
     if step is None or not (step > 0 or count == 1):
@@ -141,11 +152,8 @@ def _surface(file: CrgFile, increment: float, v: Floats, grid: Floats, data: Flo
     """The surface with what the reference line adds to the grid, and its modifiers."""
 
     def scale(name: str) -> float:
-        value = file.parameters.get(f"SCALE_{name}", 0.0)
-        return value if value else 1.0  # zero means none, as the specification has it
+        return file.number(f"SCALE_{name}") or 1.0  # zero means none, as the specification has it
 
-    if len(v) > 1 and not (np.diff(v) > 0).all():
-        raise VehicleError("two long sections are at the same v")
     slope, banking = (_along(file, data, name) for name in ("slope", "banking"))
     rise = np.concatenate([[0.0], np.cumsum(slope[1:]) * increment])
     heights = (
@@ -160,7 +168,7 @@ def _along(file: CrgFile, data: Floats, name: str) -> Floats:
     """The slope or banking of the reference line, (n_rows,): a channel, or a constant."""
     names = [channel.rpartition(",")[0].lower() for channel in file.channels]
     if f"reference line {name}" not in names:
-        constant = file.parameters.get(f"REFERENCE_LINE_START_{name[0].upper()}", 0.0)
+        constant = file.number(f"REFERENCE_LINE_START_{name[0].upper()}") or 0.0
         return np.full(len(data), constant)
     values = data[:, names.index(f"reference line {name}")].copy()
     values[:1] = np.nan_to_num(values[:1])  # the first is not used

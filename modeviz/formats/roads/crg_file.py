@@ -33,12 +33,29 @@ CHANNELS = "KD_DEFINITION"
 class CrgFile:
     """What a file says, with the files that it names."""
 
-    parameters: Mapping[str, float] = field(default_factory=dict)
+    parameters: Mapping[str, str] = field(default_factory=dict)
     """Of the road and its modifiers, by names in capitals."""
     data_format: str = "KRBI"
     channels: tuple[str, ...] = ()
     """Each with its unit, as in "long section 1,m"."""
     data: bytes = b""
+
+    def number(self, name: str) -> float | None:
+        """Return a parameter; None if it is not there.
+
+        Raises:
+            VehicleError: it is no number.
+        """
+        text = self.parameters.get(name)
+        if text is None:
+            return None
+        try:
+            value = float(text.replace("D", "E").replace("d", "e"))
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise VehicleError(f"{name}: found {quoted(text)}, expected a finite number")
+        return value
 
 
 def read_crg_file(path: Path) -> CrgFile:
@@ -57,7 +74,7 @@ def _read(path: Path, home: Path, depth: int) -> CrgFile:
     with located(path.name):
         header, data = _split(content)
         sections = _sections(header)
-        parameters: dict[str, float] = {}
+        parameters: dict[str, str] = {}
         for name in PARAMETERS:
             parameters |= _parameters(sections.get(name, []))
         own = _channels(sections.get(CHANNELS, []), parameters, data)
@@ -98,20 +115,9 @@ def _sections(header: str) -> dict[str, list[str]]:
     return sections
 
 
-def _parameters(lines: list[str]) -> dict[str, float]:
-    found = {}
-    for line in lines:
-        name, is_there, text = (part.strip() for part in line.partition("="))
-        if not is_there:
-            continue
-        try:
-            value = float(text.replace("D", "E").replace("d", "e"))
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value):
-            raise VehicleError(f"{name}: found {quoted(text)}, expected a finite number")
-        found[name.upper()] = value
-    return found
+def _parameters(lines: list[str]) -> dict[str, str]:
+    pairs = [line.partition("=") for line in lines if "=" in line]
+    return {name.strip().upper(): text.strip() for name, _, text in pairs}
 
 
 def _references(lines: list[str]) -> Iterator[str]:
@@ -126,7 +132,7 @@ def _references(lines: list[str]) -> Iterator[str]:
         raise VehicleError(f"{REFERENCES}: found {quoted(name)}, expected the name of a file, .crg")
 
 
-def _channels(lines: list[str], parameters: Mapping[str, float], data: bytes) -> CrgFile:
+def _channels(lines: list[str], parameters: Mapping[str, str], data: bytes) -> CrgFile:
     data_format, channels = "KRBI", []
     for line in lines:
         kind, _, text = line.strip().partition(":")
