@@ -217,6 +217,19 @@ def test_other_subcases_are_left_out_and_told(read):
     assert any("1 modes of other subcases than 1" in note for note in component.notes)
 
 
+def test_modes_of_further_rotor_speeds_are_left_out_and_told(read):
+    """They have the numbers of the first ones again, and other eigenvalues."""
+    op2 = Op2()
+    shape = op2.shape([1, 2, 3, 4], np.ones((4, 6)))
+    headers = [
+        op2.header(MODES, mode, value) for value, mode in ((9.0, 1), (16.0, 2), (25.0, 1), (36.0, 2))
+    ]
+    records = [part for header in headers for part in (header, shape)]
+    component = read(op2.file(op2.table("GEOM1", op2.grids(SQUARE)), op2.table("OUGV1", *records)))
+    np.testing.assert_allclose(component.modes.frequency_hz, np.array([3, 4]) / (2 * np.pi))
+    assert any(note.startswith("2 modes have the number of one before") for note in component.notes)
+
+
 def sorted_by_grid(op2: Op2, grids, motions, eigenvalues=(100.0, 400.0), kind=1) -> bytes:
     """A table of modes in SORT2: motions (n_grids, n_modes, 6)."""
     records = []

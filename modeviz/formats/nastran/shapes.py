@@ -1,6 +1,6 @@
 """Modes as any of Nastran's result files has them, in whichever order it writes them."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -123,14 +123,18 @@ def assembled(found: Sequence[Shape], is_basic: bool) -> Shapes:
         if column == 0:
             array = np.empty((*motions.shape, len(modes)), motions.dtype)
         array[:, :, column] = motions
-    n_used = sum(len(mode) for mode in modes)
+    subcase = found[0].subcase
+    n_again = sum(shape.subcase == subcase for shape in found) - sum(
+        part.subcase == subcase for mode in modes for part in mode
+    )
+    n_other = len(found) - sum(len(mode) for mode in modes) - n_again
     return Shapes(
         ids,
         array,
         np.array([mode[0].mode for mode in modes]),
         np.array([complex(mode[0].eigenvalue) for mode in modes]),
         is_basic,
-        left_out(sum(part.n_scalar for part in modes[0]), len(found) - n_used, found[0].subcase),
+        tuple(_left_out(sum(part.n_scalar for part in modes[0]), n_other, subcase, n_again)),
     )
 
 
@@ -164,11 +168,14 @@ def _rows(ids: Array, part: Shape) -> Array | slice:
         raise VehicleError(OTHER_GRIDS) from None
 
 
-def left_out(n_scalar: int, n_other: int, subcase: int) -> tuple[str, ...]:
-    """Return sentences on what shapes have not of a file."""
-    notes = []
+def _left_out(n_scalar: int, n_other: int, subcase: int, n_again: int) -> Iterator[str]:
+    """Sentences on what shapes have not of a file."""
     if n_scalar:
-        notes.append(f"{n_scalar} scalar points have no place and are left out")
+        yield f"{n_scalar} scalar points have no place and are left out"
     if n_other:
-        notes.append(f"{n_other} modes of other subcases than {subcase} are left out")
-    return tuple(notes)
+        yield f"{n_other} modes of other subcases than {subcase} are left out"
+    if n_again:
+        yield (
+            f"{n_again} modes have the number of one before them, as those of further rotor speeds, "
+            "and are left out"
+        )
