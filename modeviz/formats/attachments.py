@@ -1,7 +1,7 @@
 """Where others hold on to a component: the nodes, and sets of nodes, that people name."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -111,12 +111,13 @@ def _of_set(component: Component, place: Place, length: float) -> Found:
 
 def _set_of(component: Component, place: Place) -> NodeSet:
     if not place.set_name:
-        return NodeSet(place.kind, place.nodes)
+        return NodeSet(place.kind or "mean", place.nodes)
     known = {name.upper(): each for name, each in component.node_sets.items()}
     if place.set_name.upper() not in known:
         reason = unknown("set of nodes", place.set_name, component.node_sets)
         raise VehicleError(f"attachment {quoted(place.name)}: {reason}")
-    return known[place.set_name.upper()]
+    found = known[place.set_name.upper()]
+    return replace(found, kind=place.kind or found.kind)
 
 
 def _row_of(component: Component, name: str, node: int) -> int:

@@ -13,8 +13,12 @@ MOST_IN_SET = 100_000
 
 FORMS = (
     "a node's number, NAME=NODE, NAME=X,Y,Z in the file's units, NAME=rigid:NODE,NODE,… or "
-    "NAME=mean:NODE,NODE,… (also FROM-TO), or NAME=RBE2:ID; all but X,Y,Z may end in @X,Y,Z"
+    "NAME=mean:NODE,NODE,… (also FROM-TO), NAME=RBE2:ID or NAME=GROUP:NAME; all but X,Y,Z may end in "
+    "@X,Y,Z"
 )
+
+SET_NAME = re.compile(r"\w{1,80}:[^:]{1,80}")
+"""Of a component's own."""
 
 
 @dataclass(frozen=True)
@@ -26,12 +30,12 @@ class Place:
     """The node it is at."""
     position: tuple[float, float, float] | None = None
     """Instead, in the file's units: it is at the nearest node."""
-    kind: SetKind = "mean"
-    """How `nodes` are joined."""
+    kind: SetKind | None = None
+    """How a set of nodes is joined; None: as the set says."""
     nodes: tuple[int, ...] = ()
     """Instead: those that carry it."""
     set_name: str = ""
-    """Instead: a set of the component's own, such as RBE2:901."""
+    """Instead: a set of the component's own, such as RBE2:901 or GROUP:left mount."""
     at: tuple[float, float, float] | None = None
     """In the file's units, where the point is that is carried; if not given, as the node or the set."""
 
@@ -66,8 +70,11 @@ def _place(name: str, where: str) -> Place:
     if not colon:
         return Place(name, position=_point(where))
     if kind.lower() in ("rigid", "mean"):
-        return Place(name, kind="rigid" if kind.lower() == "rigid" else "mean", nodes=_nodes(members))
-    if not re.fullmatch(r"\w{1,80}:[^:]{1,80}", where):
+        joined: SetKind = "rigid" if kind.lower() == "rigid" else "mean"
+        if SET_NAME.fullmatch(members):
+            return Place(name, kind=joined, set_name=members)
+        return Place(name, kind=joined, nodes=_nodes(members))
+    if not SET_NAME.fullmatch(where):
         raise ValueError
     return Place(name, set_name=where)
 

@@ -10,7 +10,7 @@ from modeviz.errors import VehicleError
 from modeviz.formats.attachments import find_attachments
 from modeviz.formats.component import UNIT_SYSTEMS, Component, Modes
 from modeviz.formats.nastran import read_nastran
-from modeviz.formats.node_sets import set_motion
+from modeviz.formats.node_sets import NodeSet, set_motion
 from modeviz.formats.places import parse_place
 from modeviz.vehicle.rigid import rigid_motions
 
@@ -145,6 +145,15 @@ def test_a_set_that_is_to_be_rigid_and_is_not_is_told(tmp_path, capsys):
     assert (
         "the nodes of 'rear' are to be one rigid piece, and part from it by" in capsys.readouterr().err
     )
+
+
+def test_a_set_of_the_component_goes_by_its_name_and_may_be_joined_otherwise(places):
+    one = component(places, node_sets={"GROUP:left mount": NodeSet("mean", (1, 2, 5))})
+    mean, rigid = found(one, "a=group:Left Mount", "b=rigid:GROUP:left mount@0,0,0")
+    (expected,) = found(one, "a=rigid:1,2,5@0,0,0")
+    assert (mean.is_rigid, rigid.is_rigid) == (False, True)
+    np.testing.assert_array_equal(mean.rows, [0, 1, 4])
+    np.testing.assert_array_equal(rigid.motion, expected.motion)
 
 
 DECK = """BEGIN BULK

@@ -296,6 +296,50 @@ def test_corners_of_elements_with_nodes_between_them(read):
     assert "1 elements are springs, masses" in component.notes[0]
 
 
+def group(number, name, *entities):
+    """The lines of a group, two entities to a line: format 8I10, and 20A2 for the name."""
+    rows = [f"{kind:10d}{label:10d}{0:10d}{0:10d}" for kind, label in entities]
+    lines = ["".join(rows[i : i + 2]) for i in range(0, len(rows), 2)]
+    return [f"{number:10d}" + f"{0:10d}" * 6 + f"{len(rows):10d}", f"{name:40s}", *lines]
+
+
+@pytest.mark.parametrize("kind", [2467, 2477])
+def test_groups_of_nodes_go_by_their_names(read, kind):
+    lines = [
+        *group(1, "Left mount", (7, 3), (7, 1), (8, 99)),
+        *group(2, "elements", (8, 1)),
+        *group(3, "nothing"),
+        *group(4, "all", *((7, label) for label in (1, 2, 3, 4))),
+    ]
+    component = read(block(kind, *lines) + nodes_2411([1, 2, 3, 4], SQUARE))
+    nodes = {name: found.nodes for name, found in component.node_sets.items()}
+    assert nodes == {"GROUP:Left mount": (3, 1), "GROUP:all": (1, 2, 3, 4)}
+    assert not component.notes
+
+
+def test_groups_that_pyuff_writes_are_read(tmp_path):
+    active = {
+        f"active_{what}_set_no_for_group": 0
+        for what in ("constraint", "restraint", "load", "dof", "temperature", "contact")
+    }
+    one = {"group_number": 1, "group_name": "Left mount", **active}
+    one |= {"entity_type_code": [7, 7, 7], "entity_tag": [3, 1, 4]}
+    one |= {"entity_node_leaf_id": [0, 0, 0], "entity_component_id": [0, 0, 0]}
+    path = tmp_path / "a.unv"
+    pyuff.UFF(str(path)).write_sets([{"type": 2467, "groups": [one]}], mode="overwrite")
+    path.write_text(path.read_text() + nodes_2411([1, 2, 3, 4], SQUARE))
+    assert read_universal([path]).node_sets["GROUP:Left mount"].nodes == (3, 1, 4)
+
+
+@pytest.mark.parametrize("count", ["-3", "9", "999999999", "x"])
+def test_damaged_groups_are_left_out_and_told(read, count):
+    lines = group(1, "a", (7, 1), (7, 2))
+    lines[0] = lines[0][:70] + f"{count:>10}"
+    component = read(block(2467, *lines) + nodes_2411([1, 2, 3, 4], SQUARE))
+    assert component.node_sets == {}
+    assert "1 of 2467" in component.notes[0]
+
+
 def test_titles_in_latin_1_and_line_ends_of_dos_do_no_harm(read):
     text = shape_55([1], np.ones((1, 3)), 10.0, titles="Träger, größte Auslenkung é")
     assert read(text.replace("\n", "\r\n")).modes.frequency_hz.tolist() == [10]

@@ -13,6 +13,7 @@ from modeviz.files.disk import read_bytes
 from modeviz.formats.component import Component, ElementKind, Modes, UnitSystem, rows_of
 from modeviz.formats.frames import BASIC, Frame, basic_places, turn_to_basic
 from modeviz.formats.limits import LARGEST_FILE, check_shapes
+from modeviz.formats.node_sets import NodeSet
 from modeviz.formats.universal.blocks import Block, blocks
 from modeviz.formats.universal.geometry import (
     GivenFrame,
@@ -25,6 +26,7 @@ from modeviz.formats.universal.geometry import (
     read_nodes_2411,
     read_units,
 )
+from modeviz.formats.universal.groups import read_groups
 from modeviz.formats.universal.shapes import Shape, read_mode
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -32,6 +34,8 @@ SUFFIXES = (".unv", ".uff", ".uf", ".uf5", ".ufb")
 
 SILENT = {"151", "2400"}
 """Data sets that have only titles and dates."""
+
+GROUPS = {"2467", "2477"}
 
 DEEPEST = 100
 """So many coordinate systems may stand in each other."""
@@ -50,6 +54,8 @@ class _Content:
     """By number."""
     units: UnitSystem | None = None
     shapes: list[Shape] = field(default_factory=list)
+    node_sets: dict[str, NodeSet] = field(default_factory=dict)
+    """By name."""
     unread: Counter[str] = field(default_factory=Counter)
     """Data sets that are not a component's, by their numbers."""
 
@@ -71,6 +77,8 @@ class _Content:
             self.frames |= read_frames_18(block) if kind == "18" else read_frames_2420(block)
         elif kind == "164":
             self.units = read_units(block)
+        elif kind in GROUPS and (groups := _groups(block)):
+            self.node_sets |= groups
         elif kind in ("55", "2414") and (shape := read_mode(block)):
             self.shapes.append(shape)
         elif kind not in SILENT:
@@ -91,6 +99,14 @@ def read_universal(paths: Sequence[Path]) -> Component:
                     content.add(block)
     with located(", ".join(map(str, paths))):
         return _component(content)
+
+
+def _groups(block: Block) -> dict[str, NodeSet]:
+    """Those of nodes; none of what is written otherwise, since nothing else depends on them."""
+    try:
+        return read_groups(block)
+    except VehicleError:
+        return {}
 
 
 def _without_zeros(content: bytes) -> bytes:
@@ -131,7 +147,15 @@ def _component(content: _Content) -> Component:
     if content.unread:
         skipped = (f"{number} of {kind}" for kind, number in content.unread.items())
         notes.append(f"data sets left out, which are no part of modes: {', '.join(skipped)}")
-    return Component(every, nodes, _elements(content, every), modes, content.units, tuple(notes))
+    return Component(
+        every,
+        nodes,
+        _elements(content, every),
+        modes,
+        content.units,
+        tuple(notes),
+        node_sets=content.node_sets,
+    )
 
 
 def _nodes(content: _Content) -> tuple[Array, Array, Floats]:
