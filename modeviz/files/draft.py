@@ -15,6 +15,7 @@ import numpy as np
 from modeviz.errors import Fault
 from modeviz.files.records.vehicle import CONNECTION_KINDS, VehicleRecord
 from modeviz.files.schema.hints import alternatives, fields_of, is_record, joined, plain
+from modeviz.files.schema.mismatches import faults_of
 from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND
@@ -70,16 +71,33 @@ class Draft:
     def without(self, faults: Iterable[Fault]) -> list[tuple[Fault, str]]:
         """Return faults by the file's own keys, each with the key of what is now taken out for it.
 
-        That is empty where nothing can be taken out.
+        That is empty where nothing can be taken out. Others are among them that are in the same tables,
+        which may not be looked at again.
 
         Args:
             faults: found in the tables as they are.
         """
+        faults = [other for fault in faults for other in self._in_same_table(fault)]
         steps = [self._steps(fault.path) for fault in faults]
         named = [
             replace(fault, path=self._own(s, fault)) for fault, s in zip(faults, steps, strict=True)
         ]
         return [(fault, self._take_out(s)) for fault, s in zip(named, steps, strict=True)]
+
+    def _in_same_table(self, fault: Fault) -> list[Fault]:
+        """The fault and all others of keys of its table, if it is one of a key's type."""
+        where, table, record = "", self.tables, VehicleRecord
+        inner = ""
+        for container, key, hint in self._steps(fault.path):
+            if isinstance(container, dict) and is_record(hint):
+                where, table, record = inner, container, hint
+            inner = (
+                f"{inner}[{_place(container, key)}]"
+                if isinstance(container, list)
+                else joined(inner, key)
+            )
+        faults = list(faults_of(table, record, where))
+        return faults if fault in faults else [fault]
 
     def path_of(self, kind: str, name: str) -> str:
         """Return the key of the last table of that name of a kind of parts; empty if there is none."""
@@ -133,7 +151,7 @@ class Draft:
         now = ""
         for container, key, _ in steps:
             if isinstance(container, list):
-                now += f"[{next(i for i, other in enumerate(container) if other is key)}]"
+                now += f"[{_place(container, key)}]"
                 path = self._paths.get(id(key), now)
             else:
                 now, path = joined(now, key), joined(self._paths[id(container)], key)
@@ -165,6 +183,8 @@ class Draft:
             if isinstance(container, list):
                 if isinstance(key, dict):
                     item = self._paths[id(key)]
+                    if all(other is not key for other in container):
+                        return item  # for another fault
                     self._lose(key)
                     container[:] = [other for other in container if other is not key]
                     if container:
@@ -206,6 +226,11 @@ def _each(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
             yield path, at
         items = at.items() if isinstance(at, dict) else enumerate(at) if isinstance(at, list) else ()
         waiting += reversed([(joined(path, key), inner) for key, inner in items])
+
+
+def _place(items: list[Any], item: Any) -> int:
+    """The number of an item of a list, which may be equal to others."""
+    return next(i for i, other in enumerate(items) if other is item)
 
 
 def _references(table: Mapping[str, Any]) -> Iterator[str]:

@@ -93,6 +93,19 @@ def test_what_is_wrong_with_a_connection_of_a_lost_body_is_told_too(folder):
     ]
 
 
+def test_all_that_is_wrong_in_one_table_is_told_at_once(folder):
+    edit(folder, "at = [[0.0, 0.0, 0.0], [0.0, 0.1, 0.7]]\naxes", "at = [1]\nelastic_centre = 1\naxes")
+    edit(folder, "stiffness = [100.0, 200.0, 33.333333333333336]", 'stiffness = "hard"')
+    edit(folder, 'name = "arm"\nbodies = ["cab", "Engine & box"]\n', "")
+    assert [problem.key for problem in survey(folder).problems] == [
+        "spring[0].at",
+        "spring[0].elastic_centre",
+        "spring[0].stiffness",
+        "spring[0].name",
+        "spring[0].bodies",
+    ]
+
+
 def test_tables_keep_their_numbers_whatever_was_taken_out_before_them(folder):
     edit(folder, 'kind = "unbalance"', 'kind = "none"')
     edit(folder, 'tyre = "tyre left"\namplitude = 35.6', 'tyre = "tyre right"\namplitude = 35.6')

@@ -65,7 +65,7 @@ def mismatch(data: Any, hint: Any, where: str = "") -> Fault:
         return found(brief(data), _in_words(hint), where)
     kind = plain(meant)
     if is_record(kind):
-        return _in_record(data, kind, where)
+        return next(faults_of(data, kind, where))
     if get_origin(kind) is Literal and len(get_args(kind)) > 1:
         return Fault(where, unknown("value", str(data), map(str, get_args(kind))))
     if bound := _broken_bound(data, meant):
@@ -81,17 +81,23 @@ def found(value: str, expected: str, where: str) -> Fault:
     return Fault(where, f"found {value}, expected {expected}")
 
 
-def _in_record(table: dict[str, Any], record: Any, where: str) -> Fault:
-    """The first key of a table that is wrong, or else one that is not there."""
+def faults_of(table: dict[str, Any], record: Any, where: str = "") -> Iterator[Fault]:
+    """What is wrong with the keys of a table: those that are wrong, then those that are not there.
+
+    Args:
+        table: plain data.
+        record: the type that it should be.
+        where: its key path.
+    """
     hints = fields_of(record)
     for key, value in table.items():
         if key not in hints and record.__struct_config__.forbid_unknown_fields:
-            return Fault(joined(where, key), unknown("key", key, hints))
+            yield Fault(joined(where, key), unknown("key", key, hints))
         if key in hints and not _fits(value, hints[key]):
-            return mismatch(value, hints[key], joined(where, key))
-    required = [field.encode_name for field in msgspec.structs.fields(record) if field.required]
-    missing = next(key for key in required if key not in table)
-    return Fault(joined(where, missing), f"missing, expected {_in_words(hints[missing])}")
+            yield mismatch(value, hints[key], joined(where, key))
+    for field in msgspec.structs.fields(record):
+        if field.required and (missing := field.encode_name) not in table:
+            yield Fault(joined(where, missing), f"missing, expected {_in_words(hints[missing])}")
 
 
 def _parts(data: Any, kind: Any) -> Iterator[tuple[str | int, Any, Any]]:
