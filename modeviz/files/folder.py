@@ -14,7 +14,7 @@ from typing import Any
 import msgspec
 
 from modeviz.errors import VehicleError, at_key, located
-from modeviz.files.disk import file_stems, replace_folder, write_text
+from modeviz.files.disk import file_stems, read_text, replace_folder, write_text
 from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
 from modeviz.files.records.bodies import AddedMassRecord, FlexibleBodyRecord, RigidBodyRecord
@@ -44,7 +44,7 @@ from modeviz.files.schema.conventions import Conventions
 from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.source import Source
 from modeviz.files.spectra import write_spectrum
-from modeviz.files.toml_reader import in_si, read_tables
+from modeviz.files.toml_reader import in_si, tables_of
 from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
@@ -84,25 +84,25 @@ def read_vehicle(folder: Path | str) -> Vehicle:
             and what would be right.
     """
     folder = Path(folder)
-    tables = read_vehicle_tables(folder)
+    text = read_vehicle_text(folder)
     with located(folder / VEHICLE_FILE):
-        vehicle = vehicle_of(tables, Source(folder))
+        vehicle = vehicle_of(tables_of(text), Source(folder))
         check_workload(vehicle)
         return vehicle
 
 
-def read_vehicle_tables(folder: Path) -> dict[str, Any]:
-    """The tables of the vehicle file in a folder, as they stand.
+def read_vehicle_text(folder: Path) -> str:
+    """The vehicle file in a folder.
 
     Raises:
-        VehicleError: it is missing or not TOML.
+        VehicleError: it is missing, or no text.
     """
     if not (folder / VEHICLE_FILE).is_file():
         raise VehicleError(
             f"{folder}: found no {VEHICLE_FILE}; a vehicle is a folder with a {VEHICLE_FILE}, and the "
             "modes, meshes and roads that it names"
         )
-    return read_tables(folder / VEHICLE_FILE)
+    return read_text(folder / VEHICLE_FILE)
 
 
 def vehicle_of(tables: Mapping[str, Any], source: Source) -> Vehicle:

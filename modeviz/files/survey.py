@@ -11,11 +11,12 @@ from itertools import islice
 from pathlib import Path
 
 from modeviz.errors import Fault, FaultsError, ModevizError, PartError
-from modeviz.files.disk import read_text
+from modeviz.files.broken_lines import without_broken_lines
 from modeviz.files.draft import Draft
-from modeviz.files.folder import VEHICLE_FILE, read_vehicle_tables, vehicle_of
+from modeviz.files.folder import VEHICLE_FILE, read_vehicle_text, vehicle_of
 from modeviz.files.key_lines import key_lines, line_of
 from modeviz.files.source import Source
+from modeviz.files.toml_reader import tables_of
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
@@ -65,29 +66,41 @@ def survey(folder: Path | str) -> Survey:
     """Return what can be read of a vehicle folder, with every problem that keeps the rest from it."""
     folder = Path(folder)
     try:
-        draft = Draft(read_vehicle_tables(folder))
+        text, broken = without_broken_lines(read_vehicle_text(folder), _error_of)
     except ModevizError as error:
         return Survey(None, (Problem(VEHICLE_FILE, "", _inside(folder, str(error))),))
-    source = Source(folder)
-    lines = list(key_lines(read_text(folder / VEHICLE_FILE)))
     problems = [
+        Problem(VEHICLE_FILE, "", b.words, b.number, f"line {b.number}" if text is not None else "")
+        for b in broken
+    ]
+    if text is None:
+        return Survey(None, tuple(problems))
+    draft, source, lines = Draft(tables_of(text)), Source(folder), list(key_lines(text))
+    problems += [
         Problem(VEHICLE_FILE, f.path, _inside(folder, f.words), line_of(f.path, lines), left_out)
         for f, left_out in islice(_mended(draft, source), MOST_PROBLEMS)
     ]
-    if len(problems) == MOST_PROBLEMS:
+    if len(problems) >= MOST_PROBLEMS:
         problems.append(
             Problem(VEHICLE_FILE, "", "there may be more, which are looked for after these")
         )
     if draft.stand_ins:
         draft.drop_bodies()
-        deque(
-            _mended(draft, source), 0
-        )  # what follows from a body that is not there is no problem more
+        deque(_mended(draft, source), 0)  # what follows from a body that is lost is no problem more
     try:
         vehicle = vehicle_of(draft.tables, source.again())
     except ModevizError:
         return Survey(None, tuple(problems))
     return Survey(vehicle, (*problems, *_too_large(vehicle)), source.every_note)
+
+
+def _error_of(text: str) -> str | None:
+    """What keeps a text from being TOML."""
+    try:
+        tables_of(text)
+    except ModevizError as error:
+        return str(error)
+    return None
 
 
 def _mended(draft: Draft, source: Source) -> Iterator[tuple[Fault, str]]:

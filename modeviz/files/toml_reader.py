@@ -56,11 +56,20 @@ def read_tables(path: Path) -> dict[str, Any]:
     """
     text = read_text(path)
     with located(path):
-        _check_depth(text)
+        return tables_of(text)
+
+
+def tables_of(text: str) -> dict[str, Any]:
+    """The tables of a text.
+
+    Raises:
+        VehicleError: it is not TOML.
+    """
+    _check_depth(text)
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        raise VehicleError(f"{path}: not TOML: {unreadable(error)}") from None
+        raise VehicleError(f"not TOML: {unreadable(error)}") from None
 
 
 def _check_depth(text: str) -> None:

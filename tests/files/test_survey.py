@@ -64,7 +64,8 @@ def test_a_dozen_mistakes_are_told_at_once_each_at_its_key_with_its_remedy(folde
 def test_what_the_reader_complains_of_is_among_the_problems(folder, case):
     old, new, words = EDITS[case]
     edit(folder, old, new)
-    assert words in "\n".join(told(survey(folder)))
+    without_place = words.split(" (at line")[0]  # of the line, which is told beside the file
+    assert without_place in "\n".join(told(survey(folder)))
 
 
 def test_a_body_is_read_without_what_can_be_left_out_of_it(folder):
@@ -120,9 +121,31 @@ def test_a_folder_without_anything_to_read_is_one_problem(folder, tmp_path):
         f"{tmp_path}: found no vehicle.toml; a vehicle is a folder with a vehicle.toml, and the modes, "
         "meshes and roads that it names"
     ]
+
+
+def test_a_line_that_is_no_toml_is_told_and_the_rest_is_read_without_it(folder):
     edit(folder, "speed = 8", "speed = = 8")
-    (problem,) = survey(folder).problems
-    assert "line 2" in problem.words
+    edit(folder, 'mesh = "meshes/cab.glb"', 'mesh = "meshes/cob.glb')
+    edit(folder, "[[mount_group.mount]]", "[[mount_group.mount]")
+    edit(folder, "at = [0.01, -0.02, 0.03]", "at = [0.01, -0.02")
+    edit(folder, "acceleration_psd", "acceleration")
+    found = survey(folder)
+    lines = (folder / "vehicle.toml").read_text().splitlines()
+    by_key = {problem.key: problem for problem in found.problems}
+    broken = {lines[p.line - 1].split(" ")[0] for p in found.problems if p.words.startswith("not TOML")}
+    assert broken == {"speed", "mesh", "[[mount_group.mount]", "at"}
+    assert set(by_key) == {"", "base_motion[1].acceleration", "added_mass[0].at"}
+    assert len(found.bodies) == 2
+
+
+@pytest.mark.parametrize(
+    "text", ["\0", "a = 1e", "[" * 5000, "x" * 5000, "=\n" * 500, '"""', "a.b\n" * 30]
+)
+def test_what_is_no_toml_at_all_is_few_problems(folder, text):
+    (folder / "vehicle.toml").write_text(text)
+    found = survey(folder)
+    assert found.vehicle is None
+    assert 1 <= len(found.problems) <= 3
 
 
 def test_hundreds_of_mistakes_take_seconds_and_the_last_says_that_there_may_be_more(folder):
