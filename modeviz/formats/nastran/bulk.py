@@ -184,8 +184,10 @@ def _bulk(path: Path) -> tuple[list[str], Iterator[str]]:
     """
     lines = list(_lines(path, (), [0], path.parent))
     texts = ["" if isinstance(line, VehicleError) else line for line in lines]
-    begin = next((i + 1 for i, text in enumerate(texts) if BEGIN.match(text)), 0)
-    others = [i for i, text in enumerate(texts[begin:], begin) if BEGIN_OTHER.match(text)]
+    others = [i for i, text in enumerate(texts) if BEGIN_OTHER.match(text)]
+    begins = [i for i, text in enumerate(texts) if BEGIN.match(text) and i not in others]
+    begin = begins[0] + 1 if begins else 0
+    end = next((i for i in others if i >= begin), None)
     told = [
         f"{line}; it is before the bulk data, and passed over"
         for line in lines[:begin]
@@ -193,7 +195,7 @@ def _bulk(path: Path) -> tuple[list[str], Iterator[str]]:
     ]
     if others:
         told.append(f"{len(others)} superelements that the input file has are left out")
-    return told, _until_end(lines[begin : others[0] if others else None])
+    return told, _until_end(lines[begin:end])
 
 
 def _until_end(lines: Iterable[str | VehicleError]) -> Iterator[str]:
