@@ -28,6 +28,11 @@ def read(tmp_path):
     return read
 
 
+def all_heights(surface):
+    """(n_rows, n_sections)."""
+    return np.stack([surface.section(i) for i in range(len(surface.v))], axis=1)
+
+
 def heights(n_rows=30, n_sections=5, seed=1):
     return np.random.default_rng(seed).uniform(-0.2, 0.2, (n_rows, n_sections))
 
@@ -41,7 +46,7 @@ def test_heights_are_read_of_every_format(read, data_format, digits, numbered, n
     """Rows of eleven sections go over several records of text."""
     z, v = heights(31, n_sections), np.linspace(-2, 2, n_sections) if n_sections > 1 else [0.5]
     found = read(crg(z, 0.1, v, data_format, numbered=numbered))
-    np.testing.assert_allclose(found.heights, z, atol=0.6 * 10.0**-digits)
+    np.testing.assert_allclose(all_heights(found), z, atol=0.6 * 10.0**-digits)
     np.testing.assert_allclose(found.v, v, atol=1e-9)
     assert found.increment == 0.1
     assert found.length == pytest.approx(3.0)
@@ -51,7 +56,7 @@ def test_heights_are_read_of_every_format(read, data_format, digits, numbered, n
 def test_without_an_end_there_are_as_many_rows_as_data_and_padding_is_none(read, data_format):
     z = heights(31, 3)
     content = crg(z, 0.1, V[:3], data_format, parameters={"REFERENCE_LINE_END_U": None})
-    assert len(read(content).heights) == 31
+    assert len(all_heights(read(content))) == 31
 
 
 def test_sections_without_a_border_are_about_the_reference_line(read):
@@ -66,7 +71,7 @@ def test_missing_heights_are_no_numbers(read):
     z = heights()
     z[3, 1] = np.nan
     for data_format in ("LRFI", "LDFI", "KRBI", "KDBI"):
-        found = read(crg(z, 0.1, V, data_format)).heights
+        found = all_heights(read(crg(z, 0.1, V, data_format)))
         assert np.argwhere(np.isnan(found)).tolist() == [[3, 1]]
 
 
@@ -82,18 +87,18 @@ def test_slope_and_banking_of_the_reference_line_are_added(read):
     z = heights()
     found = read(crg(z, 0.5, V, "KDBI", channels))
     rise = np.array([slope[1 : i + 1].sum() * 0.5 for i in range(30)])
-    np.testing.assert_allclose(found.heights, z + rise[:, None] + banking[:, None] * V)
+    np.testing.assert_allclose(all_heights(found), z + rise[:, None] + banking[:, None] * V)
     constant = {"REFERENCE_LINE_START_S": 0.02, "REFERENCE_LINE_START_B": 0.03}
     found = read(crg(z, 0.5, V, "KDBI", parameters=constant))
     expected = z + 0.01 * np.arange(30)[:, None] + 0.03 * np.array(V)
-    np.testing.assert_allclose(found.heights, expected)
+    np.testing.assert_allclose(all_heights(found), expected)
 
 
 def test_modifiers_scale_a_road_and_zero_does_not(read):
     z = heights()
     scales = {"SCALE_Z_GRID": 2.0, "SCALE_LENGTH": 3.0, "SCALE_WIDTH": 0.5, "SCALE_BANKING": 0}
     found = read(crg(z, 0.5, V, "KDBI", parameters={"REFERENCE_LINE_START_B": 0.1}, modifiers=scales))
-    np.testing.assert_allclose(found.heights, 2 * z + 0.1 * np.array(V))
+    np.testing.assert_allclose(all_heights(found), 2 * z + 0.1 * np.array(V))
     assert found.increment == 1.5
     np.testing.assert_allclose(found.v, np.array(V) / 2)
 
@@ -102,7 +107,7 @@ def test_parameters_that_nothing_depends_on_may_be_anything(read):
     """A sample of the specification has GRID_NAN_MODE = 2.000000000+e00."""
     z = heights()
     found = read(crg(z, 0.5, V, "KDBI", modifiers={"GRID_NAN_MODE": "2.0+e00"}))
-    np.testing.assert_allclose(found.heights, z)
+    np.testing.assert_allclose(all_heights(found), z)
 
 
 def test_a_file_that_names_another_is_that_one_with_its_own_modifiers(read, tmp_path):
@@ -110,7 +115,7 @@ def test_a_file_that_names_another_is_that_one_with_its_own_modifiers(read, tmp_
     z = heights()
     (tmp_path / "data" / "other.crg").write_bytes(crg(z, 0.5, V, "KDBI"))
     text = "$CT\n$\n$ROAD_CRG_FILE\n./data/\nother.crg\n$\n$ROAD_CRG_MODS\nSCALE_Z_GRID = 2\n$\n"
-    np.testing.assert_allclose(read(text.encode()).heights, 2 * z)
+    np.testing.assert_allclose(all_heights(read(text.encode())), 2 * z)
 
 
 def surface(left, right, increment=0.05):
@@ -291,10 +296,10 @@ def test_the_measured_course_has_the_rms_that_is_known_of_it():
     Its spectra hold that without waves longer than their windows of 76 m.
     """
     course = read_crg(KRC)
-    assert course.heights.shape == (10096, 3)
+    assert all_heights(course).shape == (10096, 3)
     assert course.v.tolist() == [-3, 0, 3]
     u = course.increment * np.arange(10096)
-    rough = course.heights[(u > 99.999) & (u < 404.751)]
+    rough = all_heights(course)[(u > 99.999) & (u < 404.751)]
     rms = np.sqrt(np.mean(rough**2, axis=0)) / INCH
     np.testing.assert_allclose(rms, 0.95732, rtol=1e-4)
     assert rms[0] == pytest.approx(0.96944, rel=0.015)

@@ -1,7 +1,7 @@
 """The heights of a road in an OpenCRG file: a grid along and across a reference line."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -26,14 +26,20 @@ NUMBERED = re.compile(r"long section\s+(\d+)", re.IGNORECASE)
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Heights over a grid."""
+    """Heights over a grid, which stay as their file has them until a track is asked for."""
 
     increment: float
     """m, along the road."""
     v: Floats
     """(n_sections,), rising, m: across, to the left of the reference line."""
-    heights: Floats
-    """(n_rows, n_sections), m; not a number where unknown."""
+    grid: np.ndarray
+    """(n_rows, n_sections) above the reference line; not a number where unknown."""
+    unit: Floats = field(default_factory=lambda: np.ones(1))
+    """(n_sections,) or (1,), m of one in the grid."""
+    rise: Floats = field(default_factory=lambda: np.zeros(1))
+    """(n_rows,) or (1,), m: the height of the reference line."""
+    banking: Floats = field(default_factory=lambda: np.zeros(1))
+    """(n_rows,) or (1,), by how much it is higher by each m of v."""
 
     def __post_init__(self) -> None:
         if not FINEST <= self.increment <= COARSEST:
@@ -42,27 +48,38 @@ class Surface:
             )
         if len(self.v) > 1 and not (np.diff(self.v) > 0).all():
             raise VehicleError("two long sections are at the same v")
-        known = self.heights[~np.isnan(self.heights)]
-        if not (np.abs(known) < HIGHEST).all():
-            raise VehicleError(
-                f"has heights beyond {HIGHEST:g} m; is it damaged, or in another format than it says?"
-            )
 
     @property
     def length(self) -> float:
         """Along the road, m."""
-        return self.increment * (len(self.heights) - 1)
+        return self.increment * (len(self.grid) - 1)
+
+    def section(self, number: int) -> Floats:
+        """Return the heights along a section, (n_rows,), m.
+
+        Raises:
+            VehicleError: they are those of no road.
+        """
+        unit = float(np.broadcast_to(self.unit, self.v.shape)[number])
+        with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused
+            heights = unit * self.grid[:, number].astype(float)
+            heights += self.rise + self.banking * self.v[number]
+        if not (np.abs(heights[~np.isnan(heights)]) < HIGHEST).all():
+            raise VehicleError(
+                f"has heights beyond {HIGHEST:g} m; is it damaged, or in another format than it says?"
+            )
+        return heights
 
     def track(self, v: float) -> Floats:
         """Return the heights along a line at v, (n_rows,), between its sections or at the nearest."""
-        left = int(np.clip(np.searchsorted(self.v, v), 1, max(len(self.v) - 1, 1)))
         if len(self.v) == 1:
-            return self.heights[:, 0]
-        low, high = self.v[left - 1], self.v[left]
+            return self.section(0)
+        left = int(np.clip(np.searchsorted(self.v, v), 1, len(self.v) - 1)) - 1
+        low, high = self.v[left : left + 2]
         part = float(np.clip((v - low) / (high - low), 0, 1))
         if part in (0.0, 1.0):
-            return self.heights[:, left - 1 + int(part)]
-        return (1 - part) * self.heights[:, left - 1] + part * self.heights[:, left]
+            return self.section(left + int(part))
+        return (1 - part) * self.section(left) + part * self.section(left + 1)
 
 
 def read_crg(path: Path) -> Surface:
@@ -85,10 +102,7 @@ def read_crg(path: Path) -> Surface:
             )
         data = road_data(file, _n_rows(file, increment))
         check_size("heights", data.size, MOST_HEIGHTS)
-        v = np.array([place for _, place, _ in sections])
-        with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused
-            heights = np.stack([unit * data[:, column] for column, _, unit in sections], axis=1)
-            return _surface(file, increment, v, heights, data)
+        return _surface(file, increment, sections, data)
 
 
 def _n_rows(file: CrgFile, increment: float) -> int | None:
@@ -148,29 +162,36 @@ def _v_of_number(number: int, count: int, file: CrgFile) -> float:
     return start + step * (number - 1)
 
 
-def _surface(file: CrgFile, increment: float, v: Floats, grid: Floats, data: Floats) -> Surface:
+def _surface(
+    file: CrgFile, increment: float, sections: list[tuple[int, float, float]], data: np.ndarray
+) -> Surface:
     """The surface with what the reference line adds to the grid, and its modifiers."""
 
     def scale(name: str) -> float:
         return file.number(f"SCALE_{name}") or 1.0  # zero means none, as the specification has it
 
-    slope, banking = (_along(file, data, name) for name in ("slope", "banking"))
-    rise = np.concatenate([[0.0], np.cumsum(slope[1:]) * increment])
-    heights = (
-        scale("Z_GRID") * grid
-        + scale("SLOPE") * rise[:, None]
-        + scale("BANKING") * banking[:, None] * v
-    )
-    return Surface(increment * scale("LENGTH"), v * scale("WIDTH"), heights)
+    columns, v, unit = (np.array(values) for values in zip(*sections, strict=True))
+    first, last = columns[[0, -1]]
+    is_whole = np.array_equal(columns, np.arange(first, last + 1))
+    with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused
+        slope, banking = (_along(file, data, name) for name in ("slope", "banking"))
+        return Surface(
+            increment * scale("LENGTH"),
+            v * scale("WIDTH"),
+            data[:, first : last + 1] if is_whole else data[:, columns],
+            unit * scale("Z_GRID"),
+            scale("SLOPE") * increment * np.concatenate([[0.0], np.cumsum(slope[1:])]),
+            scale("BANKING") / scale("WIDTH") * banking,
+        )
 
 
-def _along(file: CrgFile, data: Floats, name: str) -> Floats:
+def _along(file: CrgFile, data: np.ndarray, name: str) -> Floats:
     """The slope or banking of the reference line, (n_rows,): a channel, or a constant."""
     names = [channel.rpartition(",")[0].lower() for channel in file.channels]
     if f"reference line {name}" not in names:
         constant = file.number(f"REFERENCE_LINE_START_{name[0].upper()}") or 0.0
         return np.full(len(data), constant)
-    values = data[:, names.index(f"reference line {name}")].copy()
+    values = data[:, names.index(f"reference line {name}")].astype(float)
     values[:1] = np.nan_to_num(values[:1])  # the first is not used
     if not np.isfinite(values).all():
         raise VehicleError(f"channel 'reference line {name}': has values that are no numbers")

@@ -147,7 +147,7 @@ def _channels(lines: list[str], parameters: Mapping[str, str], data: bytes) -> C
     return CrgFile(parameters, data_format, tuple(channels), data)
 
 
-def road_data(file: CrgFile, n_rows: int | None) -> Floats:
+def road_data(file: CrgFile, n_rows: int | None) -> np.ndarray:
     """Return the numbers of a file, (n_rows, n_channels), not a number where one is missing.
 
     Args:
@@ -161,13 +161,14 @@ def road_data(file: CrgFile, n_rows: int | None) -> Floats:
     decode = _of_text if is_text else _of_bytes
     values = decode(file.data, len(file.channels), width, n_rows)
     if n_rows is None:
-        n_rows = int(np.flatnonzero(np.isfinite(values).any(axis=1)).max(initial=-1)) + 1
+        last = max(len(values) - RECORD, 0)  # so much padding there can be
+        n_rows = last + int(np.flatnonzero(np.isfinite(values[last:]).any(axis=1)).max(initial=-1)) + 1
     if len(values) < n_rows:
         raise VehicleError(f"found {len(values):,} lines of road data, expected {n_rows:,}; is it cut?")
     return values[:n_rows]
 
 
-def _of_bytes(data: bytes, n_channels: int, width: int, n_rows: int | None) -> Floats:
+def _of_bytes(data: bytes, n_channels: int, width: int, n_rows: int | None) -> np.ndarray:
     """Big-endian numbers, filled up to a whole record with those that are none."""
     least = (n_rows or 0) * n_channels * width
     whole = -(-least // RECORD) * RECORD
@@ -177,8 +178,7 @@ def _of_bytes(data: bytes, n_channels: int, width: int, n_rows: int | None) -> F
             f"found {len(data):,} bytes of road data, expected {wanted}; it is cut, or its line ends "
             "were changed as those of a text"
         )
-    with np.errstate(invalid="ignore"):  # of signalling NaNs
-        values = np.frombuffer(data[: len(data) // width * width], f">f{width}").astype(float)
+    values = np.frombuffer(data, f">f{width}", len(data) // width)
     rows = len(values) // n_channels
     return values[: rows * n_channels].reshape(rows, n_channels)
 
