@@ -576,6 +576,19 @@ def test_a_workbook_that_would_fill_the_memory_is_refused(tmp_path):
         read(path)
 
 
+@pytest.mark.parametrize("header", ["eta [%]", "eta"])
+def test_a_loss_factor_with_a_percent_sign_is_that_whatever_its_header_says(tmp_path, header):
+    (found,) = read(written(tmp_path / "m.csv", [[*HEADER, header], [*ROW, "12 %"]]))
+    assert found.loss_factor == pytest.approx(0.12)
+    book = Workbook()
+    book.active.append([*HEADER, header])
+    book.active.append([*ROW, 0.12])
+    book.active.cell(2, len(ROW) + 1).number_format = "0%"
+    book.save(tmp_path / "m.xlsx")
+    (found,) = read(tmp_path / "m.xlsx")
+    assert found.loss_factor == pytest.approx(0.12)
+
+
 def test_more_mounts_than_a_vehicle_has_are_refused_at_once(tmp_path):
     rows = [HEADER, *([f"m{i}", *ROW[1:]] for i in range(2001))]
     with pytest.raises(VehicleError, match="lines, expected at most 2,001"):

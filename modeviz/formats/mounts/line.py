@@ -1,7 +1,7 @@
 """A line of a mount table as a bushing."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +48,9 @@ class MountLine:
         if not self.text(name):
             return None
         column = self.columns[name]
+        if column.kind == "ratio" and self.text(name).endswith("%"):
+            cells = {column.header: self.text(name).removesuffix("%").strip()}
+            return replace(self.row, cells=cells).number(column.header, at_least) / 100
         value = self.row.number(column.header, at_least)
         factor = column_factor(column, self.units)
         if column.kind == "stiffness" and not column.unit and self.text("units"):

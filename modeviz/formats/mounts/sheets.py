@@ -89,12 +89,13 @@ def _lines(values: Any, formulas: Any) -> Iterator[tuple[int, list[str]]]:
     rows = []
     for sheet in (values, formulas):
         sheet.reset_dimensions()  # what a file says of them may be wrong
-        rows.append(sheet.iter_rows(values_only=True))
+        rows.append(sheet.iter_rows())
     n_lines = 0
     for number, row in enumerate(zip(*rows, strict=True), 1):
         check_size("lines", number, MOST_LINES)
         cells = [
-            _text(formula if value is None else value) for value, formula in zip(*row, strict=True)
+            _text(formula.value) if value.value is None else _shown(value)
+            for value, formula in zip(*row, strict=True)
         ]
         while cells and not cells[-1]:
             cells.pop()
@@ -103,6 +104,12 @@ def _lines(values: Any, formulas: Any) -> Iterator[tuple[int, list[str]]]:
             n_lines += 1
             check_size("lines", n_lines, MOST_MOUNTS + 1)
             yield number, cells
+
+
+def _shown(cell: Any) -> str:
+    """A cell's text, with its percent sign if that is how a number is shown."""
+    is_percent = isinstance(cell.value, int | float) and "%" in (cell.number_format or "")
+    return f"{_text(100 * cell.value)}%" if is_percent else _text(cell.value)
 
 
 def _text(value: Any) -> str:
