@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
-from mounted_cabin import SOFT, STIFF, mounted_cabin
+from mounted_cabin import mounted_cabin
 
 from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates
 from modeviz.vehicle.vehicle import Vehicle
@@ -20,9 +20,12 @@ MOUNTS = (
 )  # fmt: skip
 
 
+BOUNDS = MountRates(1e4, 2e4, 3e3), MountRates(7e6, 5e6, 6e6)
+
+
 def many_mounts() -> Vehicle:
     """The cabin with these as a group of irrational rates."""
     rates = MountRates(np.pi * 1e5, np.e * 1e4, 1e5 / 7)
-    group = MountGroup("Z", "all kinds", rates, 0.1 + 0.2, (SOFT, STIFF), MOUNTS)
+    group = MountGroup("Z", "all kinds", rates, 0.1 + 0.2, BOUNDS, MOUNTS)
     cabin = mounted_cabin()
     return replace(cabin, mount_groups=(*cabin.mount_groups, group))

@@ -21,7 +21,7 @@ from modeviz.vehicle.bodies import Material, MeshPart
 SINGLE = 2e-7
 """Relative: of numbers in single precision."""
 
-BOX, AT = trimesh.creation.box((1.0, 2.0, 3.0)), np.array([1.0, 0.0, 2.0])
+BOX, AT = trimesh.creation.box((1.0, 2.0, 3.0)), np.array([1.0, 0.25, 2.0])
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +47,7 @@ def test_glb_stands_upright_with_its_front_towards_z_and_keeps_colours(tmp_path)
     scene = trimesh.load(path)
     x_rearward, y_right, z_up = scene.bounds.T[[2, 0, 1]]
     assert sorted(-x_rearward) == pytest.approx([0.5, 1.5])
-    assert sorted(-y_right) == pytest.approx([-1.0, 1.0])
+    assert sorted(-y_right) == pytest.approx([-0.75, 1.25])
     assert z_up.tolist() == pytest.approx([0.5, 3.5])
     (material,) = (mesh.visual.material for mesh in scene.geometry.values())
     assert material.baseColorFactor[3] == pytest.approx(128, abs=1)

@@ -11,6 +11,9 @@ from turned_vehicles import turned_folder
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import ModevizError
+from modeviz.export.axes import FileAxes
+from modeviz.export.functions import Function, Functions, Input
+from modeviz.export.universal.functions import functions_file
 from modeviz.study.study import Study
 from modeviz.units import STANDARD_GRAVITY
 
@@ -124,3 +127,27 @@ def test_a_vehicle_that_nothing_excites_is_told_so(tmp_path):
     with pytest.raises(ModevizError, match="has no road"):
         Study(still).export(tmp_path / "psd.csv")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("f", [np.arange(1, 8) / 4, np.array([0.5, 0.7, 1.5, 1.6, 9.0])])
+@pytest.mark.parametrize("n_inputs", [0, 2])
+def test_any_numbers_at_even_and_uneven_frequencies_come_back(tmp_path, f, n_inputs):
+    rng, vehicle = np.random.default_rng(5), mounted_cabin()
+    inputs = [Input(name, "displacement", 3) for name in ("left", "right")][:n_inputs]
+    values = rng.standard_normal((6, len(f))) * 10.0 ** rng.integers(-30, 30, (6, len(f)))
+    made = tuple(
+        Function(0, axis, values[2 * axis] + 1j * values[2 * axis + 1], one)
+        for one in inputs
+        for axis in range(3)
+    ) or tuple(Function(0, axis, np.abs(values[axis])) for axis in range(3))
+    (tmp_path / "made.uff").write_bytes(
+        functions_file(Functions(vehicle, FileAxes(vehicle.axes), "test", f, made))
+    )
+    found = functions(tmp_path / "made.uff")
+    assert len(found) == len(made)
+    for one, function in zip(found, made, strict=True):
+        np.testing.assert_allclose(one["x"], f, rtol=DIGITS)
+        np.testing.assert_allclose(one["data"], function.values, rtol=1e-12)
+        assert one["rsp_dir"] == function.axis + 1
+    references = [(one["ref_node"], one["ref_dir"]) for one in found]
+    assert references == ([(1, 1), (1, 2), (1, 3)] if not inputs else [(2, 3)] * 3 + [(3, 3)] * 3)

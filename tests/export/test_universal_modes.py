@@ -5,22 +5,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import pyuff
+import trimesh
 from joined_networks import GROUNDED, RATES, joined_networks
+from mounted_cabin import mounted_cabin
 from two_networks import ATTACHED, joined_frequencies, place
 
 from modeviz.cli import main
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
-from modeviz.export.points import vehicle_points
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.formats.universal import read_universal
 from modeviz.study.study import Study
+from modeviz.vehicle.bodies import Material, MeshPart
 
 DIGITS = 5.1e-6
 """Relative: half of the sixth digit of a number."""
 
 ABOVE_ALL = 1e4
 """Hz."""
+
+BOX = trimesh.creation.box((1.0, 2.0, 3.0))
 
 ENDINGS = {".unv": 2414, ".uff": 55}
 
@@ -96,9 +100,10 @@ def test_surfaces_and_units_are_what_pyuff_reads(study, tmp_path):
     (kind,) = [value for key, value in elements.items() if key not in ("type",)]
     triangles = np.array([element["nodes_nums"] for element in kind])
     assert triangles.shape == (24, 3)  # twelve on the six faces of each box
-    assert {tuple(sorted(t)) for t in triangles.tolist()} == {
-        tuple(sorted(t)) for t in (1 + vehicle_points(study.vehicle).triangles).tolist()
-    }
+    (nodes,) = sets(path, 2411)
+    a, b, c = np.column_stack([nodes[axis] for axis in "xyz"])[triangles.T - 1]
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    assert areas.sum() == pytest.approx(2 * 2 * (1.0 * 0.7 + 0.7 * 0.4 + 0.4 * 1.0))
 
 
 def test_complex_modes_have_the_eigenvalues_of_the_damped_vehicle(study, tmp_path):
@@ -166,3 +171,25 @@ def test_a_vehicle_written_and_read_again_has_the_same_frequencies_to_the_last_d
     again = read_vehicle(tmp_path / "again")
     first, second = (solve_modes(assemble(each)).frequency_hz for each in (vehicle, again))
     np.testing.assert_array_equal(first, second)  # the same numbers in the same order of the same code
+
+
+def test_a_rigid_body_is_drawn_by_its_mesh_or_as_lines_from_its_centre_of_gravity(tmp_path):
+    paint = Material((90, 90, 90))
+    box = MeshPart("box", BOX.vertices + np.array([1.0, 0.2, 2.0]), BOX.faces, paint)
+    cabin = mounted_cabin()
+    boxed = replace(cabin, bodies=(replace(cabin.bodies[0], mesh=(box,)), *cabin.bodies[1:]))
+    path = Study(boxed).export(tmp_path / "modes.unv").path
+    (nodes,) = sets(path, 2411)
+    places = np.column_stack([nodes[axis] for axis in "xyz"])
+    (elements,) = sets(path, 2412)
+    (kind,) = [value for key, value in elements.items() if key != "type"]
+    corners = places[np.array([element["nodes_nums"] for element in kind]).T - 1]
+    assert np.linalg.norm(
+        np.cross(corners[1] - corners[0], corners[2] - corners[0]), axis=1
+    ).sum() / 2 == (pytest.approx(BOX.area))
+    (line,) = sets(path, 82)
+    joined = np.append(line["nodes"].astype(int), 0).reshape(-1, 3)  # a zero lifts the pen
+    assert (joined[:, 2] == 0).all()
+    assert (places[joined[:, 0] - 1] == cabin.bodies[1].center_of_gravity).all()
+    ends = [*(m.points[1] for m in cabin.mounts), *(t.points[0] for t in cabin.tyres)]
+    np.testing.assert_array_equal(np.unique(places[joined[:, 1] - 1], axis=0), np.unique(ends, axis=0))
