@@ -13,7 +13,7 @@ from modeviz.export.axes import FileAxes
 from modeviz.export.bushes import bush_deck
 from modeviz.export.drawn import drawn_bodies
 from modeviz.export.function_table import function_table
-from modeviz.export.functions import Functions, frequency_responses, power_spectra
+from modeviz.export.functions import Functions, check_felt, frequency_responses, power_spectra
 from modeviz.export.glb import bodies_glb
 from modeviz.export.mount_table import mount_table
 from modeviz.export.points import Points, body_points, vehicle_points
@@ -199,11 +199,14 @@ def _body_npz(body: FlexibleBody, solution: Solution, _: ExportOptions) -> bytes
 
 
 def _responses(solution: Solution) -> Functions:
+    check_felt(solution.vehicle)
     return frequency_responses(solution.prepared(), solution.rates, solution.ride)
 
 
 def _spectra(solution: Solution) -> Functions:
-    return power_spectra(solution.conditions(), solution.prepared(), solution.rates)
+    check_felt(solution.vehicle)
+    conditions = solution.conditions()  # what is wrong there is better said before preparing
+    return power_spectra(solution.prepared(), solution.rates, conditions)
 
 
 def _of_functions(functions: Callable[[Solution], Functions]) -> dict[str, Writer]:

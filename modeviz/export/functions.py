@@ -74,9 +74,8 @@ class Functions:
         return f"{named} / {function.reference.name}" if function.reference else named
 
 
-def power_spectra(conditions: Conditions, prepared: Prepared, rates: Rates) -> Functions:
-    """Return the PSDs of a ride; as `analysis.results.solve`, or VehicleError if nobody feels it."""
-    _check_felt(prepared.vehicle)
+def power_spectra(prepared: Prepared, rates: Rates, conditions: Conditions) -> Functions:
+    """Return the PSDs of a ride; arguments and errors as `analysis.results.solve`."""
     results = solve(prepared, rates, conditions)
     axes = FileAxes(prepared.vehicle.axes)
     psd = results.psd * STANDARD_GRAVITY**2
@@ -101,13 +100,12 @@ def frequency_responses(prepared: Prepared, rates: Rates, conditions: Conditions
         conditions: of the road; None: without one.
 
     Raises:
-        VehicleError: it has no response point, or no input.
+        VehicleError: it has no input.
         SolveError: with these rates an undamped resonance lies on a frequency.
     """
     vehicle, axes = prepared.vehicle, FileAxes(prepared.vehicle.axes)
     loads = list(_unit_loads(vehicle, conditions))
     inputs = [one for load in loads for one in _inputs(load, axes)]
-    _check_felt(vehicle)
     if not inputs:
         raise VehicleError(
             f"vehicle {vehicle.name!r} has no load: give its vehicle.toml a [[tyre]] or a [[force]]"
@@ -130,7 +128,7 @@ def frequency_responses(prepared: Prepared, rates: Rates, conditions: Conditions
     return Functions(vehicle, axes, about, f, _ordered(functions))
 
 
-def _check_felt(vehicle: Vehicle) -> None:
+def check_felt(vehicle: Vehicle) -> None:
     """Raises VehicleError unless somebody feels what the vehicle does."""
     if not vehicle.response_points:
         raise VehicleError(

@@ -126,6 +126,9 @@ def test_a_vehicle_that_nothing_excites_is_told_so(tmp_path):
         Study(still).export(tmp_path / "frf.csv")
     with pytest.raises(ModevizError, match="has no road"):
         Study(still).export(tmp_path / "psd.csv")
+    for name in ("frf.uff", "psd.uff"):
+        with pytest.raises(ModevizError, match="has no response point"):
+            Study(replace(mounted_cabin(), response_points=())).export(tmp_path / name)
     assert not list(tmp_path.iterdir())
 
 
