@@ -230,6 +230,17 @@ def line_ends(path, _):
     path.write_bytes(path.read_bytes().replace(b"\r\n", b"\n"))
 
 
+def signature(name: bytes, count: int = -1):
+    """A signature inside is another: found by damaging files at random."""
+
+    def damage(path, _):
+        content = path.read_bytes()
+        assert name in content
+        path.write_bytes(content.replace(name, name[::-1], count))
+
+    return damage
+
+
 def empty(path, _):
     path.write_bytes(b"")
 
@@ -257,6 +268,9 @@ def a_universal_file(path, _):
         (of_another_program, "no file of results of MSC Nastran"),
         (cut, "is cut or damaged"),
         (line_ends, "is cut or damaged"),
+        (signature(b"TREE"), "is cut or damaged"),
+        (signature(b"SNOD"), "is cut or damaged"),
+        (signature(b"HEAP"), "is cut or damaged"),
         (empty, "is cut or damaged"),
         (a_universal_file, "is cut or damaged"),
     ],
