@@ -1,4 +1,4 @@
-"""Nastran: modes of SOL 103 from OP2, HDF5 and punch files, with the geometry of these or of the input.
+"""Nastran: modes of SOL 103 from its files of results, with their geometry or that of the input.
 
 Both are read here, so that nothing is to be installed. Weighed were pyNastran 1.4.1 (8 MB; reads nearly
 all tables; declares numpy<2, so that pip exchanges a NumPy of today for 1.26.4) and pyyeti 1.4.7 (kept

@@ -17,6 +17,7 @@ from modeviz.formats.nastran.op2_geometry import read_model
 from modeviz.formats.nastran.op2_modes import eigenvalue_rows, read_shapes
 from modeviz.formats.nastran.op2_records import read_tables
 from modeviz.formats.nastran.op2_remarks import remarks
+from modeviz.formats.nastran.printed_modes import PRINTED, read_printed_shapes
 from modeviz.formats.nastran.punch_modes import PUNCH, read_punch_shapes
 from modeviz.formats.nastran.residual_vectors import residual_vectors
 from modeviz.formats.nastran.shapes import Shapes
@@ -24,7 +25,7 @@ from modeviz.vehicle.arrays import Array, Floats
 
 DECKS = (".bdf", ".dat", ".nas")
 HDF5 = (".h5", ".hdf5")
-SUFFIXES = (*DECKS, ".op2", *HDF5, PUNCH)
+SUFFIXES = (*DECKS, ".op2", *HDF5, PUNCH, PRINTED)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +56,7 @@ def read_nastran(paths: Sequence[Path]) -> Component:
     if len(decks) > 1 or len(others) > 1:
         raise VehicleError(
             f"found {', '.join(path.name for path in paths)}, expected one input file, one file of "
-            "results (OP2, HDF5, punch) or one of each; files that are included are found"
+            "results (OP2, HDF5, punch, F06) or one of each; files that are included are found"
         )
     results = [_read_results(path) for path in others]
     model = read_deck(decks[0]) if decks else results[0].model()
@@ -67,7 +68,7 @@ def read_nastran(paths: Sequence[Path]) -> Component:
             missing = (
                 "the file of results has no modes"
                 if results
-                else "the modes are in a file of results (OP2, HDF5, punch): give it too"
+                else "the modes are in a file of results (OP2, HDF5, punch, F06): give it too"
             )
             said = [*(note for one in results for note in one.notes), missing]
             return _without_modes(model, places, frames, said)
@@ -80,6 +81,8 @@ def _read_results(path: Path) -> _Results:
         model = partial(read_hdf5_model, path)
     elif path.suffix.lower() == PUNCH:
         shapes, rows, model = read_punch_shapes(path), np.zeros((0, 4)), _no_model
+    elif path.suffix.lower() == PRINTED:
+        (shapes, rows), model = read_printed_shapes(path), _no_model
     else:
         tables = read_tables(path)
         shapes, rows = read_shapes(tables, path), eigenvalue_rows(tables)
