@@ -46,8 +46,8 @@ def import_notes(body: FlexibleBody) -> Iterator[str]:
     gap = _gap(vehicle) if body.attachments else None
     if gap is None:
         return
-    lacking = estimated_residual_compliance(body).any(axis=1)
-    names = [quoted(a.name) for a, lacks in zip(body.attachments, lacking, strict=True) if lacks]
+    missing = estimated_residual_compliance(body)
+    names = [quoted(a.name) for a, r in zip(body.attachments, missing, strict=True) if r.any()]
     yield (
         f"body {quoted(body.name)} lacks residual vectors, so it is too stiff at {listed(names)}: on "
         f"mounts a tenth as stiff as it is there, {_gap_words(gap)} are {_too_high(gap)}"
