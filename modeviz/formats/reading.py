@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from modeviz.errors import VehicleError, quoted
+from modeviz.formats.ansys import RESULTS, read_ansys
 from modeviz.formats.component import Component
 from modeviz.formats.matrices import SUFFIXES as MATRICES
 from modeviz.formats.matrices import read_matrices
@@ -20,6 +21,7 @@ Reader = Callable[[Sequence[Path]], Component]
 READERS: Mapping[str, Reader] = {
     **dict.fromkeys(UNIVERSAL, read_universal),
     **dict.fromkeys(NASTRAN, read_nastran),
+    RESULTS: read_ansys,
 }
 """By the ending of a file's name."""
 

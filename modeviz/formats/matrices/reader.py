@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from modeviz.errors import VehicleError, listed, located
 from modeviz.fem.matrices import Matrices
 from modeviz.files.disk import opened
+from modeviz.formats.ansys import FULL, read_full
 from modeviz.formats.component import Component, ElementKind, Modes, rows_of
 from modeviz.formats.limits import LARGEST_FILE
 from modeviz.formats.matrices.abaqus import read_abaqus
@@ -40,6 +41,7 @@ def _read_mtx(path: Path) -> list[NamedMatrix]:
 
 
 READERS: Mapping[str, Callable[[Path], list[NamedMatrix]]] = {
+    FULL: read_full,
     ".npz": read_npz,
     ".mtx": _read_mtx,
     ".mat": read_matlab,

@@ -1,0 +1,201 @@
+"""Ansys's files: those that ansys-mapdl-reader comes with, and arrays as it makes them of others."""
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.linalg
+from ansys.mapdl.reader import examples
+from free_network import CORNERS, HEXA, LABELS, free_network
+
+from modeviz.cli import main
+from modeviz.cli.importing import listing
+from modeviz.errors import VehicleError
+from modeviz.formats.ansys import reader
+from modeviz.formats.body import uncoupled_because
+from modeviz.formats.reading import read_component
+from modeviz.formats.solving import Wanted, solved
+
+BEAM_HZ = [7366.49503969, 7366.49503969, 11504.89523664, 17285.70459456, 17285.70459457, 20137.19299035]
+"""Of the library's example, as Ansys 15 wrote them: a clamped beam of quadratic solids."""
+
+FULL_HZ = [1283.20036921, 1283.20036921, 5781.97486169, 6919.39887714, 6919.39887714, 10172.61497694]
+"""Of its matrices of such a beam, clamped at one end, as its user guide has them."""
+
+NETWORK = free_network()
+M, K = NETWORK.mass, NETWORK.stiffness
+
+
+@pytest.fixture(scope="module")
+def beam():
+    return read_component([Path(examples.rstfile)])
+
+
+def test_results_have_nodes_solids_and_modes(beam):
+    np.testing.assert_allclose(beam.modes.frequency_hz, BEAM_HZ, rtol=1e-10)
+    assert len(beam.node_ids) == 321
+    assert beam.elements["hexa"].shape == (40, 8)
+    assert not beam.modes.shapes[:, 3:].any()
+    assert np.isnan(beam.modes.modal_mass).all()
+
+
+def test_results_alone_are_listed_and_not_coupled(beam):
+    assert "modal mass of 6 of its 6 modes is not in the file" in uncoupled_because(beam)
+    assert "7366.5" in listing(beam)
+
+
+def test_a_full_file_has_the_matrices_of_its_known_modes():
+    """The library's example is clamped at an end: what is free of it vibrates as its manual says."""
+    arrays = reader._arrays(Path(examples.fullfile))
+    mass, stiffness = np.zeros((2, 963, 963))
+    for name, A in (("M", mass), ("K", stiffness)):
+        A[arrays[f"{name}_row"], arrays[f"{name}_col"]] = arrays[f"{name}_data"]
+    free = np.flatnonzero(mass.diagonal())
+    mass, stiffness = ((A + np.triu(A, 1).T)[np.ix_(free, free)] for A in (mass, stiffness))
+    omega_squared = scipy.linalg.eigh(stiffness, mass, eigvals_only=True)
+    np.testing.assert_allclose(np.sqrt(omega_squared[:6]) / (2 * np.pi), FULL_HZ, rtol=1e-7)
+
+
+def test_a_full_file_with_supports_is_refused():
+    with pytest.raises(VehicleError, match="directions are held, such as that of node 1"):
+        read_component([Path(examples.fullfile), Path(examples.rstfile)])
+
+
+def full_arrays(**changed):
+    """As the library gives the upper half of matrices."""
+    arrays = {"dofs": np.column_stack([np.repeat(LABELS, 3), np.tile([0, 1, 2], 8)])}
+    arrays["held"] = np.zeros((0, 2), int)
+    for name, A in (("K", K), ("M", M)):
+        rows, columns = np.nonzero(np.triu(A))
+        arrays |= {f"{name}_row": rows, f"{name}_col": columns, f"{name}_data": A[rows, columns]}
+    return arrays | changed
+
+
+def result_arrays(**changed):
+    cells = np.r_[8, np.searchsorted(LABELS, HEXA), 2, 0, 1]
+    return {
+        "analysis": np.array(2),
+        "is_cyclic": np.array(False),
+        "nodes": CORNERS,
+        "numbers": LABELS,
+        "angles": np.zeros((8, 3)),
+        "cells": cells,
+        "kinds": np.array([12, 3]),
+        "frequencies": np.array([2.0, 1.0]),
+        "directions": np.array(["UX", "UY", "UZ"]),
+        "shapes": np.arange(1.0, 49.0).reshape(2, 8, 3),
+    } | changed
+
+
+@pytest.fixture
+def read(tmp_path, monkeypatch):
+    """Reads arrays as if the library's process had left them."""
+
+    def read(full=None, results=None):
+        found = {".full": full, ".rst": results or result_arrays()}
+        monkeypatch.setattr(reader, "_arrays", lambda path: found[path.suffix])
+        paths = [tmp_path / f"a{suffix}" for suffix, arrays in found.items() if arrays is not None]
+        return read_component(paths)
+
+    return read
+
+
+def test_matrices_with_the_geometry_of_results(read):
+    component = solved(read(full_arrays()), Wanted(n_modes=20))
+    exact = np.sqrt(scipy.linalg.eigh(K, M, eigvals_only=True)[6:]) / (2 * np.pi)
+    np.testing.assert_allclose(component.modes.frequency_hz[6:], exact[:14], rtol=1e-9)
+    assert component.elements["hexa"].tolist() == [[0, 1, 3, 2, 4, 5, 7, 6]]
+
+
+@pytest.mark.parametrize(("column", "plane"), [(0, (0, 1)), (1, (1, 2)), (2, (2, 0))])
+def test_matrices_are_along_the_axes_of_turned_nodes(read, column, plane):
+    """THXY turns x towards y, THYZ y towards z, THZX z towards x."""
+    angles = np.zeros((8, 3))
+    angles[:, column] = np.arange(8) * 10.0
+    first, second = plane
+    turns = np.tile(np.eye(3), (8, 1, 1))
+    c, s = np.cos(np.radians(angles[:, column])), np.sin(np.radians(angles[:, column]))
+    turns[:, first, first], turns[:, second, first] = c, s
+    turns[:, first, second], turns[:, second, second] = -s, c
+    T = scipy.linalg.block_diag(*turns)
+    arrays = full_arrays()
+    for name, A in (("K", T.T @ K @ T), ("M", T.T @ M @ T)):
+        rows, columns = np.triu_indices(24)
+        arrays |= {f"{name}_row": rows, f"{name}_col": columns, f"{name}_data": A[rows, columns]}
+    component = solved(read(arrays, result_arrays(angles=angles)), Wanted(n_modes=20))
+    exact = np.sqrt(scipy.linalg.eigh(K, M, eigvals_only=True)[6:]) / (2 * np.pi)
+    np.testing.assert_allclose(component.modes.frequency_hz[6:], exact[:14], rtol=1e-9)
+
+
+def test_modes_come_in_the_order_of_their_frequencies(read):
+    component = read()
+    assert component.modes.frequency_hz.tolist() == [1.0, 2.0]
+    assert component.modes.shapes[0, :3].tolist() == [[25.0, 1.0], [26.0, 2.0], [27.0, 3.0]]
+
+
+def wrong(value, where=(0, 0, 0)):
+    shapes = np.arange(1.0, 49.0).reshape(2, 8, 3)
+    shapes[where] = value
+    return shapes
+
+
+@pytest.mark.parametrize(
+    ("full", "results", "words"),
+    [
+        (None, {"shapes": wrong(1e172)}, "write it again after /FCOMP,RST,0"),
+        (None, {"shapes": wrong(np.nan)}, "write it again after /FCOMP,RST,0"),
+        (None, {"shapes": wrong(0.0, np.s_[1, 3:])}, "write it again after /FCOMP,RST,0"),
+        (None, {"analysis": np.array(0)}, "another analysis than a modal one"),
+        (None, {"is_cyclic": np.array(True)}, "a cyclic sector"),
+        (None, {"directions": np.array(["UX", "UY", "TEMP"])}, "results of UX, UY, TEMP"),
+        (None, {"angles": np.full((8, 3), 10.0)}, "turned about several axes"),
+        ({"K_data": full_arrays()["K_data"] * 1e172}, {}, "numbers beyond 1e\\+30"),
+        ({"K_data": full_arrays()["K_data"] * 0}, {}, "nothing on its diagonal at node 11"),
+        ({"M_data": np.zeros(0), "M_row": np.zeros(0), "M_col": np.zeros(0)}, {}, "M: has no entries"),
+        ({"held": np.array([[12, 2]])}, {}, "1 directions are held, such as that of node 12"),
+        ({"dofs": np.full((24, 2), 8)}, {}, "directions other than motions"),
+    ],
+)
+def test_what_the_library_reads_wrongly_is_refused(read, full, results, words):
+    with pytest.raises(VehicleError, match=words):
+        read(None if full is None else full_arrays(**full), result_arrays(**results))
+
+
+@pytest.mark.parametrize(
+    ("name", "damage"),
+    [
+        ("a.rst", lambda content: content[:1000]),
+        ("a.rst", lambda content: content[:400] + b"\xff" * 4000 + content[4400:]),
+        ("a.full", lambda content: content[:2000] + b"\x7f" * 8000 + content[10000:]),
+    ],
+)
+def test_damaged_files_are_refused_in_a_sentence(tmp_path, name, damage, capsys):
+    path = tmp_path / name
+    source = examples.rstfile if name.endswith("rst") else examples.fullfile
+    path.write_bytes(damage(Path(source).read_bytes()))
+    paths = [path] if name.endswith("rst") else [path, Path(examples.rstfile)]
+    assert main(["import", *map(str, paths)]) == 2
+    said = capsys.readouterr().err
+    assert "Traceback" not in said
+    assert len(said.strip().splitlines()) == 1
+
+
+def test_a_process_that_does_not_end_is_ended(tmp_path, monkeypatch):
+    def late(command, **options):
+        raise subprocess.TimeoutExpired(command, options["timeout"])
+
+    monkeypatch.setattr(reader.subprocess, "run", late)
+    (tmp_path / "a.rst").write_bytes(b"x")
+    with pytest.raises(VehicleError, match="is not read within 60 s"):
+        read_component([tmp_path / "a.rst"])
+
+
+def test_without_the_library_it_is_named(tmp_path, monkeypatch):
+    def missing(command, **options):
+        return subprocess.CompletedProcess(command, 1, b"", b"missing: No module named 'ansys'\n")
+
+    monkeypatch.setattr(reader.subprocess, "run", missing)
+    (tmp_path / "a.rst").write_bytes(b"x")
+    with pytest.raises(VehicleError, match=r"pip install 'modeviz\[ansys\]'"):
+        read_component([tmp_path / "a.rst"])
