@@ -101,6 +101,15 @@ def test_a_file_that_fails_leaves_the_one_that_is_there(folder, here, monkeypatc
     assert (here / "modes.unv").read_text() == "of last week"
 
 
+def test_interrupting_leaves_nothing_behind(folder, here, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("modeviz.export.universal.modes.nodes", interrupt)
+    assert main(["export", folder, "rates.csv", "modes.unv"]) == 130
+    assert [path.name for path in here.iterdir()] == ["rates.csv"]
+
+
 def test_modes_that_do_not_vibrate_are_left_out_of_complex_ones_and_told(here, capsys):
     cabin = mounted_cabin()
     damped = tuple(replace(c, damping=np.full(3, 1e6)) for c in cabin.connections)

@@ -6,8 +6,9 @@ from functools import partial
 
 import viser
 
-from modeviz.export.catalogue import Writer, body_words, contents
+from modeviz.export.catalogue import body_words, contents
 from modeviz.export.solution import ExportOptions, Solution
+from modeviz.export.writers import Writer
 from modeviz.formats.component import UNIT_SYSTEMS
 from modeviz.text.wording import file_name, told_apart
 from modeviz.vehicle.vehicle import Vehicle
