@@ -27,8 +27,10 @@ TAB = "Import"
 LARGEST_FILE = 200_000_000
 """Bytes of a file from a page; larger ones are for `modeviz import`."""
 
-LABELS = {"--attach": "Attachments", "--pose": "Place"}
+LABELS = {"--attach": "Attachments", "--pose": "Place", "--residual": "Residual"}
 """What options are called here."""
+
+RESIDUAL_FORM = "NAME=X,Y,Z along x, y and z, length over force in the files' units"
 
 AS_THE_FILES_SAY = "As the files say"
 
@@ -74,6 +76,9 @@ class ImportPanel:
             hint=f"Where others hold on to it, with semicolons between: {FORMS}",
         )
         self._pose = gui.add_text("Place", "", hint=f"Where it stands in the vehicle: {POSE_FORMS}")
+        self._residual = gui.add_text(
+            "Residual", "", hint=f"What the modes leave out, with semicolons between: {RESIDUAL_FORM}"
+        )
         where = "Put it into the vehicle" if folder else "Download as a vehicle…"
         add = gui.add_button(where, icon=viser.Icon.PACKAGE_IMPORT, hint=self._destination())
         add.on_click(self._add)
@@ -140,7 +145,8 @@ class ImportPanel:
         asked = Asked(
             name=self._name.value.strip(),
             units=self._chosen_units(),
-            attach=tuple(filter(None, (text.strip() for text in self._attach.value.split(";")))),
+            attach=_parts(self._attach.value),
+            residual=_parts(self._residual.value),
             pose=self._pose.value.strip() or None,
         )
         if self._folder is not None:
@@ -164,7 +170,8 @@ class ImportPanel:
 
     def _clear(self) -> None:
         self._received.clear()
-        self._name.value = self._attach.value = self._pose.value = ""
+        for text in (self._name, self._attach, self._pose, self._residual):
+            text.value = ""
 
     def _refuse(self, error: ModevizError) -> None:
         words = str(error)
@@ -177,6 +184,11 @@ class ImportPanel:
 
     def _say(self, *content: str) -> None:
         assign(self._content, content=block(*content))
+
+
+def _parts(text: str) -> tuple[str, ...]:
+    """What stands between semicolons."""
+    return tuple(filter(None, (part.strip() for part in text.split(";"))))
 
 
 def _zipped(folder: Path) -> bytes:

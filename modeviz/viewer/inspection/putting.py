@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, quoted
 from modeviz.files.disk import confined_to
 from modeviz.formats.component import Component
 from modeviz.formats.imported import ImportSettings, import_body
@@ -24,6 +24,7 @@ class Asked:
     units: str | None = None
     attach: tuple[str, ...] = ()
     pose: str | None = None
+    residual: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,11 @@ def put(paths: Sequence[Path], asked: Asked, folder: Path) -> Put:
 
 
 def _put_body(component: Component, asked: Asked, folder: Path) -> Put:
-    settings = ImportSettings(units=asked.units, attach=asked.attach, pose=asked.pose)
+    if tables := [text for text in asked.residual if Path(text).suffix.lower() == ".csv"]:
+        raise VehicleError(f"--residual: found {quoted(tables[0])}, expected NAME=X,Y,Z")
+    settings = ImportSettings(
+        units=asked.units, attach=asked.attach, pose=asked.pose, residual=asked.residual
+    )
     imported = import_body(component, asked.name or "body", settings, folder)
     name = imported.body.name
     return Put(f"body {name}", (*imported.notes, *import_notes(imported.body)), name)

@@ -131,3 +131,24 @@ def test_a_mount_table_reads_no_property_file_elsewhere(received, vehicle, tmp_p
         put(paths, Asked(name=""), vehicle)
     assert "SECRET" not in str(error.value)
     assert (vehicle / "vehicle.toml").read_bytes() == before
+
+
+@pytest.mark.parametrize("text", ["{table}", "corner={table}", "{table}/"])
+def test_a_residual_compliance_is_no_table_on_this_machine(received, tmp_path, text):
+    table = tmp_path / "secret.csv"
+    table.write_text("attachment,x,y,z\ncorner,1,1,1\n", encoding="utf-8")
+    received.add("network.unv", network_unv().encode())
+    asked = Asked(name="a", units="mm-t-s", attach=("corner=11",), residual=(text.format(table=table),))
+    with pytest.raises(VehicleError, match="expected NAME=X,Y,Z"), received.told() as paths:
+        put(paths, asked, tmp_path / "vehicle")
+    assert not (tmp_path / "vehicle").exists()
+
+
+def test_a_residual_compliance_is_kept(received, tmp_path):
+    received.add("network.unv", network_unv().encode())
+    given = ("corner=0.001,0,0",)
+    asked = Asked(name="a", units="mm-t-s", attach=("corner=11",), residual=given)
+    with received.told() as paths:
+        put(paths, asked, tmp_path / "vehicle")
+    (body,) = read_vehicle(tmp_path / "vehicle").bodies
+    np.testing.assert_allclose(body.residual_compliance("corner")[0, 0], 1e-6, rtol=1e-6)
