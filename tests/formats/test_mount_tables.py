@@ -3,6 +3,7 @@
 import csv
 import re
 import shutil
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -117,6 +118,16 @@ def test_bodies_are_those_whose_attachments_are_at_a_place_that_names_none(pair,
     assert {frozenset(mount.bodies) for mount in vehicle.mounts} == {frozenset({"upper", "lower"})}
     for mount, node in zip(vehicle.mounts, ATTACHED, strict=True):
         np.testing.assert_allclose(1000 * mount.points, [np.add(place(node), [3, 4, 0])] * 2)
+
+
+def test_the_ground_is_the_second_end_wherever_the_table_has_it(block, tmp_path):
+    """And what acts a fifth of the way from the first acts four fifths from the other."""
+    header = [*HEADER, "x_2 [mm]", "y_2 [mm]", "z_2 [mm]", "elastic_center"]
+    rows = [["a", "Ground", "block", 0, 0, 0, 1, 2, 3, 0, 0, 100, 0.2]]
+    (mount,) = imported(written(tmp_path / "m.csv", [header, *rows]), block).mounts
+    assert mount.bodies == ("block", GROUND)
+    np.testing.assert_allclose(mount.points, [[0, 0, 0.1], [0, 0, 0]], atol=1e-15)
+    np.testing.assert_allclose(mount.center, [0, 0, 0.02])
 
 
 def test_an_end_without_a_place_is_where_the_other_one_is(pair, tmp_path):
@@ -563,6 +574,13 @@ def test_a_bad_workbook_is_refused(tmp_path, name, content, expected):
     (tmp_path / name).write_bytes(content)
     with pytest.raises(VehicleError, match=expected):
         read(tmp_path / name)
+
+
+def test_a_workbook_without_its_reader_says_what_to_install(tmp_path, monkeypatch):
+    Workbook().save(tmp_path / "m.xlsx")
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+    with pytest.raises(VehicleError, match=r"pip install 'modeviz\[excel\]', or save it as .csv"):
+        read(tmp_path / "m.xlsx")
 
 
 def test_a_workbook_that_would_fill_the_memory_is_refused(tmp_path):

@@ -58,8 +58,14 @@ PBUSH = "PBUSH,7,K,10.,20.,30.,4.+3,5.+3,6.+3"
 K = [10_000, 20_000, 30_000, 4, 5, 6]
 
 
-def test_bushes_between_flexible_bodies_couple_as_the_whole_matrices_do(pair, tmp_path):
-    """Grids of the lower body have other numbers: they are found by place; CID turns the axes."""
+@pytest.mark.parametrize("axes", ["", 'axes = "x forward, y left, z up"\n'])
+def test_bushes_between_flexible_bodies_couple_as_the_whole_matrices_do(pair, tmp_path, axes):
+    """Grids of the lower body have other numbers: they are found by place; CID turns the axes.
+
+    In whichever axes the vehicle's file is, the deck is in the same.
+    """
+    toml = pair / "vehicle.toml"
+    toml.write_text(axes + toml.read_text())
     turn = Rotation.from_euler("xyz", [20, -35, 50], degrees=True).as_matrix()
     rates = {n: np.array([10.0, 25.0, 60.0]) * (i + 1) for i, n in enumerate(ATTACHED)}
     cards = [
@@ -361,6 +367,17 @@ def test_a_grid_that_is_held_is_the_ground(pair, networks, tmp_path):
     np.testing.assert_allclose(*frequencies, rtol=1e-9)
 
 
+def test_grids_that_are_held_unless_they_say_otherwise_are_the_ground_too(read):
+    usual = ["GRDSET,,,,,,,123456", "GRID,3,,0.,0.,0.,,4", PBUSH]
+    (found,), _ = read(*TWO, *usual, "CBUSH,1,7,3,2,,,,0")
+    assert [end.body for end in found.ends] == ["", GROUND]
+
+
+def test_superelements_that_are_left_out_are_told(read):
+    _, notes = read(*TWO, PBUSH, CBUSH, "BEGIN SUPER=1", "CBUSH,9,7,1,2,,,,0")
+    assert notes == ["1 superelements that the input file has are left out"]
+
+
 def test_springs_that_are_near_no_attachment_are_left_out_and_told(pair, tmp_path, capsys):
     inner = grids([900, 901], [[5000, 0, 0], [5000, 0, 10]])
     mounts = ["CBUSH,1,7,11,1011,,,,0", "CBUSH,2,7,900,901,,,,0", "CELAS2,3,5.,900,1,901,1"]
@@ -374,8 +391,8 @@ def test_springs_that_are_near_no_attachment_are_left_out_and_told(pair, tmp_pat
 
 
 def test_a_file_stands_in_the_vehicle_as_its_pose_says(pair, tmp_path):
-    """By grids whose places in the vehicle are known, turned a quarter about z and moved."""
-    turn = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+    """By grids whose places in the vehicle are known."""
+    turn = Rotation.from_euler("zx", [30, 50], degrees=True).as_matrix()
     there = (CORNERS - [500, 20, 30]) @ turn.T
     cards = [*grids(LABELS, there), "PBUSH,7,K,10.,20.,30.", "CBUSH,1,7,11,,,,,0", ",,0,5.,0.,0."]
     path = tmp_path / "joints.bdf"
@@ -386,7 +403,7 @@ def test_a_file_stands_in_the_vehicle_as_its_pose_says(pair, tmp_path):
     (mount,) = read_vehicle(pair).mounts
     np.testing.assert_allclose(1000 * mount.points[0], place(11) + turn.T @ [5, 0, 0], atol=1e-9)
     K = mount.axes.T * mount.stiffness @ mount.axes
-    np.testing.assert_allclose(K, np.diag([20e3, 10e3, 30e3]), atol=1e-6)
+    np.testing.assert_allclose(K, turn.T @ np.diag([10e3, 20e3, 30e3]) @ turn, atol=1e-4)
 
 
 def test_a_file_that_is_listed_says_that_it_has_springs(tmp_path, capsys):

@@ -106,6 +106,11 @@ def test_a_bus_file_has_the_slopes_of_its_curves_and_its_dampings(read):
     )
 
 
+def test_dampings_are_in_the_times_of_their_file(read):
+    found = read(adams().replace("'second'", "'millisecond'"))
+    np.testing.assert_allclose(found.damping[:3], [0.5, 0.6, 0.7])
+
+
 def test_a_gbs_file_has_the_rates_of_its_active_formulations(read):
     found = read(ALTAIR, "c.gbs")
     np.testing.assert_allclose(

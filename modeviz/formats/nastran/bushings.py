@@ -10,7 +10,7 @@ import numpy as np
 from modeviz.errors import VehicleError, located
 from modeviz.formats.component import UnitSystem, check_range
 from modeviz.formats.mounts.bushing import Bushing
-from modeviz.formats.nastran.bulk import Card, cards
+from modeviz.formats.nastran.bulk import TOLD, Card, cards
 from modeviz.formats.nastran.bush_properties import NAMES as PROPERTIES
 from modeviz.formats.nastran.bush_properties import BushProperties, BushRates, one_loss_factor
 from modeviz.formats.nastran.deck import read_deck
@@ -61,6 +61,9 @@ def read_bushings(
         every, held = _cards(path)
         if left := Counter(card.name for card in every if card.name in PASSED_OVER):
             note(f"{', '.join(f'{n} {name}' for name, n in left.items())} are left out")
+        for card in every:
+            if card.name == TOLD:
+                note(card.text(0))
         elements = [card for card in every if card.name in ELEMENTS]
         _check_numbers(elements)
         properties = BushProperties(every, frequency, note)
@@ -72,15 +75,17 @@ def read_bushings(
 
 def _cards(path: Path) -> tuple[list[Card], frozenset[int]]:
     """The cards of springs, and the grids that are held in all directions where they are given."""
-    every, held, usual = [], [], ""
+    every, held, unsaid, usual = [], [], [], ""
     for card in cards(path, ELEMENTS | PASSED_OVER | PROPERTIES | {"GRID", "GRDSET"}):
         if card.name == "GRDSET":
             usual = card.text(6)
         elif card.name != "GRID":
             every.append(card)
-        elif ALL_DIRECTIONS.issubset(card.text(6) or usual):
+        elif not card.text(6):
+            unsaid.append(card.whole(0))
+        elif ALL_DIRECTIONS.issubset(card.text(6)):
             held.append(card.whole(0))
-    return every, frozenset(held)
+    return every, frozenset(held + unsaid if ALL_DIRECTIONS.issubset(usual) else held)
 
 
 def _check_numbers(elements: list[Card]) -> None:
