@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import compare, imported, measure
+from benchmarks import compare, from_matrices, imported, measure
 from benchmarks.large_component import NODE_MASS, Box, write_op2
 from benchmarks.scaled_vehicle import MASS, Size, scaled_vehicle
 from benchmarks.work import largest_difference
@@ -159,3 +159,16 @@ def test_large_component_is_a_free_body_of_its_mass_and_makes_a_vehicle(tmp_path
     np.testing.assert_allclose(frame.natural_frequency_hz[6:], hertz, rtol=1e-6)
     assert len(vehicle.tyres) == 4
     assert len(vehicle.mounts) == 3
+
+
+@pytest.mark.parametrize(("size", "n_dofs"), [((5, 4, 3), 180), (4, 270)])
+def test_models_of_matrices_are_free_bodies_of_their_mass(tmp_path, size, n_dofs, capsys):
+    from_matrices.write_model(tmp_path, size)
+    assert from_matrices.imported(tmp_path).n_dofs == n_dofs
+    body = read_vehicle(tmp_path / "vehicle").bodies[0]
+    if isinstance(size, int):
+        assert body.mass == pytest.approx(7850 * 0.0015 * 2.0, rel=0.2)  # and what the vault adds
+    else:
+        assert body.mass == pytest.approx(7850 * 0.08 * 0.06 * 0.04, rel=1e-6)
+    assert len(body.attachments) == 4
+    assert body.n_residuals > 0

@@ -126,9 +126,14 @@ def _free(matrices: Matrices, omega_n_squared: Floats, phi: Floats, n_modes: int
     elastic = slice(N_RIGID, n_modes)
     if len(omega_n_squared) <= N_RIGID:
         raise SolveError("the body has mass in no more than its six rigid modes, expected elastic ones")
+    limit = max((2 * np.pi * FREE_HZ) ** 2, FREE**2 * abs(omega_n_squared[N_RIGID]))
+    if omega_n_squared[0] < -limit:
+        raise SolveError(
+            f"the stiffness is negative in a mode, whose ω² is {omega_n_squared[0]:.4g} rad²/s²"
+        )
     if omega_n_squared[N_RIGID] < (2 * np.pi * MECHANISM_HZ) ** 2:
         raise SolveError("the body moves without strain in more than six ways: a part of it is loose")
-    _check_free(matrices, R, omega_n_squared)
+    _check_not_held(matrices, R, limit)
     phi = without(R, phi[:, elastic], matrices.mass)
     phi = phi / norms(phi, matrices.mass)
     return ModalBasis(
@@ -137,19 +142,14 @@ def _free(matrices: Matrices, omega_n_squared: Floats, phi: Floats, n_modes: int
     )
 
 
-def _check_free(matrices: Matrices, R: Floats, omega_n_squared: Floats) -> None:
-    """Raises SolveError for a body that its stiffness holds, or lets fall apart."""
-    limit = max((2 * np.pi * FREE_HZ) ** 2, FREE**2 * omega_n_squared[N_RIGID])
+def _check_not_held(matrices: Matrices, R: Floats, limit: float) -> None:
+    """Raises SolveError for a body whose rigid motions vibrate, with ω² above a limit."""
     k = R.T @ (matrices.stiffness @ R)
     held = np.linalg.eigvalsh((k + k.T) / 2)
     if held[-1] > limit:
         raise SolveError(
             f"the body is held: moving as a whole it would vibrate at {_hz(held[-1]):.4g} Hz, expected "
             "zero of a free one; leave out its supports, or put its nodes where they belong"
-        )
-    if omega_n_squared[0] < -limit:
-        raise SolveError(
-            f"the stiffness is negative in a mode, whose ω² is {omega_n_squared[0]:.4g} rad²/s²"
         )
 
 
@@ -181,14 +181,11 @@ def lowest_modes(
         return _all_modes(mass, stiffness, n_modes)
     solve = solve or factorised(stiffness + SHIFT * mass).solve
     start = np.random.default_rng(0).standard_normal(n_dofs)
-    eigenvalues, phi = spl.eigsh(
-        stiffness,
-        n_modes,
-        M=mass,
-        sigma=-SHIFT,
-        OPinv=spl.LinearOperator((n_dofs, n_dofs), solve),
-        v0=start,
-    )
+    inverse = spl.LinearOperator((n_dofs, n_dofs), solve)
+    try:
+        eigenvalues, phi = spl.eigsh(stiffness, n_modes, M=mass, sigma=-SHIFT, OPinv=inverse, v0=start)
+    except spl.ArpackError as error:
+        raise SolveError(f"the modes are not found, as of a negative stiffness ({error})") from None
     order = np.argsort(eigenvalues)
     return eigenvalues[order], phi[:, order]
 
@@ -271,13 +268,24 @@ def solver(A: sp.csc_array, order: np.ndarray | None = None) -> Callable[[Floats
 
 
 def factorised(A: sp.csc_array, order: str = "MMD_AT_PLUS_A") -> spl.SuperLU:
-    """Sparse factors of a symmetric definite matrix, without pivoting, in an order of SuperLU."""
-    return spl.splu(
-        A.tocsc(),
-        permc_spec=order,
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
+    """Sparse factors of a symmetric definite matrix, without pivoting, in an order of SuperLU.
+
+    Raises:
+        SolveError: it is singular, or its factors take more memory than there is.
+    """
+    try:
+        return spl.splu(
+            A.tocsc(), permc_spec=order, diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        )
+    except RuntimeError:
+        raise SolveError(
+            "something moves without strain and without mass, such as a node that a rod alone holds"
+        ) from None
+    except MemoryError:
+        raise SolveError(
+            f"{A.shape[0]:,} degrees of freedom take more memory than there is: reduce the model in "
+            "the program that it is from, to a superelement or a substructure"
+        ) from None
 
 
 def norms(u: Floats, mass: sp.csc_array) -> Floats:

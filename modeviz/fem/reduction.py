@@ -193,7 +193,7 @@ def _factorised_if_held(stiffness: sp.csc_array) -> spl.SuperLU:
     """The factors of the omitted stiffness, if nothing omitted moves without strain."""
     try:
         factors = factorised(stiffness)
-    except RuntimeError:  # exactly singular
+    except SolveError:  # exactly singular
         factors = None
     diagonal = stiffness.diagonal()
     if factors is None or (factors.U.diagonal()[factors.perm_c] <= LOOSE * diagonal).any():

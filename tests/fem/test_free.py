@@ -1,6 +1,9 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.linalg
+import scipy.sparse as sp
 from small_meshes import bar, plate, twisted_plate
 
 from modeviz.errors import SolveError
@@ -11,7 +14,7 @@ from modeviz.fem.free import (
     rigid_modes,
     static_response,
 )
-from modeviz.fem.matrices import assemble
+from modeviz.fem.matrices import assemble, nodal_matrices
 from modeviz.fem.mesh import FiniteElementMesh
 from modeviz.vehicle.rigid import rigid_motions
 
@@ -140,3 +143,41 @@ def test_of_a_small_body_all_modes_can_be_had():
     every = free_modes_up_to(body, 1e9, 100).omega_n_squared
     np.testing.assert_allclose(every[6:8], lowest[6:8], rtol=1e-8)
     assert len(every) == 24 - 1
+
+
+@pytest.mark.parametrize("n_modes", [12, 60])
+def test_a_node_without_mass_that_a_rod_alone_holds_is_refused(body, n_modes):
+    """It moves across the rod as it likes; by the sparse solution and by the dense one."""
+    along = np.array([2.0, 1.0, 3.0]) / np.sqrt(14)
+    rod = np.kron([[1, -1], [-1, 1]], 1e6 * np.outer(along, along))
+    n = body.n_dofs
+    ends = np.r_[0:3, n : n + 3]
+    stiffness = sp.block_diag([body.stiffness, sp.csc_array((3, 3))]).tolil()
+    stiffness[np.ix_(ends, ends)] += rod
+    mass = sp.csc_array(sp.block_diag([body.mass, sp.csc_array((3, 3))]))
+    nodes = np.vstack([body.nodes, body.nodes[0] + along])
+    hung = nodal_matrices(nodes, mass, sp.csc_array(stiffness), np.arange(n + 3))
+    with pytest.raises(SolveError, match=r"without mass|has no mass"):
+        free_modes(hung, n_modes)
+
+
+@pytest.mark.parametrize("n_modes", [12, 60])
+def test_a_body_whose_stiffness_is_negative_is_refused(body, n_modes):
+    negative = replace(body, stiffness=sp.csc_array(body.stiffness - 1e3 * body.mass))
+    with pytest.raises(SolveError, match="negative"):
+        free_modes(negative, n_modes)
+
+
+def test_a_body_that_is_held_is_refused(body):
+    held = replace(body, stiffness=sp.csc_array(body.stiffness + 1e3 * body.mass))
+    with pytest.raises(SolveError, match=r"is held: moving as a whole it would vibrate at 5\.033 Hz"):
+        free_modes(held, 12)
+
+
+def test_a_body_too_large_for_memory_is_refused(body, monkeypatch):
+    def exhausted(*arguments, **options):
+        raise MemoryError
+
+    monkeypatch.setattr("scipy.sparse.linalg.splu", exhausted)
+    with pytest.raises(SolveError, match="294 degrees of freedom take more memory"):
+        free_modes(body, 12)
