@@ -413,6 +413,17 @@ def test_a_file_that_is_listed_says_that_it_has_springs(tmp_path, capsys):
     assert "joints.bdf: has CBUSH or CELAS; --output and --units put" in capsys.readouterr().err
 
 
+def test_a_grid_with_the_number_of_an_attachment_elsewhere_is_on_the_one_that_is_there(pair, tmp_path):
+    """Grids of an exported deck are numbered from one, as nodes are."""
+    path = tmp_path / "joints.bdf"
+    cards = [*grids([11, 22], [place(14), place(14)]), PBUSH, "CBUSH,1,7,11,22,,,,0"]
+    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s"]) == 0
+    (mount,) = read_vehicle(pair).mounts
+    assert set(mount.bodies) == {"upper", "lower"}
+    np.testing.assert_allclose(1000 * mount.points, [place(14)] * 2)
+
+
 def test_units_are_asked_for(pair, tmp_path, capsys):
     path = tmp_path / "joints.bdf"
     path.write_text("\n".join(["BEGIN BULK", *TWO, PBUSH, CBUSH]))

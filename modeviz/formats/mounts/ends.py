@@ -121,7 +121,7 @@ class Ends:
         """The body with an attachment of an end's number at its place; None if not one has it.
 
         Raises:
-            VehicleError: attachments have the number, and all are elsewhere.
+            VehicleError: attachments have the number, all are elsewhere, and nothing else is there.
         """
         assert end.place is not None
         found = [
@@ -130,7 +130,7 @@ class Ends:
             if a.name == end.attachment and (body is None or name == body.name)
         ]
         near = [candidate for candidate in found if candidate.distance <= REACH]
-        if found and not near:
+        if found and not near and not self._candidates(end):
             far = min(found, key=lambda candidate: candidate.distance)
             raise VehicleError(
                 f"{end.where}: is at {_at(end.place)}, and the attachment {quoted(end.attachment)} of "
