@@ -203,12 +203,21 @@ def _hanging(found: Sequence[Island]) -> Iterator[str]:
     for island in found:
         n = len(island.bodies)
         if n == 1:
-            ground = "only the ground is" if island.is_held else "nor is the ground"
-            yield f"{island.bodies[0]!r} is isolated: no other body is connected to it, {ground}."
+            yield _alone(island, len(found) == 1)
             continue
         ground = "they hold on to the ground" if island.is_held else "nothing holds them to the ground"
         together = f"All {n} bodies hang" if len(found) == 1 else f"{_listed(island.bodies)} hang"
         yield f"{together} together; {ground}."
+
+
+def _alone(island: Island, is_only: bool) -> str:
+    (name,) = map(repr, island.bodies)
+    if is_only:
+        return (
+            f"{name} is the only body, and {'' if island.is_held else 'not '}connected to the ground."
+        )
+    ground = "only the ground is" if island.is_held else "nor is the ground"
+    return f"{name} is isolated: no other body is connected to it, {ground}."
 
 
 def _listed(bodies: Sequence[str]) -> str:

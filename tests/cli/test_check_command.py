@@ -1,12 +1,14 @@
 """`modeviz check` tells all that is wrong with a folder, and what an engineer can hold it against."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from folders import one_of_everything
 from mounted_cabin import mounted_cabin
+from small_vehicles import on_tyres, wheel
 
 from modeviz.cli import main
 from modeviz.files import read_vehicle, write_vehicle
@@ -111,6 +113,18 @@ def test_a_mechanism_and_what_is_isolated_are_named(tmp_path, capsys):
     assert "'spare' is free as a whole: it moves along x" in out
     for axis in "xyz":
         assert f"Mechanism: 'arm' turns about {axis}, and nothing holds it." in out
+
+
+@pytest.mark.parametrize(
+    ("connections", "words"), [(True, "and connected"), (False, "and not connected")]
+)
+def test_a_single_body_is_not_called_isolated(tmp_path, capsys, connections, words):
+    vehicle = on_tyres(wheel("w")).vehicle
+    write_vehicle(vehicle if connections else replace(vehicle, connections=()), tmp_path / "a")
+    assert main(["check", str(tmp_path / "a")]) == 0
+    out, _ = capsys.readouterr()
+    assert f"'w' is the only body, {words} to the ground." in out
+    assert "isolated" not in out
 
 
 def test_the_front_is_told_with_the_reason(capsys):
