@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import Body, RigidBody
+from modeviz.vehicle.bodies import Body, Mesh, RigidBody
 from modeviz.vehicle.vehicle import Vehicle
 
 DIFFERENT = 5.0
@@ -35,17 +35,21 @@ def mesh_doubts(vehicle: Vehicle) -> Iterator[str]:
     for body in vehicle.bodies:
         if not body.mesh:
             continue
-        n_faces = sum(len(part.faces) for part in body.mesh)
-        if n_faces > MOST_DRAWN:
-            yield (
-                f"body {body.name!r}: mesh: has {n_faces:,} faces; a coarser surface is drawn, of at "
-                f"most {MOST_DRAWN:,}"
-            )
+        if words := coarser_words(body.mesh):
+            yield f"body {body.name!r}: mesh: {words}"
         mesh = _ends(np.concatenate([part.vertices[part.faces].reshape(-1, 3) for part in body.mesh]))
         known = _known(vehicle, body)
         doubt = _of_size(mesh, known) or _of_place(mesh, known)
         if doubt:
             yield f"body {body.name!r}: mesh: {doubt}"
+
+
+def coarser_words(mesh: Mesh) -> str:
+    """Words for how a mesh of very many faces is drawn; empty if it is drawn as it is."""
+    n_faces = sum(len(part.faces) for part in mesh)
+    if n_faces <= MOST_DRAWN:
+        return ""
+    return f"has {n_faces:,} faces; a coarser surface is drawn, of at most {MOST_DRAWN:,}"
 
 
 def _known(vehicle: Vehicle, body: Body) -> dict[str, tuple[Floats, float]]:

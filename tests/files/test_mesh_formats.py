@@ -3,6 +3,7 @@
 import logging
 import re
 import struct
+import warnings
 from io import BytesIO
 from pathlib import Path
 from zlib import crc32
@@ -524,6 +525,14 @@ def test_stl_has_its_triangles_on_vertices_that_are_there_once(read, write):
     (part,) = read(write(*HALVES), ".stl")
     np.testing.assert_array_equal(part.vertices[part.faces], HALVES)
     assert len(part.vertices) == 4
+
+
+def test_stl_with_numbers_that_are_none_is_refused_without_a_warning(complaint):
+    signalling = struct.pack("<I", 0x7F800001)  # not a number, of which NumPy warns when it converts it
+    content = bytes(80) + struct.pack("<I", 1) + bytes(12) + signalling + bytes(34)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert "not finite" in complaint(content, ".stl")
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from modeviz.shapes.points import octahedra
 from modeviz.shapes.surface import Surface, surface
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody, Material, Mesh, MeshPart
+from modeviz.vehicle.mesh_doubts import coarser_words
 
 STILL_HZ = 0.1
 """Below this a body alone moves as a rigid one, or nearly."""
@@ -112,7 +113,7 @@ def subject_of_component(component: Component, name: str, units: UnitSystem | No
             strict=True,
         )
     ]
-    about = tuple(_about_component(component, units))
+    about = (*_about_component(component, units), *_coarser(mesh))
     return Subject(name, drawn, shapes, tuple(listed), component.is_complex, (), about)
 
 
@@ -142,11 +143,17 @@ def subject_of_body(body: Body) -> Subject:
     drawn = surface(body.mesh or _nodes_mesh(body))
     if not isinstance(body, FlexibleBody):
         still = np.zeros((0, len(drawn.vertices), 3), np.float32)
-        return Subject(body.name, drawn, still, (), False, (), (_weight(body),))
+        about = (_weight(body), *_coarser(body.mesh))
+        return Subject(body.name, drawn, still, (), False, (), about)
     marks = tuple(Mark(a.name, a.position, a.shapes[:3]) for a in body.attachments)
-    about = (_weight(body), _attached(marks))
+    about = (_weight(body), _attached(marks), *_coarser(body.mesh))
     modes = tuple(_modes_of(body))
     return Subject(body.name, drawn, vertex_shapes(body, drawn.vertices), modes, False, marks, about)
+
+
+def _coarser(mesh: Mesh) -> Iterator[str]:
+    if words := coarser_words(mesh):
+        yield f"Its surface {words}."
 
 
 def _nodes_mesh(body: Body) -> Mesh:

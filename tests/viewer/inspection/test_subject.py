@@ -92,3 +92,23 @@ def test_a_body_of_a_vehicle_is_seen_in_its_own_modes_with_its_attachments():
         q = subject.coordinates(8)
         for mark, attachment in zip(subject.marks, body.attachments, strict=True):
             np.testing.assert_array_equal(mark.shapes @ q, attachment.shapes[:3, 8])
+
+
+def test_a_surface_of_very_many_faces_is_drawn_coarser_and_says_so():
+    n = 250
+    q = np.arange(n * n).reshape(n, n)
+    quads = np.stack([q[:-1, :-1], q[1:, :-1], q[1:, 1:], q[:-1, 1:]], axis=-1).reshape(-1, 4)
+    x, y = np.meshgrid(np.linspace(0, 1, n), np.linspace(0, 1, n))
+    component = replace(
+        plate(heaving_and_twisting()),
+        node_ids=q.ravel() + 1,
+        nodes=np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1),
+        elements={"quad": quads},
+        modes=replace(
+            plate(heaving_and_twisting()).modes,
+            shapes=np.ones((n * n, 6, 2)),
+        ),
+    )
+    subject = subject_of_component(component, "plate", MM_T_S)
+    assert sum(len(patch.faces) for patch in subject.drawn.patches) <= 100_000
+    assert f"Its surface has {2 * len(quads):,} faces; a coarser surface is drawn" in subject.about[-1]
