@@ -17,6 +17,9 @@ from modeviz.vehicle.arrays import Array
 MOST_BYTES = 12 * MOST_ENTRIES
 """Of all arrays of a file, unpacked."""
 
+LEAST_BYTES, MOST_TIMES_PACKED = 500_000_000, 100
+"""Unpacked, so many are read of any file, and more of one that is no smaller than this part of it."""
+
 SCIPY = {"format", "shape", "data"}
 """What `scipy.sparse.save_npz` writes of every matrix."""
 
@@ -87,12 +90,19 @@ def _read_arrays(path: Path) -> dict[str, Array]:
         try:
             with zipfile.ZipFile(file) as archive:
                 members = [m for m in archive.infolist() if m.filename.endswith(".npy")]
-                check_size("bytes of arrays", sum(m.file_size for m in members), MOST_BYTES)
+                _check_unpacked(sum(m.file_size for m in members), path.stat().st_size)
                 return {m.filename.removesuffix(".npy"): _read_array(archive, m) for m in members}
         except VehicleError as error:
             raise VehicleError(f"{path}: {error}") from None
         except Exception as error:  # damaged archives make zipfile and NumPy raise almost anything
             raise VehicleError(f"{path}: not a whole .npz file ({reason(error)})") from None
+
+
+def _check_unpacked(n_bytes: int, n_packed: int) -> None:
+    """Raises VehicleError for arrays that are too large, or larger than any packed so small."""
+    check_size("bytes of arrays", n_bytes, MOST_BYTES)
+    if n_bytes > max(LEAST_BYTES, MOST_TIMES_PACKED * n_packed):
+        raise VehicleError(f"unpacks to {n_bytes:,} bytes, more than arrays in {n_packed:,} bytes do")
 
 
 def _read_array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> Array:
