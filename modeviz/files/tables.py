@@ -110,7 +110,7 @@ def read_cells(text: str) -> tuple[Iterator[tuple[int, list[str]]], bool]:
     if declared:  # as Excel writes it
         first += 1
     _check_lengths(lines)
-    separator = declared[1] if declared else _separator(lines[first] if first < len(lines) else "")
+    separator = declared[1] if declared else _separator(lines[first:])
     return _cells(lines, first, separator), separator != ","
 
 
@@ -123,8 +123,12 @@ def _check_lengths(lines: list[str]) -> None:
             )
 
 
-def _separator(header: str) -> str:
-    """The character that separates the cells of a header: names have neither semicolons nor tabs."""
+def _separator(lines: list[str]) -> str:
+    """The character that separates the cells of a header: names have neither semicolons nor tabs.
+
+    A line with no such character is a title above it.
+    """
+    header = next((line for line in lines if any(mark in line for mark in ";\t,")), "")
     return next((mark for mark in ";\t" if mark in header), ",")
 
 

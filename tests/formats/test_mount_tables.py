@@ -307,6 +307,21 @@ def test_units_below_the_header_and_a_column_that_means_nothing_here(tmp_path):
     assert notes == ["columns Comment are left out"]
 
 
+def test_titles_above_the_header_are_left_out_and_told(tmp_path):
+    for delimiter in ",;":
+        rows = [["Mounts of the cab"], ["rev 3"], [], HEADER, ROW]
+        notes = []
+        (found,) = read(written(tmp_path / "m.csv", rows, delimiter), notes=notes)
+        assert found.where == "line 5"
+        assert notes == ["what stands above the header in line 4 is left out"]
+    book = Workbook()
+    for row in (["Mounts", None, "rev 3"], HEADER, ["", "", "", *["-"] * 6], ROW):
+        book.active.append(row)
+    book.save(tmp_path / "m.xlsx")
+    (found,) = read(tmp_path / "m.xlsx")
+    np.testing.assert_allclose(found.stiffness[:3], [17_500, 18_250, 19_000])
+
+
 def test_a_unit_that_one_column_says_holds_for_others_of_its_quantity(tmp_path):
     header = ["name", "from", "to", "x [mm]", "y", "z", "kx [kN/m]", "ky", "vertical", "krx [N m/deg]"]
     (found,) = read(written(tmp_path / "m.csv", [header, [*ROW, 2]]))

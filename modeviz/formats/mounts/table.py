@@ -13,6 +13,12 @@ from modeviz.formats.mounts.columns import Column, read_headers
 from modeviz.formats.mounts.line import MountLine
 from modeviz.formats.mounts.sheets import Sheet, read_sheet
 
+MOST_TITLES = 20
+"""Lines above a header."""
+
+FEWEST_COLUMNS = 3
+"""Of a line that is a header, where others stand above it."""
+
 
 def read_mount_table(
     path: Path, units: UnitSystem | None, named: Mapping[str, str], note: Callable[[str], None]
@@ -58,7 +64,8 @@ class _Table:
     @classmethod
     def of(cls, sheet: Sheet, units: UnitSystem | None, note: Callable[[str], None]) -> "_Table":
         """Raises VehicleError for a header that is none of mounts."""
-        number, header = sheet.lines[0] if sheet.lines else (1, [])
+        at = _header_at(sheet)
+        number, header = sheet.lines[at] if sheet.lines else (1, [])
         with located(f"line {number}"):
             columns, others = read_headers(header)
             names = {column.name for column in columns.values()}
@@ -76,13 +83,15 @@ class _Table:
                     f"found the columns {listed(filter(None, header))}, expected those of mounts: "
                     "name, body 1, body 2, x, y, z, k_x, k_y, k_z and others; see docs/mount-tables.md"
                 )
-        first = 1
-        if len(sheet.lines) > 1 and (said := _units_below(sheet.lines[1][1], columns)):
-            columns, first = said, 2
+        first = at + 1
+        if len(sheet.lines) > first and (said := _units_below(sheet.lines[first][1], columns)):
+            columns, first = said, first + 1
         columns = with_shared_units(columns)
         for column in columns.values():
             with located(f"line {number}"):
                 column_factor(column, units)
+        if at:
+            note(f"what stands above the header in line {number} is left out")
         if others:
             note(f"columns {listed(others)} are left out")
         return cls(columns, units, first, len(header))
@@ -110,11 +119,26 @@ class _Table:
         return MountLine(Row(number, by_header, sheet.decimal_comma), by_name, self.units)
 
 
+def _header_at(sheet: Sheet) -> int:
+    """Which of a sheet's lines is the header: there may be titles above it."""
+    for at, (_, cells) in enumerate(sheet.lines[:MOST_TITLES]):
+        try:
+            columns, _ = read_headers(cells)
+        except VehicleError:
+            continue
+        names = {column.name for column in columns.values()}
+        if "name" in names and len(names) >= FEWEST_COLUMNS:
+            return at
+    return 0
+
+
 def _units_below(cells: list[str], columns: Mapping[int, Column]) -> dict[int, Column] | None:
     """The columns with the units in the line below the header; None if there are none in it."""
     texts = {place: cells[place] if place < len(cells) else "" for place in columns}
     said = {place: text for place, text in texts.items() if text not in ("", "-")}
-    if not said or not all(is_unit(texts[place], column) for place, column in columns.items()):
+    if not any(texts.values()) or not all(
+        is_unit(texts[place], column) for place, column in columns.items()
+    ):
         return None
     return {
         place: Column(column.header, column.name, column.unit or said.get(place, ""))
