@@ -190,11 +190,11 @@ def _attached(
 
 
 def _looks(path: Path, unit: str | None, units: UnitSystem) -> Mesh:
-    """The mesh of a file, m, in the component's coordinates."""
+    """The mesh of a file, m, as it stands in the component's coordinates, whatever is up in it."""
     with located("--mesh-unit"):
         length = factor(unit, "length") if unit is not None else None
     with located("--mesh"):
-        return read_mesh(path, COLOR, length, usual=units.length)
+        return read_mesh(path, COLOR, length, np.eye(3), units.length)
 
 
 def _whole(half: Component, settings: ImportSettings) -> Whole:

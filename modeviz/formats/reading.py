@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from modeviz.errors import VehicleError, quoted
+from modeviz.files.meshes import READERS as MESHES
 from modeviz.formats.ansys import RESULTS, read_ansys
 from modeviz.formats.component import Component
 from modeviz.formats.matrices import SUFFIXES as MATRICES
@@ -77,6 +78,10 @@ def is_read(path: Path) -> bool:
 
 def _reader(path: Path) -> Reader:
     suffix = path.suffix.lower()
+    if suffix in MESHES:
+        raise VehicleError(
+            f"{path}: is a mesh, which has no modes; give a component's files, and this one with --mesh"
+        )
     if suffix not in READERS:
         raise VehicleError(f"{path}: found {quoted(suffix)}, expected one of {', '.join(ENDINGS)}")
     return READERS[suffix]

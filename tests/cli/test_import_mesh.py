@@ -10,6 +10,13 @@ from modeviz.files import read_vehicle
 from modeviz.public import import_component
 
 STL = "solid a\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid a\n"
+DAE = """<COLLADA><asset><unit meter="0.5"/><up_axis>Y_UP</up_axis></asset><library_geometries>
+<geometry id="g"><mesh><source id="s"><float_array id="a">{}</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#s"/></vertices><triangles>
+<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry>
+</library_geometries><library_visual_scenes><visual_scene><node><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes></COLLADA>"""
 TRIANGLE = CORNERS[:3]
 """mm."""
 
@@ -41,6 +48,18 @@ def ordered(points: np.ndarray) -> np.ndarray:
 def test_a_mesh_is_in_the_unit_of_the_files_unless_another_is_said(files, unit, length):
     assert run(files, *unit) == 0
     np.testing.assert_allclose(drawn(files), length * ordered(TRIANGLE), rtol=1e-6, atol=1e-9)
+
+
+def test_a_mesh_that_says_its_axes_stays_in_the_coordinates_of_the_component(files):
+    corners = " ".join(str(x) for x in TRIANGLE.ravel())
+    (files / "a.dae").write_text(DAE.format(corners))
+    assert run(files, "--mesh", str(files / "a.dae")) == 0
+    np.testing.assert_allclose(drawn(files), 0.5 * ordered(TRIANGLE), rtol=1e-6, atol=1e-6)
+
+
+def test_a_mesh_in_place_of_a_component_is_refused_with_the_way_to_use_it(files, capsys):
+    assert main(["import", str(files / "a.stl"), "--output", str(files / "v")]) == 2
+    assert "a.stl: is a mesh, which has no modes; give a component's files" in capsys.readouterr().err
 
 
 def test_a_mesh_goes_with_its_body_where_that_is_put(files):
