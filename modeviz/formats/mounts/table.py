@@ -136,9 +136,8 @@ def _units_below(cells: list[str], columns: Mapping[int, Column]) -> dict[int, C
     """The columns with the units in the line below the header; None if there are none in it."""
     texts = {place: cells[place] if place < len(cells) else "" for place in columns}
     said = {place: text for place, text in texts.items() if text not in ("", "-")}
-    if not any(texts.values()) or not all(
-        is_unit(texts[place], column) for place, column in columns.items()
-    ):
+    are_units = all(is_unit(texts[place], column) for place, column in columns.items())
+    if not (are_units and any(texts.values())):
         return None
     return {
         place: Column(column.header, column.name, column.unit or said.get(place, ""))
