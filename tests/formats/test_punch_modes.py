@@ -93,6 +93,7 @@ WHOLE = punched(*two_modes())
     ("text", "words"),
     [
         (WHOLE[: len(WHOLE) - 81], "is it cut?"),
+        (WHOLE[:300], "is the file cut?"),  # found at random, with an end within the headings
         (WHOLE.replace("$EIGENVALUE", "$POINT ID"), "SORT2"),
         (WHOLE.replace("1.0000000E+02", "1.000000.E+02"), "the eigenvalue '1.000000.E+02'"),
         (WHOLE.replace("         2       G", "         2        "), "expected a point and its kind"),

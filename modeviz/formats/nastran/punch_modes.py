@@ -23,7 +23,10 @@ PUNCH = ".pch"
 MODES = b"$EIGENVECTOR"
 """The heading of a table of modes."""
 
-HEADINGS = re.compile(rb"(?:^\$.*\n)+", re.MULTILINE)
+BY_POINT = b"$POINT ID"
+"""The heading of what one point does."""
+
+HEADINGS = re.compile(rb"(?:^\$.*(?:\n|\Z))+", re.MULTILINE)
 NUMBER = rb"([-+.\dE]+)"
 EIGENVALUE = re.compile(
     rb"^\$EIGENVALUE = *\(? *%b(?:, *%b)?.*MODE = *(\d{1,9})" % (NUMBER, NUMBER), re.M
@@ -53,14 +56,16 @@ def read_punch_shapes(path: Path) -> Shapes | None:
 def _shapes(content: bytes) -> Iterator[Shape]:
     """The modes of a file, each below its headings."""
     headings = list(HEADINGS.finditer(content))
-    ends = [heading.start() for heading in headings[1:]] + [len(content)]
-    for heading, end in zip(headings, ends, strict=True):
+    starts = [*(heading.start() for heading in headings), len(content)]
+    for heading, end in zip(headings, starts[1:], strict=True):
         said = heading[0]
         if MODES not in said:
             continue
         value, subcase = EIGENVALUE.search(said), SUBCASE.search(said)
-        if value is None:
+        if value is None and BY_POINT in said:
             raise VehicleError("its modes are sorted by grid (SORT2); write them with SORT1")
+        if value is None:
+            raise VehicleError("found headings of a mode without its eigenvalue; is the file cut?")
         lines = content[heading.end() : end].splitlines()
         n_lines = 2 if b"REAL OUTPUT" in said else 4
         form = MAGNITUDE_AND_PHASE if b"MAGNITUDE-PHASE" in said else 1
