@@ -4,6 +4,7 @@ import csv
 import re
 import shutil
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -633,6 +634,18 @@ def test_more_mounts_than_a_vehicle_has_are_refused_at_once(tmp_path):
     book.save(tmp_path / "m.xlsx")
     with pytest.raises(VehicleError, match="lines, expected at most 2,001"):
         read(tmp_path / "m.xlsx")
+
+
+def test_a_workbook_with_a_line_far_below_is_refused_at_once(tmp_path):
+    book = Workbook()
+    book.active.append(HEADER)
+    book.active.append(ROW)
+    book.active.cell(1_048_576, 1).value = "x"
+    book.save(tmp_path / "m.xlsx")
+    start = time.monotonic()
+    with pytest.raises(VehicleError, match=r"m.xlsx: found 10,001 lines, expected at most"):
+        read(tmp_path / "m.xlsx")
+    assert time.monotonic() - start < 10
 
 
 def test_a_formula_whose_value_is_not_stored_is_said_to_be_one(tmp_path):

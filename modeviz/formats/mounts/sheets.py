@@ -12,7 +12,7 @@ from typing import Any
 from modeviz.errors import VehicleError, located, reason
 from modeviz.files.disk import LARGEST_TABLE, WESTERN, read_bytes, read_text
 from modeviz.files.limits import check_size
-from modeviz.files.tables import MOST_LINES, read_cells
+from modeviz.files.tables import read_cells
 
 TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
 EXCEL_SUFFIXES = (".xlsx", ".xlsm", ".xls", ".xlsb", ".ods")
@@ -24,8 +24,11 @@ LARGEST_UNPACKED = 100_000_000
 MOST_MOUNTS = 2000
 """Lines of a table, as many as a vehicle's file has of a kind."""
 
+MOST_ROWS = 10_000
+"""Lines of a workbook, with those that are empty."""
+
 MOST_CELLS = 200
-"""Of a line of a workbook."""
+"""Of a line of a workbook; what is further right is not looked at."""
 
 
 @dataclass(frozen=True)
@@ -89,17 +92,16 @@ def _lines(values: Any, formulas: Any) -> Iterator[tuple[int, list[str]]]:
     rows = []
     for sheet in (values, formulas):
         sheet.reset_dimensions()  # what a file says of them may be wrong
-        rows.append(sheet.iter_rows())
+        rows.append(sheet.iter_rows(max_col=MOST_CELLS))
     n_lines = 0
     for number, row in enumerate(zip(*rows, strict=True), 1):
-        check_size("lines", number, MOST_LINES)
+        check_size("lines", number, MOST_ROWS)
         cells = [
             _text(formula.value) if value.value is None else _shown(value)
             for value, formula in zip(*row, strict=True)
         ]
         while cells and not cells[-1]:
             cells.pop()
-        check_size("columns", len(cells), MOST_CELLS)
         if cells:
             n_lines += 1
             check_size("lines", n_lines, MOST_MOUNTS + 1)
