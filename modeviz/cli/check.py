@@ -11,7 +11,8 @@ from modeviz.cli.results import check_printable, print_result
 from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
 from modeviz.files.survey import Problem, Survey, survey
-from modeviz.report.check import Summary, summarised, summary_record, summary_text
+from modeviz.report.check import Summary, summarised, summary_record
+from modeviz.report.check_text import summary_text
 from modeviz.report.truncation import truncation_doubts
 
 

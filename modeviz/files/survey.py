@@ -144,4 +144,5 @@ def _too_large(vehicle: Vehicle) -> tuple[Problem, ...]:
 
 def _inside(folder: Path, words: str) -> str:
     """Words with the files of a folder by their names in it."""
-    return words.replace(f"{folder / VEHICLE_FILE}: ", "").replace(f"{folder}/", "")
+    own = words.replace(f"{folder / VEHICLE_FILE}: ", "").removeprefix(f"{folder}: ")
+    return own.replace(f"{folder}/", "")

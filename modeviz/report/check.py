@@ -8,7 +8,6 @@ import numpy as np
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.free_motions import FreeMotion, free_motions
 from modeviz.errors import SolveError, VehicleError
-from modeviz.report.tables import table
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.connections import GROUND
@@ -18,9 +17,6 @@ from modeviz.vehicle.vehicle import Vehicle
 
 FIRST_MODES = 3
 """So many of a body's elastic modes are listed."""
-
-MOST_LISTED = 5
-"""Of connections by how far their attachments are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,104 +141,3 @@ def _weighed_record(body: Weighed) -> dict[str, object]:
 def _largest_error(bodies: Iterable[Weighed]) -> float | None:
     errors = [body.orthogonality_error for body in bodies if body.orthogonality_error is not None]
     return max(errors, default=None)
-
-
-def summary_text(summary: Summary) -> str:
-    """The summary as a table of bodies and sentences on what joins them."""
-    rows = [_row(body) for body in summary.bodies]
-    header = ["body", "kg", "centre of gravity x, y, z m", "first free modes Hz", "orthogonality error"]
-    total = [summary.total.name, *_row(summary.total)[1:3], "", ""]
-    return "\n".join(
-        [
-            table(header, [*rows, total]),
-            "Places are in the vehicle's axes: x rearward, y right, z up.",
-            "",
-            _front(summary.front),
-            *_reach(summary.held),
-            *_hanging(summary.islands),
-            *_free(summary),
-        ]
-    )
-
-
-def _row(body: Weighed) -> list[str]:
-    error = body.orthogonality_error
-    return [
-        body.name,
-        f"{body.mass:.5g}",
-        ", ".join(f"{x:.3f}" for x in body.center_of_gravity + 0.0),
-        "rigid" if error is None else ", ".join(f"{f:.4g}" for f in body.first_hz) or "none",
-        "" if error is None else f"{error:.1g}",
-    ]
-
-
-def _front(reasons: Sequence[str]) -> str:
-    if not reasons:
-        return (
-            "The front is taken to be where x is least, after the axes that the file says: no name "
-            "with front or rear and no axle tells."
-        )
-    return f"The front is where x is least: {'; '.join(reasons)}."
-
-
-def _reach(held: Sequence[Held]) -> Iterator[str]:
-    if not held:
-        return
-    farthest = [h for h in held[:MOST_LISTED] if round(1000 * h.distance, 1)]
-    yield f"Connections hold on to flexible bodies in {len(held)} places" + (
-        ", all at an attachment." if not farthest else ", the farthest from their attachments:"
-    )
-    for h in farthest:
-        yield (
-            f"  {h.connection!r} {1000 * h.distance:.1f} mm from the attachment {h.attachment!r} of "
-            f"{h.body!r}"
-        )
-
-
-def _hanging(found: Sequence[Island]) -> Iterator[str]:
-    for island in found:
-        n = len(island.bodies)
-        if n == 1:
-            yield _alone(island, len(found) == 1)
-            continue
-        ground = "they hold on to the ground" if island.is_held else "nothing holds them to the ground"
-        together = f"All {n} bodies hang" if len(found) == 1 else f"{_listed(island.bodies)} hang"
-        yield f"{together} together; {ground}."
-
-
-def _alone(island: Island, is_only: bool) -> str:
-    (name,) = map(repr, island.bodies)
-    if is_only:
-        return (
-            f"{name} is the only body, and {'' if island.is_held else 'not '}connected to the ground."
-        )
-    ground = "only the ground is" if island.is_held else "nor is the ground"
-    return f"{name} is isolated: no other body is connected to it, {ground}."
-
-
-def _listed(bodies: Sequence[str]) -> str:
-    *others, last = map(repr, bodies)
-    return f"{', '.join(others)} and {last}"
-
-
-def _free(summary: Summary) -> Iterator[str]:
-    if summary.why_not:
-        yield f"Mechanisms cannot be looked for: {summary.why_not}."
-        return
-    whole = [motion for motion in summary.free if motion.is_whole]
-    for bodies in dict.fromkeys(motion.bodies for motion in whole):
-        how = [_moves(motion.motion) for motion in whole if motion.bodies == bodies]
-        what = f"{bodies[0]!r}" if len(bodies) == 1 else f"What hangs together with {bodies[0]!r}"
-        yield f"{what} is free as a whole: it {', '.join(how)}."
-    mechanisms = [motion for motion in summary.free if not motion.is_whole]
-    for motion in mechanisms:
-        others = (
-            f" together with {', '.join(map(repr, motion.bodies[1:]))}" if motion.bodies[1:] else ""
-        )
-        yield f"Mechanism: {motion.bodies[0]!r} {_moves(motion.motion)}{others}, and nothing holds it."
-    if not mechanisms:
-        yield "There are no mechanisms: nothing within the vehicle moves freely."
-
-
-def _moves(motion: str) -> str:
-    return f"turns about {motion[1]}" if motion.startswith("r") else f"moves along {motion}"

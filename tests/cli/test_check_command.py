@@ -110,7 +110,7 @@ def test_a_mechanism_and_what_is_isolated_are_named(tmp_path, capsys):
     assert main(["check", str(tmp_path / "a")]) == 0
     out, _ = capsys.readouterr()
     assert "'spare' is isolated: no other body is connected to it, nor is the ground." in out
-    assert "'spare' is free as a whole: it moves along x" in out
+    assert "'spare' is free as a whole: it moves along x, y, z and turns about x, y, z." in out
     for axis in "xyz":
         assert f"Mechanism: 'arm' turns about {axis}, and nothing holds it." in out
 

@@ -118,8 +118,8 @@ def test_tables_keep_their_numbers_whatever_was_taken_out_before_them(folder):
 
 def test_a_folder_without_anything_to_read_is_one_problem(folder, tmp_path):
     assert [p.words for p in survey(tmp_path).problems] == [
-        f"{tmp_path}: found no vehicle.toml; a vehicle is a folder with a vehicle.toml, and the modes, "
-        "meshes and roads that it names"
+        "found no vehicle.toml; a vehicle is a folder with a vehicle.toml, and the modes, meshes and "
+        "roads that it names"
     ]
 
 
