@@ -1,6 +1,7 @@
 """Matrices in MATLAB's files: of versions 4, 5 and 7 as SciPy writes them, of 7.3 as MATLAB does."""
 
 import io
+import struct
 
 import h5py
 import numpy as np
@@ -107,10 +108,17 @@ GOOD, GOOD_73 = saved(SPARSE), saved_73(SPARSE)
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        (b"", "no whole .mat file"),
+        (b"", "has no square matrix"),
         (b"\0" * 200, r"no whole .mat file|no square matrix"),
-        (GOOD[:700], "no whole .mat file"),
-        (saved(ARRAYS, do_compression=True)[:300], "no whole .mat file"),
+        (GOOD[:700], "is cut or damaged"),
+        (saved(ARRAYS, do_compression=True)[:300], "is cut or damaged"),
+        (
+            saved(ARRAYS, do_compression=True).replace(b"x\x9c", b"x\x9d"),
+            "a packed variable is damaged",
+        ),
+        (saved({"K": K, "M": M}, format="4")[:4000], "a variable ends beyond it"),
+        (saved({"K": K, "M": M}, format="4")[:10], "it ends within a variable"),
+        (b"\x10\x27" + saved({"K": K, "M": M}, format="4")[2:], "no .mat file, or a damaged one"),
         (GOOD_73[:3000], "no whole .mat file"),
         (GOOD_73[:512], "no whole .mat file"),
         (saved({"name": "block", "K": K[:, :3]}), "has no square matrix"),
@@ -132,7 +140,7 @@ def test_a_matrix_larger_than_its_file_can_be_is_not_unpacked(read):
     content = bytearray(saved({"K": np.zeros((20, 20)), "M": M}))
     place = content.index((20).to_bytes(4, "little") * 2)
     content[place : place + 8] = (20_000).to_bytes(4, "little") * 2
-    with pytest.raises(VehicleError, match=r"no room for|no whole"):
+    with pytest.raises(VehicleError, match="other numbers than 20000 by 20000"):
         read(bytes(content))
 
 
@@ -142,5 +150,40 @@ def test_a_sparse_matrix_with_rows_outside_of_it_is_refused(read):
     rows = sp.csc_array(K).indices.astype("<i4").tobytes()
     place = content.index(rows)
     content[place : place + 4] = (1_000_000).to_bytes(4, "little")
-    with pytest.raises(VehicleError, match="matrix K: its parts make no matrix"):
+    with pytest.raises(VehicleError, match="variable 'K': its parts make no matrix"):
         read(bytes(content))
+
+
+def element(order, kind, content):
+    return struct.pack(f"{order}II", kind, len(content)) + content + bytes(-len(content) % 8)
+
+
+def by_hand(order):
+    """A file of version 5 whose words are of that order; the name is in a small element."""
+    text = b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack(f"{order}H", 0x0100)
+    content = text + (b"IM" if order == "<" else b"MI")
+    for name, A in (("K", K), ("M", M)):
+        small = struct.pack(f"{order}I", 1 << 16 | 1) + name.encode().ljust(4, b"\0")
+        content += element(
+            order,
+            14,
+            element(order, 6, struct.pack(f"{order}II", 6, 0))
+            + element(order, 5, struct.pack(f"{order}ii", *A.shape))
+            + small
+            + element(order, 9, A.T.astype(f"{order}f8").tobytes()),
+        )
+    return content
+
+
+@pytest.mark.parametrize("order", "<>")
+def test_words_may_be_in_either_order(read, order):
+    component = read(by_hand(order))
+    np.testing.assert_array_equal(component.matrices.mass.toarray(), M)
+    np.testing.assert_allclose(component.matrices.stiffness.toarray(), K, rtol=1e-14)
+
+
+def test_a_packed_variable_that_unpacks_to_far_more_is_refused(read, monkeypatch):
+    monkeypatch.setattr("modeviz.formats.matrices.mat_variables.LEAST_BYTES", 1_000_000)
+    content = saved({"K": np.zeros((3000, 3000)), "M": M}, do_compression=True)
+    with pytest.raises(VehicleError, match=r"a packed variable of .* has more than"):
+        read(content)

@@ -94,6 +94,11 @@ def test_names_tell_stiffness_from_mass(tmp_path, names):
     np.testing.assert_allclose(component.matrices.stiffness.toarray(), K)
 
 
+def test_arrays_may_have_their_bytes_in_the_other_order(read):
+    component = read(M.astype(">f8"), K.astype(">f8"))
+    np.testing.assert_allclose(component.matrices.stiffness.toarray(), K, rtol=1e-14)
+
+
 def test_other_matrices_are_left_out_and_told(read):
     component = read(C=0.1 * K)
     assert "the matrices C are left out: neither mass nor stiffness" in component.notes

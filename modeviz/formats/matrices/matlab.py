@@ -1,17 +1,17 @@
-"""Matrices in MATLAB's `.mat` files: versions 5 and 7 by SciPy, 7.3, which is HDF5, by h5py."""
+"""Matrices in MATLAB's `.mat` files: of versions 4 to 7, and of 7.3, which is HDF5, by h5py."""
 
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import scipy.io
 import scipy.sparse as sp
 
 from modeviz.errors import VehicleError, cut, listed, located, reason
-from modeviz.files.disk import opened
+from modeviz.files.disk import opened, read_bytes
 from modeviz.files.limits import check_size
 from modeviz.formats.limits import LARGEST_FILE
+from modeviz.formats.matrices.mat_variables import variables
 from modeviz.formats.named_matrices import MOST_DOFS, MOST_ENTRIES, NamedMatrix
 
 NUMBERS = frozenset(
@@ -46,7 +46,7 @@ def read_matlab(path: Path) -> list[NamedMatrix]:
             found = list(_of_hdf5(path) if is_hdf5 else _of_version_5(path))
         except VehicleError:
             raise
-        except Exception as error:  # damaged files make SciPy and h5py raise almost anything
+        except Exception as error:  # damaged files make h5py raise almost anything
             raise VehicleError(f"no whole .mat file ({cut(reason(error), 200)})") from None
         if not found:
             raise VehicleError(
@@ -56,15 +56,9 @@ def read_matlab(path: Path) -> list[NamedMatrix]:
 
 
 def _of_version_5(path: Path) -> Iterator[NamedMatrix]:
-    variables = scipy.io.whosmat(path)
-    names = [name for name, shape, kind in variables if kind in NUMBERS and _is_square(shape)]
-    full = sum(
-        shape[0] * shape[1] for name, shape, kind in variables if name in names and kind != "sparse"
-    )
-    _check_full(8 * full, path)
-    arrays = scipy.io.loadmat(path, variable_names=names) if names else {}
-    for name in names:
-        yield NamedMatrix(name, sp.csc_array(arrays[name]))
+    for name, array in variables(read_bytes(path, LARGEST_FILE)):
+        if _is_square(array.shape or ()):
+            yield NamedMatrix(name, sp.csc_array(array))
 
 
 def _is_square(shape: tuple[int, ...]) -> bool:
