@@ -7,16 +7,16 @@ something can stand in for it. What referred to it by name goes when the rest is
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any, get_args
+from typing import Any
 
-import msgspec
 import numpy as np
 
 from modeviz.errors import Fault
 from modeviz.files.records.vehicle import CONNECTION_KINDS, VehicleRecord
-from modeviz.files.schema.hints import alternatives, fields_of, is_record, joined, plain
+from modeviz.files.schema.hints import is_record, joined
 from modeviz.files.schema.mismatches import faults_of
 from modeviz.files.schema.scaling import WRITTEN_UNITS
+from modeviz.files.schema.walking import each_table, place_of, required_keys, type_at
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND
 
@@ -56,7 +56,7 @@ class Draft:
     def __init__(self, tables: dict[str, Any]) -> None:
         self.tables: dict[str, Any] = tables
         """What is left; those given are changed."""
-        self._paths: dict[int, str] = {id(table): path for path, table in _each(tables)}
+        self._paths: dict[int, str] = {id(table): path for path, table in each_table(tables)}
         self._lost: set[str] = set()
         self._lost_bodies: set[str] = set()
 
@@ -92,7 +92,7 @@ class Draft:
             if isinstance(container, dict) and is_record(hint):
                 where, table, record = inner, container, hint
             inner = (
-                f"{inner}[{_place(container, key)}]"
+                f"{inner}[{place_of(container, key)}]"
                 if isinstance(container, list)
                 else joined(inner, key)
             )
@@ -108,7 +108,7 @@ class Draft:
         found = [
             path
             for key in TABLES[kind]
-            for path, table in _each(self.tables.get(key, []), key)
+            for path, table in each_table(self.tables.get(key, []), key)
             if table.get("name") == name
         ]
         return found[-1] if found else ""
@@ -135,7 +135,7 @@ class Draft:
     def _orphans(self) -> Iterator[str]:
         """Keys of tables that name something lost; of a problem's tables, that of the problem."""
         lost = self._lost - self._names()
-        for path, table in _each(self.tables):
+        for path, table in each_table(self.tables):
             if not lost.isdisjoint(_references(table)):
                 yield re.sub(r"^(problem\[\d+\]).*", r"\1", path)
             if path.startswith("rates."):
@@ -143,7 +143,7 @@ class Draft:
 
     def _names(self) -> set[str]:
         """The names of all that is left."""
-        return {str(table["name"]) for _, table in _each(self.tables) if "name" in table}
+        return {str(table["name"]) for _, table in each_table(self.tables) if "name" in table}
 
     def _own(self, steps: list[Step], fault: Fault) -> str:
         """The path of a fault in the file, where its tables may have had other numbers."""
@@ -151,7 +151,7 @@ class Draft:
         now = ""
         for container, key, _ in steps:
             if isinstance(container, list):
-                now += f"[{_place(container, key)}]"
+                now += f"[{place_of(container, key)}]"
                 path = self._paths.get(id(key), now)
             else:
                 now, path = joined(now, key), joined(self._paths[id(container)], key)
@@ -173,7 +173,7 @@ class Draft:
                 break
             where, key, value = max(ways, key=lambda way: len(way[0]))
             steps.append((at, key if isinstance(at, dict) else value, hint))
-            at, hint = value, _inner(hint, key)
+            at, hint = value, type_at(hint, key)
         return steps
 
     def _take_out(self, steps: list[Step]) -> str:
@@ -192,7 +192,7 @@ class Draft:
             elif (stand_in := self._stand_in(container, key)) is not None:
                 container[key] = stand_in
                 return joined(self._paths[id(container)], key)
-            elif key in container and key not in _required(hint):
+            elif key in container and key not in required_keys(hint):
                 for each in BAND if key in BAND else (key,):
                     self._lose(container.pop(each, None))
                 return item or joined(self._paths[id(container)], key)
@@ -211,26 +211,10 @@ class Draft:
         return known[key] if key in known and table.get(key) != known[key] else None
 
     def _lose(self, value: Any) -> None:
-        for _, table in _each(value):
+        for _, table in each_table(value):
             is_body = self._paths[id(table)].startswith(TABLES["body"])
             if "name" in table:
                 (self._lost_bodies if is_body else self._lost).add(str(table["name"]))
-
-
-def _each(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
-    """Every table in a value with its path."""
-    waiting = [(where, value)]
-    while waiting:
-        path, at = waiting.pop()
-        if isinstance(at, dict):
-            yield path, at
-        items = at.items() if isinstance(at, dict) else enumerate(at) if isinstance(at, list) else ()
-        waiting += reversed([(joined(path, key), inner) for key, inner in items])
-
-
-def _place(items: list[Any], item: Any) -> int:
-    """The number of an item of a list, which may be equal to others."""
-    return next(i for i, other in enumerate(items) if other is item)
 
 
 def _references(table: Mapping[str, Any]) -> Iterator[str]:
@@ -239,19 +223,3 @@ def _references(table: Mapping[str, Any]) -> Iterator[str]:
         if key != "group" or "bodies" not in table:
             names = table[key] if isinstance(table[key], list) else [table[key]]
             yield from (name for name in names if isinstance(name, str))
-
-
-def _inner(hint: Any, key: Any) -> Any:
-    """The type of what a table or a list has at a key."""
-    if is_record(hint):
-        kinds = [plain(kind) for kind in alternatives(fields_of(hint).get(key, Any))]
-        return next(filter(is_record, kinds), kinds[0])
-    return plain((get_args(hint) or (Any,))[-1])
-
-
-def _required(hint: Any) -> set[str]:
-    """The keys that a table has to have."""
-    if not is_record(hint):
-        return set()
-    required = {field.encode_name for field in msgspec.structs.fields(hint) if field.required}
-    return required | hint.depending

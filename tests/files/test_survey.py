@@ -77,6 +77,14 @@ def test_a_body_is_read_without_what_can_be_left_out_of_it(folder):
     assert len(found.vehicle.all_connections) == 7
 
 
+def test_a_body_whose_damping_is_in_percent_is_read_with_none(folder):
+    edit(folder, "damping_ratio = 0.03", "damping_ratio = [2.0, 3.0]")
+    (problem,) = survey(folder).problems
+    assert problem.key == problem.left_out == "flexible_body[0].damping_ratio"
+    assert "expected a fraction of critical from 0 to below 1" in problem.words
+    assert len(survey(folder).bodies) == 2
+
+
 def test_what_only_misses_a_body_that_cannot_be_read_is_no_problem_of_its_own(folder):
     edit(folder, "bodies/cab.npz", "bodies/cob.npz")
     found = survey(folder)

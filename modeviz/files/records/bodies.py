@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 from msgspec import Meta
 
-from modeviz.errors import Fault, FaultsError, at_key
+from modeviz.errors import Fault, FaultsError, at_key, quoted
 from modeviz.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.files.modal import read_flexible_body
 from modeviz.files.records.fields import (
@@ -95,6 +95,11 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
         )
 
     def build(self, source: Source) -> FlexibleBody:
+        if not all(0 <= ratio < 1 for ratio in np.atleast_1d(self.damping_ratio)):
+            words = (
+                f"found {quoted(self.damping_ratio)}, expected a fraction of critical from 0 to below 1"
+            )
+            raise FaultsError(Fault("damping_ratio", words))
         properties = {
             "role": self.role,
             "label": self.spoken,
