@@ -25,13 +25,17 @@ FACES: Mapping[ElementKind, tuple[tuple[int, ...], ...]] = {
 }
 """The corners of each face, seen from outside against the clock."""
 
+MOST_POINTS = 12_500
+"""Nodes that are drawn as points, of eight faces each."""
+
 SHELLS = ("triangle", "quad")
 
 
 def display_mesh(component: Component, length: float) -> tuple[Mesh, Array]:
     """Return the parts to draw of a component, in m, its surface and its lines, and the nodes in them.
 
-    Elements with a corner that has no place are left out. Where nothing is left, nodes are drawn.
+    Elements with a corner that has no place are left out. Where nothing is left, nodes are drawn, every
+    so many of more than `MOST_POINTS`.
 
     Args:
         component: what to draw.
@@ -55,8 +59,10 @@ def display_mesh(component: Component, length: float) -> tuple[Mesh, Array]:
         drawn.append(lines.ravel())
         parts.append(MeshPart("lines", *tubes(nodes[lines], TUBE * size), material))
     if not parts and size:
-        drawn.append(np.flatnonzero(placed))
-        parts.append(MeshPart("nodes", *octahedra(nodes[placed], POINT * size), material))
+        shown = np.flatnonzero(placed)
+        shown = shown[:: -(-len(shown) // MOST_POINTS)]
+        drawn.append(shown)
+        parts.append(MeshPart("nodes", *octahedra(nodes[shown], POINT * size), material))
     return tuple(parts), np.unique(np.concatenate(drawn))
 
 

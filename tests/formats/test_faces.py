@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from modeviz.formats.surface import outer_triangles, tubes
+from modeviz.formats.component import Component, Modes
+from modeviz.formats.surface import MOST_POINTS, display_mesh, outer_triangles, tubes
 
 CUBE = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
 FAR = CUBE + np.array([1, 0, 0])
@@ -61,3 +62,15 @@ def test_lines_are_tubes_of_a_radius_around_both_ends():
     )
     assert faces.shape == (12, 3)
     assert sorted(set(faces.ravel().tolist())) == list(range(12))
+
+
+@pytest.mark.parametrize("n_nodes", [8, MOST_POINTS, MOST_POINTS + 1, 130_000])
+def test_of_many_nodes_without_elements_some_are_drawn(n_nodes):
+    """As of large matrices with a table of nodes: all of them would be more faces than a page turns."""
+    none = np.zeros(0)
+    nodes = np.random.default_rng(0).random((n_nodes, 3))
+    modes = Modes(none, none, none, np.zeros((n_nodes, 6, 0)))
+    mesh, drawn = display_mesh(Component(np.arange(n_nodes), nodes, {}, modes), 1.0)
+    assert min(n_nodes, MOST_POINTS / 2) <= len(drawn) <= MOST_POINTS
+    assert len(mesh[0].faces) == 8 * len(drawn)
+    np.testing.assert_allclose(np.ptp(nodes[drawn], axis=0), 1, atol=0.6)
