@@ -283,8 +283,8 @@ def factorised(A: sp.csc_array, order: str = "MMD_AT_PLUS_A") -> spl.SuperLU:
         ) from None
     except MemoryError:
         raise SolveError(
-            f"{A.shape[0]:,} degrees of freedom take more memory than there is: reduce the model in "
-            "the program that it is from, to a superelement or a substructure"
+            f"{A.diagonal().size:,} degrees of freedom take more memory than there is: reduce the "
+            "model in the program that it is from, to a superelement or a substructure"
         ) from None
 
 
