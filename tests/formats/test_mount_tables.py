@@ -308,6 +308,26 @@ def test_units_below_the_header_and_a_column_that_means_nothing_here(tmp_path):
     assert notes == ["columns Comment are left out"]
 
 
+def test_numbers_that_may_be_a_rate_which_has_no_column_are_refused(tmp_path):
+    def without_x(*more):
+        return [[*HEADER[:6], *HEADER[7:], *(header for header, _ in more)],
+                [*ROW[:6], *ROW[7:], *(cell for _, cell in more)]]  # fmt: skip
+
+    for header in ("steifigkeit x", "Steifigkeit längs [N/mm]", "längs"):
+        with pytest.raises(VehicleError, match=f"found no column k_x, .* '{re.escape(header)}'"):
+            read(written(tmp_path / "m.csv", without_x((header, 17.5))))
+    notes = []
+    others = without_x(("Preload [N]", 300), ("Comment", "soft"), ("Steifigkeit x [N/mm]", ""))
+    (found,) = read(written(tmp_path / "m.csv", others), notes=notes)
+    np.testing.assert_allclose(found.stiffness[:3], [0, 18_250, 19_000])
+    assert notes[-1] == "there is no column k_x: this stiffness is taken as zero"
+    alone = [["name", "k_z [N/mm]", "shore"], ["a", 3, 60]]
+    assert read(written(tmp_path / "m.csv", alone))[0].stiffness[2] == 3000
+    alone[0][2] = "starr_y"
+    with pytest.raises(VehicleError, match="found no column k_x, k_y, and numbers in 'starr_y'"):
+        read(written(tmp_path / "m.csv", alone))
+
+
 def test_titles_above_the_header_are_left_out_and_told(tmp_path):
     for delimiter in ",;":
         rows = [["Mounts of the cab"], ["rev 3"], [], HEADER, ROW]

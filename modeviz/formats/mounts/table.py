@@ -11,6 +11,7 @@ from modeviz.formats.mounts.bushing import Bushing
 from modeviz.formats.mounts.column_units import column_factor, is_unit, with_shared_units
 from modeviz.formats.mounts.columns import Column, read_headers
 from modeviz.formats.mounts.line import MountLine
+from modeviz.formats.mounts.missing import check_directions
 from modeviz.formats.mounts.sheets import Sheet, read_sheet
 
 MOST_TITLES = 20
@@ -37,6 +38,7 @@ def read_mount_table(
     sheet = read_sheet(path)
     with located(path.name):
         table = _Table.of(sheet, units, note)
+        check_directions(table.columns, sheet, table.header, named, note)
         bushings: dict[str, Bushing] = {}
         for line in table.lines(sheet):
             bushing = line.bushing(path, named, bushings)
@@ -57,8 +59,10 @@ class _Table:
 
     columns: Mapping[int, Column]
     units: UnitSystem | None
+    header: int
+    """Which of the sheet's lines it is."""
     first: int
-    """Which of the sheet's lines is the first mount's."""
+    """Which is the first mount's."""
     width: int
 
     @classmethod
@@ -94,7 +98,7 @@ class _Table:
             note(f"what stands above the header in line {number} is left out")
         if others:
             note(f"columns {listed(others)} are left out")
-        return cls(columns, units, first, len(header))
+        return cls(columns, units, at, first, len(header))
 
     def lines(self, sheet: Sheet) -> list[MountLine]:
         """Those of the mounts."""
