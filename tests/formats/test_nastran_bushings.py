@@ -380,14 +380,30 @@ def test_superelements_that_are_left_out_are_told(read):
 
 def test_springs_that_are_near_no_attachment_are_left_out_and_told(pair, tmp_path, capsys):
     inner = grids([900, 901], [[5000, 0, 0], [5000, 0, 10]])
-    mounts = ["CBUSH,1,7,11,1011,,,,0", "CBUSH,2,7,900,901,,,,0", "CELAS2,3,5.,900,1,901,1"]
+    inner_springs = ["CBUSH,2,7,900,901,,,,0", "CELAS2,3,5.,900,1,901,1"]
+    mounts = ["CBUSH,1,7,11,1011,,,,0", "CBUSH,4,7,22,1022,,,,0", *inner_springs]
     path = tmp_path / "joints.bdf"
     cards = [*grids(LABELS, CORNERS), *grids(LABELS + 1000, CORNERS), *inner, PBUSH, *mounts]
     path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
     assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s"]) == 0
-    assert [c.name for c in read_vehicle(pair).all_connections] == ["CBUSH 1"]
+    assert [c.name for c in read_vehicle(pair).all_connections] == ["CBUSH 1", "CBUSH 4"]
     said = capsys.readouterr().err
     assert "CBUSH 2, CELAS 3: no body has an attachment near, and are left out" in said
+
+
+def test_a_file_in_other_units_is_refused_even_if_a_spring_of_it_is_at_the_origin(
+    pair, tmp_path, capsys
+):
+    at = CORNERS[list(LABELS).index(11)]
+    cards = [*grids(LABELS + 1000, CORNERS - at), *grids(LABELS + 2000, CORNERS - at), PBUSH]
+    cards += [f"CBUSH,{n},7,{n + 1000},{n + 2000},,,,0" for n in (11, 12, 22)]
+    path = tmp_path / "joints.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    before = (pair / "vehicle.toml").read_bytes()
+    options = ["--output", str(pair), "--units", "m-kg-s"]
+    assert main(["import", str(path), *options]) == 2
+    assert "joints.bdf: 2 of 3 springs have no attachment of a body near" in capsys.readouterr().err
+    assert (pair / "vehicle.toml").read_bytes() == before
 
 
 def test_a_file_stands_in_the_vehicle_as_its_pose_says(pair, tmp_path):

@@ -105,7 +105,8 @@ def read_mounts(
         for text in misfit_notes(pose):
             note(text)
         bushings = tuple(bushing.moved(pose) for bushing in bushings)
-    return near_bushings(bushings, target, note)
+    with located(path.name):
+        return near_bushings(bushings, target, note)
 
 
 def _system(name: str | None) -> UnitSystem | None:

@@ -62,17 +62,27 @@ def near_bushings(
 ) -> tuple[Bushing, ...]:
     """Return the bushings that something of a vehicle is near, or all if there is nothing near any.
 
-    Those of an input file may be within bodies, as spot welds are.
+    Those of an input file may be within bodies, as spot welds are; but where most are near nothing, the
+    file is likely in other units or elsewhere.
 
     Args:
         bushings: in SI and the axes of the vehicle's file.
         target: of the vehicle.
         note: told which are left out.
+
+    Raises:
+        VehicleError: most of them are near nothing.
     """
     ends = Ends(target.vehicle, target.axes)
     far = [bushing.name for bushing in bushings if ends.is_far(bushing)]
     if not far or len(far) == len(bushings):
         return tuple(bushings)
+    if 2 * len(far) > len(bushings):
+        raise VehicleError(
+            f"{len(far)} of {len(bushings)} springs have no attachment of a body near, such as "
+            f"{listed(far[:3])}; are the units others, or does the file stand elsewhere (--pose)? "
+            "Take springs within bodies out of it"
+        )
     note(f"{listed(far)}: no body has an attachment near, and are left out")
     return tuple(bushing for bushing in bushings if bushing.name not in far)
 
