@@ -9,6 +9,7 @@ import numpy as np
 from modeviz.analysis.preparation import PreparedModes
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.band import BandModes, Method, band_modes
+from modeviz.dynamics.component_trust import ComponentTrust, component_trust
 from modeviz.dynamics.damped import DampedModes, damped_modes
 from modeviz.dynamics.energy import kinetic_energy, strain_energy
 from modeviz.dynamics.modes import Modes
@@ -51,6 +52,11 @@ class ModalResults:
     def vehicle(self) -> Vehicle:
         """With these rates."""
         return self.prepared.vehicle.with_rates(self.rates)
+
+    @cached_property
+    def components(self) -> tuple[ComponentTrust, ...]:
+        """How far each flexible body is believed with these rates; raises as `component_trust`."""
+        return component_trust(self.system, self.prepared.basis.top_hz)
 
     @cached_property
     def resonances(self) -> Resonances:

@@ -8,7 +8,6 @@ import numpy as np
 
 from modeviz.dynamics.assembly import System, assemble
 from modeviz.dynamics.basis import EnrichedBasis, prepare_basis
-from modeviz.dynamics.component_trust import ComponentTrust, component_trust
 from modeviz.dynamics.inputs import directions
 from modeviz.dynamics.interpolation import Between, modified_between, prepare_between
 from modeviz.dynamics.mode_damping import with_mode_damping
@@ -49,11 +48,6 @@ class PreparedModes:
     def n_bytes(self) -> int:
         """The memory that the prepared arrays take."""
         return self.system.n_bytes + self.basis.n_bytes + self.namer.rows.nbytes
-
-    @property
-    def components(self) -> tuple[ComponentTrust, ...]:
-        """How far each flexible body is believed, with the vehicle's own rates."""
-        return component_trust(self.system, self.basis.top_hz)
 
     def all_rates(self, rates: Rates) -> dict[str, MountRates]:
         """The rates of every group, see `Vehicle.all_rates`."""

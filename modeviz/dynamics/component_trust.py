@@ -8,7 +8,6 @@ the last ones did.
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 import scipy.linalg
@@ -42,14 +41,13 @@ class ComponentTrust:
     """The natural frequency that it does most to; zero if there is none."""
 
 
-@lru_cache(maxsize=2)
 def component_trust(system: System, top_hz: float) -> tuple[ComponentTrust, ...]:
     """Estimate the truncation of each flexible body of a vehicle, in the order of its bodies.
 
-    It takes as long as an eigenproblem of the vehicle for each, so the last answers are kept.
+    It takes as long as an eigenproblem of the vehicle for each.
 
     Args:
-        system: of the vehicle.
+        system: of the vehicle, with the rates that are asked for: stiffer ones need more modes.
         top_hz: of the band that is looked at.
 
     Raises:

@@ -22,9 +22,9 @@ def is_doubtful(trust: ComponentTrust, top_hz: float) -> bool:
 
 
 def believed(results: ModalResults) -> tuple[str, ...]:
-    """For each flexible body how high its modes reach, and how much the last of them matter."""
+    """For each flexible body how high its modes reach, and what the last do with these rates."""
     top_hz = results.prepared.basis.top_hz
-    return tuple(_words(trust, top_hz) for trust in results.prepared.components)
+    return tuple(_words(trust, top_hz) for trust in results.components)
 
 
 def component_record(trust: ComponentTrust) -> dict[str, str | float | None]:

@@ -48,7 +48,7 @@ def modes_record(followed: Followed, below_hz: float) -> Record:
         "n_missed": results.trust.n_missed,
         "modes": [_mode_record(results, i) for i in _below(results, below_hz)],
         "original": [_origin_record(followed, i) for i in _below(followed.base, below_hz)],
-        "components": [component_record(trust) for trust in results.prepared.components],
+        "components": [component_record(trust) for trust in results.components],
     }
 
 

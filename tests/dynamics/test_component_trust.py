@@ -11,6 +11,7 @@ from html_documents import Document
 from mounted_cabin import mounted_cabin
 from one_element import OneElement
 from oracles import Beam
+from session_commands import Listener
 
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
@@ -19,13 +20,17 @@ from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.component_trust import component_trust
 from modeviz.dynamics.modes import solve_modes
 from modeviz.files import write_vehicle
+from modeviz.files.rate_files import write_rates
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import report
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.connections import GROUND, MOTIONS, Spring
+from modeviz.vehicle.connections import GROUND, MOTIONS, Mount, MountGroup, MountRates, Spring
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.panels.status import StatusPanel
+from modeviz.viewer.session.commands.decisions import TakeRates
 from modeviz.viewer.session.findings import Findings
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import first_state
 
 BEAM = Beam(10, mass_per_length=60.0)
 HELD = ((0, 2), (5, 1), (5, 2), (10, 2))
@@ -130,14 +135,84 @@ def test_a_report_has_it_beside_exact(vehicle):
     assert "rack: modes up to" in words
 
 
+OTHER = {"feet": MountRates(2e5, 2e5, 2e5)}
+"""Than the vehicle has: rates of which other things are to be told."""
+
+
+@pytest.fixture(scope="module")
+def tunable(vehicle) -> Vehicle:
+    """The same, and the springs of the rack are a group of mounts whose rates may be asked for."""
+    of_rack = [c for c in vehicle.connections if c.group == "s"]
+    group = MountGroup(
+        "feet",
+        "roof rack",
+        MountRates(2e6, 2e6, 2e6),
+        0.1,
+        (MountRates(1e4, 1e4, 1e4), MountRates(1e9, 1e9, 1e9)),
+        tuple(Mount(c.name, "feet", c.bodies, c.points) for c in of_rack),
+    )
+    return replace(
+        vehicle,
+        connections=tuple(c for c in vehicle.connections if c.group != "s"),
+        mount_groups=(*vehicle.mount_groups, group),
+    )
+
+
+def test_modes_tells_of_the_rates_that_are_asked_for(tmp_path, capsys, printed_json, tunable):
+    """As if the folder had them."""
+    asked, written = tmp_path / "asked", tmp_path / "written"
+    write_vehicle(tunable, asked)
+    write_vehicle(tunable.with_rates(OTHER), written)
+    write_rates(tmp_path / "rates.json", tunable.all_rates(OTHER))
+    rates = ["--rates", str(tmp_path / "rates.json")]
+    told = printed_json("modes", str(asked), *rates)["components"][0]["change"]
+    assert told == pytest.approx(
+        printed_json("modes", str(written))["components"][0]["change"], rel=1e-6
+    )
+    assert told > 2 * printed_json("modes", str(asked))["components"][0]["change"]
+    assert main(["modes", str(asked), *rates]) == 0
+    assert f"rise by up to {100 * told:.2g} %" in capsys.readouterr().out
+
+
+def test_a_report_tells_of_the_rates_that_it_is_on(tunable):
+    prepared = prepare(tunable)
+    now = RateSet("other", OTHER)
+    words = Document(
+        report(compare(prepared, RateSet("original", {}), now, None), date(2026, 11, 22))
+    ).words
+    (trust,) = component_trust(assemble(tunable.with_rates(OTHER)), prepared.basis.top_hz)
+    assert f"With the rates of other, rack: modes up to {trust.highest_hz:.3g} Hz" in words
+    assert f"rise by up to {100 * trust.change:.2g} %" in words
+
+
+def test_the_page_tells_of_the_rates_that_it_shows_and_of_none_before_they_are_looked_into(tunable):
+    heard = Listener()
+    session = Session(tunable, first_state(tunable, tunable.rates, Conditions("flat", 20.0)), heard)
+    try:
+        session.start()
+        assert session.wait_checked(60)
+        before = len(heard.answers)
+        session.do(TakeRates(tunable.all_rates(OTHER)))
+        assert session.wait_checked(60)
+    finally:
+        session.close()
+    assert heard.answers[before].findings.components is None
+    findings = heard.answers[-1].findings
+    top_hz = findings.now.prepared.basis.top_hz
+    (expected,) = component_trust(assemble(tunable.with_rates(OTHER)), top_hz)
+    assert findings.components[0].change == pytest.approx(expected.change, rel=1e-6)
+    assert findings.is_complete
+
+
 def test_the_page_has_it_once_it_is_known(vehicle):
     now = solve(prepare(vehicle, np.array([1.0, 2.0])), {}, Conditions("flat", 20.0))
     page = OneElement()
     panel = StatusPanel(page)
     values = {"classic_error": None, "seconds": 0.004, "missing": ""}
     state = SimpleNamespace(classic=False, against="Original")
-    for known in ((), now.prepared.components):
+    for known in (None, now.components):
         findings = Findings(now, components=known)
         panel.show(SimpleNamespace(now=now, state=state, findings=findings, **values))
-        assert ("last fifth of rack" in page.content) == bool(known)
+        assert ("last fifth of rack's modes" in page.content) == bool(known)
         assert ("rack: modes up to" in page.content) == bool(known)
+        assert ("truncation of bodies is not looked into yet" in page.content) != bool(known)

@@ -18,7 +18,8 @@ def exactness(comparison: Comparison, check: Check | None) -> str:
     items = [f"{title(name)}: {health(results)}." for name, results in sets]
     if check is not None:
         items.append(_checked(check, escape(comparison.names[1])))
-    items += [f"{escape(words)}." for words in believed(comparison.now)]
+    rates = f"With the rates of {escape(comparison.names[1])}"
+    items += [f"{rates}, {escape(words)}." for words in believed(comparison.now)]
     return section("How exact this is", "<ul>", *(f"<li>{item}</li>" for item in items), "</ul>")
 
 

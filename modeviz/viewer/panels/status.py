@@ -8,6 +8,7 @@ import viser
 from modeviz.analysis.results import Results
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.report.components import believed, change_words, is_doubtful
+from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, span, title
 from modeviz.viewer.session.answers import Solved
@@ -69,16 +70,22 @@ def _found(now: Results) -> str:
 def _believed(rest: Findings) -> list[str]:
     """Return how far the bodies are believed: the worst of them, and all where the pointer rests."""
     if not rest.components:
-        return []
+        return [] if rest.components is not None or rest.problem else _believed_later(rest.now)
     top_hz = rest.now.prepared.basis.top_hz
     worst = max(rest.components, key=lambda c: (is_doubtful(c, top_hz), c.change))
     lowest = min(rest.components, key=lambda c: c.highest_hz)
     text = (
         f"bodies: modes up to {lowest.highest_hz:.3g} Hz ({escape(lowest.body)}) or more; without the "
-        f"last fifth of {escape(worst.body)}'s {change_words(worst)}"
+        f"last fifth of {escape(worst.body)}'s modes {change_words(worst)}"
     )
     shown = span(text, "bad") if is_doubtful(worst, top_hz) else text
     return [hinted(shown, escape("\n".join(believed(rest.now)), quote=True))]
+
+
+def _believed_later(now: Results) -> list[str]:
+    """Return that it is not known how far the bodies are believed, of a vehicle that has some."""
+    is_flexible = any(isinstance(body, FlexibleBody) for body in now.prepared.vehicle.bodies)
+    return ["the truncation of bodies is not looked into yet"] if is_flexible else []
 
 
 def _compared(solved: Solved) -> str:

@@ -17,12 +17,13 @@ class Findings:
     """What ten percent of each rate do, once that is known."""
     check: Check | None = None
     """How far `now` is from the exact answer, as far as that is known."""
-    components: tuple[ComponentTrust, ...] = ()
-    """How far the bodies are believed, once that is known."""
+    components: tuple[ComponentTrust, ...] | None = None
+    """How far the bodies are believed with the rates of `now`, once that is known."""
     problem: str = ""
     """Why no more will be known, if so."""
 
     @property
     def is_complete(self) -> bool:
         """Whether there is no more to find out."""
-        return bool(self.problem) or (self.check is not None and self.check.is_complete)
+        is_checked = self.check is not None and self.check.is_complete
+        return bool(self.problem) or (is_checked and self.components is not None)

@@ -79,10 +79,12 @@ class Inspector:
             self._learn(solved.now, problem=str(error))
 
     def _find_out(self, solved: Solved) -> None:
-        """Learns what the rates of an answer do and how exact it is, as long as it is current."""
+        """Learns what the rates of an answer do, how exact it is, and how far its bodies are believed.
+
+        As long as it is current.
+        """
         now, near = solved.now, self._answers.rebase(solved.state)
         self._learn(now, sensitivity=sensitivity(near, now))
-        self._learn(now, is_to_be_drawn=False, components=now.prepared.components)
         told = 0.0
         for check in check_exactly(now):
             if not self._is_current(solved):
@@ -90,6 +92,8 @@ class Inspector:
             if check.is_complete or time.perf_counter() - told > TELL_EVERY:
                 told = time.perf_counter()
                 self._learn(now, is_to_be_drawn=False, check=check)
+        if self._is_current(solved):
+            self._learn(now, is_to_be_drawn=False, components=now.components)
 
     def _learn(self, now: Results, is_to_be_drawn: bool = True, **news: Any) -> None:
         """Keeps and tells what is now known of results, if they are still the newest."""
