@@ -36,6 +36,9 @@ class ViewOptions(VehicleOptions, RoadOptions):
     dark: bool = False
     """Whether the page is dark."""
 
+    bodies: bool = False
+    """Whether bodies are looked at one by one though they make a vehicle."""
+
     def of_folder(self) -> "ViewOptions":
         """Return the options with the vehicle folder that is asked for.
 
@@ -70,10 +73,11 @@ def view(options: ViewOptions) -> None:
         inspect(ResultFiles(options.what), *door, options.public_names, remark)
         return
     options = options.of_folder()
-    vehicle = finished_vehicle(options.vehicle or builtin_vehicle())
+    folder = options.vehicle or builtin_vehicle()
+    vehicle = None if options.bodies else finished_vehicle(folder)
     if vehicle is None:
-        assert options.vehicle is not None
-        inspect(VehicleFolder(options.vehicle), *door, options.public_names, remark)
+        source = VehicleFolder(folder, is_ours=options.vehicle is None)
+        inspect(source, *door, options.public_names, remark)
         return
     vehicle, start = options.with_rates(vehicle)
     vehicle, chosen = options.shown(vehicle)
@@ -115,6 +119,11 @@ def _add_options(command: ArgumentParser) -> None:
         help="let in whoever is on this machine",
     )
     command.add_argument("--dark", action="store_true", help="dark page")
+    command.add_argument(
+        "--bodies",
+        action="store_true",
+        help="look at bodies one by one, in their own modes, and take files of others to import",
+    )
 
 
 VIEW = Command("view", "open the vehicle in the browser", ViewOptions, _add_options, view)

@@ -96,6 +96,7 @@ class App:
         scripts.run(self._gui, "page/delivery.js")
         scripts.run(self._gui, "page/numbers.js")
         scripts.run(self._gui, "page/zoom.js")
+        scripts.run(self._gui, "page/no_drop.js")
         self._gui.configure_theme(
             dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
         )

@@ -175,6 +175,17 @@ def test_a_click_on_a_peaks_contributor_shows_that_mode(app, page):
     assert app.session.state.group == max(GROUPS, key=lambda group: shares[group])
 
 
+def test_a_file_that_is_dropped_does_not_take_the_place_of_the_page(page):
+    assert page.evaluate(
+        """() => ["dragover", "drop"].map((kind) => {
+            const carrier = new DataTransfer();
+            carrier.items.add(new File(["x"], "run.op2"));
+            const event = { dataTransfer: carrier, bubbles: true, cancelable: true };
+            return document.querySelector("canvas").dispatchEvent(new DragEvent(kind, event));
+        })"""
+    ) == [False, False]
+
+
 def test_what_a_page_loses_is_put_back(app, page):
     """viser throttles all widgets with one timer; the server's value must reach the screen."""
     row = app._mounts._folders[GROUPS.index("C2")]._rows["lateral"]

@@ -58,6 +58,7 @@ class ImportPanel:
         self._look_at, self._added = look_at, added
         self._received = Received()
         self._lock = threading.Lock()
+        self._named = ""
         self._upload = gui.add_upload_button(
             "Choose a file…",
             icon=viser.Icon.UPLOAD,
@@ -87,6 +88,14 @@ class ImportPanel:
         )
         forget.on_click(lambda _: self._forget())
         self._units.on_update(self._redraw)
+        if folder is not None:
+            again = gui.add_button(
+                "Read the folder again",
+                icon=viser.Icon.REFRESH,
+                color="gray",
+                hint="After its vehicle.toml was changed elsewhere",
+            )
+            again.on_click(self._read_again)
         scripts.run(gui, "inspection/drop.js", name_of(self._upload), TAB)
         self._say(span(f"Drop files here: {', '.join(TAKEN)}", "dim"))
 
@@ -105,11 +114,15 @@ class ImportPanel:
         with self._lock:
             try:
                 self._received.add(file.name, file.content)
-                if not self._name.value:
-                    self._name.value = PurePath(self._received.names[0]).stem
+                self._name_after(self._received.names[0])
                 self._show()
             except ModevizError as error:
                 self._refuse(error)
+
+    def _name_after(self, file: str) -> None:
+        """Calls the body as the first of its files, unless somebody has given it a name."""
+        if self._name.value in ("", self._named):
+            self._name.value = self._named = PurePath(file).stem
 
     def _redraw(self, event: viser.GuiEvent) -> None:
         if event.client is not None and self._received.names:
@@ -159,6 +172,14 @@ class ImportPanel:
                 done = put(paths, asked, folder := Path(home, "vehicle"))
             client.send_file_download("vehicle.zip", _zipped(folder), save_immediately=True)
         return done
+
+    def _read_again(self, event: viser.GuiEvent) -> None:
+        if event.client is None:
+            return
+        try:
+            self._added("")
+        except ModevizError as error:
+            event.client.add_notification("Not read", str(error), color="red")
 
     def _chosen_units(self) -> str | None:
         return None if self._units.value == AS_THE_FILES_SAY else self._units.value

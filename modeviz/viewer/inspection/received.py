@@ -6,8 +6,9 @@ from pathlib import Path, PurePath
 from tempfile import TemporaryDirectory
 
 from modeviz.errors import ModevizError, VehicleError
+from modeviz.formats.matrices import SUFFIXES as MATRICES
 from modeviz.formats.mounts.imported import SUFFIXES as MOUNTS
-from modeviz.formats.reading import ENDINGS
+from modeviz.formats.reading import ENDINGS, READERS
 from modeviz.formats.roads.imported import SUFFIXES as ROADS
 
 TAKEN = tuple(dict.fromkeys((*ENDINGS, *MOUNTS, *ROADS)))
@@ -36,6 +37,8 @@ class Received:
     def add(self, name: str, content: bytes) -> None:
         """Keeps a file, which others may include; one of the same name goes.
 
+        Mounts and roads that are still there go before a component's results.
+
         Raises:
             VehicleError: it has no name, or there are too many files or bytes.
         """
@@ -44,6 +47,8 @@ class Received:
             raise VehicleError("a file without a name has come")
         if name not in self._paths and len(self._paths) >= MOST_FILES:
             raise VehicleError(f"{name}: is one more than {MOST_FILES} files; use modeviz import")
+        if _has_results(name) and all(map(_is_alone, self._paths)):
+            self.clear()
         path = Path(self._folder.name, name)
         others = sum(p.stat().st_size for n, p in self._paths.items() if n != name)
         if others + len(content) > MOST_BYTES:
@@ -77,3 +82,14 @@ class Received:
     def close(self) -> None:
         """Deletes them."""
         self._folder.cleanup()
+
+
+def _has_results(name: str) -> bool:
+    """Whether a file has a component's results, and not matrices, which go with a table of nodes."""
+    suffix = PurePath(name).suffix.lower()
+    return suffix in READERS and suffix not in MATRICES
+
+
+def _is_alone(name: str) -> bool:
+    """Whether a file has mounts or a road, or is a table of nodes."""
+    return PurePath(name).suffix.lower() in (*MOUNTS, *ROADS)

@@ -57,7 +57,14 @@ class ResultFiles:
 class VehicleFolder:
     """A vehicle folder, finished or not, or one that is to become one."""
 
-    folder: Path
+    path: Path
+    is_ours: bool = False
+    """Whether it comes with modeviz, so that nothing is put into it."""
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder, if bodies can be put into it."""
+        return None if self.is_ours else self.path
 
     def read(self) -> Content:
         """Return the bodies in it, and what it lacks.
@@ -65,15 +72,17 @@ class VehicleFolder:
         Raises:
             VehicleError: there is no body that could be read.
         """
-        if is_empty(self.folder):
-            return Content(self.folder.resolve().name, (), (EMPTY,))
-        found = survey(self.folder)
+        if is_empty(self.path):
+            return Content(self.path.resolve().name, (), (EMPTY,))
+        found = survey(self.path)
         if found.vehicle is None:
             raise VehicleError("; ".join(map(str, found.problems)))
         subjects = tuple(subject_of_body(body) for body in found.bodies)
         problems = map(str, found.problems)
-        missing = (*problems, *unfinished(found.vehicle), *found.vehicle.notes)
-        return Content(found.vehicle.name, subjects, missing)
+        missing = (*problems, *unfinished(found.vehicle))
+        if not missing:
+            missing = (f"All is there: modeviz view {self.path} opens it for tuning.",)
+        return Content(found.vehicle.name, subjects, (*missing, *found.vehicle.notes))
 
 
 def finished_vehicle(folder: Path) -> Vehicle | None:

@@ -152,3 +152,15 @@ def test_a_residual_compliance_is_kept(received, tmp_path):
         put(paths, asked, tmp_path / "vehicle")
     (body,) = read_vehicle(tmp_path / "vehicle").bodies
     np.testing.assert_allclose(body.residual_compliance("corner")[0, 0], 1e-6, rtol=1e-6)
+
+
+def test_mounts_that_wait_go_when_a_body_comes(received):
+    received.add("mounts.csv", MOUNTS.format(rates="1,2,3", property="").encode())
+    received.add("network.unv", network_unv().encode())
+    assert received.names == ("network.unv",)
+
+
+def test_a_table_of_nodes_waits_for_its_matrices(received):
+    received.add("nodes.csv", b"node,x,y,z\n1,0,0,0\n")
+    received.add("K.mtx", b"%%MatrixMarket\n")
+    assert received.names == ("nodes.csv", "K.mtx")

@@ -83,3 +83,13 @@ def test_files_say_how_they_become_a_vehicle(tmp_path):
     content = ResultFiles((file,)).read()
     assert "modeviz import network.unv --output" in content.missing[0]
     assert content.subjects[0].modes[6].frequency_hz > 0
+
+
+def test_a_finished_vehicle_says_how_it_is_tuned(tmp_path):
+    write_vehicle(mounted_cabin(), tmp_path / "cabin")
+    content = VehicleFolder(tmp_path / "cabin").read()
+    assert content.missing[0] == f"All is there: modeviz view {tmp_path / 'cabin'} opens it for tuning."
+
+
+def test_nothing_is_put_into_the_truck_that_comes_along():
+    assert VehicleFolder(builtin_vehicle(), is_ours=True).folder is None
