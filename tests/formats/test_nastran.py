@@ -614,6 +614,19 @@ def test_damaged_decks_are_refused_in_a_sentence(read, deck, words):
     assert len(str(caught.value).splitlines()) == 1
 
 
+def test_an_input_file_of_another_model_is_refused(read):
+    """It shares a few numbers of grids with the run, as nearly all models do."""
+    grids = [(number, 0, (float(number), 0.0, 0.0), 0) for number in range(1, 6)]
+    shape = OP2.shape(range(1, 6), np.ones((5, 6)))
+    moved = OP2.table("OUGV1", OP2.header(MODES, 1, 100.0), shape)
+    op2 = OP2.file(OP2.table("GEOM1", OP2.grids(grids)), moved)
+    shared = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n"
+    with pytest.raises(VehicleError, match="not of one model: 3 of the 5 grids that a.op2 moves"):
+        read(op2, f"BEGIN BULK\n{shared}ENDDATA\n")
+    component = read(op2, f"BEGIN BULK\n{shared}GRID,3,,2.,0.,0.\nENDDATA\n")
+    assert "2 grids are moved but not in the input file" in component.notes
+
+
 def test_two_decks_are_refused(tmp_path):
     for name in ("a.bdf", "b.dat"):
         (tmp_path / name).write_text("GRID,1,,0.,0.,0.\n")

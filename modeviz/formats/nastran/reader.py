@@ -64,6 +64,8 @@ def read_nastran(paths: Sequence[Path]) -> Component:
         return _without_geometry(results[0])
     with located(", ".join(map(str, paths))):
         places, frames = basic_geometry(model)
+        if decks and results:
+            _check_one_model(model, results[0])
         if not results or results[0].shapes is None:
             missing = (
                 "the file of results has no modes"
@@ -73,6 +75,22 @@ def read_nastran(paths: Sequence[Path]) -> Component:
             said = [*(note for one in results for note in one.notes), missing]
             return _without_modes(model, places, frames, said)
         return _component(model, places, frames, results[0])
+
+
+def _check_one_model(model: Model, results: _Results) -> None:
+    """Checks that an input file has most of the grids that results move; those of others may be few.
+
+    Raises:
+        VehicleError: it does not.
+    """
+    ids = np.zeros(0, np.int64) if results.shapes is None else results.shapes.ids
+    n_there = int(np.isin(ids, model.ids).sum())
+    if 2 * n_there < len(ids):
+        raise VehicleError(
+            f"these two files are not of one model: {len(ids) - n_there} of the {len(ids)} grids that "
+            f"{results.path.name} moves are not in the input file, which has {len(model.ids)}; give the "
+            "input file of that run"
+        )
 
 
 def _read_results(path: Path) -> _Results:
