@@ -39,6 +39,9 @@ from modeviz.vehicle.problem import Problem
 REACH = 0.10
 """m: how far from an attachment of a flexible body a connection may hold on to it."""
 
+FARTHEST = 20.0
+"""m: hardly a vehicle is farther from its origin."""
+
 USUAL_SPEED = 20.0
 """m/s: 72 km/h."""
 
@@ -342,7 +345,18 @@ class Vehicle:
             raise VehicleError(
                 f"{position.tolist()} is {distance:.2f} m from the nearest attachment of "
                 f"{body_name!r}, {nearest.name!r}; at most {REACH} m is allowed"
+                f"{_in_other_units(body, position)}"
             )
+
+
+def _in_other_units(body: FlexibleBody, position: Floats) -> str:
+    """Words for a place that would be near an attachment in mm where it is in m, or the reverse."""
+    is_far = np.abs(position).max() > FARTHEST
+    scale, meant, found = (1e-3, "mm", "m") if is_far else (1e3, "m", "mm")
+    moved = scale * position
+    if np.linalg.norm(body.nearest_attachment(moved).position - moved) > REACH:
+        return ""
+    return f"; it would fit if its numbers were in {meant} and not in {found}: see length in [units]"
 
 
 def track_width(tyres: Sequence[Tyre]) -> float:

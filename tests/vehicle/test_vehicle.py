@@ -164,6 +164,23 @@ def test_connection_may_hold_on_as_far_as_it_reaches():
 
 
 @pytest.mark.parametrize(
+    ("place", "words"),
+    [
+        ((101.0, 199.0, 300.0), "it would fit if its numbers were in mm and not in m"),
+        ((1e-4, 2e-4, 3.2e-4), "it would fit if its numbers were in m and not in mm"),
+        ((2.0, 0.0, 0.0), None),
+    ],
+)
+def test_a_place_that_fits_in_another_unit_is_told_so(place, words):
+    cab = replace(CAB, attachments=CAB.attachments[1:])
+    with pytest.raises(VehicleError) as caught:
+        Vehicle("car", (cab,), (), response_points=(ResponsePoint("seat", "cab", place),))
+    text = str(caught.value)
+    assert "from the nearest attachment of 'cab'" in text
+    assert words in text if words else "if its numbers" not in text
+
+
+@pytest.mark.parametrize(
     ("ask", "words"),
     [
         (lambda: VEHICLE.body("Cab"), "unknown body 'Cab': did you mean 'cab'?"),
