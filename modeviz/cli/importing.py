@@ -42,6 +42,7 @@ OF_A_BODY = (
     "plane",
     "mesh",
     "mesh_unit",
+    "replace",
 )
 """What only a body that is written has."""
 
@@ -80,6 +81,8 @@ class ImportOptions:
     """How matrices are condensed first, as `Wanted` has it."""
     frequency: float | None = None
     """Hz, at which mounts have the rates that an input file has over frequency."""
+    replace: bool = False
+    """Whether it takes the place of the body of that name."""
     bodies: tuple[str, ...] = ()
     """Two, that the springs of an input file join; none: those where its grids are."""
     track_width: float | None = None
@@ -106,7 +109,7 @@ class ImportOptions:
             ModevizError: something is, which is not of what the files hold.
         """
         for field in fields(self):
-            is_given = getattr(self, field.name) not in (None, ())
+            is_given = getattr(self, field.name) not in (None, (), False)
             if is_given and field.name not in ("files", "output", *names):
                 raise ModevizError(
                     f"--{field.name.replace('_', '-')}: found with a file of {what}, which has none"
@@ -149,6 +152,7 @@ def import_component(options: ImportOptions) -> None:
         mesh=options.mesh,
         mesh_unit=options.mesh_unit,
         wanted=wanted,
+        replaces=options.replace,
     )
     imported = import_body(component, options.name or options.files[0].stem, settings, options.output)
     assert imported.vehicle
@@ -253,6 +257,12 @@ def _add_options(command: ArgumentParser) -> None:
         help=f"of the files, where they do not say: {', '.join(UNIT_SYSTEMS)}",
     )
     command.add_argument("--name", metavar="NAME", help="of the body (default: the first file's)")
+    command.add_argument(
+        "--replace",
+        action="store_true",
+        help="give the body of that name in the folder new modes, mesh and attachments; what stands in "
+        "vehicle.toml else stays",
+    )
     command.add_argument(
         "--attach",
         action="append",

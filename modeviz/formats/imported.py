@@ -62,6 +62,8 @@ class ImportSettings:
     """Of that; None: as the mesh says, else as the component."""
     wanted: Wanted = field(default_factory=Wanted)
     """The modes of matrices."""
+    replaces: bool = False
+    """Whether the body of that name in the folder is replaced."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +93,7 @@ def import_component(
     n_modes: int | None = None,
     up_to_hz: float | None = None,
     condense: Condensation | None = None,
+    replaces: bool = False,
 ) -> Imported:
     """Return a body made of another program's files, as `modeviz import` makes it.
 
@@ -109,6 +112,7 @@ def import_component(
         n_modes: of matrices, how many to compute.
         up_to_hz: of matrices, up to which frequency instead.
         condense: of matrices, how to condense them first, "guyan" or "craig-bampton"; needs `up_to_hz`.
+        replaces: whether the body of that name in the folder gets new modes, mesh and attachments.
 
     Raises:
         VehicleError: the files cannot be read, or make no body that can be coupled to others.
@@ -129,6 +133,7 @@ def import_component(
         mesh=None if mesh is None else Path(mesh),
         mesh_unit=mesh_unit,
         wanted=wanted,
+        replaces=replaces,
     )
     folder = None if output is None else Path(output)
     component = read_component(paths)
@@ -163,7 +168,7 @@ def import_body(
         body = replace(body, mesh=_looks(settings.mesh, settings.mesh_unit, units))
     if pose is not None:
         body, said = pose.moved(body), (*misfit_notes(pose), *said)
-    vehicle = add_body(body, folder, component.source) if folder else None
+    vehicle = add_body(body, folder, component.source, settings.replaces) if folder else None
     return Imported(body, found, (*said, *notes), vehicle)
 
 

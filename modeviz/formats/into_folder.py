@@ -1,34 +1,37 @@
 """A body put into a vehicle folder, new or there, with words on what to fill in next."""
 
 import shutil
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
-from modeviz.errors import VehicleError, quoted
+from modeviz.errors import VehicleError, located, quoted
 from modeviz.files.disk import file_stems, read_text, replace_folder, write_text
 from modeviz.files.folder import VEHICLE_FILE, read_vehicle
 from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
 from modeviz.files.schema.scaling import WRITTEN_UNITS
+from modeviz.files.toml_reader import tables_of
 from modeviz.files.toml_writer import toml_value
+from modeviz.formats.replaced_table import replaced_stem, with_table
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle
 
 
-def add_body(body: FlexibleBody, folder: Path, origin: str) -> Vehicle:
+def add_body(body: FlexibleBody, folder: Path, origin: str, replaces: bool = False) -> Vehicle:
     """Return the vehicle of a folder into which a body is put; it is made if it isn't there.
 
-    What stands in its vehicle.toml stays to the letter; the body's table comes after it.
+    What stands in its vehicle.toml stays to the letter; the body's table comes after it, or in the
+    place of what it replaces.
 
     Args:
-        body: in SI; its name is none of the vehicle's.
+        body: in SI; its name is none of the vehicle's, unless it replaces that one.
         folder: of the vehicle.
         origin: of what it was made, to say so.
+        replaces: whether the flexible body of its name gets its modes, mesh and attachments.
 
     Raises:
-        VehicleError: the folder holds something else, has such a body, cannot be written, or would
-            not be a vehicle; it is as it was then.
+        VehicleError: the folder holds something else, has such a body, or none to replace, cannot be
+            written, or would not be a vehicle; it is as it was then.
     """
     is_there = (folder / VEHICLE_FILE).is_file()
     if folder.exists() and not is_there and (not folder.is_dir() or any(folder.iterdir())):
@@ -36,19 +39,21 @@ def add_body(body: FlexibleBody, folder: Path, origin: str) -> Vehicle:
             f"{folder}: is no vehicle folder, and not empty, so nothing is put into it; give a new one"
         )
     text = read_text(folder / VEHICLE_FILE) if is_there else "\n".join(_heading(folder.resolve().name))
-    if body.name in (names := _names(text, folder / VEHICLE_FILE)):
-        raise VehicleError(
-            f"{folder}: has a body {quoted(body.name)} already; give this one another name with --name"
-        )
-    stem = file_stems([*names, body.name])[body.name]
+    path = folder / VEHICLE_FILE
+    if replaces:
+        stem = replaced_stem(text, body.name, path)
+        text = with_table(text, body.name, [*_table(body, stem, origin)], path)
+    else:
+        stem = _new_stem(text, body.name, path)
+        table = [*_table(body, stem, origin), *([] if is_there else _next_steps(body))]
+        text = text.rstrip() + "\n\n" + "\n".join(table) + "\n"
     vehicles = []
 
     def fill(new: Path) -> None:
         if is_there:
             shutil.copytree(folder, new, symlinks=True, dirs_exist_ok=True)
-        table = [*_table(body, stem, origin), *([] if is_there else _next_steps(body))]
-        write_text(new / VEHICLE_FILE, text.rstrip() + "\n\n" + "\n".join(table) + "\n")
-        _write_arrays(body, new, stem)
+        write_text(new / VEHICLE_FILE, text)
+        _write_arrays(body, new, stem, replaces)
         try:
             vehicles.append(read_vehicle(new))
         except VehicleError as error:
@@ -58,21 +63,27 @@ def add_body(body: FlexibleBody, folder: Path, origin: str) -> Vehicle:
     return vehicles[0]
 
 
-def _names(text: str, path: Path) -> list[str]:
-    """Of the bodies in a vehicle's file."""
-    try:
-        tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise VehicleError(f"{path}: {error}") from None
+def _new_stem(text: str, name: str, path: Path) -> str:
+    """Of the files of a body that a vehicle's file does not have yet; raises VehicleError if it has."""
+    with located(path):
+        tables = tables_of(text)
     bodies = [*tables.get("flexible_body", []), *tables.get("rigid_body", [])]
-    return [str(body.get("name", "")) for body in bodies if isinstance(body, dict)]
+    names = [str(body.get("name", "")) for body in bodies if isinstance(body, dict)]
+    if name in names:
+        raise VehicleError(
+            f"{path.parent}: has a body {quoted(name)} already; put this one in its place with "
+            "--replace, or give it another name with --name"
+        )
+    return file_stems([*names, name])[name]
 
 
-def _write_arrays(body: FlexibleBody, folder: Path, stem: str) -> None:
+def _write_arrays(body: FlexibleBody, folder: Path, stem: str, replaces: bool) -> None:
     for name in ("bodies", "meshes"):
         (folder / name).mkdir(exist_ok=True)
     for path in (folder / _modes_file(stem), folder / _mesh_file(stem)):
-        if path.exists():
+        if replaces:
+            path.unlink(missing_ok=True)
+        elif path.exists():
             raise VehicleError(f"{path.name}: is in the folder already; give the body another name")
     write_flexible_body(folder / _modes_file(stem), body)
     if body.mesh:

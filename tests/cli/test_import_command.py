@@ -11,6 +11,7 @@ from universal_files import nodes_2411, shape_55, shape_2414, units_164
 
 from modeviz.cli import main
 from modeviz.files import read_vehicle
+from modeviz.formats.imported import import_component
 from modeviz.units import INCH, POUND, STANDARD_GRAVITY
 
 SHARED = Path(__file__).parents[3] / "shared/data/s2_uff_test_models"
@@ -191,9 +192,108 @@ def test_a_body_whose_name_is_taken_is_refused_and_nothing_changes(tmp_path, fil
     arguments = [file(network_unv()), "--output", str(folder), "--units", "mm-t-s"]
     main(["import", *arguments])
     before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-    assert "has a body 'block' already" in refused(capsys, *arguments)
+    assert "has a body 'block' already; put this one in its place with --replace" in refused(
+        capsys, *arguments
+    )
     assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
     assert sorted(path.name for path in tmp_path.iterdir()) == ["block.unv", "vehicle"]
+
+
+MOUNT = """
+[[spring]]
+name = "M1"
+bodies = ["block", "ground"]
+at = [0.0, 0.0, 0.0]
+stiffness = [50.0, 50.0, 50.0]  # mine
+"""
+
+
+@pytest.fixture
+def held(tmp_path, file):
+    """A folder with a body that a spring holds at node 11, and what imports it there."""
+    folder = tmp_path / "vehicle"
+    arguments = [file(network_unv()), "--output", str(folder), "--units", "mm-t-s"]
+    main(["import", *arguments, "--attach", "11"])
+    path = folder / "vehicle.toml"
+    path.write_text(path.read_text().replace('role = "other"', 'role = "frame"') + MOUNT)
+    return folder, arguments
+
+
+def content(folder: Path) -> dict[Path, bytes]:
+    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_a_body_that_replaces_another_has_its_own_modes_and_attachments(tmp_path, file, held):
+    folder, (_, *arguments) = held
+    before = (folder / "vehicle.toml").read_text()
+    fewer = file(network_unv(n_modes=20), "fewer.unv")
+    more = ["--attach", "11", "--attach", "seat=14", "--name", "block", "--replace"]
+    assert main(["import", fewer, *arguments, *more]) == 0
+    (body,) = read_vehicle(folder).bodies
+    assert body.n_modes == 20
+    assert [a.name for a in body.attachments] == ["11", "seat"]
+    assert body.role == "frame"
+    after = (folder / "vehicle.toml").read_text()
+    own = re.compile(r"(?m)^(# \d+ modes from .*|# attachment .*|#mass .*)\n")
+    assert own.sub("", after) == own.sub("", before)
+    assert "# 20 modes from fewer.unv" in after
+    assert '# attachment "seat"' in after
+
+
+def test_a_body_whose_forgotten_attachment_comes_may_be_held_there_before(held):
+    """The folder cannot be read until then, since a spring holds on to what isn't there."""
+    folder, arguments = held
+    path = folder / "vehicle.toml"
+    path.write_text(path.read_text().replace("at = [0.0, 0.0, 0.0]", "at = [1.0, 0.7, 0.0]"))
+    assert main(["import", *arguments, "--attach", "11", "--attach", "14", "--replace"]) == 0
+    assert len(read_vehicle(folder).connections) == 1
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        (["--attach", "14"], "[0.0, 0.0, 0.0] is 1.22 m from the nearest attachment of 'block', '14'"),
+        ([], "body 'block' has no attachment, so nothing can be connected to it"),
+        (["--name", "blokc"], "unknown flexible body 'blokc': did you mean 'block'?"),
+    ],
+)
+def test_a_body_that_cannot_take_the_place_of_another_changes_nothing(held, capsys, more, words):
+    folder, arguments = held
+    before = content(folder)
+    assert words in refused(capsys, *arguments, *more, "--replace")
+    assert content(folder) == before
+
+
+def test_replacing_from_python_is_the_same(held):
+    folder, (path, *_) = held
+    imported = import_component(
+        path, output=folder, units="mm-t-s", attach=["11", "seat=14"], replaces=True
+    )
+    assert [a.name for a in imported.vehicle.body("block").attachments] == ["11", "seat"]
+
+
+def test_a_body_that_was_not_imported_gets_the_units_and_the_mesh_of_one_that_is(held):
+    folder, arguments = held
+    path = folder / "vehicle.toml"
+    text = path.read_text()
+    text = text.replace('"meshes/block.glb"', '"mine.stl"\nmesh_unit = "mm"')
+    text = text.replace(
+        'units = { length = "m", mass = "kg" }', 'units = { length = "mm", mass = "t" }'
+    )
+    path.write_text(text.replace("damping_ratio = 0.01", "damping_ratio = [0.02, 0.03]"))
+    assert main(["import", *arguments, "--attach", "11", "--replace"]) == 0
+    (body,) = read_vehicle(folder).bodies
+    assert np.ptp(body.mesh[0].vertices, axis=0) == pytest.approx([1.0, 0.7, 0.4])
+    assert body.mass == pytest.approx(1000 * MASSES.sum())
+    assert body.damping_ratio == 0.01
+
+
+def test_values_on_several_lines_are_not_replaced(held, capsys):
+    folder, arguments = held
+    path = folder / "vehicle.toml"
+    path.write_text(path.read_text().replace("damping_ratio = 0.01", "damping_ratio = [\n0.02, 0.03]"))
+    text = refused(capsys, *arguments, "--attach", "11", "--replace")
+    assert "damping_ratio: to be replaced it has to be on one line" in text
 
 
 def test_a_vehicle_that_cannot_be_read_is_left_as_it_was(tmp_path, file, capsys):

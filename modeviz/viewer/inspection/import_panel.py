@@ -27,7 +27,14 @@ TAB = "Import"
 LARGEST_FILE = 200_000_000
 """Bytes of a file from a page; larger ones are for `modeviz import`."""
 
-LABELS = {"--attach": "Attachments", "--pose": "Place", "--residual": "Residual"}
+LABELS = {
+    "--attach: ": "Attachments: ",
+    "--pose: ": "Place: ",
+    "--residual: ": "Residual: ",
+    "with --replace": "with the box Replace",
+    "--replace": "Replace",
+    "with --name": "under Name",
+}
 """What options are called here."""
 
 RESIDUAL_FORM = "NAME=X,Y,Z along x, y and z, length over force in the files' units"
@@ -79,6 +86,9 @@ class ImportPanel:
         self._pose = gui.add_text("Place", "", hint=f"Where it stands in the vehicle: {POSE_FORMS}")
         self._residual = gui.add_text(
             "Residual", "", hint=f"What the modes leave out, with semicolons between: {RESIDUAL_FORM}"
+        )
+        self._replaces = gui.add_checkbox(
+            "Replace", False, hint="The body of that name gets new modes, mesh and attachments"
         )
         where = "Put it into the vehicle" if folder else "Download as a vehicle…"
         add = gui.add_button(where, icon=viser.Icon.PACKAGE_IMPORT, hint=self._destination())
@@ -161,6 +171,7 @@ class ImportPanel:
             attach=_parts(self._attach.value),
             residual=_parts(self._residual.value),
             pose=self._pose.value.strip() or None,
+            replaces=self._replaces.value,
         )
         if self._folder is not None:
             with self._received.told() as paths:
@@ -193,11 +204,12 @@ class ImportPanel:
         self._received.clear()
         for text in (self._name, self._attach, self._pose, self._residual):
             text.value = ""
+        self._replaces.value = False
 
     def _refuse(self, error: ModevizError) -> None:
         words = str(error)
         for option, label in LABELS.items():
-            words = words.replace(f"{option}: ", f"{label}: ")
+            words = words.replace(option, label)
         self._say(self._listed(), f'<div class="bad">{escape(words)}</div>')
 
     def _listed(self) -> str:

@@ -25,6 +25,8 @@ class Asked:
     attach: tuple[str, ...] = ()
     pose: str | None = None
     residual: tuple[str, ...] = ()
+    replaces: bool = False
+    """Whether a body takes the place of that of its name."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,8 @@ def put(paths: Sequence[Path], asked: Asked, folder: Path) -> Put:
     component = component_in(paths)
     if component is not None:
         return _put_body(component, asked, folder)
+    if asked.replaces:
+        raise VehicleError("--replace: is of a body, and these files have none")
     path, *others = [p for p in paths if p.suffix.lower() not in PROPERTIES] or paths
     if others:
         raise VehicleError(f"found {', '.join(p.name for p in paths)}, expected one file at a time")
@@ -73,7 +77,11 @@ def _put_body(component: Component, asked: Asked, folder: Path) -> Put:
     if tables := [text for text in asked.residual if Path(text).suffix.lower() == ".csv"]:
         raise VehicleError(f"--residual: found {quoted(tables[0])}, expected NAME=X,Y,Z")
     settings = ImportSettings(
-        units=asked.units, attach=asked.attach, pose=asked.pose, residual=asked.residual
+        units=asked.units,
+        attach=asked.attach,
+        pose=asked.pose,
+        residual=asked.residual,
+        replaces=asked.replaces,
     )
     imported = import_body(component, asked.name or "body", settings, folder)
     name = imported.body.name

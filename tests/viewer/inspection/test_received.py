@@ -1,6 +1,7 @@
 """Files that a page sends are kept apart from everything else on this machine."""
 
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -118,6 +119,23 @@ def test_a_mount_table_becomes_mounts_of_the_vehicle(received, vehicle):
         assert put(paths, Asked(name=""), vehicle).what == "1 connections"
     (connection,) = read_vehicle(vehicle).all_connections
     np.testing.assert_allclose(connection.stiffness, [1e3, 2e3, 3e3])
+
+
+def test_a_body_takes_the_place_of_that_of_its_name_if_it_is_asked_to(received, vehicle):
+    received.add("network.unv", network_unv().encode())
+    asked = Asked(name="network", units="mm-t-s", attach=("corner=11", "other=14"))
+    with received.told() as paths:
+        with pytest.raises(VehicleError, match="already; put this one in its place with --replace"):
+            put(paths, asked, vehicle)
+        put(paths, replace(asked, replaces=True), vehicle)
+    (body,) = read_vehicle(vehicle).bodies
+    assert [a.name for a in body.attachments] == ["corner", "other"]
+
+
+def test_mounts_take_no_bodys_place(received, vehicle):
+    received.add("mounts.csv", MOUNTS.format(rates="1,2,3", property="").encode())
+    with pytest.raises(VehicleError, match="--replace: is of a body"), received.told() as paths:
+        put(paths, Asked(name="", replaces=True), vehicle)
 
 
 @pytest.mark.parametrize("way", ["../secret.gbs", "{outside}"])
