@@ -621,7 +621,7 @@ def test_an_input_file_of_another_model_is_refused(read):
     moved = OP2.table("OUGV1", OP2.header(MODES, 1, 100.0), shape)
     op2 = OP2.file(OP2.table("GEOM1", OP2.grids(grids)), moved)
     shared = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n"
-    with pytest.raises(VehicleError, match="not of one model: 3 of the 5 grids that a.op2 moves"):
+    with pytest.raises(VehicleError, match=r"not of one model: 3 of the 5 grids that a\.op2 moves"):
         read(op2, f"BEGIN BULK\n{shared}ENDDATA\n")
     component = read(op2, f"BEGIN BULK\n{shared}GRID,3,,2.,0.,0.\nENDDATA\n")
     assert "2 grids are moved but not in the input file" in component.notes

@@ -88,8 +88,8 @@ def _check_one_model(model: Model, results: _Results) -> None:
     if 2 * n_there < len(ids):
         raise VehicleError(
             f"these two files are not of one model: {len(ids) - n_there} of the {len(ids)} grids that "
-            f"{results.path.name} moves are not in the input file, which has {len(model.ids)}; give the "
-            "input file of that run"
+            f"{results.path.name} moves are not in the input file, which has {len(model.ids)}; give "
+            "the input file of that run"
         )
 
 
