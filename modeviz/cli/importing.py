@@ -8,7 +8,7 @@ from typing import get_args
 import numpy as np
 
 from modeviz.cli.command import Command
-from modeviz.cli.importing_mounts import import_mounts, springs_beside
+from modeviz.cli.importing_mounts import import_mounts, list_springs_beside
 from modeviz.cli.importing_roads import import_road_file
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
@@ -134,9 +134,8 @@ def import_component(options: ImportOptions) -> None:
         if given := [name for name in OF_A_BODY if getattr(options, name)]:
             option = given[0].replace("_", "-")
             raise ModevizError(f"--{option} is of a body that is written; say where with --output")
-        if words := springs_beside(options.files):
-            remark(words)
         print_result(listing(solved(component, wanted)))
+        list_springs_beside(options.files)
         return
     if options.plane and not options.antisymmetric:
         raise ModevizError("--plane is of two halves: give the files of the other with --antisymmetric")

@@ -1,6 +1,6 @@
 """Mounts out of tables, property files and input files of Nastran, put into a vehicle folder."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +8,7 @@ import numpy as np
 from modeviz.cli.results import print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError
+from modeviz.formats.component import UnitSystem
 from modeviz.formats.mounts.bushing import DIRECTIONS, Bushing
 from modeviz.formats.mounts.imported import (
     MountSettings,
@@ -17,17 +18,28 @@ from modeviz.formats.mounts.imported import (
 )
 from modeviz.formats.mounts.property_file import SUFFIXES as PROPERTIES
 from modeviz.formats.mounts.property_file import read_property
+from modeviz.formats.nastran.bushings import read_bushings
 from modeviz.report.tables import table
 from modeviz.report.truncation import truncation_doubts
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 
+OF_THE_FILE = UnitSystem("of the file", 1.0, 1.0)
+"""Numbers as they stand."""
 
-def springs_beside(files: Sequence[Path]) -> str | None:
-    """Return what there is to say of springs in an input file that is only listed; None if nothing."""
+
+def list_springs_beside(files: Sequence[Path]) -> None:
+    """Lists the springs of an input file that is only listed, in its own units; nothing if none."""
     if not is_deck_with_springs(files):
-        return None
-    return f"{files[0].name}: has CBUSH or CELAS; --output and --units put them into a vehicle"
+        return
+    (path,) = files
+    remark(f"{path.name}: has CBUSH or CELAS; --output and --units put them into a vehicle")
+    try:
+        bushings = read_bushings(path, OF_THE_FILE, None, (), _note_of(path))
+    except ModevizError as error:  # what is wrong with them is nothing to the body
+        remark(str(error))
+        return
+    print_result(f"\nIts springs, in its own units:\n\n{_listing(bushings, '', '')}")
 
 
 def import_mounts(files: Sequence[Path], output: Path | None, settings: MountSettings) -> None:
@@ -42,10 +54,7 @@ def import_mounts(files: Sequence[Path], output: Path | None, settings: MountSet
     if path.suffix.lower() in PROPERTIES:
         import_property(path, output)
         return
-
-    def note(text: str) -> None:
-        remark(f"{path.name}: {text}")
-
+    note = _note_of(path)
     if output is None:
         print_result(listing(read_mounts(path, settings, note)))
         return
@@ -53,6 +62,11 @@ def import_mounts(files: Sequence[Path], output: Path | None, settings: MountSet
     for doubt in (*vehicle.notes, *truncation_doubts(vehicle)):
         remark(doubt)
     print_result(f"{output}: {len(bushings)} connections from {path.name}\n\n{listing(bushings)}")
+
+
+def _note_of(path: Path) -> Callable[[str], None]:
+    """What is told of a file."""
+    return lambda text: remark(f"{path.name}: {text}")
 
 
 def import_property(path: Path, output: Path | None) -> None:
@@ -74,19 +88,24 @@ def _rate(stiffness: float, damping: float, i: int) -> list[str]:
 
 
 def listing(bushings: Sequence[Bushing]) -> str:
-    """Return bushings as a table, a line each."""
-    headers = ["mount", "group", "x, y, z N/mm", "rx, ry, rz N m/rad", "loss factor"]
+    """Return bushings in SI as a table, a line each."""
+    return _listing(bushings, "N/mm", "N m/rad", factor("N/mm", "stiffness"))
+
+
+def _listing(bushings: Sequence[Bushing], along: str, about: str, one_along: float = 1.0) -> str:
+    """A table with rates in units of those names, of which the first is so many of the bushings'."""
+    headers = ["mount", "group", f"x, y, z {along}", f"rx, ry, rz {about}", "loss factor"]
     rows = [
         [
             bushing.name,
             bushing.group or "not tuned",
-            _numbers(bushing.stiffness[:3] / factor("N/mm", "stiffness")),
+            _numbers(bushing.stiffness[:3] / one_along),
             _numbers(bushing.stiffness[3:]),
             f"{bushing.loss_factor:.3g}",
         ]
         for bushing in bushings
     ]
-    return table(headers, rows)
+    return table([header.rstrip() for header in headers], rows)
 
 
 def _numbers(values: Floats) -> str:

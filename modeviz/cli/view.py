@@ -10,6 +10,7 @@ from modeviz.cli.options import RoadOptions, VehicleOptions, add_rates, add_road
 from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
+from modeviz.formats.mounts.imported import check_no_mounts
 from modeviz.formats.reading import are_results
 
 DEFAULT_PORT = 8080
@@ -68,6 +69,7 @@ def view(options: ViewOptions) -> None:
 
     token = chosen_token(options.token, options.token_file, options.has_token)
     door = (options.host, options.port, token, options.dark)
+    check_no_mounts(options.what)
     if are_results(options.what):
         options.check_no_vehicle()
         inspect(ResultFiles(options.what), *door, options.public_names, remark)

@@ -20,7 +20,7 @@ from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.formats.component import UNIT_SYSTEMS
 from modeviz.formats.mounts.columns import KINDS
-from modeviz.formats.mounts.table import read_mount_table
+from modeviz.formats.mounts.table import is_mount_table, read_mount_table
 from modeviz.units import INCH
 from modeviz.vehicle.connections import GROUND, Damper, Spring
 
@@ -641,6 +641,20 @@ def test_a_loss_factor_with_a_percent_sign_is_that_whatever_its_header_says(tmp_
     book.save(tmp_path / "m.xlsx")
     (found,) = read(tmp_path / "m.xlsx")
     assert found.loss_factor == pytest.approx(0.12)
+
+
+@pytest.mark.parametrize("arguments", [["view", "m.csv"], ["import", "m.csv", "cab.op2"]])
+def test_a_table_of_mounts_among_files_of_a_body_is_said_to_be_one(
+    tmp_path, monkeypatch, capsys, arguments
+):
+    monkeypatch.chdir(tmp_path)
+    written(Path("m.csv"), [HEADER, ROW])
+    assert main(arguments) == 2
+    assert "m.csv: is a table of mounts; import the bodies first" in capsys.readouterr().err
+
+
+def test_a_table_of_nodes_is_none_of_mounts(tmp_path):
+    assert not is_mount_table(written(tmp_path / "n.csv", [["id", "x", "y", "z"], [1, 0, 0, 0]]))
 
 
 def test_more_mounts_than_a_vehicle_has_are_refused_at_once(tmp_path):

@@ -1,5 +1,6 @@
 """Springs and bushings out of Nastran input files."""
 
+import re
 import shutil
 from pathlib import Path
 
@@ -422,11 +423,23 @@ def test_a_file_stands_in_the_vehicle_as_its_pose_says(pair, tmp_path):
     np.testing.assert_allclose(K, turn.T @ np.diag([10e3, 20e3, 30e3]) @ turn, atol=1e-4)
 
 
-def test_a_file_that_is_listed_says_that_it_has_springs(tmp_path, capsys):
+def test_springs_of_a_file_that_is_listed_are_listed_in_its_own_units(tmp_path, capsys):
     path = tmp_path / "joints.bdf"
     path.write_text("\n".join(["BEGIN BULK", *TWO, PBUSH, CBUSH]))
     assert main(["import", str(path)]) == 0
-    assert "joints.bdf: has CBUSH or CELAS; --output and --units put" in capsys.readouterr().err
+    said = capsys.readouterr()
+    assert "joints.bdf: has CBUSH or CELAS; --output and --units put" in said.err
+    springs = said.out.split("Its springs, in its own units:")[1]
+    assert re.search(r"CBUSH 1 +PBUSH 7 +10, 20, 30 +4000, 5000, 6000 +0", springs)
+
+
+def test_springs_that_cannot_be_read_do_not_keep_a_file_from_being_listed(tmp_path, capsys):
+    path = tmp_path / "joints.bdf"
+    path.write_text("\n".join(["BEGIN BULK", *TWO, CBUSH]))
+    assert main(["import", str(path)]) == 0
+    said = capsys.readouterr()
+    assert "2 nodes" in said.out
+    assert "property 7: is no PBUSH of the file" in said.err
 
 
 def test_a_grid_with_the_number_of_an_attachment_elsewhere_is_on_the_one_that_is_there(pair, tmp_path):

@@ -10,7 +10,7 @@ from modeviz.formats.mounts.bushing import Bushing
 from modeviz.formats.mounts.into_folder import Target, add_bushings, near_bushings
 from modeviz.formats.mounts.property_file import SUFFIXES as PROPERTIES
 from modeviz.formats.mounts.sheets import EXCEL_SUFFIXES, TEXT_SUFFIXES
-from modeviz.formats.mounts.table import read_mount_table
+from modeviz.formats.mounts.table import is_mount_table, read_mount_table
 from modeviz.formats.nastran.bushings import has_bushings, read_bushings
 from modeviz.formats.poses import misfit_notes, parse_pose
 from modeviz.formats.reading import read_component
@@ -45,10 +45,28 @@ def holds_mounts(files: Sequence[Path], is_put: bool) -> bool:
         files: those given together.
         is_put: whether it goes into a folder: an input file of Nastran then holds mounts if it is
             alone and has springs.
+
+    Raises:
+        VehicleError: there is a table of mounts among files of a body.
     """
     if all(path.suffix.lower() in SUFFIXES for path in files):
         return True
+    check_no_mounts(files)
     return is_put and is_deck_with_springs(files)
+
+
+def check_no_mounts(files: Sequence[Path]) -> None:
+    """Checks that there is no table of mounts among files that are to be those of a body.
+
+    Raises:
+        VehicleError: there is one.
+    """
+    for path in files:
+        if path.suffix.lower() in (*TEXT_SUFFIXES, *EXCEL_SUFFIXES) and is_mount_table(path):
+            raise VehicleError(
+                f"{path.name}: is a table of mounts; import the bodies first, then this alone: "
+                f"modeviz import {path.name} --output FOLDER"
+            )
 
 
 def is_deck_with_springs(files: Sequence[Path]) -> bool:

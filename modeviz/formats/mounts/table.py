@@ -14,6 +14,9 @@ from modeviz.formats.mounts.line import MountLine
 from modeviz.formats.mounts.missing import check_directions
 from modeviz.formats.mounts.sheets import Sheet, read_sheet
 
+OF_RATES = {"stiffness", "rotational_stiffness", "damping", "rotational_damping"}
+"""The kinds of columns that only mounts have."""
+
 MOST_TITLES = 20
 """Lines above a header."""
 
@@ -51,6 +54,18 @@ def read_mount_table(
         if not bushings:
             raise VehicleError("found a header and no mounts")
         return tuple(bushings.values())
+
+
+def is_mount_table(path: Path) -> bool:
+    """Return whether a file is a table whose header has mounts and their rates."""
+    try:
+        sheet = read_sheet(path)
+        columns, _ = read_headers(sheet.lines[_header_at(sheet)][1]) if sheet.lines else ({}, [])
+    except VehicleError:
+        return False
+    kinds = {column.kind for column in columns.values()}
+    names = {column.name for column in columns.values()}
+    return "name" in names and bool(kinds & OF_RATES or names & {"property"})
 
 
 @dataclass(frozen=True)
