@@ -299,11 +299,18 @@ CBUSH = "CBUSH,1,7,1,2,,,,0"
         ([*TWO, "PBUSH,7,K,soft", CBUSH], "PBUSH 7: found 'soft', expected a number"),
         ([*TWO, "PBUSH,7,K,-3.", CBUSH], "PBUSH 7: K1: found -3, expected zero or more"),
         ([*TWO, "PBUSH,7,K,nan", CBUSH], "its rates have values that are not finite"),
-        ([*TWO, "PBUSH,7,KMAG,3.", CBUSH], "found KMAG, expected lines K, B, GE"),
+        ([*TWO, "PBUSH,7,KMAG,3.", CBUSH], "line 1 of the card: found 'KMAG', expected lines K"),
+        (
+            [*TWO, PBUSH, ",B,.05,.05,.05", CBUSH],
+            "PBUSH 7: line 2 of the card: found '.05' after 'B', which is a field early",
+        ),
         ([*TWO, "PBUSH,7,,3.", CBUSH], "without K, B or GE"),
         ([*TWO, PBUSH, "PBUSH,7,K,3.", CBUSH], "PBUSH 7: is there twice, and not alike"),
         ([*TWO, PBUSH, "PBUSHT,7,K,21", CBUSH], "table 21: is no TABLED1"),
-        ([*TWO, PBUSH, "PBUSHT,7,KSCALE,21", CBUSH], "found 'KSCALE', expected lines K, B"),
+        (
+            [*TWO, PBUSH, "PBUSHT,7,KSCALE,21", CBUSH],
+            "of the card: found 'KSCALE', expected lines K, B",
+        ),
         (
             [*TWO, PBUSH, "PBUSHT,7,K,21", CBUSH, "TABLED1,21", ",1.,2.,3.,4.,ENDT"],
             "is from 1 to 3 Hz",

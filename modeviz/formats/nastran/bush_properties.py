@@ -82,8 +82,12 @@ class BushProperties:
         if left := sorted(found.keys() & LEFT_OUT - {"RCV"}):
             said = ", ".join(f"{flag} {' '.join(filter(None, found[flag]))}" for flag in left)
             self._note(f"PBUSH {card.text(0)}: {said}: masses and the like are left out")
-        if others := found.keys() - {"K", "B", "GE"} - LEFT_OUT:
-            raise VehicleError(f"found {listed(sorted(others))}, expected lines K, B, GE, M or RCV")
+        for flag, at in _lines(card):
+            if flag not in {"K", "B", "GE", *LEFT_OUT}:
+                raise VehicleError(
+                    f"{_found_at(card, at)}, expected lines K, B, GE, M or RCV with their letters in "
+                    "field 3"
+                )
         k, b, ge = (found.get(flag, [""] * 6) for flag in ("K", "B", "GE"))
         rigid = tuple(d for d, text in zip(DIRECTIONS, k, strict=True) if text.upper() == "RIGID")
         k = ["" if text.upper() == "RIGID" else text for text in k]
@@ -113,7 +117,7 @@ class BushProperties:
                 if flag == "KN":
                     continue  # for nonlinear solutions
                 if flag not in values:
-                    raise VehicleError(f"found {quoted(flag)}, expected lines K, B, GE or KN")
+                    raise VehicleError(f"{_found_at(card, at)}, expected lines K, B, GE or KN")
                 tables = [card.whole(i, 0) if card.text(i) else 0 for i in range(at, at + 6)]
                 if flag == "GE" and not any(tables[1:]):
                     tables = [tables[0]] * 6
@@ -173,6 +177,13 @@ def _lines(card: Card) -> Iterator[tuple[str, int]]:
         seen.add(flag)
         if flag:
             yield flag, at + 2
+
+
+def _found_at(card: Card, at: int) -> str:
+    """What stands in place of the flag before the six values that begin there, and on which line."""
+    before, flag = card.text(at - 2), card.text(at - 1)
+    early = f" after {quoted(before)}, which is a field early" if at > 2 and before else ""
+    return f"line {at // 8 + 1} of the card: found {quoted(flag)}{early}"
 
 
 def _numbers(card: Card, texts: list[str]) -> Floats:
