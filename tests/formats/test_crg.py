@@ -284,6 +284,10 @@ def test_a_vehicle_without_tyres_needs_the_track_width(tmp_path, capsys):
     path = tmp_path / "road.crg"
     path.write_bytes(crg(np.random.default_rng(1).normal(0, 0.01, (2000, 3)), 0.05, [-2, 0, 2]))
     assert main(["import", str(path), "--output", str(folder)]) == 2
+    said = capsys.readouterr().err
+    assert "the vehicle has no tyres on both sides" in said
+    assert "or say it with --track-width" in said
+    assert main(["import", str(path), "--output", str(folder), "--track-width", "0"]) == 2
     assert "--track-width: found 0 m" in capsys.readouterr().err
     assert main(["import", str(path), "--output", str(folder), "--track-width", "1.4"]) == 0
     assert len(read_vehicle(folder).roads) == 1

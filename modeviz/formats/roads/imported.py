@@ -59,16 +59,31 @@ def import_road(
         ModevizError: it is no road, or the vehicle has no track width or something of that name.
     """
     vehicle = vehicle_of(folder) if folder else None
-    width = settings.track_width
-    if width is None:
-        width = track_width(vehicle.tyres) if vehicle else USUAL_TRACK_WIDTH
-    if not 0 < width < 100:
-        raise ModevizError(
-            f"--track-width: found {width:g} m, expected more than 0, as tyres on both sides have it"
-        )
+    width = _track_width(settings.track_width, vehicle)
     surface = read_crg(path)
     with located(path.name):
         spectra = track_spectra(surface, width, note)
     name = settings.name or path.stem
     after = add_road(spectra, name, folder, vehicle, path.name) if folder and vehicle else None
     return ImportedRoad(name, surface, spectra, width, after)
+
+
+def _track_width(given: float | None, vehicle: Vehicle | None) -> float:
+    """The one that is given, or else that of a vehicle's tyres, or the usual one, m.
+
+    Raises:
+        ModevizError: it is none, or there are no tyres on both sides.
+    """
+    if given is not None:
+        if not 0 < given < 100:
+            raise ModevizError(f"--track-width: found {given:g} m, expected more than 0, below 100")
+        return given
+    if vehicle is None:
+        return USUAL_TRACK_WIDTH
+    width = track_width(vehicle.tyres)
+    if not 0 < width < 100:
+        raise ModevizError(
+            "the vehicle has no tyres on both sides, which say how far the tracks of a road are apart; "
+            "give it [[tyre]] tables first, or say it with --track-width"
+        )
+    return width
