@@ -80,7 +80,11 @@ def _likely(path: Path) -> str:
         names = [other.name for other in path.parent.iterdir()]
     except OSError:
         return f", nor a folder {path.parent}" if path.parent.name else ""
-    close = get_close_matches(path.name, names[:MOST_COMPARED], n=1)
+    close = [
+        name
+        for name in get_close_matches(path.name, names[:MOST_COMPARED])
+        if get_close_matches(path.stem, [Path(name).stem])  # endings are alike of files that are not
+    ]
     return f"; did you mean {quoted(close[0])}?" if close else ""
 
 

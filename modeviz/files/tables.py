@@ -21,6 +21,11 @@ MOST_LINES = 100_000
 LONGEST_LINE = 10_000
 """Letters."""
 
+_THOUSANDS = re.compile(
+    r"[-+]?[1-9]\d{0,2}(?P<mark>[.,'’ \u00a0\u202f])\d{3}((?P=mark)\d{3})*([.,]\d+)?"
+)
+_DECIMAL_COMMA = re.compile(r"[-+]?[\d.]*,\d+")
+
 _NAME_AND_UNIT = re.compile(r"(.*?)\s*[\[(](.*)[\])]")
 
 
@@ -48,13 +53,32 @@ class Row:
         try:
             value = float(text)
         except ValueError:
-            raise VehicleError(f"{self.where(column)}: found {cell!r}, expected a number") from None
+            raise VehicleError(
+                f"{self.where(column)}: found {cell!r}, expected a number{_without_marks(cell)}"
+            ) from None
+        if self._is_ambiguous(cell):
+            raise VehicleError(
+                f"{self.where(column)}: found {cell!r} beside decimal commas, expected "
+                f"{cell.replace('.', '')} or {text.replace('.', ',')}"
+            )
         if not abs(value) < LARGEST:
             raise VehicleError(f"{self.where(column)}: found {cell!r}, expected a finite number")
         if value < at_least:
             least = "zero or more" if at_least == 0 else f"at least {at_least:g}"
             raise VehicleError(f"{self.where(column)}: found {cell}, expected {least}")
         return value
+
+    def _is_ambiguous(self, cell: str) -> bool:
+        """Whether a number has a point before three figures, and others of its line have commas."""
+        if not (self.decimal_comma and "." in cell and _THOUSANDS.fullmatch(cell)):
+            return False
+        return any(map(_DECIMAL_COMMA.fullmatch, self.cells.values()))
+
+
+def _without_marks(cell: str) -> str:
+    """Words for a number that has marks between its thousands; nothing if it has none."""
+    found = _THOUSANDS.fullmatch(cell)
+    return f" without marks between its thousands, {cell.replace(found['mark'], '')}" if found else ""
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from modeviz.errors import VehicleError
-from modeviz.files.disk import check_writable, write_bytes, write_text
+from modeviz.files.disk import check_writable, read_bytes, write_bytes, write_text
 
 
 def test_a_file_is_written_anew_and_nothing_stays_beside_it(tmp_path):
@@ -69,3 +69,13 @@ def test_a_refusal_names_no_scratch_folder():
     with pytest.raises(VehicleError) as caught:
         check_writable(Path("/proc/rates.json"))
     assert str(caught.value) == "/proc/rates.json: cannot be written (No such file or directory)"
+
+
+def test_a_file_that_is_missing_is_not_taken_for_another_of_its_kind(tmp_path):
+    for name in ("frame.npz", "cap.npz"):
+        (tmp_path / name).touch()
+    with pytest.raises(VehicleError, match=r"no such file; did you mean 'cap\.npz'\?"):
+        read_bytes(tmp_path / "cab.npz", 9)
+    (tmp_path / "cap.npz").unlink()
+    with pytest.raises(VehicleError, match=r"there is no such file$"):
+        read_bytes(tmp_path / "cab.npz", 9)

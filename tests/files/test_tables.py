@@ -188,3 +188,26 @@ def test_a_vehicle_with_a_spreadsheets_road_is_driven(tmp_path, capsys, folder):
     ours = capsys.readouterr().out
     assert main(["psd", folder]) == 0
     assert capsys.readouterr().out == ours
+
+
+@pytest.mark.parametrize(
+    ("cell", "words"),
+    [
+        ("1.500,0", "expected a number without marks between its thousands, 1500,0"),
+        ("1.500.000", "without marks between its thousands, 1500000"),
+        ("1 500,5", "without marks between its thousands, 1500,5"),
+        ("1'500", "without marks between its thousands, 1500"),
+        ("1.500", "found '1.500' beside decimal commas, expected 1500 or 1,500"),
+    ],
+)
+def test_marks_between_thousands_are_refused_with_the_number_that_is_meant(cell, words):
+    (row,) = read_table(f"a;b\n{cell};0,5\n", ["a", "b"]).rows
+    with pytest.raises(VehicleError, match=words):
+        row.number("a")
+
+
+def test_points_and_commas_that_are_decimal_alone_are_read():
+    (row,) = read_table("a;b;c\n1.500;2.5;0.125\n", ["a", "b", "c"]).rows
+    assert [row.number(name) for name in "abc"] == [1.5, 2.5, 0.125]
+    (row,) = read_table("a;b\n1,500;0.125\n", ["a", "b"]).rows
+    assert [row.number(name) for name in "ab"] == [1.5, 0.125]
