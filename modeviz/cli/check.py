@@ -14,6 +14,7 @@ from modeviz.files.survey import Problem, Survey, survey
 from modeviz.report.check import Summary, summarised, summary_record
 from modeviz.report.check_text import summary_text
 from modeviz.report.truncation import truncation_doubts
+from modeviz.vehicle.doubts import road_doubts
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +35,8 @@ def check(options: CheckOptions) -> None:
     folder = options.vehicle or builtin_vehicle()
     found = survey(folder)
     if found.vehicle and not found.problems:
-        found = replace(found, doubts=(*found.doubts, *truncation_doubts(found.vehicle)))
+        more = (*road_doubts(found.vehicle), *truncation_doubts(found.vehicle))
+        found = replace(found, doubts=(*found.doubts, *more))
     summary = summarised(found.vehicle) if found.vehicle else None
     print_result(
         _record(folder, found, summary) if options.json else "\n".join(_lines(folder, found, summary))

@@ -10,6 +10,7 @@ from modeviz.errors import ModevizError
 from modeviz.formats.roads.crg import Surface
 from modeviz.formats.roads.imported import RoadSettings, import_road
 from modeviz.formats.roads.tracks import TrackSpectra
+from modeviz.vehicle.doubts import road_doubts
 from modeviz.vehicle.iso_8608 import CLASSES
 
 
@@ -25,7 +26,7 @@ def import_road_file(files: Sequence[Path], output: Path | None, settings: RoadS
     road = import_road(path, output, settings, lambda text: remark(f"{path.name}: {text}"))
     print_result(summary(path, road.surface, road.spectra, road.track_width))
     if road.vehicle:
-        for note in road.vehicle.notes:
+        for note in (*road.vehicle.notes, *road_doubts(road.vehicle)):
             remark(note)
         print_result(f"{output}: road {road.name!r}")
 

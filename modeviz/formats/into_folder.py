@@ -13,8 +13,12 @@ from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.toml_reader import tables_of
 from modeviz.files.toml_writer import toml_value
 from modeviz.formats.replaced_table import replaced_stem, with_table
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle
+
+TYRE_RADIUS = 0.3
+"""m, of one to be filled in."""
 
 
 def add_body(body: FlexibleBody, folder: Path, origin: str, replaces: bool = False) -> Vehicle:
@@ -126,10 +130,14 @@ def _table(body: FlexibleBody, stem: str, origin: str) -> Iterator[str]:
         yield f"# attachment {toml_value(attachment.name)} at [{x:.6g}, {y:.6g}, {z:.6g}]"
 
 
+def _place(place: Floats) -> str:
+    return f"[{', '.join(f'{value:.6g}' for value in place)}]"
+
+
 def _next_steps(body: FlexibleBody) -> Iterator[str]:
     """Comments with tables that can follow, of which each reads as it stands without its "#"."""
     first = [a.position for a in body.attachments][:1] or [body.nodes[0]]
-    place = f"[{', '.join(f'{value:.6g}' for value in first[0])}]"
+    place, road = (_place(p) for p in (first[0], first[0] - [0.0, 0.0, TYRE_RADIUS]))
     name = toml_value(body.name)
     yield ""
     yield '# What to fill in next: take away the "#" before a line, and put your own numbers in.'
@@ -161,7 +169,16 @@ def _next_steps(body: FlexibleBody) -> Iterator[str]:
     yield f"#center_of_gravity = {place}"
     yield "#inertia = [8.0, 10.0, 9.0]  # about the centre of gravity"
     yield "#"
-    yield "# Where its motion is felt, the driver first; then roads, tyres and wheel loads:"
+    yield "# What lets roads in, a tyre at each wheel, which may be a body of its own:"
+    yield "#[[tyre]]"
+    yield '#name = "tyre 1"'
+    yield f'#bodies = [{name}, "ground"]'
+    yield f"#at = [{place}, {road}]  # the wheel, within 0.1 m of an attachment; the road beneath it"
+    yield f"#wheel_center = {place}"
+    yield "#stiffness = [0.0, 150.0, 250.0]  # along x, y, z"
+    yield '#track = "left"  # of the road'
+    yield "#"
+    yield "# Where its motion is felt, the driver first; then [[road]], [[wheel_load]]:"
     yield "#[[response_point]]"
     yield '#name = "seat"'
     yield f"#body = {name}"

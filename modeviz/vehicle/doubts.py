@@ -45,6 +45,17 @@ def doubts(vehicle: Vehicle) -> Iterator[str]:
             )
 
 
+def road_doubts(vehicle: Vehicle) -> Iterator[str]:
+    """Sentences on roads that do not get into a vehicle."""
+    why = "has no tyre with stiffness along its z" if vehicle.tyres else "has no [[tyre]]"
+    for road in vehicle.roads:
+        if not vehicle.is_shaken_by(road):
+            yield (
+                f"road {road.name!r}: does nothing, as the vehicle {why}; springs to the ground carry "
+                "no road, [[base_motion]] moves those"
+            )
+
+
 def _of_rigid_modes(body: FlexibleBody) -> Iterator[str]:
     """A sentence if the rigid modes do not move the attachments as one rigid body."""
     if not body.attachments:

@@ -12,6 +12,7 @@ from small_vehicles import on_tyres, wheel
 
 from modeviz.cli import main
 from modeviz.files import read_vehicle, write_vehicle
+from modeviz.vehicle.connections import Tyre
 
 
 @pytest.fixture
@@ -68,6 +69,16 @@ def test_doubts_are_told_and_are_no_error(tmp_path, capsys):
     assert (
         "doubt: body 'cab': its rigid modes say that it weighs 300 kg, its mass is stated as 400" in out
     )
+
+
+def test_a_road_that_no_tyre_lets_in_is_doubted(tmp_path, capsys):
+    driven = mounted_cabin()
+    no_tyre = [connection for connection in driven.connections if not isinstance(connection, Tyre)]
+    held = replace(driven, connections=tuple(no_tyre), wheel_loads=())
+    write_vehicle(held, tmp_path / "held")
+    assert main(["check", str(tmp_path / "held")]) == 0
+    words = f"doubt: road {driven.roads[0].name!r}: does nothing, as the vehicle has no [[tyre]]"
+    assert words in capsys.readouterr().out
 
 
 def test_json_has_problems_doubts_and_the_summary(folder, capsys):

@@ -170,6 +170,9 @@ def test_what_is_to_be_filled_in_reads_as_it_stands(tmp_path, file):
     vehicle = read_vehicle(folder)
     assert [g.name for g in vehicle.mount_groups] == ["M1"]
     assert [p.name for p in vehicle.response_points] == ["seat"]
+    (tyre,) = vehicle.tyres
+    np.testing.assert_allclose(tyre.points[0] - tyre.points[1], [0, 0, 0.3], atol=1e-6)
+    assert vehicle.has_driven_tyres
     assert {b.name for b in vehicle.bodies} == {"block", "engine"}
 
 
