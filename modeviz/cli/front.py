@@ -98,4 +98,4 @@ def _tell(token: CancelToken, where: FrontProgress) -> None:
         progress(f"searching, {n} designs on the front")(where.done)
         return
     checked = sum(design.verification is not None for design in where.designs)
-    say(f"checking with the full model, {checked} of {n} designs")
+    say(f"solving the model as given from scratch, {checked} of {n} designs")

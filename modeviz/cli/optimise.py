@@ -126,7 +126,7 @@ def _tell(token: CancelToken, where: Progress) -> None:
     if token.is_cancelled:
         return
     if where.is_checking:
-        say("checking with the full model")
+        say("solving the model as given from scratch")
         return
     text = f"search {where.start:3d} of {where.n_starts}, objective {significant(where.value):>9}"
     progress(text)((where.start - 1) / where.n_starts)

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeviz.dynamics.assembly import assemble, connection_coefficients
 from modeviz.dynamics.modes import RESOLVED_HZ, solve_modes
+from modeviz.errors import ModevizError
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
 from modeviz.vehicle.connections import GROUND, MOTIONS, Connection, Spring
@@ -89,6 +90,14 @@ def truncation_gap(vehicle: Vehicle) -> TruncationGap | None:
         below_hz,
         any(b.n_normal - b.n_rigid < FEW for b in lacking),
     )
+
+
+def gap_if_solved(vehicle: Vehicle) -> TruncationGap | None:
+    """Return the same; None also for a vehicle that cannot be solved."""
+    try:
+        return truncation_gap(vehicle)
+    except ModevizError:
+        return None
 
 
 def stiff_connections(vehicle: Vehicle) -> Iterator[StiffConnection]:

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import HERE
+from modeviz.dynamics.truncation_gap import TruncationGap
 from modeviz.optimise.descent import descend
 from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET, Descent
 from modeviz.optimise.run import BUDGET
@@ -111,6 +112,19 @@ def largest_difference(designs: Sequence[ParetoPoint]) -> float:
     """Return the largest difference from the full model's goals, relative; NaN where one is unknown."""
     differences = [np.nan if d.verification is None else d.verification.difference for d in designs]
     return float(np.max(differences, initial=0.0))
+
+
+def most_truncated(designs: Sequence[ParetoPoint]) -> tuple[int, TruncationGap] | None:
+    """Return the design, from one, at whose rates frequencies are most too high, and by how much.
+
+    None if of none it is known that a body lacks residual compliance.
+    """
+    gaps = [
+        (number, design.verification.gap)
+        for number, design in enumerate(designs, 1)
+        if design.verification and design.verification.gap
+    ]
+    return max(gaps, key=lambda numbered: numbered[1].change, default=None)
 
 
 class _Walk:

@@ -1,9 +1,10 @@
-"""The found design held against the full model before it is called a result."""
+"""The found design held against the full model as given before it is called a result."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from modeviz.dynamics.truncation_gap import TruncationGap, gap_if_solved
 from modeviz.errors import SolveError
 from modeviz.optimise.search import Search
 from modeviz.vehicle.arrays import Floats
@@ -11,7 +12,7 @@ from modeviz.vehicle.arrays import Floats
 
 @dataclass(frozen=True, eq=False)
 class Verification:
-    """What the full model says of a design."""
+    """What the full model as given says of a design, and what it cannot know."""
 
     value: float
     """The goal from its equations of motion; NaN if they cannot be solved exactly enough."""
@@ -23,6 +24,9 @@ class Verification:
     """Whether all of these are where the windows want them."""
     impossible: str = ""
     """Why its equations cannot be solved exactly enough, if they cannot."""
+    gap: TruncationGap | None = None
+    """How much too high frequencies are with its rates, as bodies lack residual compliance; None if
+    none lacks it. Of this the model as given knows nothing."""
 
 
 def verify(search: Search, x: Floats, value: float) -> Verification:
@@ -39,11 +43,12 @@ def verify(search: Search, x: Floats, value: float) -> Verification:
         frequency_hz = search.windows.exact_frequencies(rates)
         pairs = zip(search.windows.windows, frequency_hz.tolist(), strict=True)
         are_kept = all(window.allows(f) for window, f in pairs)
+    gap = gap_if_solved(search.space.vehicle.with_rates(rates))
     try:
         exact = search.goal.exact_value(rates)
     except SolveError as error:
-        return Verification(np.nan, np.nan, frequency_hz, are_kept, str(error))
-    return Verification(exact, _relative(value, exact), frequency_hz, are_kept)
+        return Verification(np.nan, np.nan, frequency_hz, are_kept, str(error), gap)
+    return Verification(exact, _relative(value, exact), frequency_hz, are_kept, gap=gap)
 
 
 def _relative(found: float, exact: float) -> float:

@@ -5,13 +5,14 @@ import math
 from io import StringIO
 
 from modeviz.optimise.outside import kept_ratios, outside_search
-from modeviz.optimise.pareto import Front
+from modeviz.optimise.pareto import Front, most_truncated
 from modeviz.optimise.trade_off import TradeOff
-from modeviz.report.optimum import objective_words
+from modeviz.report.optimum import objective_words, solved_from_scratch
 from modeviz.report.records import Record, rates_record
 from modeviz.report.space import space_lines
 from modeviz.report.tables import table
-from modeviz.text.wording import percent_change, scientific, significant
+from modeviz.report.truncation import at_rates, gap_record, is_large
+from modeviz.text.wording import percent_change, significant
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.vehicle.problem import Problem
@@ -21,9 +22,10 @@ def front_record(problem: Problem, trade_off: TradeOff, front: Front) -> Record:
     """Designs between two goals.
 
     `{"goal", "normalised", "between": [name, name], "original": [value, value], "designs": [{"values",
-    "rates": see rates_record}], "fixed_ratios": {group: {"lateral", "fore_aft"}} to the vertical rate,
+    "rates": see rates_record, "truncation": see optimum_record}], "fixed_ratios": {group: {"lateral",
+    "fore_aft"}} to the vertical rate,
     "outside": {"original": why it could not be found, [] if it could}, "converged", "reason",
-    "evaluations", "exact_difference": or null where the full model cannot be solved exactly enough}`.
+    "evaluations", "exact_difference": or null where the model as given cannot be solved so exactly}`.
     """
     search = trade_off.searches[0]
     vehicle = search.space.vehicle
@@ -33,7 +35,11 @@ def front_record(problem: Problem, trade_off: TradeOff, front: Front) -> Record:
         "between": list(front.names),
         "original": _original(trade_off),
         "designs": [
-            {"values": list(d.values), "rates": rates_record(vehicle.with_rates(d.rates))}
+            {
+                "values": list(d.values),
+                "rates": rates_record(vehicle.with_rates(d.rates)),
+                "truncation": gap_record(d.verification.gap if d.verification else None),
+            }
             for d in front.designs
         ],
         "fixed_ratios": kept_ratios(search.space),
@@ -107,10 +113,13 @@ def _ending(problem: Problem, trade_off: TradeOff, front: Front) -> str:
     impossible = [d.verification.impossible for d in front.designs if d.verification]
     why = next(filter(None, impossible), "")
     exactness = (
-        f"the full model cannot confirm all: {why}"
+        f"the model as given cannot be solved from scratch for all: {why}"
         if why
-        else f"the full model's goals differ by a part of {scientific(front.difference)} at most"
+        else f"{solved_from_scratch('goals', front.difference)} at most"
     )
+    worst = most_truncated(front.designs)
+    if worst is not None and is_large(worst[1]):
+        exactness += "\n" + at_rates(f"the rates of design {worst[0]}", worst[1])
     lines = [
         f"goals: {objective_words(problem)}",
         *space_lines(search.space, {"original": outside_search(search, {})}),

@@ -10,6 +10,7 @@ from modeviz.optimise.search import Search
 from modeviz.report.records import Record, rates_record
 from modeviz.report.space import space_lines
 from modeviz.report.tables import table
+from modeviz.report.truncation import gap_doubts, gap_record
 from modeviz.scatter.robust import Robust
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.wording import percent_change, scientific, significant
@@ -36,7 +37,9 @@ def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record
     "fixed_ratios": {group: {"lateral", "fore_aft"}} to the vertical rate, "outside": {"original",
     "paper"}: why these could not be found, [] if they could, "converged", "reason", "evaluations",
     "active_constraints": [{"name", "multiplier", "gain"}], "exact_difference": or null where the full
-    model cannot be solved exactly enough}`; a gain is a part of what was found, from relaxing the limit
+    model as given cannot be solved exactly enough, "truncation": how much too high frequencies are with
+    these rates, the fields of dynamics.truncation_gap.TruncationGap, null if no body lacks residual
+    compliance}`; a gain is a part of what was found, from relaxing the limit
     by 10 %.
     """
     vehicle = search.space.vehicle
@@ -57,6 +60,7 @@ def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record
             {"name": c.name, "multiplier": c.multiplier, "gain": c.gain} for c in optimum.active
         ],
         "exact_difference": difference if math.isfinite(difference) else None,
+        "truncation": gap_record(optimum.verification.gap),
     }
 
 
@@ -66,9 +70,19 @@ def optimum_table(problem: Problem, search: Search, optimum: Optimum) -> str:
         _rates_table(problem, search, optimum),
         _ending(problem, search, optimum),
         _exactness(search, optimum),
+        "\n".join(optimum_doubts(search, optimum)),
         _limits(optimum),
     ]
     return "\n\n".join(part for part in parts if part)
+
+
+def optimum_doubts(search: Search, optimum: Optimum) -> list[str]:
+    """Sentences on what the truncation of bodies does to frequencies with the rates that were found."""
+    gap = optimum.verification.gap
+    if gap is None:
+        return []
+    vehicle = search.space.vehicle.with_rates(optimum.rates)
+    return [f"at these rates {doubt}" for doubt in gap_doubts(gap, vehicle)]
 
 
 def objective_words(problem: Problem) -> str:
@@ -148,20 +162,26 @@ def _scattered(goal: Goal) -> str:
 
 
 def _exactness(search: Search, optimum: Optimum) -> str:
-    """The found design in the full model."""
+    """The found design in the full model as given."""
     check = optimum.verification
     if check.impossible:
-        lines = [f"the full model cannot confirm it: {check.impossible}"]
+        lines = [f"the model as given cannot be solved from scratch: {check.impossible}"]
     else:
-        lines = [f"the full model's objective differs by a part of {scientific(check.difference)}"]
+        lines = [solved_from_scratch("objective", check.difference)]
     if search.windows is not None:
         pairs = zip(search.windows.windows, check.frequency_hz.tolist(), strict=True)
         lines += [
-            f"{window.mode} at {f:.3f} Hz in the full model"
+            f"{window.mode} at {f:.3f} Hz in the model as given"
             + ("" if window.allows(f) else ", where it may not be")
             for window, f in pairs
         ]
     return "\n".join(lines)
+
+
+def solved_from_scratch(what: str, difference: float) -> str:
+    """How far the full model as given is from what was found."""
+    part = scientific(difference)
+    return f"solved from scratch, the model as given differs in its {what} by a part of {part}"
 
 
 def _limits(optimum: Optimum) -> str:

@@ -2,17 +2,19 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from typing import Any
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.component_trust import component_trust
 from modeviz.dynamics.truncation_gap import (
     StiffConnection,
     TruncationGap,
+    gap_if_solved,
     on_trial_mounts,
     stiff_connections,
-    truncation_gap,
 )
-from modeviz.errors import ModevizError, listed, quoted
+from modeviz.errors import listed, quoted
 from modeviz.report.components import change_words
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody
@@ -30,27 +32,52 @@ def truncation_doubts(vehicle: Vehicle) -> Iterator[str]:
 
     Of one that cannot be solved there are none.
     """
-    gap = _gap(vehicle)
-    if gap is None:
-        return
+    gap = gap_if_solved(vehicle)
+    if gap is not None:
+        yield from gap_doubts(gap, vehicle)
+
+
+def gap_doubts(gap: TruncationGap, vehicle: Vehicle) -> Iterator[str]:
+    """Yield the sentences on a vehicle of which it is known how much too high its frequencies are."""
     for body in gap.bodies:
         if stiff := [s for s in stiff_connections(vehicle) if s.body == body]:
             yield f"body {quoted(body)} lacks residual vectors where {_stiff_words(stiff)}"
-    if gap.change > SMALL:
-        yield f"{_gap_words(gap)} are {_too_high(gap)}; {REMEDY}"
+    if is_large(gap):
+        yield f"{gap_words(gap)}; {REMEDY}"
+
+
+def gap_words(gap: TruncationGap) -> str:
+    """Return by how much frequencies are too high."""
+    return f"frequencies below {gap.below_hz:.3g} Hz are {_too_high(gap)}"
+
+
+def is_large(gap: TruncationGap) -> bool:
+    """Whether somebody minds it."""
+    return gap.change > SMALL
+
+
+def at_rates(which: str, gap: TruncationGap) -> str:
+    """Return a sentence on how much too high frequencies are at some rates, and why."""
+    bodies = listed(map(quoted, gap.bodies))
+    return f"At {which} {gap_words(gap)}, since {bodies} lack residual vectors: see modeviz check."
+
+
+def gap_record(gap: TruncationGap | None) -> dict[str, Any] | None:
+    """The fields of a gap as JSON has them, null for none."""
+    return None if gap is None else asdict(gap)
 
 
 def import_notes(body: FlexibleBody) -> Iterator[str]:
     """Yield what an imported body says of its truncation, on mounts a tenth as stiff as itself."""
     vehicle = on_trial_mounts(body)
-    gap = _gap(vehicle) if body.attachments else None
+    gap = gap_if_solved(vehicle) if body.attachments else None
     if gap is None:
         return
     missing = estimated_residual_compliance(body)
     names = [quoted(a.name) for a, r in zip(body.attachments, missing, strict=True) if r.any()]
     yield (
         f"body {quoted(body.name)} lacks residual vectors, so it is too stiff at {listed(names)}: on "
-        f"mounts a tenth as stiff as it is there, {_gap_words(gap)} are {_too_high(gap)}"
+        f"mounts a tenth as stiff as it is there, {gap_words(gap)}"
     ) + (f"; {REMEDY}" if gap.change > SMALL else "")
     (trust,) = component_trust(assemble(vehicle), gap.below_hz)
     n_elastic = body.n_normal - body.n_rigid
@@ -58,17 +85,6 @@ def import_notes(body: FlexibleBody) -> Iterator[str]:
     more = f"; for {SMALL:.1%} about {wanted} are wanted" if wanted > n_elastic else ""
     fewer = f"{trust.n_left_out} of its {n_elastic} elastic modes"
     yield f"body {quoted(body.name)}: without the last {fewer} {change_words(trust)} there{more}"
-
-
-def _gap(vehicle: Vehicle) -> TruncationGap | None:
-    try:
-        return truncation_gap(vehicle)
-    except ModevizError:
-        return None
-
-
-def _gap_words(gap: TruncationGap) -> str:
-    return f"frequencies below {gap.below_hz:.3g} Hz"
 
 
 def _too_high(gap: TruncationGap) -> str:

@@ -6,17 +6,24 @@ from html import escape
 
 import numpy as np
 
+from modeviz.dynamics.truncation_gap import TruncationGap
 from modeviz.optimise.active_limits import RELAXED, ActiveConstraint
 from modeviz.optimise.run import Optimum
 from modeviz.optimise.search import Search
 from modeviz.report.charts import NOW, Curve, line_chart
-from modeviz.report.optimum import objective_words, optimum_record, optimum_table
+from modeviz.report.optimum import (
+    objective_words,
+    optimum_doubts,
+    optimum_record,
+    optimum_table,
+    solved_from_scratch,
+)
 from modeviz.report.records import Record
 from modeviz.study.displayed import Displayed
 from modeviz.study.notebook import block, charts, figure, paragraphs, rates_table
 from modeviz.text.axes import Axis
 from modeviz.text.markup import table
-from modeviz.text.wording import percent_change, scientific, significant
+from modeviz.text.wording import percent_change, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MountRates, Rates
 from modeviz.vehicle.problem import Problem
@@ -79,8 +86,16 @@ class OptimiseResult(Displayed):
 
     @property
     def exact_difference(self) -> float:
-        """How far the full model's objective is from the one found, a part of it; NaN if unknown."""
+        """How far the full model as given is from the objective found, a part of it; NaN if unknown."""
         return self.optimum.verification.difference
+
+    @property
+    def truncation(self) -> TruncationGap | None:
+        """How much too high frequencies are at these rates, since bodies lack residual compliance.
+
+        None if none lacks it.
+        """
+        return self.optimum.verification.gap
 
     def objective(self, rates: Rates) -> float:
         """Return the objective of any rates.
@@ -113,6 +128,7 @@ class OptimiseResult(Displayed):
         return block(
             f"{vehicle.name}: problem {self.problem.name}",
             paragraphs(about, f"{self.reason} after {self.evaluations} evaluations{self._exactness}"),
+            paragraphs(*optimum_doubts(self.search, self.optimum)),
             rates_table(vehicle, groups, {"original": vehicle.rates, "found": self.rates}),
             self._limits_table(),
             self._chart(),
@@ -123,7 +139,7 @@ class OptimiseResult(Displayed):
         difference = self.exact_difference
         if not math.isfinite(difference):
             return ""
-        return f"; the full model's objective differs by a part of {scientific(difference)}"
+        return f"; {solved_from_scratch('objective', difference)}"
 
     def _limits_table(self) -> str:
         if not self.limits:

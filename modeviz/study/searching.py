@@ -24,7 +24,7 @@ def telling(tell: Tell, token: CancelToken) -> Callable[[Progress], None]:
         if token.is_cancelled:
             return
         if where.is_checking:
-            tell("checking with the full model", 1.0)
+            tell("solving the model as given from scratch", 1.0)
             return
         what = f"search {where.start} of {where.n_starts}, objective {significant(where.value)}"
         tell(what, (where.start - 1) / where.n_starts)

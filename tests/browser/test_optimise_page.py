@@ -85,7 +85,7 @@ def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page
     wait_for(page, f"{CHART} === a.n", n=charts + 1)
     wait_until(page, lambda: app.session.answer.now.rates == found.rates)
     assert not np.array_equal(app.session.answer.now.psd, before)
-    wait_for(page, f"{TEXT}.includes('The full model has the same goal within')")
+    wait_for(page, f"{TEXT}.includes('the model as given has the same goal within')")
     chart = app._optimise._fall._chart
     assert chart.data[1][-1] == pytest.approx(found.value, rel=1e-6)
     assert chart.data[0][-1] == found.evaluations

@@ -7,7 +7,8 @@ from html import escape
 import viser
 
 from modeviz.errors import ModevizError
-from modeviz.optimise.pareto import largest_difference
+from modeviz.optimise.pareto import largest_difference, most_truncated
+from modeviz.report.truncation import at_rates, is_large
 from modeviz.text.axes import Axis
 from modeviz.text.wording import sentence_case, significant
 from modeviz.viewer.page.handles import assign
@@ -135,13 +136,18 @@ def where(job: Job[Trade, Designs]) -> str:
 
 
 def _exactness(designs: Designs) -> str:
-    """Return the verdict of the full model on them, as far as it was asked."""
+    """Return the verdict of the full model as given on them, as far as it was asked."""
     verifications = [design.verification for design in designs]
     if None in verifications:
-        return span("Not held against the full model.", "dim")
+        return span("Not solved from scratch.", "dim")
     impossible = [v.impossible for v in verifications if v and v.impossible]
     if impossible:
         return span(f"Not checked: {escape(impossible[0])}", "bad")
     difference = largest_difference(designs)
-    text = f"The full model has the same goals within {percent(difference)}."
-    return span(text, "bad" if 100 * difference > ALARMING else "dim")
+    text = f"Solved from scratch, the model as given has the same goals within {percent(difference)}."
+    verdict = span(text, "bad" if 100 * difference > ALARMING else "dim")
+    worst = most_truncated(designs)
+    if worst is None or not is_large(worst[1]):
+        return verdict
+    number, gap = worst
+    return f"{verdict} {span(escape(at_rates(f'the rates of design {number}', gap)), 'bad')}"

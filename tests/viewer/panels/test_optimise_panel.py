@@ -10,13 +10,14 @@ from mounted_cabin import mounted_cabin
 from session_commands import altered
 
 from modeviz.analysis.results import Conditions
+from modeviz.dynamics.truncation_gap import TruncationGap
 from modeviz.optimise.active_limits import ActiveConstraint
 from modeviz.optimise.run import Optimum, Progress, optimise
 from modeviz.optimise.verification import Verification
 from modeviz.scatter.searching import SearchOptions
 from modeviz.vehicle.problem import FrequencyWindow
 from modeviz.viewer.panels.optimise.fall import steps
-from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, where
+from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, truncation, where
 from modeviz.viewer.panels.optimise.panel import OptimisePanel, offered
 from modeviz.viewer.panels.optimise.summary import summary
 from modeviz.viewer.session.session import Session
@@ -119,10 +120,22 @@ def test_what_the_full_model_says_is_bad_where_it_does_not_agree(optimum):
         check = Verification(1.0, difference, np.zeros(0), are_kept, impossible)
         return exactness(found(optimum, verification=check))
 
-    assert said(1e-12).startswith('<span class="dim">The full model has the same goal within')
+    assert said(1e-12).startswith('<span class="dim">Solved from scratch, the model as given has')
     assert 'class="bad"' in said(1e-3)
     assert "out of its band" in said(0.0, are_kept=False)
     assert "Not checked: too stiff" in said(np.nan, impossible="too stiff")
+
+
+def test_what_truncation_does_at_the_rates_found_is_told_where_it_matters(optimum):
+    def said(change):
+        gap = TruncationGap(("cab",), change, 9.5, 30.0, False)
+        return truncation(found(optimum, verification=replace(optimum.verification, gap=gap)))
+
+    assert said(0.1).startswith(
+        '<span class="bad">At these rates frequencies below 30 Hz are too high by'
+    )
+    assert "10 % (at 9.5 Hz;" in said(0.1)
+    assert said(1e-3) == truncation(optimum) == ""
 
 
 def test_the_fall_is_a_staircase_to_the_last_evaluation():

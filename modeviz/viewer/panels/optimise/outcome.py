@@ -8,6 +8,7 @@ from modeviz.optimise.active_limits import ActiveConstraint
 from modeviz.optimise.evaluator import CANCELLED, CONVERGED, OUT_OF_BUDGET
 from modeviz.optimise.run import Optimum
 from modeviz.report.space import outside_words
+from modeviz.report.truncation import at_rates, is_large
 from modeviz.text.wording import sentence_case, signed, significant
 from modeviz.viewer.page.html import change, heading, row, span, table
 from modeviz.viewer.panels.status import ALARMING, percent
@@ -61,14 +62,22 @@ def figures(look: SearchStatus) -> str:
 
 
 def exactness(optimum: Optimum) -> str:
-    """Return the verdict of the full model on it."""
+    """Return the verdict of the full model as given on it."""
     found = optimum.verification
     if found.impossible:
         return span(f"Not checked: {escape(found.impossible)}", "bad")
     if not found.are_kept:
-        return span("The full model has a mode out of its band.", "bad")
-    text = f"The full model has the same goal within {percent(found.difference)}."
+        return span("Solved from scratch, the model as given has a mode out of its band.", "bad")
+    text = (
+        f"Solved from scratch, the model as given has the same goal within {percent(found.difference)}."
+    )
     return span(text, "bad" if 100 * found.difference > ALARMING else "dim")
+
+
+def truncation(optimum: Optimum) -> str:
+    """Return how much too high frequencies are at its rates, if by enough for a word."""
+    gap = optimum.verification.gap
+    return span(escape(at_rates("these rates", gap)), "bad") if gap and is_large(gap) else ""
 
 
 def limits(optimum: Optimum) -> str:

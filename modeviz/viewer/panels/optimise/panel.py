@@ -12,7 +12,7 @@ from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, span
 from modeviz.viewer.panels.optimise.editor import ProblemEditor
 from modeviz.viewer.panels.optimise.fall import FallChart
-from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, where
+from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, truncation, where
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
@@ -91,7 +91,8 @@ class OptimisePanel:
     def _outcome(self, look: SearchStatus) -> str:
         if look.found is None:
             return ""
-        return block(limits(look.found), f"<div>{exactness(look.found)}</div>")
+        verdicts = (exactness(look.found), truncation(look.found))
+        return block(limits(look.found), *(f"<div>{verdict}</div>" for verdict in verdicts if verdict))
 
     def _offer(self) -> None:
         """Offers what can be done now."""
