@@ -53,6 +53,7 @@ from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.orientation import orientation_doubts
+from modeviz.vehicle.size_doubts import size_doubts
 from modeviz.vehicle.vehicle import Vehicle
 
 VEHICLE_FILE = "vehicle.toml"
@@ -124,7 +125,8 @@ def vehicle_of(tables: Mapping[str, Any], source: Source) -> Vehicle:
     own = replace(source, conventions=Conventions(record.units, axes))
     vehicle = msgspec.convert(ours, VehicleRecord).build(own)
     if not own.stand_ins:
-        for doubt in (*doubts(vehicle), *orientation_doubts(vehicle, axes), *mesh_doubts(vehicle)):
+        of_bodies = (*doubts(vehicle), *size_doubts(vehicle), *mesh_doubts(vehicle))
+        for doubt in (*of_bodies, *orientation_doubts(vehicle, axes)):
             own.note(doubt)
     file = str(own.folder / VEHICLE_FILE)
     return replace(vehicle, notes=own.notes, file=file, axes=record.axes)

@@ -11,6 +11,7 @@ from modeviz.formats.node_sets import NodeSet, set_motion
 from modeviz.formats.places import Place
 from modeviz.vehicle.arrays import Array, Floats, frozen
 from modeviz.vehicle.rigid import rigid_motions
+from modeviz.vehicle.vehicle import REACH
 
 LOOSE = 0.02
 """Nodes that are joined rigidly move apart by less than this part of how they move."""
@@ -73,6 +74,17 @@ def find_attachments(
     if repeated := {name for name in names if names.count(name) > 1}:
         raise VehicleError(f"attachment {quoted(min(repeated))}: two have that name")
     return tuple(_find(component, place, units.length) for place in places)
+
+
+def far_notes(attachments: Sequence[Found]) -> tuple[str, ...]:
+    """Return sentences on attachments that are not where they were asked for, but beyond `REACH`."""
+    return tuple(
+        f"attachment {quoted(found.name)} is {found.distance:.3g} m from where it was asked for, at "
+        f"the nearest node, [{', '.join(f'{value:.4g}' for value in found.position)}] m: is the place "
+        "in the files' coordinates and units?"
+        for found in attachments
+        if found.distance > REACH
+    )
 
 
 def _find(component: Component, place: Place, length: float) -> Found:

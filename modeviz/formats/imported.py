@@ -12,7 +12,7 @@ from modeviz.files.meshes import read_mesh
 from modeviz.files.records.vehicle import VehicleRecord
 from modeviz.files.schema.axes import axes_of
 from modeviz.files.toml_reader import read_toml
-from modeviz.formats.attachments import Found, find_attachments
+from modeviz.formats.attachments import Found, far_notes, find_attachments
 from modeviz.formats.body import chosen_units, flexible_body
 from modeviz.formats.component import Component, UnitSystem
 from modeviz.formats.halves import Whole, join_halves, parse_plane
@@ -169,7 +169,7 @@ def import_body(
     if pose is not None:
         body, said = pose.moved(body), (*misfit_notes(pose), *said)
     vehicle = add_body(body, folder, component.source, settings.replaces) if folder else None
-    return Imported(body, found, (*said, *notes), vehicle)
+    return Imported(body, found, (*said, *far_notes(found), *notes), vehicle)
 
 
 def _attached(

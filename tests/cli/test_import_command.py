@@ -161,6 +161,25 @@ def test_attachments_by_node_by_name_and_at_the_nearest_node(tmp_path, file, cap
     assert f"attachment 'left rear' at [1, 0, 0] m, {distance:.3g} mm" in capsys.readouterr().out
 
 
+def test_an_attachment_that_lands_far_from_where_it_was_asked_for_has_a_note_of_its_own(
+    tmp_path, file, capsys
+):
+    arguments = [file(network_unv()), "--output", str(tmp_path / "v"), "--units", "mm-t-s"]
+    main(["import", *arguments, "--attach", "a=5000,0,0", "--attach", "b=1000,50,0"])
+    notes = [line for line in capsys.readouterr().err.splitlines() if "from where it was asked" in line]
+    (note,) = notes
+    assert "attachment 'a' is 4 m from where it was asked for, at the nearest node, [1, 0, 0] m" in note
+
+
+def test_a_body_in_wrong_units_is_doubted_as_it_is_imported_and_checked(tmp_path, file, capsys):
+    folder = str(tmp_path / "v")
+    main(["import", file(network_unv()), "--output", folder, "--units", "m-kg-s"])
+    doubt = "body 'block': is 1.28e+03 m across and weighs 0.0142 kg, larger than any part of a vehicle"
+    assert doubt in capsys.readouterr().err
+    main(["check", folder])
+    assert doubt in capsys.readouterr().out
+
+
 def test_what_is_to_be_filled_in_reads_as_it_stands(tmp_path, file):
     folder = tmp_path / "vehicle"
     arguments = [file(network_unv()), "--output", str(folder), "--units", "mm-t-s", "--attach", "11"]
