@@ -12,7 +12,7 @@ from modeviz.cli.importing_mounts import import_mounts, list_springs_beside
 from modeviz.cli.importing_roads import import_road_file
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
-from modeviz.errors import ModevizError, located
+from modeviz.errors import ModevizError, listed, located
 from modeviz.formats.attachments import Found
 from modeviz.formats.body import uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
@@ -31,6 +31,9 @@ from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.residuals import estimated_residual_compliance, modal_compliance
 
 UNKNOWN = "unknown"
+
+ROUNDING = 1e-9
+"""So small a part of the compliance of an attachment is none."""
 
 OF_A_BODY = (
     "units",
@@ -212,12 +215,13 @@ def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) ->
         f"first elastic modes {', '.join(f'{f:.4g}' for f in elastic) or 'none'} Hz",
     ]
     modal, missing = modal_compliance(body), estimated_residual_compliance(body)
+    what = "its modes and residual vectors are" if body.n_residuals else "its modes are"
     for found, attachment, own, more in zip(attachments, body.attachments, modal, missing, strict=True):
         far = f", {1000 * found.distance:.3g} mm from where it was asked for" if found.distance else ""
         truer = f", and about {_stiffness(own + more)} with those left out" if more.any() else ""
         lines.append(
-            f"attachment {found.name!r} at {_places(attachment.position)} m{far}; its modes are "
-            f"{_stiffness(own)} N/mm stiff there{truer}"
+            f"attachment {found.name!r} at {_places(attachment.position)} m{far}; {what} "
+            f"{_stiffness(own)} N/mm stiff there{truer}{_unmoved_words(own)}"
         )
     if not attachments:
         lines.append("no attachments, so nothing can hold on to it: import it with --attach")
@@ -225,9 +229,22 @@ def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) ->
 
 
 def _stiffness(compliance: np.ndarray) -> str:
-    """N/mm of what gives way so much, infinite where it does not."""
-    rates = np.divide(1.0, compliance, out=np.full(3, np.inf), where=compliance > 0)
-    return _listed(rates / factor("N/mm", "stiffness"))
+    """N/mm of what gives way so much, "rigid" where it does not."""
+    values = [
+        "rigid" if still else f"{1 / own / factor('N/mm', 'stiffness'):.4g}"
+        for own, still in zip(compliance, _unmoved(compliance), strict=True)
+    ]
+    return f"[{', '.join(values)}]"
+
+
+def _unmoved(compliance: np.ndarray) -> np.ndarray:
+    """Along which directions no mode moves an attachment but by rounding."""
+    return compliance <= ROUNDING * compliance.max()
+
+
+def _unmoved_words(compliance: np.ndarray) -> str:
+    along = [axis for axis, still in zip("xyz", _unmoved(compliance), strict=True) if still]
+    return f"; no elastic mode moves it along {listed(along)}" if along else ""
 
 
 def _places(metres: np.ndarray) -> str:

@@ -41,7 +41,8 @@ def gap_doubts(gap: TruncationGap, vehicle: Vehicle) -> Iterator[str]:
     """Yield the sentences on a vehicle of which it is known how much too high its frequencies are."""
     for body in gap.bodies:
         if stiff := [s for s in stiff_connections(vehicle) if s.body == body]:
-            yield f"body {quoted(body)} lacks residual vectors where {_stiff_words(stiff)}"
+            lack = _lack(vehicle.body(body))
+            yield f"body {quoted(body)} {lack} where {_stiff_words(stiff)}"
     if is_large(gap):
         yield f"{gap_words(gap)}; {REMEDY}"
 
@@ -76,8 +77,8 @@ def import_notes(body: FlexibleBody) -> Iterator[str]:
     missing = estimated_residual_compliance(body)
     names = [quoted(a.name) for a, r in zip(body.attachments, missing, strict=True) if r.any()]
     yield (
-        f"body {quoted(body.name)} lacks residual vectors, so it is too stiff at {listed(names)}: on "
-        f"mounts a tenth as stiff as it is there, {gap_words(gap)}"
+        f"body {quoted(body.name)} {_lack(body)}, so it is too stiff at {listed(names)}: on mounts a "
+        f"tenth as stiff as it is there, {gap_words(gap)}"
     ) + (f"; {REMEDY}" if gap.change > SMALL else "")
     (trust,) = component_trust(assemble(vehicle), gap.below_hz)
     n_elastic = body.n_normal - body.n_rigid
@@ -85,6 +86,15 @@ def import_notes(body: FlexibleBody) -> Iterator[str]:
     more = f"; for {SMALL:.1%} about {wanted} are wanted" if wanted > n_elastic else ""
     fewer = f"{trust.n_left_out} of its {n_elastic} elastic modes"
     yield f"body {quoted(body.name)}: without the last {fewer} {change_words(trust)} there{more}"
+
+
+def _lack(body: FlexibleBody) -> str:
+    """What there is too little of."""
+    if not body.n_residuals:
+        return "lacks residual vectors"
+    return (
+        f"gives way too little along some directions even with its {body.n_residuals} residual vectors"
+    )
 
 
 def _too_high(gap: TruncationGap) -> str:

@@ -1,5 +1,6 @@
 import re
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,10 +8,13 @@ import pytest
 from free_network import CORNERS, LABELS, MASSES, free_network, held_frequencies
 from network_files import network_op2, network_unv
 from op2_files import Op2
+from oracles import Beam
 from universal_files import nodes_2411, shape_55, shape_2414, units_164
 
 from modeviz.cli import main
+from modeviz.cli.importing import summary
 from modeviz.files import read_vehicle
+from modeviz.formats.attachments import Found
 from modeviz.formats.imported import import_component
 from modeviz.units import INCH, POUND, STANDARD_GRAVITY
 
@@ -106,6 +110,18 @@ def test_how_stiff_its_modes_make_an_attachment_is_that_of_a_free_body_under_a_f
     main(["import", file(network_unv()), "--output", folder, "--units", "mm-t-s", "--attach", "23"])
     found = re.search(r"modes are \[(.*)\] N/mm stiff there", capsys.readouterr().out)[1]
     np.testing.assert_allclose([float(v) for v in found.split(", ")], expected, rtol=1e-3)
+
+
+def test_where_no_mode_moves_an_attachment_it_has_no_number_of_stiffness():
+    """The lowest modes of a beam are in bending; by rounding they stretch it a little too."""
+    body = Beam(10).body("beam", n_modes=9)
+    end = body.attachments[0]
+    stretched = end.shapes + 1e-12 * np.eye(6, 9, 6)
+    body = replace(body, attachments=(replace(end, shapes=stretched),))
+    found = Found("end", end.position, np.array([0]), np.eye(6))
+    line = summary(body, (found,), Path("v")).splitlines()[-1]
+    assert re.search(r"its modes are \[rigid, [\d.]+, [\d.]+\] N/mm stiff there, and about", line)
+    assert line.endswith("; no elastic mode moves it along x")
 
 
 @pytest.mark.parametrize(

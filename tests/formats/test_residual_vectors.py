@@ -109,6 +109,17 @@ def test_an_import_without_residual_vectors_says_what_that_does(imported, capsys
     assert "with those left out" in said.out
 
 
+def test_an_import_with_some_residual_vectors_does_not_say_that_it_lacks_them(imported, capsys):
+    imported("--residual", "a=1,1,0", "--residual", "b=1,1,1")
+    said = capsys.readouterr()
+    assert (
+        "body 'block' gives way too little along some directions even with its 5 residual" in said.err
+    )
+    assert "so it is too stiff at 'a': on mounts" in said.err
+    assert "lacks residual vectors" not in said.err
+    assert "its modes and residual vectors are [" in said.out
+
+
 def test_an_import_with_given_compliance_says_nothing_of_that(imported, capsys):
     imported("--residual", "a=1,1,1", "--residual", "b=1,1,1")
     said = capsys.readouterr()
