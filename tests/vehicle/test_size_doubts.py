@@ -47,7 +47,7 @@ def test_a_flexible_body_in_wrong_units(length, mass, words):
 
 
 def test_a_body_that_no_other_is_like():
-    short = in_units(BEAM, 0.009, 1e-4)
+    short = replace(in_units(BEAM, 0.009, 1e-4), name="short")
     assert said(short) == ""
     assert "times as large as any other" in said(short, BEAM)
     assert "times smaller than any other" in said(short, BEAM)
