@@ -10,6 +10,7 @@ import numpy as np
 from modeviz.cli.command import Command
 from modeviz.cli.importing_mounts import import_mounts, list_springs_beside
 from modeviz.cli.importing_roads import import_road_file
+from modeviz.cli.news import News
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError, listed, located
@@ -156,10 +157,12 @@ def import_component(options: ImportOptions) -> None:
         wanted=wanted,
         replaces=options.replace,
     )
+    news = News(options.output)
     imported = import_body(component, options.name or options.files[0].stem, settings, options.output)
     assert imported.vehicle
-    for note in (*imported.notes, *import_notes(imported.body), *imported.vehicle.notes):
+    for note in (*imported.notes, *import_notes(imported.body)):
         remark(note)
+    news.tell(imported.vehicle, imported.body.name)
     print_result(summary(imported.body, imported.attachments, options.output))
 
 

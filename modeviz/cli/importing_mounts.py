@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from modeviz.cli.news import News
 from modeviz.cli.results import print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError
@@ -58,9 +59,9 @@ def import_mounts(files: Sequence[Path], output: Path | None, settings: MountSet
     if output is None:
         print_result(listing(read_mounts(path, settings, note)))
         return
+    news = News(output, truncation_doubts)
     bushings, vehicle = put_mounts(path, output, settings, note)
-    for doubt in (*vehicle.notes, *truncation_doubts(vehicle)):
-        remark(doubt)
+    news.tell(vehicle)
     print_result(f"{output}: {len(bushings)} connections from {path.name}\n\n{listing(bushings)}")
 
 

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from modeviz.cli.news import News
 from modeviz.cli.results import print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError
@@ -23,11 +24,11 @@ def import_road_file(files: Sequence[Path], output: Path | None, settings: RoadS
     path, *others = files
     if others:
         raise ModevizError(f"found {len(files)} roads, expected one at a time")
+    news = News(output, road_doubts)
     road = import_road(path, output, settings, lambda text: remark(f"{path.name}: {text}"))
     print_result(summary(path, road.surface, road.spectra, road.track_width))
     if road.vehicle:
-        for note in (*road.vehicle.notes, *road_doubts(road.vehicle)):
-            remark(note)
+        news.tell(road.vehicle)
         print_result(f"{output}: road {road.name!r}")
 
 

@@ -261,6 +261,27 @@ def content(folder: Path) -> dict[Path, bytes]:
     return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
+def test_an_import_tells_nothing_that_stood_before_and_all_of_its_own_body(held, capsys):
+    """The one in wrong units is doubted when it comes, and when it is replaced; not by a third one."""
+    folder, (path, *arguments) = held
+    second = [path, *arguments, "--name", "wrong"]
+    second[second.index("mm-t-s")] = "m-kg-s"
+    doubt = "body 'wrong': is 1.28e+03 m across"
+    for more, is_told in ((second, 1), ([path, *arguments, "--name", "third"], 0)):
+        capsys.readouterr()
+        assert main(["import", *more]) == 0
+        assert capsys.readouterr().err.count(doubt) == is_told
+    assert main(["import", *second, "--replace"]) == 0
+    assert capsys.readouterr().err.count(doubt) == 1
+    table = folder.parent / "mounts.csv"
+    table.write_text(
+        "name,body 1,body 2,x [mm],y [mm],z [mm],kx [N/mm],ky [N/mm],kz [N/mm]\n"
+        "one,block,ground,0,0,0,5,5,5\n"
+    )
+    assert main(["import", str(table), "--output", str(folder)]) == 0
+    assert doubt not in capsys.readouterr().err
+
+
 def test_a_body_that_replaces_another_has_its_own_modes_and_attachments(tmp_path, file, held):
     folder, (_, *arguments) = held
     before = (folder / "vehicle.toml").read_text()

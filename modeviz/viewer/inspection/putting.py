@@ -101,4 +101,6 @@ def _put_mounts(path: Path, asked: Asked, folder: Path) -> Put:
         settings = MountSettings(units=asked.units, pose=asked.pose)
         bushings = read_mounts(path, settings, notes.append, target)
     vehicle = add_bushings(bushings, target, path.name)
-    return Put(f"{len(bushings)} connections", (*notes, *truncation_doubts(vehicle)))
+    standing = set(truncation_doubts(target.vehicle))
+    doubts = (doubt for doubt in truncation_doubts(vehicle) if doubt not in standing)
+    return Put(f"{len(bushings)} connections", (*notes, *doubts))
