@@ -10,6 +10,7 @@ from modeviz.cli.options import JsonOptions, add_folder, add_json
 from modeviz.cli.results import check_printable, print_result
 from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
+from modeviz.files.folder import check_is_folder
 from modeviz.files.survey import Problem, Survey, survey
 from modeviz.report.check import Summary, summarised, summary_record
 from modeviz.report.check_text import summary_text
@@ -29,10 +30,11 @@ def check(options: CheckOptions) -> None:
     """Prints all problems and doubts of a folder and a summary of what is in it.
 
     Raises:
-        ModevizError: there are problems, so that no other command reads the folder.
+        ModevizError: there is no folder, or there are problems, so that no other command reads it.
     """
     check_printable()
     folder = options.vehicle or builtin_vehicle()
+    check_is_folder(folder)
     found = survey(folder)
     if found.vehicle and not found.problems:
         more = (*road_doubts(found.vehicle), *truncation_doubts(found.vehicle))

@@ -1,5 +1,6 @@
 """The command that writes files for other programs."""
 
+import shlex
 from argparse import ArgumentParser
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 from modeviz.cli.command import Command
 from modeviz.cli.options import RoadOptions, VehicleOptions, add_road, add_vehicle
 from modeviz.cli.terminal import Teller, remark, say
+from modeviz.errors import ModevizError
 from modeviz.export.catalogue import ENDINGS
 from modeviz.export.solution import ExportOptions
 from modeviz.formats.component import UNIT_SYSTEMS
@@ -29,9 +31,19 @@ class ExportCommandOptions(VehicleOptions, ExportOptions, RoadOptions):
 
 
 def export(options: ExportCommandOptions) -> None:
-    """Writes files of a vehicle with its rates, and prints which."""
+    """Writes files of a vehicle with its rates, and prints which.
+
+    Raises:
+        ModevizError: the vehicle comes after the files, or as `export_files`.
+    """
     if options.begins_with_a_file:
         files = tuple(filter(None, (options.vehicle, *options.files)))
+        for path in options.files:
+            if path.is_dir():
+                raise ModevizError(
+                    f"{path}: is a folder; that of the vehicle comes first: modeviz export "
+                    f"{shlex.join(map(str, (path, files[0])))}"
+                )
         options = replace(options, vehicle=None, files=files)
     vehicle, rates = options.read()
     tuned = TunedVehicle(vehicle, Teller())

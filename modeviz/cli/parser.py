@@ -1,9 +1,13 @@
 """The commands put together, and what is typed to choose and to ask one."""
 
 import argparse
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
+from difflib import get_close_matches
 from functools import partial
 from importlib.metadata import version
+from itertools import takewhile
+from pathlib import Path
 
 from modeviz.cli.check import CHECK
 from modeviz.cli.command import Command
@@ -17,24 +21,54 @@ from modeviz.cli.report import REPORT
 from modeviz.cli.scatter import SCATTER
 from modeviz.cli.view import VIEW
 from modeviz.cli.wheels import WHEELS
+from modeviz.errors import ModevizError, unknown
 
 COMMANDS = (VIEW, MODES, PSD, WHEELS, RENDER, REPORT, OPTIMISE, SCATTER, IMPORT, CHECK, EXPORT)
 
 
+OPTION = re.compile(r"--[\w-]+")
+
+
 def parse(arguments: Sequence[str]) -> Callable[[], None]:
-    """Return what does that which was asked for; what no command understands ends the program."""
-    names = {command.name for command in COMMANDS}
+    """Return what does that which was asked for; what no command understands ends the program.
+
+    Raises:
+        ModevizError: there is no such command or option; the text says which may be meant.
+    """
+    names = [command.name for command in COMMANDS]
     if not arguments or (arguments[0] not in (*names, "-h", "--help", "--version")):
+        _check_no_command(arguments[:1], names)
         arguments = [VIEW.name, *arguments]
-    given = _parser().parse_args(arguments)
+    parser, of_commands = _parsers()
+    if own := of_commands.get(arguments[0]):
+        _check_options(arguments[1:], own)
+    given = parser.parse_args(arguments)
     command: Command = given.command
     return partial(command.run, command.asked(given))
 
 
-def _parser() -> argparse.ArgumentParser:
+def _check_no_command(first: Sequence[str], names: Sequence[str]) -> None:
+    """Raises ModevizError if what ought to be a folder or a file is likely a command misspelt."""
+    for word in first:
+        if word.isalpha() and get_close_matches(word.lower(), names, n=1) and not Path(word).exists():
+            raise ModevizError(unknown("command", word, names))
+
+
+def _check_options(arguments: Sequence[str], own: argparse.ArgumentParser) -> None:
+    """Raises ModevizError for an option that a command does not have."""
+    known = ["--help", *OPTION.findall(own.format_usage())]
+    for word in takewhile(lambda word: word != "--", arguments):
+        name = word.partition("=")[0]
+        if OPTION.fullmatch(name) and name not in known:
+            raise ModevizError(f"{own.prog}: {unknown('option', name, known)}")
+
+
+def _parsers() -> tuple[argparse.ArgumentParser, Mapping[str, argparse.ArgumentParser]]:
+    """The program's parser, and those of its commands by name."""
     parser = argparse.ArgumentParser(
         prog="modeviz",
         description="Modes, ride and mount tuning of a vehicle. Without a command: view.",
+        allow_abbrev=False,
     )
     vars(parser)["color"] = False  # by escape sequences, since Python 3.14
     parser.add_argument("--version", action="version", version=f"modeviz {version('modeviz')}")
@@ -45,7 +79,8 @@ def _parser() -> argparse.ArgumentParser:
             help=command.help,
             description=command.help.capitalize() + ".",
             argument_default=argparse.SUPPRESS,  # what is not given is as the command's options say
+            allow_abbrev=False,
         )
         own.set_defaults(command=command)
         command.add_options(own)
-    return parser
+    return parser, commands.choices

@@ -11,7 +11,7 @@ from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
 from modeviz.formats.mounts.imported import check_no_mounts
-from modeviz.formats.reading import are_results
+from modeviz.formats.reading import are_results, check_are_read
 
 DEFAULT_PORT = 8080
 
@@ -74,6 +74,7 @@ def view(options: ViewOptions) -> None:
         options.check_no_vehicle()
         inspect(ResultFiles(options.what), *door, options.public_names, remark)
         return
+    check_are_read(options.what)
     options = options.of_folder()
     folder = options.vehicle or builtin_vehicle()
     vehicle = None if options.bodies else finished_vehicle(folder)

@@ -92,12 +92,23 @@ def read_vehicle(folder: Path | str) -> Vehicle:
         return vehicle
 
 
+def check_is_folder(path: Path) -> None:
+    """Checks that there is a folder; raises VehicleError, with what to do with a file that is there."""
+    if path.is_file():
+        use = "modeviz view looks at files of other programs, modeviz import puts them into a folder"
+        own = f"give its folder, {path.parent}" if path.name == VEHICLE_FILE else use
+        raise VehicleError(f"{path}: is a file, expected the folder of a vehicle; {own}")
+    if not path.exists():
+        raise VehicleError(f"{path}: there is no such folder")
+
+
 def read_vehicle_text(folder: Path) -> str:
     """The vehicle file in a folder.
 
     Raises:
         VehicleError: it is missing, or no text.
     """
+    check_is_folder(folder)
     if not (folder / VEHICLE_FILE).is_file():
         raise VehicleError(
             f"{folder}: found no {VEHICLE_FILE}; a vehicle is a folder with a {VEHICLE_FILE}, and the "

@@ -71,6 +71,17 @@ def are_results(paths: Sequence[Path]) -> bool:
     return bool(paths) and all(is_read(path) and not path.is_dir() for path in paths)
 
 
+def check_are_read(paths: Sequence[Path]) -> None:
+    """Checks that those of paths which are files of other programs have a format that is read.
+
+    Raises:
+        VehicleError: one has not; the text says what are.
+    """
+    for path in paths:
+        if path.is_file() and not is_read(path) and path.suffix != ".toml":
+            _reader(path)
+
+
 def is_read(path: Path) -> bool:
     """Return whether a file is named as one of a format that is read."""
     return path.suffix.lower() in ENDINGS

@@ -201,10 +201,48 @@ def test_the_program_ends_with_that_status_and_no_traceback(folder):
     assert "Traceback" not in run.stderr
 
 
-def test_a_wrong_option_is_status_2_too(capsys):
+def test_what_a_command_cannot_do_without_is_status_2_too(capsys):
     with pytest.raises(SystemExit) as end:
-        main(["modes", "--no-such-option"])
+        main(["render"])
     assert end.value.code == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["optimize", "X"], "unknown command 'optimize': did you mean 'optimise'? there are view, "),
+        (
+            ["import", "x.op2", "--attch", "1"],
+            "unknown option '--attch': did you mean '--attach'?",
+        ),
+        (["import", "--unit=mm-t-s", "x.op2"], "unknown option '--unit': did you mean '--units'?"),
+        (["import", "x.op2", "--nam", "cab"], "unknown option '--nam': did you mean '--name'?"),
+        (["modes", "--no-such-option"], "modes: unknown option '--no-such-option': there are --help, "),
+        (["--prot", "0"], "modeviz view: unknown option '--prot': did you mean '--port'?"),
+        (["check", "nosuch"], "nosuch: there is no such folder"),
+        (["modes", "nosuch"], "nosuch: there is no such folder"),
+        (["check", "x.op2"], "x.op2: is a file, expected the folder of a vehicle; modeviz view looks"),
+        (["modes", "vehicle.toml"], "vehicle.toml: is a file, expected the folder of a vehicle; give"),
+        (["view", "x.frd"], "x.frd: found '.frd', expected one of .unv"),
+        (["check", "x.f06"], "x.f06: is a file, expected the folder of a vehicle; modeviz view looks"),
+        (["view", "x.stl"], "x.stl: is a mesh, which has no modes"),
+    ],
+)
+def test_what_is_likely_meant_is_said(tmp_path, monkeypatch, capsys, arguments, message):
+    monkeypatch.chdir(tmp_path)
+    for name in ("x.op2", "x.f06", "x.frd", "x.stl", "vehicle.toml"):
+        (tmp_path / name).touch()
+    assert main(arguments) == 2
+    said = capsys.readouterr()
+    assert message in said.out + said.err
+
+
+def test_a_folder_that_is_called_like_a_command_is_opened(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mode").mkdir()
+    (tmp_path / "mode" / "vehicle.toml").write_text("name = 3")
+    assert main(["mode"]) == 2
+    assert "vehicle.toml" in capsys.readouterr().err
 
 
 NEEDED = {

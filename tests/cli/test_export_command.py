@@ -88,6 +88,13 @@ def test_a_file_that_is_there_is_replaced_whole_and_a_folder_is_not(folder, here
     assert (here / "rates.csv").read_text().startswith("group,units")
 
 
+def test_a_vehicle_after_its_files_is_said_to_come_first(folder, here, capsys):
+    (here / "pick up").mkdir()
+    assert main(["export", "rates.csv", "pick up"]) == 2
+    words = "pick up: is a folder; that of the vehicle comes first: modeviz export 'pick up' rates.csv"
+    assert words in capsys.readouterr().err
+
+
 def test_a_file_that_fails_leaves_the_one_that_is_there(folder, here, monkeypatch, capsys):
     (here / "modes.unv").write_text("of last week")
 

@@ -422,8 +422,9 @@ def test_wrong_vehicle_file_is_explained(folder, case):
 
 
 def test_folder_that_is_no_vehicle_is_told_what_one_is(tmp_path):
-    for folder in (tmp_path, tmp_path / "nowhere"):
-        assert complaint(folder).startswith(f"{folder}: found no vehicle.toml; a vehicle is a folder")
+    assert complaint(tmp_path).startswith(f"{tmp_path}: found no vehicle.toml; a vehicle is a folder")
+    nowhere = tmp_path / "nowhere"
+    assert complaint(nowhere) == f"{nowhere}: there is no such folder"
 
 
 def test_bytes_that_are_no_text_are_refused(folder):
