@@ -23,6 +23,11 @@ def title(name: str) -> str:
     return escape(sentence_case(name))
 
 
+def named_small(name: str, label: str) -> str:
+    """A name, escaped, with what people call it in small letters where that is something else."""
+    return escape(name) + (f" <small>{escape(label)}</small>" if label != name else "")
+
+
 def change(now: float, base: float) -> str:
     """The change in percent, good or bad where less is better."""
     text = percent_change(now, base)

@@ -338,6 +338,16 @@ class MountGroup:
             )
         object.__setattr__(self, "mounts", tuple(map(self._tuned, self.mounts)))
 
+    @property
+    def meaning(self) -> str:
+        """The label where it says more than the name, else ""."""
+        return "" if self.label == self.name else self.label
+
+    @property
+    def title(self) -> str:
+        """Name and label: "C1  cab front"; once what is the same."""
+        return f"{self.name}  {self.meaning}".rstrip()
+
     def _tuned(self, mount: Mount) -> Mount:
         """A mount with what its group has, and its own where it has that."""
         shared = {name: getattr(self, name) for name in SHARED if not getattr(mount, name).any()}

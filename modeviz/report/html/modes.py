@@ -16,7 +16,7 @@ from modeviz.report.optimum import objective_words
 from modeviz.report.space import outside_words, ratio_words
 from modeviz.ride.psd import power_decibels
 from modeviz.text.axes import shown_hz
-from modeviz.text.markup import NONE, change, note, section, span, table, title
+from modeviz.text.markup import NONE, change, named_small, note, section, span, table, title
 from modeviz.text.wording import number, percent_change, signed, significant
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, MountGroup
@@ -96,7 +96,7 @@ def _reference(comparison: Comparison) -> list[tuple[str, Vehicle]]:
 def _group_rows(groups: Sequence[MountGroup]) -> Iterator[list[str]]:
     """Rows of one group's rates with each set."""
     per_mm = factor("N/mm", "stiffness")
-    yield [f"{escape(groups[0].name)} <small>{escape(groups[0].label)}</small>"]
+    yield [named_small(groups[0].name, groups[0].label)]
     columns = zip(*(group.rates.as_tuple() for group in groups), strict=True)
     for direction, values in zip(DIRECTIONS, columns, strict=True):
         yield [direction, *_rate_cells([value / per_mm for value in values])]

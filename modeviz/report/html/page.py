@@ -15,7 +15,7 @@ from modeviz.report.html.exactness import exactness
 from modeviz.report.html.modes import frequencies, objective, participation, rates
 from modeviz.report.html.ride import levels, spectra
 from modeviz.report.html.wheels import wheels
-from modeviz.text.markup import change, section, span
+from modeviz.text.markup import change, named_small, section, span
 from modeviz.text.wording import number, signed
 from modeviz.units import factor
 from modeviz.vehicle.connections import RIDE_DIRECTIONS
@@ -77,7 +77,7 @@ def _about(comparison: Comparison, made: date) -> str:
         kilometres_per_hour = conditions.speed / factor("km/h", "speed")
         if isinstance(load, Road):
             items += [
-                ("Road", f"{escape(load.name)} <small>{escape(load.label)}</small>"),
+                ("Road", named_small(load.name, load.label)),
                 ("Speed", f"{kilometres_per_hour:.4g} km/h"),
             ]
         else:

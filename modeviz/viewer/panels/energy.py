@@ -42,7 +42,7 @@ class EnergyPanel:
         """Makes room; `show` fills it."""
         bodies = session.vehicle.bodies
         self._bodies = {body.name: body.label for body in bodies}
-        self._groups = {group.name: group.label for group in session.vehicle.mount_groups}
+        self._groups = {group.name: group.meaning for group in session.vehicle.mount_groups}
         groups = list(self._groups)
         self._buttons = HiddenButtons(gui, len(groups), lambda i: session.do(SelectGroup(groups[i])))
         self._content = gui.add_html("")
@@ -86,9 +86,9 @@ class EnergyPanel:
         return table((), rows, "energy") if largest > 0 else span(MOVES_FREELY, "dim")
 
     def _group(self, i: int, name: str) -> str:
-        label = self._groups[name]
-        content = f"{escape(cut(name, TWO_LINES))} {span(escape(label), 'dim')}"
-        return self._buttons.label(i, clamped(content, f"{name} {label}"))
+        meaning = self._groups[name]
+        content = f"{escape(cut(name, TWO_LINES))} {span(escape(meaning), 'dim')}"
+        return self._buttons.label(i, clamped(content, f"{name} {meaning}".rstrip()))
 
     def _other(self, name: str) -> str:
         """Return the name of what is strained but no mount group: a body that bends, or connections."""

@@ -237,7 +237,7 @@ class Markers:
 def card_text(group: MountGroup, rates: MountRates, unit: str, share: float, mode: str) -> str:
     """Return the text of a group's card: name, mounts, rates in a unit and share of a mode's energy."""
     sides = " + ".join(mount.name.removeprefix(group.name).strip() for mount in group.mounts)
-    title = f"{group.name}  {group.label}" + (f", {sides}" if sides else "")
+    title = group.title + (f", {sides}" if sides else "")
     named = zip(DIRECTIONS, rates.as_tuple(), strict=True)
     per_unit = factor(unit, "stiffness")
     values = "  ".join(f"{direction} {rate / per_unit:.0f}" for direction, rate in named)

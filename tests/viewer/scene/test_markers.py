@@ -35,6 +35,14 @@ def test_card_names_the_group_its_sides_its_rates_and_its_share():
     )
 
 
+def test_a_group_whose_label_is_its_name_is_named_once():
+    """As an import names the groups of a table of mounts that has no labels."""
+    same = replace(group("C1 left", "C1 right"), label="C1")
+    assert card_text(same, RATES, "N/mm", 0.1, "pitch").splitlines()[0] == "C1, left + right"
+    assert (same.title, same.meaning) == ("C1", "")
+    assert (group("C1").title, group("C1").meaning) == ("C1  cab front", "cab front")
+
+
 def test_card_says_rates_in_the_unit_that_was_chosen():
     text = card_text(group("C1 left"), RATES, "N/cm", 0.234, "cab yaw")
     assert text.splitlines()[1] == "vertical 16400  lateral 12100  fore-aft 4800 N/cm"

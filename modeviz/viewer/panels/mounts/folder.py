@@ -24,7 +24,7 @@ class GroupFolder:
     ) -> None:
         """Builds them; arguments as of `Details`."""
         self._group, write_back = group, WriteBack()
-        self._folder = gui.add_folder(f"{group.name}  {group.label}")
+        self._folder = gui.add_folder(group.title)
         with self._folder:
             # The style sheet and the script know the folder by this.
             gui.add_html(f'<div class="mv-rates" data-group="{escape(group.name)}"></div>')
@@ -50,7 +50,7 @@ class GroupFolder:
         """
         name, state, mode = self._group.name, solved.state, solved.followed.name.spoken
         share = f"{100 * solved.strain[name]:.0f} % of strain energy"
-        assign(self._folder, label=f"{name}  {self._group.label}  ·  {share}")
+        assign(self._folder, label=f"{self._group.title}  ·  {share}")
         for field, row in self._rows.items():
             effect = effects.get((name, field))
             row.show(state, compared, "" if effect is None else in_a_sentence(effect, mode))

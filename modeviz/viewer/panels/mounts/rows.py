@@ -73,8 +73,7 @@ class RateRow:
         is_locked = (self._group.name, self._field) in state.design.locked
         in_unit = written(base, factor(state.unit, "stiffness"))
         about = (
-            f"{self._group.name} {self._group.label}, {self._direction} rate, {state.unit}. "
-            f"{state.against}: {in_unit:g}."
+            f"{self._group.title}, {self._direction} rate, {state.unit}. {state.against}: {in_unit:g}."
         )
         locked = " Locked: loading a set is all that moves it." if is_locked else ""
         assign(

@@ -35,7 +35,7 @@ class BoundsEditor:
         with gui.add_folder("Bounds and ratios", expand_by_default=False):
             controls.choose(
                 "Mounts",
-                {f"{group.name}  {group.label}": group.name for group in session.vehicle.mount_groups},
+                {group.title: group.name for group in session.vehicle.mount_groups},
                 lambda _, plan: plan.shown_group,
                 lambda name: controls.put(shown_group=name),
                 "Whose limits are shown here",

@@ -1,0 +1,56 @@
+"""What the page and a report call a mount group."""
+
+from dataclasses import replace
+from datetime import date
+
+import pytest
+import viser
+from mounted_cabin import mounted_cabin
+
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import Conditions
+from modeviz.report.comparison import RateSet, compare
+from modeviz.report.html import report
+from modeviz.viewer.page.html import HiddenButtons
+from modeviz.viewer.panels.energy import EnergyPanel
+from modeviz.viewer.panels.mounts.folder import GroupFolder
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import first_state
+
+
+@pytest.fixture(scope="module")
+def vehicle():
+    """A cabin whose front mounts have no label but their name."""
+    cabin = mounted_cabin()
+    front, rear = cabin.mount_groups
+    return replace(cabin, mount_groups=(replace(front, name="FM", label="FM"), rear), rate_sets={})
+
+
+def test_the_page_names_a_group_once_whose_label_is_its_name(vehicle):
+    session = Session(vehicle, first_state(vehicle, vehicle.rates, Conditions("flat", 20.0)), print)
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    contents = []
+    add, server.gui.add_html = (
+        server.gui.add_html,
+        lambda text: contents.append(add(text)) or contents[-1],
+    )
+    try:
+        session.start()
+        solved = session.wait_for_answer(20)
+        EnergyPanel(server.gui, session).show(solved)
+        energies = "".join(content.content for content in contents)
+        buttons = HiddenButtons(server.gui, 9, print)
+        folders = [GroupFolder(server.gui, session, g, buttons)._folder for g in vehicle.mount_groups]
+        assert [folder.label for folder in folders] == ["FM", "B  rear"]
+    finally:
+        session.close()
+        server.stop()
+    assert 'title="FM"' in energies
+    assert 'title="B rear"' in energies
+
+
+def test_a_report_names_it_once_too(vehicle):
+    sets = RateSet("original", {}), RateSet("now", {})
+    html = report(compare(prepare(vehicle), *sets, None), date(2026, 11, 29))
+    assert "FM <small>" not in html
+    assert "B <small>rear</small>" in html
