@@ -17,7 +17,7 @@ from modeviz.dynamics.truncation_gap import (
 from modeviz.errors import listed, quoted
 from modeviz.report.components import change_words
 from modeviz.units import factor
-from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.residuals import estimated_residual_compliance
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -88,9 +88,9 @@ def import_notes(body: FlexibleBody) -> Iterator[str]:
     yield f"body {quoted(body.name)}: without the last {fewer} {change_words(trust)} there{more}"
 
 
-def _lack(body: FlexibleBody) -> str:
+def _lack(body: Body) -> str:
     """What there is too little of."""
-    if not body.n_residuals:
+    if not isinstance(body, FlexibleBody) or not body.n_residuals:
         return "lacks residual vectors"
     return (
         f"gives way too little along some directions even with its {body.n_residuals} residual vectors"
