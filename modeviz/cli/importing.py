@@ -17,6 +17,7 @@ from modeviz.errors import ModevizError, listed, located
 from modeviz.formats.attachments import Found
 from modeviz.formats.body import uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
+from modeviz.formats.endings import check_taken
 from modeviz.formats.imported import USUAL_PLANE, ImportSettings, import_body
 from modeviz.formats.mounts.imported import MountSettings, holds_mounts
 from modeviz.formats.places import FORMS
@@ -123,6 +124,7 @@ class ImportOptions:
 def import_component(options: ImportOptions) -> None:
     """Lists what files have of a component, and puts it into a vehicle folder if there is one."""
     check_printable()
+    check_taken(options.files)
     if holds_road(options.files):
         import_road_file(options.files, options.output, options.road)
         return

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from pathlib import PurePath
 
 import numpy as np
 
@@ -9,6 +10,8 @@ from modeviz.errors import VehicleError, listed, quoted
 from modeviz.files.modal import with_zeros
 from modeviz.formats.attachments import LOOSE, Found
 from modeviz.formats.component import LARGEST, UNIT_SYSTEMS, Component, UnitSystem
+from modeviz.formats.nastran import SUFFIXES as NASTRAN
+from modeviz.formats.nastran.reader import DECKS
 from modeviz.formats.surface import display_mesh
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Role
@@ -62,7 +65,7 @@ def uncoupled_because(component: Component) -> str | None:
         return (
             f"the modal mass of {len(unknown)} of its {component.n_modes} modes is not in the file, "
             f"such as that at {modes.frequency_hz[unknown[0]]:.4g} Hz; without it nobody knows what "
-            "force moves them"
+            f"force moves them{_where_masses_may_be(component)}"
         )
     if not component.has_place.any():
         return "none of the nodes that it moves has a place; give the file with the geometry too"
@@ -81,6 +84,14 @@ def uncoupled_because(component: Component) -> str | None:
             f"with all modes from zero up{half}"
         )
     return None
+
+
+def _where_masses_may_be(component: Component) -> str:
+    """Words for the input file of Nastran, if it isn't given with the results."""
+    endings = {PurePath(name).suffix.lower() for name in component.source.split(", ")}
+    if endings.intersection(DECKS) or not endings.intersection(NASTRAN):
+        return ""
+    return ": give the input file too, which may say that they are normalised to it"
 
 
 def _omega_n_squared(frequency_hz: Floats) -> Floats:

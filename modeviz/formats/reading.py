@@ -26,7 +26,7 @@ READERS: Mapping[str, Reader] = {
 }
 """By the ending of a file's name."""
 
-ENDINGS = (*READERS, *MATRICES)
+ENDINGS = tuple(dict.fromkeys((*READERS, *MATRICES)))
 """Of all files that are read."""
 
 
@@ -36,8 +36,10 @@ def read_component(paths: Sequence[Path]) -> Component:
     Files with matrices may come with a file of another format that has the geometry.
 
     Raises:
-        VehicleError: a file cannot be read, or they are of different formats.
+        VehicleError: a file cannot be read, or is a folder, or they are of different formats.
     """
+    if folders := [path for path in paths if path.is_dir()]:
+        raise VehicleError(f"{folders[0]}: is a folder, expected the files of a component")
     matrices = [path for path in paths if _has_matrices(path)]
     others = [path for path in paths if path not in matrices]
     decks = others if all(path.suffix.lower() in DECKS for path in others) else []

@@ -13,6 +13,7 @@ from universal_files import nodes_2411, shape_55, shape_2414, units_164
 
 from modeviz.cli import main
 from modeviz.cli.importing import summary
+from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle
 from modeviz.formats.attachments import Found
 from modeviz.formats.imported import import_component
@@ -428,8 +429,36 @@ def test_options_of_a_body_that_is_not_written_are_refused(file, capsys):
 
 def test_files_of_no_known_format_are_refused(tmp_path, capsys):
     (tmp_path / "a.doc").write_text("")
-    assert "found '.doc', expected one of" in refused(capsys, tmp_path / "a.doc")
+    text = refused(capsys, tmp_path / "a.doc")
+    assert "found '.doc', expected one of" in text
+    named = re.findall(r"\.\w+", text.split("expected one of ")[1])
+    assert len(named) == len(set(named))
+    assert {".op2", ".pch", ".mtx", ".rst", ".unv", ".csv", ".xlsx", ".crg", ".bus", ".gbs"} <= {*named}
     assert "there is no such file" in refused(capsys, tmp_path / "b.unv")
+
+
+def test_a_folder_in_place_of_files_is_told(tmp_path, capsys):
+    (tmp_path / "pick up").mkdir()
+    assert "pick up: is a folder, expected files" in refused(capsys, tmp_path / "pick up")
+    with pytest.raises(VehicleError, match="pick up: is a folder, expected the files of a component"):
+        import_component(tmp_path / "pick up")
+
+
+def test_the_input_file_is_asked_for_where_it_may_say_what_modal_masses_are(tmp_path, file, capsys):
+    """Of results without LAMA it says whether they are normalised to mass."""
+    op2 = file(network_op2(Op2(), masses=np.zeros(24)), "run.op2")
+    grids = "".join(
+        f"GRID,{label},,{x:.1f},{y:.1f},{z:.1f}\n"
+        for label, (x, y, z) in zip(LABELS, CORNERS, strict=True)
+    )
+    deck = file(f"BEGIN BULK\n{grids}ENDDATA\n", "run.bdf")
+    words = "nobody knows what force moves them"
+    main(["import", op2])
+    assert f"{words}: give the input file too" in capsys.readouterr().out
+    main(["import", op2, deck])
+    assert f"{words}." in capsys.readouterr().out
+    main(["import", file(network_unv(np.zeros(24)))])
+    assert f"{words}." in capsys.readouterr().out
 
 
 def test_an_imported_solid_is_drawn_by_its_outer_faces_and_moves_with_its_nodes(tmp_path, file):

@@ -12,11 +12,12 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.formats.component import UNIT_SYSTEMS, Component
+from modeviz.formats.endings import TAKEN
 from modeviz.formats.places import FORMS
 from modeviz.formats.poses import FORMS as POSE_FORMS
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.inspection.putting import Asked, Put, component_in, put
-from modeviz.viewer.inspection.received import TAKEN, Received
+from modeviz.viewer.inspection.received import Received
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.handles import assign, name_of
 from modeviz.viewer.page.html import block, heading, span

@@ -6,13 +6,11 @@ from pathlib import Path, PurePath
 from tempfile import TemporaryDirectory
 
 from modeviz.errors import ModevizError, VehicleError
+from modeviz.formats.endings import TAKEN
 from modeviz.formats.matrices import SUFFIXES as MATRICES
 from modeviz.formats.mounts.imported import SUFFIXES as MOUNTS
-from modeviz.formats.reading import ENDINGS, READERS
+from modeviz.formats.reading import READERS
 from modeviz.formats.roads.imported import SUFFIXES as ROADS
-
-TAKEN = tuple(dict.fromkeys((*ENDINGS, *MOUNTS, *ROADS)))
-"""Endings of the files that are read."""
 
 MOST_BYTES = 400_000_000
 """Of all of them."""
