@@ -61,7 +61,8 @@ def is_large(gap: TruncationGap) -> bool:
 def at_rates(which: str, gap: TruncationGap) -> str:
     """Return a sentence on how much too high frequencies are at some rates, and why."""
     bodies = listed(map(quoted, gap.bodies))
-    return f"At {which} {gap_words(gap)}, since {bodies} lack residual vectors: see modeviz check."
+    why = f"as there are no or too few residual vectors of {bodies}"
+    return f"At {which} {gap_words(gap)}, {why}; {REMEDY}."
 
 
 def gap_record(gap: TruncationGap | None) -> dict[str, Any] | None:
