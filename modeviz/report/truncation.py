@@ -41,9 +41,8 @@ def gap_doubts(gap: TruncationGap, vehicle: Vehicle) -> Iterator[str]:
     """Yield the sentences on a vehicle of which it is known how much too high its frequencies are."""
     for body in gap.bodies:
         if stiff := [s for s in stiff_connections(vehicle) if s.body == body]:
-            flexible = vehicle.body(body)
-            assert isinstance(flexible, FlexibleBody)  # a rigid one has no modes left out
-            yield f"body {quoted(body)} {_lack(flexible)} where {_stiff_words(stiff)}"
+            lack = _lack(vehicle.body(body))
+            yield f"body {quoted(body)} {lack} where {_stiff_words(stiff)}"
     if is_large(gap):
         yield f"{gap_words(gap)}; {REMEDY}"
 
