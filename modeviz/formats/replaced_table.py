@@ -93,6 +93,8 @@ def _table(text: str, name: str, path: Path) -> tuple[int, dict[str, Any]]:
     with located(path):
         bodies = tables_of(text).get("flexible_body", [])
     names = [str(body.get("name", "")) for body in bodies]
+    if not names:
+        raise VehicleError(f"{path.parent}: has no flexible body; --replace needs one")
     if name not in names:
         raise VehicleError(f"{path}: {unknown('flexible body', name, names)}; --replace needs one")
     return names.index(name), bodies[names.index(name)]

@@ -324,6 +324,13 @@ def test_a_body_that_cannot_take_the_place_of_another_changes_nothing(held, caps
     assert content(folder) == before
 
 
+def test_nothing_can_be_replaced_in_a_new_folder(tmp_path, file, capsys):
+    folder = tmp_path / "new"
+    arguments = [file(network_unv()), "--output", folder, "--units", "mm-t-s", "--replace"]
+    assert f"{folder}: has no flexible body; --replace needs one" in refused(capsys, *arguments)
+    assert not folder.exists()
+
+
 def test_replacing_from_python_is_the_same(held):
     folder, (path, *_) = held
     imported = import_component(
