@@ -15,7 +15,7 @@ from modeviz.files.mesh_formats.parts import RawMesh, RawPart, fans, used
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Material
 
-UP = {
+UP: dict[str, Floats] = {
     "X_UP": np.array([[0.0, -1, 0], [0, 0, -1], [1, 0, 0]]),
     "Y_UP": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
     "Z_UP": np.eye(3),

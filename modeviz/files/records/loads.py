@@ -1,7 +1,7 @@
 """The tables of `vehicle.toml` that say what shakes the vehicle, in SI."""
 
 from dataclasses import replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -44,7 +44,7 @@ from modeviz.vehicle.loads import (
 class RoadRecord(Record, kw_only=True):
     """[[road]]: with a file it is a table's, else of a class or a level of ISO 8608."""
 
-    depending = frozenset(("file", "iso_8608", "roughness"))
+    depending: ClassVar[frozenset[str]] = frozenset(("file", "iso_8608", "roughness"))
 
     name: Name
     label: str = ""
@@ -144,7 +144,7 @@ class WheelLoadRecord(Record, kw_only=True):
 class ForceRecord(Record, kw_only=True):
     """[[force]]: with an amplitude it is harmonic, with a PSD random."""
 
-    depending = frozenset(("amplitude", "psd"))
+    depending: ClassVar[frozenset[str]] = frozenset(("amplitude", "psd"))
 
     name: Name
     body: str
@@ -175,7 +175,9 @@ class ForceRecord(Record, kw_only=True):
 class BaseMotionRecord(Record, kw_only=True):
     """[[base_motion]]: with an amplitude it is harmonic, with a PSD random."""
 
-    depending = frozenset(("displacement", "acceleration", "displacement_psd", "acceleration_psd"))
+    depending: ClassVar[frozenset[str]] = frozenset(
+        ("displacement", "acceleration", "displacement_psd", "acceleration_psd")
+    )
 
     name: Name
     connections: tuple[str, ...] = ()

@@ -1,7 +1,7 @@
 """The [[problem]] tables of `vehicle.toml`: mount optimisations."""
 
 import math
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from msgspec import Meta, field
@@ -29,7 +29,7 @@ NO_LIMITS = "none"
 class DesignGroupRecord(Record, kw_only=True):
     """[[problem.group]]; bounds and limits that are not given are the mount group's."""
 
-    depending = frozenset(("softest", "stiffest"))
+    depending: ClassVar[frozenset[str]] = frozenset(("softest", "stiffest"))
 
     group: Name
     directions: tuple[str, ...] = DIRECTIONS

@@ -51,10 +51,15 @@ def _results(file) -> dict[str, np.ndarray]:
     }
 
 
-if __name__ == "__main__":
+def run(*arguments: str) -> None:
+    """Does what `main` does, or ends the program with a line on what was wrong."""
     try:
-        main(*sys.argv[1:])
+        main(*arguments)
     except ImportError as error:
         sys.exit(f"missing: {error}")
     except Exception as error:
         sys.exit(f"{type(error).__name__}: {error}")
+
+
+if __name__ == "__main__":
+    run(*sys.argv[1:])

@@ -14,13 +14,13 @@ class BinaryReader(Op4Reader):
 
     def __init__(self, content: bytes) -> None:
         self.content = content
-        self.place = 0
-        self.end = 0
+        self.place: int = 0
+        self.end: int = 0
         self.endian: Literal["little", "big"] = "big" if content[:1] == b"\0" else "little"
-        self.word = {24: 4, 48: 8}.get(int.from_bytes(content[:4], self.endian), 0)
+        self.word: int = {24: 4, 48: 8}.get(int.from_bytes(content[:4], self.endian), 0)
         if not self.word:
             raise VehicleError("is no OUTPUT4 file: begins with neither such text nor such a record")
-        self.order = {"little": "<", "big": ">"}[self.endian]
+        self.order: str = {"little": "<", "big": ">"}[self.endian]
 
     def header(self) -> Header | None:
         if self.place == len(self.content):

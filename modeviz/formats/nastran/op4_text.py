@@ -19,9 +19,10 @@ class TextReader(Op4Reader):
     """Lines of whole numbers in fields of 8 letters, and of reals in those of a format."""
 
     def __init__(self, content: bytes) -> None:
-        self.lines = content.decode("latin-1").splitlines()
-        self.place = 0
-        self.per_line, self.width = 5, 16
+        self.lines: list[str] = content.decode("latin-1").splitlines()
+        self.place: int = 0
+        self.per_line: int = 5
+        self.width: int = 16
 
     def header(self) -> Header | None:
         while self.place < len(self.lines) and not self.lines[self.place].strip():

@@ -48,7 +48,8 @@ class DrawnSubject:
         size: float,
     ) -> None:
         """Draws a subject at rest; the largest side of all that is drawn, m, gives marks their size."""
-        self._scene, self._driver, self.subject = scene, driver, subject
+        self._scene, self._driver = scene, driver
+        self.subject: Subject = subject
         self._body = None
         if len(subject.drawn.vertices):
             self._body = DrawnBody(

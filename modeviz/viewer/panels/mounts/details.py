@@ -74,7 +74,7 @@ class Details:
                 self._is_linked(session.state),
                 hint="When one of these rates moves, the others move by the same factor",
             )
-        self.bindings: tuple[Binding, ...] = (
+        self.bindings: tuple[Binding[State], ...] = (
             Binding(
                 self._loss,
                 session,

@@ -56,7 +56,7 @@ class RateRow:
         )
         self._number = gui.add_number(session.state.unit, self._in_unit(session.state), step=1.0)
         assign(self._number, precision=DECIMALS)
-        self.bindings: tuple[Binding, ...] = (
+        self.bindings: tuple[Binding[State], ...] = (
             Binding(self._slider, session, self._position, self._slide, write_back),
             Binding(self._number, session, self._in_unit, self._type, write_back, typed=True),
         )
