@@ -632,3 +632,11 @@ def test_two_decks_are_refused(tmp_path):
         (tmp_path / name).write_text("GRID,1,,0.,0.,0.\n")
     with pytest.raises(VehicleError, match=r"a\.bdf, b\.dat, expected one input file"):
         read_nastran([tmp_path / "a.bdf", tmp_path / "b.dat"])
+
+
+@pytest.mark.parametrize("line", ["1,2,3", "    -1", "        12.5", "*"])
+def test_text_that_is_no_input_is_refused_before_it_is_read_to_its_end(tmp_path, line):
+    path = tmp_path / "mislabelled.bdf"
+    path.write_text(f"{line}\n" * 2000, encoding="utf-8")
+    with pytest.raises(VehicleError, match="no card in the first"):
+        read_nastran([path])

@@ -7,6 +7,7 @@ continuations in the order of the file, comments, replication, and INCLUDE.
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import chain, islice
 from pathlib import Path
 
 from modeviz.errors import VehicleError, located, quoted
@@ -15,6 +16,10 @@ from modeviz.formats.nastran.replication import replica
 
 LARGEST_DECK = 500_000_000
 """Bytes of one file."""
+
+LINE = re.compile(r"[^\r\n\v\f]+")
+
+BEGINS_INPUT = re.compile(r"\s*[$A-Za-z]")
 
 DEEPEST, MOST_FILES = 20, 1000
 """Of files that include others."""
@@ -35,6 +40,9 @@ REPEATED = re.compile(r"\s*=\s*\(?\s*(\d{1,9})\s*\)?\s*,?\s*$")
 """A line that says how often the one before it is repeated."""
 
 MOST_REPLICAS = 1_000_000
+
+MOST_NAMELESS = 1000
+"""Lines without a card's name before the first with one: more are in no input file."""
 
 FORTRAN = re.compile(r"(?<=[\d.])(?=[-+])")
 """Where a number such as 2.9+7 lacks its E."""
@@ -127,6 +135,16 @@ def _entries(lines: Iterator[str]) -> Iterator[list[str]]:
         parts = [line]
     if parts:
         yield parts
+
+
+def _after_a_name(lines: Iterator[str]) -> Iterator[str]:
+    """The same lines; raises VehicleError if one name or comment at least is not among the first."""
+    first = list(islice(lines, MOST_NAMELESS))
+    if len(first) == MOST_NAMELESS and not any(map(BEGINS_INPUT.match, first)):
+        raise VehicleError(
+            f"found no card in the first {MOST_NAMELESS:,} lines, expected an input file of Nastran"
+        )
+    return chain(first, lines)
 
 
 def _n_repeated(again: re.Match[str] | None, last: Card) -> int:
@@ -222,7 +240,9 @@ def _lines(
     text = read_bytes(path, LARGEST_DECK).decode("latin-1")
     if "\0" in text:
         raise VehicleError(f"{path}: found no text, expected Nastran input")
-    lines = iter(text.splitlines())
+    lines = (found[0] for found in LINE.finditer(text))
+    if not within:
+        lines = _after_a_name(lines)
     for line in lines:
         line = line.split("$", 1)[0].rstrip()
         if not line:

@@ -167,11 +167,11 @@ class ImportPanel:
 
     def _put(self, client: viser.ClientHandle) -> Put:
         asked = Asked(
-            name=self._name.value.strip(),
+            name=_printed(self._name.value),
             units=self._chosen_units(),
             attach=_parts(self._attach.value),
             residual=_parts(self._residual.value),
-            pose=self._pose.value.strip() or None,
+            pose=_printed(self._pose.value) or None,
             replaces=self._replaces.value,
         )
         if self._folder is not None:
@@ -222,7 +222,12 @@ class ImportPanel:
 
 def _parts(text: str) -> tuple[str, ...]:
     """What stands between semicolons."""
-    return tuple(filter(None, (part.strip() for part in text.split(";"))))
+    return tuple(filter(None, map(_printed, text.split(";"))))
+
+
+def _printed(text: str) -> str:
+    """Text without what is no letter, such as half of one, and without blanks around it."""
+    return "".join(filter(str.isprintable, text)).strip()
 
 
 def _zipped(folder: Path) -> bytes:

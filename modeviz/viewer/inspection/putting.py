@@ -48,9 +48,9 @@ def component_in(paths: Sequence[Path]) -> Component | None:
     Raises:
         VehicleError: they cannot be read.
     """
-    if holds_road(paths) or holds_mounts(paths, is_put=True):
-        return None
     with confined_to(paths[0].parent):
+        if holds_road(paths) or holds_mounts(paths, is_put=True):
+            return None
         return read_component(paths)
 
 

@@ -17,6 +17,7 @@ MOST_BYTES = 400_000_000
 
 MOST_FILES = 100
 LONGEST_NAME = 100
+"""Bytes."""
 
 
 class Received:
@@ -40,7 +41,7 @@ class Received:
         Raises:
             VehicleError: it has no name, or there are too many files or bytes.
         """
-        name = PurePath(name.replace("\\", "/")).name[-LONGEST_NAME:]
+        name = _written(PurePath(name.replace("\\", "/")).name)
         if not name or name in (".", ".."):
             raise VehicleError("a file without a name has come")
         if name not in self._paths and len(self._paths) >= MOST_FILES:
@@ -80,6 +81,13 @@ class Received:
     def close(self) -> None:
         """Deletes them."""
         self._folder.cleanup()
+
+
+def _written(name: str) -> str:
+    """A name as a file can have it: its end, of letters that are printed."""
+    letters = "".join(filter(str.isprintable, name)).encode("utf-8", "ignore")
+    written = letters[-LONGEST_NAME + 4 :].decode("utf-8", "ignore")
+    return f"file{written}" if written.startswith(".") and written.strip(".") else written
 
 
 def _has_results(name: str) -> bool:

@@ -182,3 +182,20 @@ def test_a_table_of_nodes_waits_for_its_matrices(received):
     received.add("nodes.csv", b"node,x,y,z\n1,0,0,0\n")
     received.add("K.mtx", b"%%MatrixMarket\n")
     assert received.names == ("nodes.csv", "K.mtx")
+
+
+@pytest.mark.parametrize("name", ["部" * 90 + ".unv", "a\0.unv", "\ud800.unv", "a\n.unv"])
+def test_any_name_becomes_one_that_a_file_can_have(received, name):
+    received.add(name, network_unv().encode())
+    (kept,) = received.names
+    assert kept.endswith(".unv")
+    assert len(kept.encode()) <= module.LONGEST_NAME
+    assert component(received).n_modes == 24
+
+
+def test_what_a_deck_includes_from_elsewhere_does_not_decide_what_it_is(received, tmp_path):
+    outside = tmp_path / "springs.inc"
+    outside.write_text("CBUSH,1,1,11,,,,,0\nPBUSH,1,K,5.,5.,5.\n", encoding="utf-8")
+    received.add("deck.bdf", DECK.format(f"INCLUDE '{outside}'").encode())
+    with pytest.raises(VehicleError, match="in another folder"):
+        component(received)
