@@ -20,6 +20,7 @@ from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
 from modeviz.viewer.page.server import Server, open_server
+from modeviz.viewer.page.theme import choose_theme
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.data_files import DataPanel
@@ -59,9 +60,6 @@ RIGHT = {WIDE: 484, NARROW: 380}
 CARD = {WIDE: 380, NARROW: 300}
 """Pixels; see `layout`."""
 
-BRAND = {False: (32, 104, 168), True: (64, 146, 214)}
-"""By darkness: the light page's blue is too dim in the dark."""
-
 
 class App:
     """A server with one tuning session; everybody who opens the page sees the same."""
@@ -97,9 +95,7 @@ class App:
         scripts.run(self._gui, "page/numbers.js")
         scripts.run(self._gui, "page/zoom.js")
         scripts.run(self._gui, "page/no_drop.js")
-        self._gui.configure_theme(
-            dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
-        )
+        choose_theme(self._gui, dark)
         self._scene = Scene(server, vehicle, dark, self._select)
         self._hotkeys = Hotkeys(self._gui)
         self._lay_out(dark)

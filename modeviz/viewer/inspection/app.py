@@ -22,6 +22,7 @@ from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
 from modeviz.viewer.page.server import Server, open_server
+from modeviz.viewer.page.theme import choose_theme
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.pictures import PicturePanel
@@ -32,7 +33,6 @@ LEFT = {WIDE: 420, NARROW: 320}
 CARD = {WIDE: 380, NARROW: 300}
 """Pixels; see `layout`."""
 
-BRAND = {False: (32, 104, 168), True: (64, 146, 214)}
 MOTION = ColorScale("Displacement", "100 %", "Relative to the largest")
 
 
@@ -75,9 +75,7 @@ class InspectionApp:
             ("page/zoom.js",),
         ):
             scripts.run(gui, script, *arguments)
-        gui.configure_theme(
-            dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
-        )
+        choose_theme(gui, dark)
         self.inspection: Inspection = Inspection(self._content, self._show)
         self.scene: InspectionScene = InspectionScene(server, dark)
         self._hotkeys = Hotkeys(gui)

@@ -157,7 +157,7 @@ class MissingPanel:
     def show(self, missing: Sequence[str]) -> None:
         """Lists it."""
         lines = "".join(f'<div class="note">{escape(sentence)}</div>' for sentence in missing)
-        assign(self._content, content=block(heading("Not yet"), lines) if missing else "")
+        assign(self._content, content=block(heading("Next"), lines) if missing else "")
 
 
 def _known(value: float, form: str) -> str:
