@@ -19,6 +19,7 @@ LAYERS = [
     {"files", "fem", "shapes", "dynamics"},
     {"formats"},
     {"ride"},
+    {"mounting"},
     {"analysis"},
     {"optimise"},
     {"scatter"},
