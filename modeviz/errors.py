@@ -116,9 +116,9 @@ def check_unique(kind: str, names: Iterable[str]) -> None:
 
 
 def reason(error: BaseException) -> str:
-    """The words of an error of the system or a library, never none."""
-    said = getattr(error, "strerror", None) or str(error)
-    return said or type(error).__name__
+    """The first line of the words of an error of the system or a library, never none."""
+    said = getattr(error, "strerror", None) or str(error).strip()
+    return next(iter(said.splitlines()), type(error).__name__)
 
 
 @contextmanager

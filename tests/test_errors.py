@@ -163,3 +163,8 @@ def test_a_reason_is_never_empty():
     assert reason(MemoryError()) == "MemoryError"
     assert reason(OSError(28, "No space left on device")) == "No space left on device"
     assert reason(ValueError("bad magic")) == "bad magic"
+
+
+def test_a_reason_is_one_line():
+    assert reason(ValueError("no workbook.\nSee the exception for more.")) == "no workbook."
+    assert reason(ValueError("\n")) == "ValueError"

@@ -169,6 +169,16 @@ def test_quantised_places_are_scaled(read):
     np.testing.assert_allclose(second.vertices, rows[:, :3])
 
 
+def test_signalling_nans_are_refused_without_a_warning(complaint):
+    glb = GlbFile()
+    glb.surface(glb.square())
+    corner = np.float32(1).tobytes()
+    content = glb.content().replace(corner, b"\1\0\x80\x7f", 1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert "not finite" in complaint(content)
+
+
 def test_sparse_rows_replace_those_of_the_view_or_zeros(read):
     glb = GlbFile()
     places = glb.view(np.array([1, 3], "u1").tobytes())

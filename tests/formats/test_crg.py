@@ -361,6 +361,10 @@ BAD = {
         text_crg(b"END_U      = 29.9", b"END_U      = 31.9"),
         "found 300 lines of road data, expected 320",
     ),
+    "an end beyond all numbers before its start": (
+        text_crg(b"END_U      = 29.9", b"END_U = -1e308 ! "),
+        "found -1e+308, expected more than where it starts",
+    ),
     "a scale beyond measure": (
         crg(heights(300, 3), 0.1, [-1, 0, 1], modifiers={"SCALE_Z_GRID": 1e300}),
         "beyond 100000 m",

@@ -86,6 +86,13 @@ def test_complex_modes_in_either_form(read, form, second):
     np.testing.assert_allclose(component.modes.damping_ratio, 3 / 5)
 
 
+def test_motions_without_end_are_refused_without_a_warning(read):
+    points = [(i, "G", [np.inf, 1, 2, 3, 4, 5, *np.zeros(6)]) for i in (1, 2, 3)]
+    for form in ("REAL-IMAGINARY OUTPUT", "MAGNITUDE-PHASE OUTPUT"):
+        with pytest.raises(VehicleError, match="not finite"):
+            read(punched(mode(1, "( -3.0000000E+00,  4.0000000E+00)", points, form)))
+
+
 WHOLE = punched(*two_modes())
 
 

@@ -19,7 +19,7 @@ from typing import Any, Literal, get_args, get_origin
 import msgspec
 from msgspec import Meta
 
-from modeviz.errors import Fault, unknown
+from modeviz.errors import LONGEST_NAME, Fault, cut, unknown
 from modeviz.files.schema.hints import alternatives, annotation, fields_of, is_record, joined, plain
 
 KINDS: Mapping[Any, tuple[str, tuple[type, ...]]] = {
@@ -62,18 +62,23 @@ def mismatch(data: Any, hint: Any, where: str = "") -> Fault:
     """
     meant = next((kind for kind in alternatives(hint) if type(data) in _plain_types(kind)), None)
     if meant is None:
-        return found(brief(data), _in_words(hint), where)
+        return found(_brief(data), _in_words(hint), where)
     kind = plain(meant)
     if is_record(kind):
         return next(faults_of(data, kind, where))
     if get_origin(kind) is Literal and len(get_args(kind)) > 1:
         return Fault(where, unknown("value", str(data), map(str, get_args(kind))))
     if bound := _broken_bound(data, meant):
-        return found(brief(data), f"{_word(kind)} {bound}", where)
+        return found(_brief(data), f"{_word(kind)} {bound}", where)
     for key, value, inner in _parts(data, kind):
         if not _fits(value, inner):
             return mismatch(value, inner, joined(where, key))
-    return found(brief(data), _in_words(hint), where)
+    return found(_brief(data), _in_words(hint), where)
+
+
+def _brief(data: Any) -> str:
+    """A value in a sentence; of lists within lists `reprlib` leaves many."""
+    return cut(brief(data), LONGEST_NAME)
 
 
 def found(value: str, expected: str, where: str) -> Fault:

@@ -117,6 +117,7 @@ def _motions(table: Table, number: int, width: int, form: int) -> Array:
 def complex_motions(values: Floats, form: int) -> Array:
     """Return complex numbers, (n, 6), of their parts or of magnitude and phase in degrees, (n, 12)."""
     first, second = values[:, :6], values[:, 6:]
-    if form == MAGNITUDE_AND_PHASE:
-        return first * np.exp(1j * np.radians(second))
-    return first + 1j * second
+    with np.errstate(invalid="ignore"):  # of what is no number, which is refused with all shapes
+        if form == MAGNITUDE_AND_PHASE:
+            return first * np.exp(1j * np.radians(second))
+        return first + 1j * second

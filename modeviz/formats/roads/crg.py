@@ -111,7 +111,7 @@ def _n_rows(file: CrgFile, increment: float) -> int | None:
     if end is None:
         return None
     length = end - (file.number("REFERENCE_LINE_START_U") or 0.0)
-    n_rows = round(min(length / increment, 1e12)) + 1
+    n_rows = round(max(0.0, min(length / increment, 1e12))) + 1
     check_size("heights", n_rows * len(file.channels), MOST_HEIGHTS)
     if n_rows < 2:
         raise VehicleError(f"REFERENCE_LINE_END_U: found {end:g}, expected more than where it starts")

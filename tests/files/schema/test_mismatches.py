@@ -66,6 +66,10 @@ SENTENCES = {
     "a number for a choice": ({"kind": 3}, "kind: found 3, expected 'left' or 'right'"),
     "the only word": ({"limit": "no"}, "limit: found 'no', expected a list or 'none'"),
     "empty text": ({"label": ""}, "label: found '', expected text of length at least 1"),
+    "lists within lists": (
+        {"label": [[[[9] * 9] * 9] * 9] * 9},
+        "...], … 9, ...], ...], ...], ...], expected text",
+    ),
     "the whole is infinite": (math.inf, "found inf, expected a finite number below 1e+100"),
 }
 
