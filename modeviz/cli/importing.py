@@ -1,7 +1,8 @@
 """The command that puts a component out of another program's files into a vehicle folder."""
 
 from argparse import ArgumentParser
-from dataclasses import dataclass, fields, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import get_args
 
@@ -13,13 +14,19 @@ from modeviz.cli.importing_roads import import_road_file
 from modeviz.cli.news import News
 from modeviz.cli.results import check_printable, print_result
 from modeviz.cli.terminal import remark
-from modeviz.errors import ModevizError, listed, located
+from modeviz.errors import VehicleError, listed
 from modeviz.formats.attachments import Found
 from modeviz.formats.body import uncoupled_because
 from modeviz.formats.component import UNIT_SYSTEMS, Component
+from modeviz.formats.effect import check_only, is_asked
 from modeviz.formats.endings import check_taken
 from modeviz.formats.imported import USUAL_PLANE, ImportSettings, import_body
-from modeviz.formats.mounts.imported import MountSettings, holds_mounts
+from modeviz.formats.mounts.imported import (
+    MountSettings,
+    holds_mounts,
+    is_deck_with_springs,
+    is_property,
+)
 from modeviz.formats.places import FORMS
 from modeviz.formats.poses import FORMS as POSE_FORMS
 from modeviz.formats.reading import read_component
@@ -50,6 +57,12 @@ OF_A_BODY = (
     "replace",
 )
 """What only a body that is written has."""
+
+OF_SPRINGS = ("frequency", "bodies")
+"""What only the springs of an input file have."""
+
+OF_MATRICES = ("modes", "up_to", "condense")
+"""What only a body of matrices has."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,30 +108,31 @@ class ImportOptions:
 
     @property
     def road(self) -> RoadSettings:
-        """What is asked for of a road; raises ModevizError for what a road does not have."""
+        """What is asked for of a road; raises VehicleError for what has no effect on one."""
         self.check_only("a road", "name", "track_width")
+        if self.name is not None and self.output is None:
+            raise VehicleError("--name is of a road that is written; say where with --output")
         return RoadSettings(name=self.name, track_width=self.track_width)
 
     @property
     def mounts(self) -> MountSettings:
-        """What is asked for of mounts; raises ModevizError for what mounts do not have."""
+        """What is asked for of mounts; raises VehicleError for what has no effect on them."""
+        if any(is_property(file) for file in self.files):
+            self.check_only("a property file, which says its units")
         self.check_only("mounts", "units", "frequency", "bodies", "pose")
         return MountSettings(
             units=self.units, frequency=self.frequency, bodies=self.bodies, pose=self.pose
         )
 
     def check_only(self, what: str, *names: str) -> None:
-        """Checks that nothing else is asked for than what these fields say.
+        """Checks that nothing else is asked for than what these fields say; raises VehicleError."""
+        check_only(vars(self), what, "files", "output", *names)
 
-        Raises:
-            ModevizError: something is, which is not of what the files hold.
-        """
-        for field in fields(self):
-            is_given = getattr(self, field.name) not in (None, (), False)
-            if is_given and field.name not in ("files", "output", *names):
-                raise ModevizError(
-                    f"--{field.name.replace('_', '-')}: found with a file of {what}, which has none"
-                )
+    def check_none(self, what: str, names: Sequence[str]) -> None:
+        """Checks that nothing is asked for that only what is written has; raises VehicleError."""
+        if given := [name for name in names if is_asked(vars(self)[name])]:
+            option = given[0].replace("_", "-")
+            raise VehicleError(f"--{option} is of {what} written; say where with --output")
 
 
 def import_component(options: ImportOptions) -> None:
@@ -131,29 +145,22 @@ def import_component(options: ImportOptions) -> None:
     if holds_mounts(options.files, is_put=options.output is not None):
         import_mounts(options.files, options.output, options.mounts)
         return
-    options.check_only("a body", "modes", "up_to", "condense", *OF_A_BODY)
-    wanted = _wanted(options)
+    _check_body(options)
+    wanted = Wanted(n_modes=options.modes, up_to_hz=options.up_to, condensed=options.condense)
     component = read_component(options.files)
     for note in component.notes:
         remark(f"{component.source}: {note}")
     if options.output is None:
-        if given := [name for name in OF_A_BODY if getattr(options, name)]:
-            option = given[0].replace("_", "-")
-            raise ModevizError(f"--{option} is of a body that is written; say where with --output")
         print_result(listing(solved(component, wanted)))
         list_springs_beside(options.files)
         return
-    if options.plane and not options.antisymmetric:
-        raise ModevizError("--plane is of two halves: give the files of the other with --antisymmetric")
-    if options.mesh_unit and not options.mesh:
-        raise ModevizError("--mesh-unit is of a mesh: give its file with --mesh")
     settings = ImportSettings(
         units=options.units,
         attach=options.attach,
         residual=options.residual,
         pose=options.pose,
         antisymmetric=options.antisymmetric,
-        plane=options.plane or USUAL_PLANE,
+        plane=options.plane,
         mesh=options.mesh,
         mesh_unit=options.mesh_unit,
         wanted=wanted,
@@ -168,14 +175,16 @@ def import_component(options: ImportOptions) -> None:
     print_result(summary(imported.body, imported.attachments, options.output))
 
 
-def _wanted(options: ImportOptions) -> Wanted:
-    if options.modes is not None and options.up_to is not None:
-        raise ModevizError("--modes and --up-to: found both, expected one of them")
-    with located("--modes" if options.modes is not None else "--up-to"):
-        n_modes = USUAL_MODES if options.modes is None else options.modes
-        wanted = Wanted(n_modes=n_modes, up_to_hz=options.up_to)
-    with located("--condense"):
-        return replace(wanted, condensed=options.condense)
+def _check_body(options: ImportOptions) -> None:
+    """Checks that all that is asked for has an effect on a body, or on a list of its modes."""
+    if options.output is None:
+        options.check_none("a body that is", OF_A_BODY)
+        has_springs = (options.frequency is not None or options.bodies) and is_deck_with_springs(
+            options.files
+        )
+        if has_springs:
+            options.check_none("springs that are", OF_SPRINGS)
+    options.check_only("a body", *OF_MATRICES, *OF_A_BODY)
 
 
 def listing(component: Component) -> str:

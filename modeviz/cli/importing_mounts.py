@@ -14,10 +14,10 @@ from modeviz.formats.mounts.bushing import DIRECTIONS, Bushing
 from modeviz.formats.mounts.imported import (
     MountSettings,
     is_deck_with_springs,
+    is_property,
     put_mounts,
     read_mounts,
 )
-from modeviz.formats.mounts.property_file import SUFFIXES as PROPERTIES
 from modeviz.formats.mounts.property_file import read_property
 from modeviz.formats.nastran.bushings import read_bushings
 from modeviz.report.tables import table
@@ -52,7 +52,7 @@ def import_mounts(files: Sequence[Path], output: Path | None, settings: MountSet
     path, *others = files
     if others:
         raise ModevizError(f"found {len(files)} files of mounts, expected one at a time")
-    if path.suffix.lower() in PROPERTIES:
+    if is_property(path):
         import_property(path, output)
         return
     note = _note_of(path)

@@ -21,7 +21,7 @@ from modeviz.formats.places import parse_place
 from modeviz.formats.poses import misfit_notes, parse_pose
 from modeviz.formats.reading import read_component
 from modeviz.formats.residuals import with_given_compliance
-from modeviz.formats.solving import USUAL_MODES, Condensation, Wanted, solved
+from modeviz.formats.solving import Condensation, Wanted, solved
 from modeviz.formats.surface import COLOR
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
@@ -54,8 +54,8 @@ class ImportSettings:
     """Where it stands in the vehicle, as `parse_pose` reads it; None: as its coordinates say."""
     antisymmetric: tuple[Path, ...] = ()
     """Of a half model's antisymmetric run; the component is then that of the symmetric one."""
-    plane: str = USUAL_PLANE
-    """Where the half is cut."""
+    plane: str | None = None
+    """Where the half is cut; None: `USUAL_PLANE`."""
     mesh: Path | None = None
     """Of its looks, in the coordinates of the component; None: the faces of its elements."""
     mesh_unit: str | None = None
@@ -64,6 +64,14 @@ class ImportSettings:
     """The modes of matrices."""
     replaces: bool = False
     """Whether the body of that name in the folder is replaced."""
+
+    def __post_init__(self) -> None:
+        if self.plane is not None and not self.antisymmetric:
+            raise VehicleError(
+                "--plane is of two halves: give the files of the other with --antisymmetric"
+            )
+        if self.mesh_unit is not None and self.mesh is None:
+            raise VehicleError("--mesh-unit is of a mesh: give its file with --mesh")
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +95,7 @@ def import_component(
     residual: Sequence[str] = (),
     pose: str | Pose | None = None,
     antisymmetric: Sequence[Path | str] = (),
-    plane: str = USUAL_PLANE,
+    plane: str | None = None,
     mesh: Path | str | None = None,
     mesh_unit: str | None = None,
     n_modes: int | None = None,
@@ -106,23 +114,22 @@ def import_component(
         residual: what its modes leave out there, such as "seat=0.001,0,0.002", or a CSV file.
         pose: where it stands in the vehicle.
         antisymmetric: files of a half model's antisymmetric run; `files` are of the symmetric one.
-        plane: where the half is cut.
+        plane: where the half is cut; if not given, at y=0.
         mesh: what it looks like, in its coordinates; if not given, the faces of its elements.
         mesh_unit: of the mesh, such as "mm"; if not given, as it says, else that of the files.
         n_modes: of matrices, how many to compute.
         up_to_hz: of matrices, up to which frequency instead.
         condense: of matrices, how to condense them first, "guyan" or "craig-bampton"; needs `up_to_hz`.
-        replaces: whether the body of that name in the folder gets new modes, mesh and attachments.
+        replaces: whether the body of that name in the folder `output` gets new modes, mesh and
+            attachments.
 
     Raises:
-        VehicleError: the files cannot be read, or make no body that can be coupled to others.
+        VehicleError: the files cannot be read, or make no body that can be coupled to others, or
+            something is given that has no effect on such files.
     """
     paths = [Path(file) for file in files]
     if not paths:
         raise VehicleError("found no file, expected those of a component")
-    wanted = Wanted(
-        n_modes=USUAL_MODES if n_modes is None else n_modes, up_to_hz=up_to_hz, condensed=condense
-    )
     settings = ImportSettings(
         units=units,
         attach=tuple(attach),
@@ -132,7 +139,7 @@ def import_component(
         plane=plane,
         mesh=None if mesh is None else Path(mesh),
         mesh_unit=mesh_unit,
-        wanted=wanted,
+        wanted=Wanted(n_modes=n_modes, up_to_hz=up_to_hz, condensed=condense),
         replaces=replaces,
     )
     folder = None if output is None else Path(output)
@@ -151,6 +158,8 @@ def import_body(
     Raises:
         VehicleError: it cannot be coupled to others, or the settings do not fit to it.
     """
+    if settings.replaces and folder is None:
+        raise VehicleError("--replace is of a body in a folder; say which with --output")
     units = chosen_units(component, settings.units)
     axes = _axes_of(folder)
     pose = settings.pose
@@ -205,7 +214,7 @@ def _looks(path: Path, unit: str | None, units: UnitSystem) -> Mesh:
 def _whole(half: Component, settings: ImportSettings) -> Whole:
     """The structure of which a component is the symmetric half."""
     with located("--plane"):
-        plane = parse_plane(settings.plane)
+        plane = parse_plane(settings.plane or USUAL_PLANE)
     with located("--antisymmetric"):
         return join_halves(half, read_component(settings.antisymmetric), plane)
 

@@ -31,9 +31,9 @@ MOST_MODES = 1000
 
 @dataclass(frozen=True, kw_only=True)
 class Wanted:
-    """Which modes are computed of matrices."""
+    """Which modes are computed of matrices; nothing said, the lowest `USUAL_MODES`."""
 
-    n_modes: int = USUAL_MODES
+    n_modes: int | None = None
     """The six rigid ones included; of smaller matrices, as many as they have."""
     up_to_hz: float | None = None
     """Instead, all up to this frequency, and the next."""
@@ -41,19 +41,32 @@ class Wanted:
     """How the matrices are condensed first; needs the frequency."""
 
     def __post_init__(self) -> None:
-        if not 7 <= self.n_modes <= MOST_MODES:
+        if self.n_modes is not None and self.up_to_hz is not None:
+            raise VehicleError("--modes and --up-to: found both, expected one of them")
+        if self.n_modes is not None and not 7 <= self.n_modes <= MOST_MODES:
             raise VehicleError(
-                f"modes: found {self.n_modes}, expected 7, the first elastic one, to {MOST_MODES}"
+                f"--modes: found {self.n_modes}, expected 7, the first elastic one, to {MOST_MODES}"
             )
         if self.up_to_hz is not None and not 0 < self.up_to_hz < np.inf:
-            raise VehicleError(f"highest frequency: found {self.up_to_hz:g} Hz, expected more than 0")
+            raise VehicleError(f"--up-to: found {self.up_to_hz:g} Hz, expected more than 0")
         if self.condensed is not None and self.condensed not in get_args(Condensation):
-            raise VehicleError(unknown("reduction", self.condensed, get_args(Condensation)))
+            raise VehicleError(f"--condense: {unknown('way', self.condensed, get_args(Condensation))}")
         if self.condensed is not None and self.up_to_hz is None:
             raise VehicleError(
-                f"{self.condensed}: says how to condense, and nothing says up to which frequency the "
-                "rest is needed (--up-to)"
+                f"--condense: found {self.condensed}, and nothing says up to which frequency the rest "
+                "is needed (--up-to)"
             )
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """What is said of them, as the command calls it."""
+        said = {"--modes": self.n_modes, "--up-to": self.up_to_hz, "--condense": self.condensed}
+        return tuple(option for option, value in said.items() if value is not None)
+
+    @property
+    def most(self) -> int:
+        """How many are computed at most."""
+        return USUAL_MODES if self.n_modes is None else self.n_modes
 
 
 def solved(
@@ -74,13 +87,19 @@ def solved(
         length: m of one of the component's units, in which attachments are.
 
     Raises:
-        VehicleError: the matrices are not those of a free structure in one piece with these nodes.
+        VehicleError: the matrices are not those of a free structure in one piece with these nodes, or
+            there are none of which what is wanted could be computed.
     """
     if component.matrices is None:
+        if wanted.options:
+            raise VehicleError(
+                f"{wanted.options[0]}: is of mass and stiffness matrices, of which modes are computed, "
+                f"and {component.source} has none"
+            )
         return component
     matrices = component.matrices
     with located(component.source):
-        check_shapes(len(component.node_ids), wanted.n_modes + 6 * len(attachments))
+        check_shapes(len(component.node_ids), wanted.most + 6 * len(attachments))
         loads = _loads(component, attachments, length)
         matrices, said = _condensed(matrices, wanted, loads)
         modes = _free_modes(matrices, wanted)
@@ -132,7 +151,7 @@ def _check_room(matrices: Matrices, n_retained: int) -> None:
 def _free_modes(matrices: Matrices, wanted: Wanted) -> ModalBasis:
     if wanted.up_to_hz is not None:
         return free_modes_up_to(matrices, wanted.up_to_hz, MOST_MODES)
-    return free_modes(matrices, min(wanted.n_modes, matrices.n_dofs - 1))
+    return free_modes(matrices, min(wanted.most, matrices.n_dofs - 1))
 
 
 def _loads(component: Component, attachments: Sequence[Found], length: float) -> Floats:

@@ -100,9 +100,9 @@ def test_a_list_of_what_matrices_have_needs_no_folder(tmp_path, structures, caps
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--modes", "3"), "--modes: modes: found 3, expected 7"),
+        (("--modes", "3"), "--modes: found 3, expected 7"),
         (("--modes", "30", "--up-to", "50"), "found both, expected one"),
-        (("--up-to", "-1"), "--up-to: highest frequency: found -1 Hz"),
+        (("--up-to", "-1"), "--up-to: found -1 Hz"),
         (("--condense", "guyan"), "nothing says up to which frequency"),
         (("--up-to", "50", "--condense", "craig-bampton", "--attach", "101=101"), ""),
         (("--up-to", "50", "--condense", "craig-bampton"), "don't hold the body"),

@@ -423,6 +423,6 @@ def test_what_is_of_a_body_is_refused_of_a_road(tmp_path, capsys):
     path = tmp_path / "road.crg"
     path.write_bytes(GOOD)
     assert main(["import", str(path), "--units", "mm-t-s"]) == 2
-    assert "--units: found with a file of a road, which has none" in capsys.readouterr().err
+    assert "--units: has no effect on a road; leave it out" in capsys.readouterr().err
     assert main(["import", "cab.unv", "--track-width", "1.6"]) == 2
-    assert "--track-width: found with a file of a body" in capsys.readouterr().err
+    assert "--track-width: has no effect on a body; leave it out" in capsys.readouterr().err

@@ -15,6 +15,15 @@ from modeviz.units import UNITS, QuantityName, spoken
 ANGLES = {"deg": np.pi / 180, "rad": 1.0}
 RATIOS = {"": 1.0, "%": 0.01, "-": 1.0, "1": 1.0}
 
+POWERS: Mapping[Kind, tuple[int, int]] = {
+    "length": (0, 1),
+    "stiffness": (1, 0),
+    "damping": (1, 0),
+    "rotational_stiffness": (1, 2),
+    "rotational_damping": (1, 2),
+}
+"""Of mass and length, in a system of units with seconds and radians."""
+
 
 def column_factor(column: Column, units: UnitSystem | None) -> float | None:
     """Return one of a column's numbers in SI; None if neither it nor `units` say it.
@@ -39,6 +48,11 @@ def column_factor(column: Column, units: UnitSystem | None) -> float | None:
         if column.unit:
             return _one_of(column.unit, UNITS[kind], spoken(kind))
         return _of_system(kind, units) if units else None
+
+
+def takes_system(column: Column) -> bool:
+    """Return whether a column's numbers are in a system of units, since it says none."""
+    return not column.unit and column.kind in POWERS
 
 
 def with_shared_units(columns: Mapping[int, Column]) -> dict[int, Column]:
@@ -99,12 +113,5 @@ def _spelling(unit: str) -> str:
 
 def _of_system(kind: QuantityName, units: UnitSystem) -> float:
     """One of a quantity in a system of units with seconds and radians."""
-    powers = {
-        "length": (0, 1),
-        "stiffness": (1, 0),
-        "damping": (1, 0),
-        "rotational_stiffness": (1, 2),
-        "rotational_damping": (1, 2),
-    }
-    of_mass, of_length = powers[kind]
+    of_mass, of_length = POWERS[kind]
     return units.mass**of_mass * units.length**of_length

@@ -4,8 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeviz.errors import ModevizError, VehicleError, located, quoted
+from modeviz.errors import VehicleError, located, quoted
 from modeviz.formats.component import UNIT_SYSTEMS, UnitSystem
+from modeviz.formats.effect import check_only
 from modeviz.formats.mounts.bushing import Bushing
 from modeviz.formats.mounts.into_folder import Target, add_bushings, near_bushings
 from modeviz.formats.mounts.property_file import SUFFIXES as PROPERTIES
@@ -69,6 +70,11 @@ def check_no_mounts(files: Sequence[Path]) -> None:
             )
 
 
+def is_property(path: Path) -> bool:
+    """Return whether a file is named as one of the rates of a bushing, without places."""
+    return path.suffix.lower() in PROPERTIES
+
+
 def is_deck_with_springs(files: Sequence[Path]) -> bool:
     """Return whether there is one file, and that is an input file of Nastran with CBUSH or CELAS."""
     is_deck = len(files) == 1 and files[0].suffix.lower() in DECK_SUFFIXES
@@ -104,10 +110,7 @@ def read_mounts(
     """
     units = _system(settings.units)
     if path.suffix.lower() not in DECK_SUFFIXES:
-        if settings.frequency is not None or settings.bodies or settings.pose:
-            raise ModevizError(
-                "--frequency, --bodies and --pose are of an input file of Nastran, and this is a table"
-            )
+        check_only(vars(settings), "a table of mounts", "units")
         return read_mount_table(path, units, target.named if target else OURS, note)
     if units is None:
         raise VehicleError(

@@ -8,7 +8,12 @@ from modeviz.errors import VehicleError, listed, located, quoted
 from modeviz.files.tables import Row
 from modeviz.formats.component import UnitSystem
 from modeviz.formats.mounts.bushing import Bushing
-from modeviz.formats.mounts.column_units import column_factor, is_unit, with_shared_units
+from modeviz.formats.mounts.column_units import (
+    column_factor,
+    is_unit,
+    takes_system,
+    with_shared_units,
+)
 from modeviz.formats.mounts.columns import Column, read_headers
 from modeviz.formats.mounts.line import MountLine
 from modeviz.formats.mounts.missing import check_directions
@@ -109,6 +114,8 @@ class _Table:
         for column in columns.values():
             with located(f"line {number}"):
                 column_factor(column, units)
+        if units and not any(map(takes_system, columns.values())):
+            raise VehicleError("--units: every column says its own unit; leave it out")
         if at:
             note(f"what stands above the header in line {number} is left out")
         if others:

@@ -71,6 +71,11 @@ class BushProperties:
                 self._known[number] = self._bush(self._nominal[number])
         return self._known[number]
 
+    @property
+    def depend_on_frequency(self) -> bool:
+        """Whether those that were asked for have rates over frequency."""
+        return not self._known.keys().isdisjoint(self._over_frequency)
+
     def spring(self, number: int) -> tuple[float, float]:
         """Return stiffness and loss factor of a PELAS; raises VehicleError if it is not there."""
         if number not in self._springs:

@@ -70,7 +70,10 @@ def read_bushings(
         grids = Grids.of(model, units, bodies, held)
         bushes = [_bush(card, grids, properties, note) for card in elements if card.name == "CBUSH"]
         scalar = [card for card in elements if card.name != "CBUSH"]
-        return (*bushes, *scalar_springs(scalar, grids, properties, note))
+        springs = tuple(scalar_springs(scalar, grids, properties, note))
+        if frequency is not None and not properties.depend_on_frequency:
+            raise VehicleError("--frequency: none of its rates depend on frequency; leave it out")
+        return (*bushes, *springs)
 
 
 def _cards(path: Path) -> tuple[list[Card], frozenset[int]]:

@@ -32,6 +32,8 @@ LABELS = {
     "--attach: ": "Attachments: ",
     "--pose: ": "Place: ",
     "--residual: ": "Residual: ",
+    "--units: ": "Units: ",
+    "--name: ": "Name: ",
     "with --replace": "with the box Replace",
     "--replace": "Replace",
     "with --name": "under Name",
@@ -166,13 +168,15 @@ class ImportPanel:
             self._say(f"<div>{escape(sentence_case(done.what))}: in the vehicle.</div>", notes)
 
     def _put(self, client: viser.ClientHandle) -> Put:
+        name = _printed(self._name.value)
         asked = Asked(
-            name=_printed(self._name.value),
+            name=None if name == self._named else name or None,
+            usual_name=self._named or "body",
             units=self._chosen_units(),
             attach=_parts(self._attach.value),
             residual=_parts(self._residual.value),
             pose=_printed(self._pose.value) or None,
-            replaces=self._replaces.value,
+            replace=self._replaces.value,
         )
         if self._folder is not None:
             with self._received.told() as paths:
@@ -205,6 +209,7 @@ class ImportPanel:
         self._received.clear()
         for text in (self._name, self._attach, self._pose, self._residual):
             text.value = ""
+        self._units.value = AS_THE_FILES_SAY
         self._replaces.value = False
 
     def _refuse(self, error: ModevizError) -> None:

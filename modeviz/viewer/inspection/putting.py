@@ -7,6 +7,7 @@ from pathlib import Path
 from modeviz.errors import VehicleError, quoted
 from modeviz.files.disk import confined_to
 from modeviz.formats.component import Component
+from modeviz.formats.effect import check_only
 from modeviz.formats.imported import ImportSettings, import_body
 from modeviz.formats.mounts.imported import MountSettings, holds_mounts, read_mounts
 from modeviz.formats.mounts.into_folder import Target, add_bushings
@@ -20,12 +21,15 @@ from modeviz.report.truncation import import_notes, truncation_doubts
 class Asked:
     """What the page was told of the files; texts are as the command has them."""
 
-    name: str
+    name: str | None = None
+    """What somebody calls it."""
+    usual_name: str = "body"
+    """Of a body that nobody calls anything."""
     units: str | None = None
     attach: tuple[str, ...] = ()
     pose: str | None = None
     residual: tuple[str, ...] = ()
-    replaces: bool = False
+    replace: bool = False
     """Whether a body takes the place of that of its name."""
 
 
@@ -65,8 +69,6 @@ def put(paths: Sequence[Path], asked: Asked, folder: Path) -> Put:
     component = component_in(paths)
     if component is not None:
         return _put_body(component, asked, folder)
-    if asked.replaces:
-        raise VehicleError("--replace: is of a body, and these files have none")
     path, *others = [p for p in paths if p.suffix.lower() not in PROPERTIES] or paths
     if others:
         raise VehicleError(f"found {', '.join(p.name for p in paths)}, expected one file at a time")
@@ -81,20 +83,22 @@ def _put_body(component: Component, asked: Asked, folder: Path) -> Put:
         attach=asked.attach,
         pose=asked.pose,
         residual=asked.residual,
-        replaces=asked.replaces,
+        replaces=asked.replace,
     )
-    imported = import_body(component, asked.name or "body", settings, folder)
+    imported = import_body(component, asked.name or asked.usual_name, settings, folder)
     name = imported.body.name
     return Put(f"body {name}", (*imported.notes, *import_notes(imported.body)), name)
 
 
 def _put_road(path: Path, asked: Asked, folder: Path) -> Put:
+    check_only(vars(asked), "a road", "name", "usual_name")
     notes: list[str] = []
-    road = import_road(path, folder, RoadSettings(name=asked.name or None), notes.append)
+    road = import_road(path, folder, RoadSettings(name=asked.name), notes.append)
     return Put(f"road {road.name}", tuple(notes))
 
 
 def _put_mounts(path: Path, asked: Asked, folder: Path) -> Put:
+    check_only(vars(asked), "mounts", "units", "pose", "usual_name")
     notes: list[str] = []
     target = Target.of(folder)
     with confined_to(path.parent):

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from crg_files import crg
 from network_files import network_unv
 
 from modeviz.errors import VehicleError
@@ -116,7 +117,7 @@ def test_a_mount_table_becomes_mounts_of_the_vehicle(received, vehicle):
     received.add("mounts.csv", MOUNTS.format(rates="1,2,3", property="").encode())
     with received.told() as paths:
         assert component_in(paths) is None
-        assert put(paths, Asked(name=""), vehicle).what == "1 connections"
+        assert put(paths, Asked(), vehicle).what == "1 connections"
     (connection,) = read_vehicle(vehicle).all_connections
     np.testing.assert_allclose(connection.stiffness, [1e3, 2e3, 3e3])
 
@@ -127,15 +128,18 @@ def test_a_body_takes_the_place_of_that_of_its_name_if_it_is_asked_to(received, 
     with received.told() as paths:
         with pytest.raises(VehicleError, match="already; put this one in its place with --replace"):
             put(paths, asked, vehicle)
-        put(paths, replace(asked, replaces=True), vehicle)
+        put(paths, replace(asked, replace=True), vehicle)
     (body,) = read_vehicle(vehicle).bodies
     assert [a.name for a in body.attachments] == ["corner", "other"]
 
 
 def test_mounts_take_no_bodys_place(received, vehicle):
     received.add("mounts.csv", MOUNTS.format(rates="1,2,3", property="").encode())
-    with pytest.raises(VehicleError, match="--replace: is of a body"), received.told() as paths:
-        put(paths, Asked(name="", replaces=True), vehicle)
+    with (
+        pytest.raises(VehicleError, match="--replace: has no effect on mounts"),
+        received.told() as paths,
+    ):
+        put(paths, Asked(replace=True), vehicle)
 
 
 @pytest.mark.parametrize("way", ["../secret.gbs", "{outside}"])
@@ -146,7 +150,7 @@ def test_a_mount_table_reads_no_property_file_elsewhere(received, vehicle, tmp_p
     received.add("mounts.csv", MOUNTS.format(rates=",,", property=named).encode())
     before = (vehicle / "vehicle.toml").read_bytes()
     with pytest.raises(VehicleError) as error, received.told() as paths:
-        put(paths, Asked(name=""), vehicle)
+        put(paths, Asked(), vehicle)
     assert "SECRET" not in str(error.value)
     assert (vehicle / "vehicle.toml").read_bytes() == before
 
@@ -199,3 +203,29 @@ def test_what_a_deck_includes_from_elsewhere_does_not_decide_what_it_is(received
     received.add("deck.bdf", DECK.format(f"INCLUDE '{outside}'").encode())
     with pytest.raises(VehicleError, match="in another folder"):
         component(received)
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        (Asked(name="a"), "--name: has no effect on mounts"),
+        (Asked(attach=("1",)), "--attach: has no effect on mounts"),
+        (Asked(residual=("1=1,1,1",)), "--residual: has no effect on mounts"),
+        (Asked(pose="x=1,0,0"), "--pose: has no effect on a table of mounts"),
+        (Asked(units="mm-t-s"), "--units: every column says its own unit"),
+    ],
+)
+def test_what_would_do_nothing_to_mounts_is_refused(received, vehicle, asked, words):
+    received.add("mounts.csv", MOUNTS.format(rates="1,2,3", property="").encode())
+    with pytest.raises(VehicleError, match=words), received.told() as paths:
+        put(paths, asked, vehicle)
+
+
+@pytest.mark.parametrize("option", ["units", "attach", "residual", "pose", "replace"])
+def test_what_would_do_nothing_to_a_road_is_refused(received, vehicle, option):
+    heights = np.random.default_rng(3).uniform(-0.2, 0.2, (300, 3))
+    received.add("road.crg", crg(heights, 0.1, [-1, 0, 1]))
+    asked = Asked(**{option: "mm-t-s"})
+    words = f"--{option}: has no effect on a road"
+    with pytest.raises(VehicleError, match=words), received.told() as paths:
+        put(paths, asked, vehicle)
