@@ -9,8 +9,8 @@ from modeviz.cli.news import News
 from modeviz.cli.results import print_result
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError
+from modeviz.files.mount_tables.bushing import DIRECTIONS, Bushing
 from modeviz.formats.component import UnitSystem
-from modeviz.formats.mounts.bushing import DIRECTIONS, Bushing
 from modeviz.formats.mounts.imported import (
     MountSettings,
     is_deck_with_springs,

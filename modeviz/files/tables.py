@@ -8,12 +8,16 @@ unit in brackets if they have one: "left (mm²/Hz)".
 import csv
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
-from modeviz.errors import VehicleError, located, unknown
+from modeviz.errors import Fault, FaultsError, ModevizError, VehicleError, located, unknown
 from modeviz.files.limits import check_size
 from modeviz.files.schema.decoding import LARGEST
+
+L = TypeVar("L")
+T = TypeVar("T")
 
 MOST_LINES = 100_000
 """A spectrum every 0.001 Hz up to 100 Hz."""
@@ -136,6 +140,24 @@ def read_cells(text: str) -> tuple[Iterator[tuple[int, list[str]]], bool]:
     _check_lengths(lines)
     separator = declared[1] if declared else _separator(lines[first:])
     return _cells(lines, first, separator), separator != ","
+
+
+def of_each_line(file: str, lines: Iterable[L], read: Callable[[L], T]) -> list[T]:
+    """Return what is read of each line of a table.
+
+    Raises:
+        FaultsError: some lines are wrong; all of them are named, after the file.
+    """
+    found: list[T] = []
+    faults: list[Fault] = []
+    for line in lines:
+        try:
+            found.append(read(line))
+        except ModevizError as error:
+            faults.append(Fault("", f"{file}: {error}"))
+    if faults:
+        raise FaultsError(*faults)
+    return found
 
 
 def _check_lengths(lines: list[str]) -> None:

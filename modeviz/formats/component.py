@@ -9,7 +9,7 @@ import numpy as np
 from modeviz.errors import VehicleError
 from modeviz.fem.matrices import Matrices
 from modeviz.formats.node_sets import NodeSet
-from modeviz.units import UNITS
+from modeviz.units import UNITS, QuantityName
 from modeviz.vehicle.arrays import Array, Floats
 
 ElementKind = Literal["line", "triangle", "quad", "tetra", "pyramid", "wedge", "hexa"]
@@ -34,6 +34,18 @@ class UnitSystem:
     """m of one."""
     mass: float
     """kg of one."""
+
+    @property
+    def factors(self) -> Mapping[QuantityName, float]:
+        """One of each quantity that mounts have, in SI; angles are in radians."""
+        k, length = self.mass, self.length  # N/m of one, as seconds are the same in all
+        return {
+            "length": length,
+            "stiffness": k,
+            "damping": k,
+            "rotational_stiffness": k * length**2,
+            "rotational_damping": k * length**2,
+        }
 
 
 def _system(name: str, length: str, mass: str) -> UnitSystem:

@@ -18,9 +18,10 @@ from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files.mount_tables.columns import KINDS
+from modeviz.files.mount_tables.reading import Reading
+from modeviz.files.mount_tables.table import is_mount_table, read_mount_table
 from modeviz.formats.component import UNIT_SYSTEMS
-from modeviz.formats.mounts.columns import KINDS
-from modeviz.formats.mounts.table import is_mount_table, read_mount_table
 from modeviz.units import INCH
 from modeviz.vehicle.connections import GROUND, Damper, Spring
 
@@ -77,7 +78,7 @@ def imported(path: Path, folder: Path, *options: str):
 
 def read(path: Path, units=None, notes=None):
     note = (lambda text: None) if notes is None else notes.append
-    return read_mount_table(path, units, NAMED, note)
+    return read_mount_table(path, Reading(NAMED, note, units.factors if units else {}))
 
 
 HEADER = [
@@ -198,6 +199,38 @@ def test_two_vectors_make_the_axes_of_angles(tmp_path):
     angles = [*HEADER, "roll [rad]", "pitch [rad]", "yaw [rad]"]
     rows = [angles, ["a", "b", GROUND, 0, 0, 0, 1, 1, 1, 0.1, -0.7, 2.0]]
     np.testing.assert_allclose(read(written(tmp_path / "m.csv", rows))[0].axes, axes, atol=1e-12)
+
+
+def test_angles_turn_in_the_order_that_is_said(tmp_path):
+    names = [*HEADER, "angle_x [deg]", "angle_y [deg]", "angle_z [deg]", "angle_order"]
+    for order, seq in (("zxy fixed", "zxy"), ("z, x, y turned", "ZXY")):
+        rows = [names, ["a", "b", GROUND, 0, 0, 0, 1, 1, 1, 10, 20, 30, order]]
+        axes = Rotation.from_euler(seq, [30, 10, 20], degrees=True).as_matrix().T
+        np.testing.assert_allclose(read(written(tmp_path / "m.csv", rows))[0].axes, axes, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("order", "words"),
+    [
+        ("", "line 2, column angle_order: empty, expected the order of the angles"),
+        ("yyz fixed", "line 2, column angle_order: found 'yyz fixed', expected x, y and z"),
+        ("xyz", "line 2, column angle_order: found 'xyz', expected \"xyz fixed\""),
+    ],
+)
+def test_angles_without_an_order_are_refused(tmp_path, order, words):
+    names = [*HEADER, "angle_x [deg]", "angle_y [deg]", "angle_z [deg]", "angle_order"]
+    rows = [names, ["a", "b", GROUND, 0, 0, 0, 1, 1, 1, 10, 20, 0, order]]
+    with pytest.raises(VehicleError, match=re.escape(words)):
+        read(written(tmp_path / "m.csv", rows))
+
+
+def test_every_line_that_is_wrong_is_named(tmp_path):
+    rows = [
+        HEADER,
+        *([name, "b", GROUND, 0, 0, 0, 1, 1, k] for name, k in (("a", -1), ("b", 1), ("c", "?"))),
+    ]
+    with pytest.raises(VehicleError, match=r"m\.csv: line 2, .*-1.*; m\.csv: line 4, .*'\?'"):
+        read(written(tmp_path / "m.csv", rows))
 
 
 ROW = ["a", "block", "ground", 254, -127.5, 508, 17.5, 18.25, 19]

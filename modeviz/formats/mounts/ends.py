@@ -7,7 +7,8 @@ from itertools import product
 import numpy as np
 
 from modeviz.errors import VehicleError, listed, quoted, unknown
-from modeviz.formats.mounts.bushing import Bushing, End
+from modeviz.files.mount_tables.bushing import Bushing, End
+from modeviz.files.mount_tables.records import Joined
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, Body, FlexibleBody
 from modeviz.vehicle.connections import GROUND
@@ -15,15 +16,6 @@ from modeviz.vehicle.vehicle import REACH, Vehicle
 
 ALIKE = 1e-3
 """m: of places that differ by less in how far they are none is the nearer one."""
-
-
-@dataclass(frozen=True, eq=False)
-class Joined:
-    """What a bushing holds on to."""
-
-    bodies: tuple[str, str]
-    places: tuple[Floats, Floats]
-    """(3,) each, m, in the axes of the vehicle's file."""
 
 
 @dataclass(frozen=True, eq=False)

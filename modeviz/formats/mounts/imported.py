@@ -5,13 +5,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeviz.errors import VehicleError, located, quoted
+from modeviz.files.mount_tables.bushing import Bushing
+from modeviz.files.mount_tables.reading import Reading, SixRates
+from modeviz.files.mount_tables.table import is_mount_table, read_mount_table
+from modeviz.files.sheets import EXCEL_SUFFIXES, TEXT_SUFFIXES
 from modeviz.formats.component import UNIT_SYSTEMS, UnitSystem
 from modeviz.formats.effect import check_only
-from modeviz.formats.mounts.bushing import Bushing
 from modeviz.formats.mounts.into_folder import Target, add_bushings, near_bushings
 from modeviz.formats.mounts.property_file import SUFFIXES as PROPERTIES
-from modeviz.formats.mounts.sheets import EXCEL_SUFFIXES, TEXT_SUFFIXES
-from modeviz.formats.mounts.table import is_mount_table, read_mount_table
+from modeviz.formats.mounts.property_file import read_property
 from modeviz.formats.nastran.bushings import has_bushings, read_bushings
 from modeviz.formats.poses import misfit_notes, parse_pose
 from modeviz.formats.reading import read_component
@@ -111,7 +113,8 @@ def read_mounts(
     units = _system(settings.units)
     if path.suffix.lower() not in DECK_SUFFIXES:
         check_only(vars(settings), "a table of mounts", "units")
-        return read_mount_table(path, units, target.named if target else OURS, note)
+        named = target.named if target else OURS
+        return read_mount_table(path, Reading(named, note, units.factors if units else {}, _property))
     if units is None:
         raise VehicleError(
             f"{path.name}: the file doesn't say its units, and they are not guessed; say them with "
@@ -128,6 +131,12 @@ def read_mounts(
         bushings = tuple(bushing.moved(pose) for bushing in bushings)
     with located(path.name):
         return near_bushings(bushings, target, note)
+
+
+def _property(path: Path) -> SixRates:
+    """The rates in a property file."""
+    read = read_property(path)
+    return read.stiffness, read.damping
 
 
 def _system(name: str | None) -> UnitSystem | None:

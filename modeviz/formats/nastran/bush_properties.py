@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeviz.errors import VehicleError, listed, located, quoted
+from modeviz.files.mount_tables.bushing import DIRECTIONS
 from modeviz.formats.component import check_range
-from modeviz.formats.mounts.bushing import DIRECTIONS
 from modeviz.formats.nastran.bulk import Card
 from modeviz.vehicle.arrays import Floats
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from modeviz.errors import VehicleError, located
+from modeviz.files.mount_tables.bushing import Bushing
 from modeviz.formats.component import UnitSystem, check_range
-from modeviz.formats.mounts.bushing import Bushing
 from modeviz.formats.nastran.bulk import TOLD, Card, cards
 from modeviz.formats.nastran.bush_properties import NAMES as PROPERTIES
 from modeviz.formats.nastran.bush_properties import BushProperties, BushRates, one_loss_factor

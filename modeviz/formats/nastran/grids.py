@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeviz.errors import VehicleError
+from modeviz.files.mount_tables.bushing import Bushing, End
 from modeviz.formats.component import UnitSystem
 from modeviz.formats.frames import Frame
-from modeviz.formats.mounts.bushing import Bushing, End
 from modeviz.formats.nastran.bush_properties import BushRates
 from modeviz.formats.nastran.model import Model, basic_geometry
 from modeviz.vehicle.arrays import Floats

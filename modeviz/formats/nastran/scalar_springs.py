@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from modeviz.errors import VehicleError, listed, located
+from modeviz.files.mount_tables.bushing import Bushing
 from modeviz.formats.component import check_range
-from modeviz.formats.mounts.bushing import Bushing
 from modeviz.formats.nastran.bulk import Card
 from modeviz.formats.nastran.bush_properties import BushProperties, BushRates
 from modeviz.formats.nastran.grids import COINCIDENT, Grids

@@ -4,10 +4,10 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 
 from modeviz.errors import VehicleError, listed, quoted
-from modeviz.formats.mounts.bushing import AXES
-from modeviz.formats.mounts.column_units import is_unit
-from modeviz.formats.mounts.columns import UNIT, Column
-from modeviz.formats.mounts.sheets import Sheet
+from modeviz.files.mount_tables.column_units import is_unit
+from modeviz.files.mount_tables.columns import UNIT, Column
+from modeviz.files.sheets import Sheet
+from modeviz.vehicle.local_axes import AXES
 
 RATES = {"k": "stiffness", "c": "damping"}
 """What columns begin with that have numbers along the local axes."""

@@ -7,15 +7,31 @@ from difflib import get_close_matches
 from typing import Literal
 
 from modeviz.errors import VehicleError, listed, quoted
-from modeviz.formats.mounts.bushing import AXES
 from modeviz.units import QuantityName
+from modeviz.vehicle.local_axes import AXES
 
 Kind = QuantityName | Literal["text", "ratio", "number", "angle"]
 
 NAMED = ("vertical", "lateral", "fore_aft")
 """Directions that are called so in all axes."""
 
-TEXTS = ("name", "group", "body_1", "body_2", "attachment_1", "attachment_2", "property", "units")
+TEXTS = (
+    "name",
+    "group",
+    "body_1",
+    "body_2",
+    "attachment_1",
+    "attachment_2",
+    "property",
+    "units",
+    "angle_order",
+)
+
+ROLL_PITCH_YAW = {"roll": "angle_x", "pitch": "angle_y", "yaw": "angle_z"}
+"""Headers of angles whose order is known: about the fixed x, then y, then z."""
+
+REMARKS = {"note", "notes", "remark", "remarks", "comment", "comments"}
+"""Headers of columns for people, which say nothing here."""
 
 
 def _kinds() -> Iterator[tuple[str, Kind]]:
@@ -32,8 +48,8 @@ def _kinds() -> Iterator[tuple[str, Kind]]:
     for direction in (*AXES, *NAMED):
         for what in ("k", "softest", "stiffest"):
             yield f"{what}_{direction}", "stiffness"
-    for angle in ("roll", "pitch", "yaw"):
-        yield angle, "angle"
+    for axis in AXES:
+        yield f"angle_{axis}", "angle"
     yield "loss_factor", "ratio"
     yield "elastic_center", "number"
 
@@ -93,6 +109,9 @@ def _synonyms() -> Iterator[tuple[str, str]]:
             f"c{number + 3} b{number + 3} ct{axis} crot{axis} rotationaldamping{axis} dampingr{axis} "
             f"br{axis}"
         )
+    for header, name in ROLL_PITCH_YAW.items():
+        words[name] = header
+    words["angle_order"] = "order orderofangles rotationorder"
     for direction in NAMED:
         plain = direction.replace("_", "")
         words[f"k_{direction}"] = f"{plain} {plain}rate {plain}stiffness k{plain}"
@@ -117,6 +136,11 @@ class Column:
     """One of `KINDS`."""
     unit: str
     """As its header or the row below it says it; empty for none."""
+
+    @property
+    def has_known_order(self) -> bool:
+        """Whether it is one of roll, pitch and yaw, which are angles in an order of their own."""
+        return _plain(self.header).startswith(tuple(ROLL_PITCH_YAW))
 
     @property
     def kind(self) -> Kind:

@@ -1,4 +1,9 @@
-"""Tables of text and of Excel as lines of cells."""
+"""Tables of text and of Excel as lines of cells.
+
+Excel's .xlsx is read by openpyxl 3.1 (MIT, one small dependency, maintained, reads row by row and gives
+the values that Excel stored for formulas); pandas would bring 100 MB for the same reader, calamine a
+compiled one.
+"""
 
 import warnings
 import zipfile
@@ -40,14 +45,18 @@ class Sheet:
     """Whether 1,5 is a number."""
 
 
-def read_sheet(path: Path) -> Sheet:
+def read_sheet(path: Path, name: str = "") -> Sheet:
     """Return the table in a file: of a workbook that of its first sheet that is not empty.
+
+    Args:
+        path: of the file.
+        name: of the sheet that is meant where a workbook has one called so.
 
     Raises:
         VehicleError: it cannot be read.
     """
     if path.suffix.lower() in EXCEL_SUFFIXES:
-        return Sheet(_of_workbook(path), decimal_comma=True)
+        return Sheet(_of_workbook(path, name), decimal_comma=True)
     text = read_text(path, LARGEST_TABLE, otherwise=WESTERN)
     with located(path):
         found, decimal_comma = read_cells(text)
@@ -56,7 +65,7 @@ def read_sheet(path: Path) -> Sheet:
         return Sheet(lines, decimal_comma)
 
 
-def _of_workbook(path: Path) -> list[tuple[int, list[str]]]:
+def _of_workbook(path: Path, name: str) -> list[tuple[int, list[str]]]:
     if path.suffix.lower() not in EXCEL_SUFFIXES[:2]:
         raise VehicleError(
             f"{path}: workbooks ending in {path.suffix} are not read; save it as .xlsx or .csv"
@@ -77,7 +86,9 @@ def _of_workbook(path: Path) -> list[tuple[int, list[str]]]:
                     load_workbook(BytesIO(content), read_only=True, data_only=values)
                     for values in (True, False)
                 ]
-            for sheets in zip(*(book.worksheets for book in books), strict=True):
+            pairs = list(zip(*(book.worksheets for book in books), strict=True))
+            meant = [pair for pair in pairs if pair[0].title.strip().lower() == name]
+            for sheets in meant or pairs:
                 if lines := list(_lines(*sheets)):
                     return lines
         except VehicleError:

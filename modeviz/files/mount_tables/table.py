@@ -1,23 +1,23 @@
 """Mount tables of text or Excel: a line for each mount."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeviz.errors import VehicleError, listed, located, quoted
-from modeviz.files.tables import Row
-from modeviz.formats.component import UnitSystem
-from modeviz.formats.mounts.bushing import Bushing
-from modeviz.formats.mounts.column_units import (
+from modeviz.errors import VehicleError, listed, located, quoted, unknown
+from modeviz.files.mount_tables.bushing import Bushing
+from modeviz.files.mount_tables.column_units import (
     column_factor,
     is_unit,
-    takes_system,
+    takes_given,
     with_shared_units,
 )
-from modeviz.formats.mounts.columns import Column, read_headers
-from modeviz.formats.mounts.line import MountLine
-from modeviz.formats.mounts.missing import check_directions
-from modeviz.formats.mounts.sheets import Sheet, read_sheet
+from modeviz.files.mount_tables.columns import KINDS, REMARKS, Column, read_headers
+from modeviz.files.mount_tables.line import MountLine
+from modeviz.files.mount_tables.missing import check_directions
+from modeviz.files.mount_tables.reading import Reading
+from modeviz.files.sheets import Sheet, read_sheet
+from modeviz.files.tables import Row, of_each_line
 
 OF_RATES = {"stiffness", "rotational_stiffness", "damping", "rotational_damping"}
 """The kinds of columns that only mounts have."""
@@ -29,36 +29,37 @@ FEWEST_COLUMNS = 3
 """Of a line that is a header, where others stand above it."""
 
 
-def read_mount_table(
-    path: Path, units: UnitSystem | None, named: Mapping[str, str], note: Callable[[str], None]
-) -> tuple[Bushing, ...]:
+def read_mount_table(path: Path, reading: Reading) -> tuple[Bushing, ...]:
     """Return the mounts of a table, in the order of its lines.
 
     Args:
-        path: of the file.
-        units: of numbers whose headers say none; None: these must.
-        named: along which of x, y and z the `NAMED` directions are in the vehicle's file.
-        note: told what was left out.
+        path: of the file; of a workbook the sheet "mounts", or else the first.
+        reading: what else is known.
 
     Raises:
-        VehicleError: no such table; the text names file, line and column.
+        FaultsError: some lines are wrong; the text names file, line and column of each.
+        VehicleError: no such table.
     """
-    sheet = read_sheet(path)
+    sheet = read_sheet(path, "mounts")
     with located(path.name):
-        table = _Table.of(sheet, units, note)
-        check_directions(table.columns, sheet, table.header, named, note)
-        bushings: dict[str, Bushing] = {}
-        for line in table.lines(sheet):
-            bushing = line.bushing(path, named, bushings)
-            if bushing.name in bushings:
-                raise VehicleError(
-                    f"{line.where('name')}: {quoted(bushing.name)} is there twice, in "
-                    f"{bushings[bushing.name].where} too; each mount needs its own name"
-                )
-            bushings[bushing.name] = bushing
-        if not bushings:
-            raise VehicleError("found a header and no mounts")
-        return tuple(bushings.values())
+        table = _Table.of(sheet, reading)
+        check_directions(table.columns, sheet, table.header, reading.named, reading.note)
+        lines = table.lines(sheet)
+    if not lines:
+        raise VehicleError(f"{path.name}: found a header and no mounts")
+    bushings: dict[str, Bushing] = {}
+
+    def read(line: MountLine) -> None:
+        bushing = line.bushing(path, bushings)
+        if bushing.name in bushings:
+            raise VehicleError(
+                f"{line.where('name')}: {quoted(bushing.name)} is there twice, in "
+                f"{bushings[bushing.name].where} too; each mount needs its own name"
+            )
+        bushings[bushing.name] = bushing
+
+    of_each_line(path.name, lines, read)
+    return tuple(bushings.values())
 
 
 def is_mount_table(path: Path) -> bool:
@@ -78,7 +79,7 @@ class _Table:
     """What the header of a table says."""
 
     columns: Mapping[int, Column]
-    units: UnitSystem | None
+    reading: Reading
     header: int
     """Which of the sheet's lines it is."""
     first: int
@@ -86,7 +87,7 @@ class _Table:
     width: int
 
     @classmethod
-    def of(cls, sheet: Sheet, units: UnitSystem | None, note: Callable[[str], None]) -> "_Table":
+    def of(cls, sheet: Sheet, reading: Reading) -> "_Table":
         """Raises VehicleError for a header that is none of mounts."""
         at = _header_at(sheet)
         number, header = sheet.lines[at] if sheet.lines else (1, [])
@@ -113,14 +114,17 @@ class _Table:
         columns = with_shared_units(columns)
         for column in columns.values():
             with located(f"line {number}"):
-                column_factor(column, units)
-        if units and not any(map(takes_system, columns.values())):
+                column_factor(column, reading.units)
+        if reading.units and not any(takes_given(c, reading.units) for c in columns.values()):
             raise VehicleError("--units: every column says its own unit; leave it out")
+        if reading.is_own:
+            with located(f"line {number}"):
+                _check_own(columns.values(), others)
         if at:
-            note(f"what stands above the header in line {number} is left out")
-        if others:
-            note(f"columns {listed(others)} are left out")
-        return cls(columns, units, at, first, len(header))
+            reading.note(f"what stands above the header in line {number} is left out")
+        if others and not reading.is_own:
+            reading.note(f"columns {listed(others)} are left out")
+        return cls(columns, reading, at, first, len(header))
 
     def lines(self, sheet: Sheet) -> list[MountLine]:
         """Those of the mounts."""
@@ -142,7 +146,20 @@ class _Table:
                     "isn't stored; open the workbook in Excel and save it"
                 )
         by_name = {column.name: column for column in self.columns.values()}
-        return MountLine(Row(number, by_header, sheet.decimal_comma), by_name, self.units)
+        return MountLine(Row(number, by_header, sheet.decimal_comma), by_name, self.reading)
+
+
+def _check_own(columns: Iterable[Column], others: Sequence[str]) -> None:
+    """Raises VehicleError for columns that a vehicle's own table does not have."""
+    unread = [h for h in others if h.lower() not in REMARKS]
+    if unread:
+        raise VehicleError(unknown("column", unread[0], [*KINDS, "note"]))
+    for column in columns:
+        if column.name.startswith(("attachment", "property")):
+            raise VehicleError(
+                f"column {quoted(column.header)}: is read by modeviz import, expected places and rates "
+                "in the table of a vehicle"
+            )
 
 
 def _header_at(sheet: Sheet) -> int:

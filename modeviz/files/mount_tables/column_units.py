@@ -8,29 +8,19 @@ from dataclasses import replace
 import numpy as np
 
 from modeviz.errors import VehicleError, located, quoted
-from modeviz.formats.component import UnitSystem
-from modeviz.formats.mounts.columns import Column, Kind
+from modeviz.files.mount_tables.columns import Column, Kind
 from modeviz.units import UNITS, QuantityName, spoken
 
 ANGLES = {"deg": np.pi / 180, "rad": 1.0}
 RATIOS = {"": 1.0, "%": 0.01, "-": 1.0, "1": 1.0}
 
-POWERS: Mapping[Kind, tuple[int, int]] = {
-    "length": (0, 1),
-    "stiffness": (1, 0),
-    "damping": (1, 0),
-    "rotational_stiffness": (1, 2),
-    "rotational_damping": (1, 2),
-}
-"""Of mass and length, in a system of units with seconds and radians."""
 
-
-def column_factor(column: Column, units: UnitSystem | None) -> float | None:
+def column_factor(column: Column, units: Mapping[QuantityName, float]) -> float | None:
     """Return one of a column's numbers in SI; None if neither it nor `units` say it.
 
     Args:
         column: of numbers.
-        units: of columns that say none.
+        units: one of a quantity in SI, of columns that say none.
 
     Raises:
         VehicleError: it says a unit of something else.
@@ -47,12 +37,12 @@ def column_factor(column: Column, units: UnitSystem | None) -> float | None:
             return _one_of(column.unit, ANGLES, "angle") if column.unit else None
         if column.unit:
             return _one_of(column.unit, UNITS[kind], spoken(kind))
-        return _of_system(kind, units) if units else None
+        return units.get(kind)
 
 
-def takes_system(column: Column) -> bool:
-    """Return whether a column's numbers are in a system of units, since it says none."""
-    return not column.unit and column.kind in POWERS
+def takes_given(column: Column, units: Mapping[QuantityName, float]) -> bool:
+    """Return whether a column's numbers are in one of some units, since it says none."""
+    return not column.unit and column.kind in units
 
 
 def with_shared_units(columns: Mapping[int, Column]) -> dict[int, Column]:
@@ -84,7 +74,7 @@ def is_unit(text: str, column: Column) -> bool:
     if text in ("", "-"):
         return True
     try:
-        return column.kind != "text" and column_factor(Column("", column.name, text), None) is not None
+        return column.kind != "text" and column_factor(Column("", column.name, text), {}) is not None
     except VehicleError:
         return False
 
@@ -109,9 +99,3 @@ def _spelling(unit: str) -> str:
     text = re.sub(r"radians?", "rad", text)
     text = re.sub(r"/\s*\(\s*(\w+)\s*/\s*(\w+)\s*\)", r" \2/\1", text)
     return re.sub(r"[\s·⋅*.()^]", "", text)
-
-
-def _of_system(kind: QuantityName, units: UnitSystem) -> float:
-    """One of a quantity in a system of units with seconds and radians."""
-    of_mass, of_length = POWERS[kind]
-    return units.mass**of_mass * units.length**of_length

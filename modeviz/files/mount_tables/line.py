@@ -6,20 +6,22 @@ from pathlib import Path
 
 import numpy as np
 
-from modeviz.errors import VehicleError, located, quoted
+from modeviz.errors import VehicleError, listed, located, quoted, unknown
 from modeviz.files.disk import inside
+from modeviz.files.mount_tables.bushing import DIRECTIONS, Bushing, End
+from modeviz.files.mount_tables.column_units import column_factor, rate_unit
+from modeviz.files.mount_tables.columns import NAMED, Column
+from modeviz.files.mount_tables.reading import Reading, SixRates
 from modeviz.files.schema.scaling import BEYOND_ANY_VEHICLE, WRITTEN_UNITS
 from modeviz.files.tables import Row
-from modeviz.formats.component import UnitSystem
-from modeviz.formats.mounts.axes import axes_of_angles, axes_of_vectors
-from modeviz.formats.mounts.bushing import AXES, DIRECTIONS, Bushing, End
-from modeviz.formats.mounts.column_units import column_factor, rate_unit
-from modeviz.formats.mounts.columns import NAMED, Column
-from modeviz.formats.mounts.property_file import read_property
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import GROUND
+from modeviz.vehicle.local_axes import AXES, TurnOrder, axes_of_angles, axes_of_vectors
+from modeviz.vehicle.vehicle import FARTHEST
 
 RATES = tuple(f"k_{direction}" for direction in DIRECTIONS)
 DAMPINGS = tuple(f"c_{direction}" for direction in DIRECTIONS)
+ANGLES = tuple(f"angle_{axis}" for axis in AXES)
 
 
 @dataclass(frozen=True)
@@ -28,7 +30,7 @@ class MountLine:
 
     row: Row
     columns: Mapping[str, Column]
-    units: UnitSystem | None
+    reading: Reading
 
     def where(self, name: str) -> str:
         """The place of a cell, for errors."""
@@ -52,7 +54,7 @@ class MountLine:
             cells = {column.header: self.text(name).removesuffix("%").strip()}
             return replace(self.row, cells=cells).number(column.header, at_least) / 100
         value = self.row.number(column.header, at_least)
-        factor = column_factor(column, self.units)
+        factor = column_factor(column, self.reading.units)
         if column.kind == "stiffness" and not column.unit and self.text("units"):
             with located(self.where("units")):
                 factor = rate_unit(self.text("units"))
@@ -60,7 +62,7 @@ class MountLine:
             usual = next((u for kind, u in WRITTEN_UNITS.items() if kind == column.kind), "deg")
             raise VehicleError(
                 f"{self.where(name)}: found {self.text(name)} without a unit; write it in the header, "
-                f"'{column.header} [{usual}]', or give --units"
+                f"'{column.header} [{usual}]'{'' if self.reading.is_own else ', or give --units'}"
             )
         if abs(value * factor) > BEYOND_ANY_VEHICLE:
             raise VehicleError(
@@ -77,12 +79,11 @@ class MountLine:
             return None
         return np.array([empty if value is None else value for value in found])
 
-    def bushing(self, path: Path, named: Mapping[str, str], before: Mapping[str, Bushing]) -> Bushing:
+    def bushing(self, path: Path, before: Mapping[str, Bushing]) -> Bushing:
         """The mount of this line.
 
         Args:
             path: of the table.
-            named: as of `read_mount_table`.
             before: the mounts of the lines above it, by name.
         """
         name = self.text("name")
@@ -90,11 +91,11 @@ class MountLine:
             raise VehicleError(f"{self.where('name')}: empty, expected the mount's name")
         group = self.text("group") if "group" in self.columns else name
         twin = next((b for b in before.values() if group and b.group == group), None)
-        stiffness, damping = self._rates(path, named, twin)
+        stiffness, damping = self._rates(path, twin)
         loss_factor = self.number("loss_factor", 0)
         if loss_factor is None:
             loss_factor = twin.loss_factor if twin else 0.0
-        bounds = [self._bound(which, named) for which in ("softest", "stiffest")]
+        bounds = [self._bound(which) for which in ("softest", "stiffest")]
         if twin and np.isnan(bounds).all():
             bounds = [twin.softest, twin.stiffest]
         return Bushing(
@@ -118,18 +119,17 @@ class MountLine:
             )
         return 0.5 if value is None else value
 
-    def _rates(
-        self, path: Path, named: Mapping[str, str], twin: Bushing | None
-    ) -> tuple[Floats, Floats]:
+    def _rates(self, path: Path, twin: Bushing | None) -> SixRates:
         """Stiffness and damping of a line, or else of the first of its group."""
-        stiffness, damping = self._directed("k", named, RATES, 0.0), self.numbers(DAMPINGS, 0)
+        stiffness, damping = self._directed("k", RATES, 0.0), self.numbers(DAMPINGS, 0)
         is_said = stiffness is not None or damping is not None
         if file := self.text("property"):
             if is_said:
                 raise VehicleError(f"{self.where('property')}: found rates beside it, expected either")
             with located(self.where("property")):
-                read = read_property(inside(path.parent, file, "the folder of the table"))
-            return read.stiffness, read.damping
+                if self.reading.read_property is None:
+                    raise VehicleError("found a property file, expected its rates in k_x, k_y and k_z")
+                return self.reading.read_property(inside(path.parent, file, "the folder of the table"))
         if twin and not is_said:
             return twin.stiffness, twin.damping
         if not is_said:
@@ -140,16 +140,14 @@ class MountLine:
         zeros = np.zeros(6)
         return (zeros if stiffness is None else stiffness), (zeros if damping is None else damping)
 
-    def _directed(
-        self, prefix: str, named: Mapping[str, str], names: tuple[str, ...], empty: float
-    ) -> Floats | None:
+    def _directed(self, prefix: str, names: tuple[str, ...], empty: float) -> Floats | None:
         """Values along the local axes, of which some columns are called by directions."""
         values = self.numbers(names, 0, empty)
         for direction in NAMED:
             value = self.number(f"{prefix}_{direction}", 0)
             if value is None:
                 continue
-            axis = named[direction]
+            axis = self.reading.named[direction]
             if self.text(f"{prefix}_{axis}"):
                 raise VehicleError(
                     f"{self.where(f'{prefix}_{direction}')}: found a value beside that of "
@@ -159,10 +157,10 @@ class MountLine:
             values[AXES.index(axis)] = value
         return values
 
-    def _bound(self, which: str, named: Mapping[str, str]) -> Floats:
+    def _bound(self, which: str) -> Floats:
         """The softest or the stiffest rates, not numbers where they are not given."""
         names = tuple(f"{which}_{axis}" for axis in AXES)
-        found = self._directed(which, named, names, np.nan)
+        found = self._directed(which, names, np.nan)
         return np.full(3, np.nan) if found is None else found
 
     def _place(self, suffix: str) -> Floats | None:
@@ -177,7 +175,19 @@ class MountLine:
             return None
         if missing:
             raise VehicleError(f"{self.where(missing[0])}: empty, expected all of {', '.join(names)}")
+        if self.reading.is_own:
+            for name in names:
+                self._check_near(name)
         return self.numbers(names)
+
+    def _check_near(self, name: str) -> None:
+        """Raises VehicleError for a coordinate that no vehicle has."""
+        value = self.number(name) or 0.0
+        if abs(value) > FARTHEST:
+            raise VehicleError(
+                f"{self.where(name)}: found {self.text(name)}, which is {abs(value):.4g} m from the "
+                f"origin, expected at most {FARTHEST:g} m; if it is in mm, say so: '{name} [mm]'"
+            )
 
     def _second_place(self) -> Floats | None:
         """That of the second end, the first one's unless it is given."""
@@ -186,8 +196,22 @@ class MountLine:
 
     def _end(self, side: str, place: Floats | None) -> End:
         body, attachment = self.text(f"body_{side}"), self.text(f"attachment_{side}")
+        if self.reading.bodies is not None:
+            self._check_own(side, body, place)
         column = f"attachment_{side}" if attachment and not body else f"body_{side}"
         return End(self.where(column), body, attachment, place)
+
+    def _check_own(self, side: str, body: str, place: Floats | None) -> None:
+        """Raises VehicleError unless an end says which body of the vehicle it is on, and where."""
+        bodies = (*(self.reading.bodies or ()), GROUND)
+        if not body:
+            raise VehicleError(f"{self.where(f'body_{side}')}: empty, expected one of {listed(bodies)}")
+        if body not in bodies:
+            raise VehicleError(f"{self.where(f'body_{side}')}: {unknown('body', body, bodies)}")
+        if side == "2" and body == self.text("body_1"):
+            raise VehicleError(f"{self.where('body_2')}: joins {quoted(body)} to itself")
+        if place is None:
+            raise VehicleError(f"{self.where('x')}: empty, expected a place in x, y, z")
 
     def _axes(self) -> Floats:
         vectors = {
@@ -195,14 +219,31 @@ class MountLine:
             for axis in AXES
             if any(map(self.text, names := tuple(f"{axis}_axis_{c}" for c in AXES)))
         }
-        angles = self.numbers(("roll", "pitch", "yaw"))
+        angles = self.numbers(ANGLES)
         if vectors and angles is not None:
             raise VehicleError(
                 f"line {self.row.line}: found vectors and angles of its axes, expected one"
             )
         if angles is not None:
-            return axes_of_angles(*angles)
+            return axes_of_angles(angles, self._order(angles))
         if not vectors:
             return np.eye(3)
         with located(f"line {self.row.line}, columns {', '.join(f'{a}_axis' for a in vectors)}"):
             return axes_of_vectors({a: v for a, v in vectors.items() if v is not None})
+
+    def _order(self, angles: Floats) -> TurnOrder:
+        """In which order the angles of a line turn its axes; of a single one it does not matter.
+
+        Raises:
+            VehicleError: it is not said where it matters.
+        """
+        if text := self.text("angle_order"):
+            with located(self.where("angle_order")):
+                return TurnOrder.of(text)
+        given = [name for name, angle in zip(ANGLES, angles, strict=True) if angle]
+        if len(given) > 1 and not all(self.columns[name].has_known_order for name in given):
+            raise VehicleError(
+                f"{self.where('angle_order')}: empty, expected the order of the angles, such as "
+                "'xyz fixed', about axes that stay, or 'zyx turned', about those turned before"
+            )
+        return TurnOrder()

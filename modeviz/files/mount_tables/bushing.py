@@ -6,12 +6,11 @@ from typing import Self
 import numpy as np
 
 from modeviz.vehicle.arrays import Floats, frozen
+from modeviz.vehicle.local_axes import AXES
 from modeviz.vehicle.pose import Pose
 
-AXES = ("x", "y", "z")
-"""Of a bushing: along the first three of its six directions, about the last three."""
-
 DIRECTIONS = (*AXES, *(f"r{axis}" for axis in AXES))
+"""Of a bushing: along its axes, then about them."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,161 @@
+"""Bushings as the tables of a vehicle file: mount groups that are tuned, springs and dampers."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeviz.errors import VehicleError, quoted
+from modeviz.files.mount_tables.bushing import Bushing
+from modeviz.files.records.connections import (
+    ConnectionRecord,
+    JointRecord,
+    MountGroupRecord,
+    MountRecord,
+)
+from modeviz.files.records.rates import RatesRecord
+from modeviz.files.records.record import Record, said, tuples
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import GROUND, MountRates, usual_bounds
+from modeviz.vehicle.local_axes import AXES
+
+SAME = 1e-9
+"""Relative: rates of mounts of a group that differ by less are the same."""
+
+
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """What a bushing holds on to."""
+
+    bodies: tuple[str, str]
+    places: tuple[Floats, Floats]
+    """(3,) each, m, in the axes of the vehicle's file."""
+
+
+def connection_tables(
+    bushings: Sequence[Bushing], joined: Mapping[str, Joined], named: Mapping[str, str]
+) -> Iterator[tuple[str, list[Record]]]:
+    """Return the tables of a vehicle file that bushings become, by their key.
+
+    Those of a group are mounts, which are tuned; others are springs or, without stiffness, dampers.
+
+    Args:
+        bushings: in SI and the axes of the vehicle's file.
+        joined: what each holds on to, by its name.
+        named: as of `Reading`.
+
+    Raises:
+        VehicleError: mounts of a group differ, or one has no rate.
+    """
+    groups: dict[str, list[Bushing]] = {}
+    springs: list[Record] = []
+    dampers: list[Record] = []
+    for bushing in bushings:
+        is_spring = bushing.stiffness.any() or bushing.rigid
+        if bushing.group and bushing.stiffness[:3].any() and not bushing.rigid:
+            groups.setdefault(bushing.group, []).append(bushing)
+        elif is_spring or bushing.damping.any():
+            record = JointRecord if is_spring else ConnectionRecord
+            (springs if is_spring else dampers).append(_connection(bushing, joined, record))
+        else:
+            raise VehicleError(f"{bushing.where}: {quoted(bushing.name)} has no rate that is not zero")
+    yield "mount_group", [_group(name, lot, joined, named) for name, lot in groups.items()]
+    yield "spring", springs
+    yield "damper", dampers
+
+
+def _placed(bushing: Bushing, joined: Joined) -> dict[str, object]:
+    """Bodies, place and axes as the keys of a record; the ground is the second."""
+    bodies, places, center = joined.bodies, joined.places, bushing.elastic_center
+    if bodies[0] == GROUND:
+        bodies, places, center = bodies[::-1], places[::-1], 1 - center
+    first, second = map(tuples, places)
+    return {
+        "bodies": bodies,
+        "at": first if first == second else (first, second),
+        "axes": tuples(bushing.axes),
+        "elastic_center": center,
+        "rotational_stiffness": tuples(bushing.stiffness[3:]),
+        "damping": tuples(bushing.damping[:3]),
+        "rotational_damping": tuples(bushing.damping[3:]),
+    }
+
+
+def _connection(bushing: Bushing, joined: Mapping[str, Joined], kind: type[ConnectionRecord]) -> Record:
+    fields = {
+        **_placed(bushing, joined[bushing.name]),
+        "stiffness": tuples(bushing.stiffness[:3]),
+        "loss_factor": bushing.loss_factor,
+    }
+    if kind is JointRecord:
+        fields["rigid"] = bushing.rigid or False
+    return kind(name=bushing.name, group=bushing.group, **said(kind, fields))
+
+
+def _group(
+    name: str, lot: Sequence[Bushing], joined: Mapping[str, Joined], named: Mapping[str, str]
+) -> MountGroupRecord:
+    """The mount group of bushings.
+
+    Raises:
+        VehicleError: they are not the same part.
+    """
+    first = lot[0]
+    for other in lot[1:]:
+        _check_same(other, first)
+    softest, stiffest = _bounds(first, named)
+    return MountGroupRecord(
+        name=name,
+        rates=_rates(first.stiffness[:3], named),
+        loss_factor=first.loss_factor,
+        softest=softest,
+        stiffest=stiffest,
+        mount=[MountRecord(name=b.name, **said(MountRecord, _placed(b, joined[b.name]))) for b in lot],
+    )
+
+
+def _check_same(other: Bushing, first: Bushing) -> None:
+    """Raises VehicleError unless a mount has the rates, loss factor and bounds of its group's first."""
+    values = (
+        ("stiffness", other.stiffness[:3], first.stiffness[:3]),
+        ("loss factor", other.loss_factor, first.loss_factor),
+        ("softest", other.softest, first.softest),
+        ("stiffest", other.stiffest, first.stiffest),
+    )
+    for what, found, expected in values:
+        if not np.allclose(found, expected, rtol=SAME, atol=0, equal_nan=True):
+            raise VehicleError(
+                f"{other.where}: the {what} of {quoted(other.name)} is {_list(found)} and that of "
+                f"{quoted(first.name)} in {first.where} {_list(expected)}; mounts of a group, here "
+                f"{quoted(other.group)}, are the same part"
+            )
+
+
+def _list(values: Floats | float) -> str:
+    return ", ".join(f"{value:.6g}" for value in np.atleast_1d(values))
+
+
+def _rates(stiffness: Floats, named: Mapping[str, str]) -> RatesRecord:
+    return RatesRecord(**{name: float(stiffness[AXES.index(named[name])]) for name in named})
+
+
+def _bounds(bushing: Bushing, named: Mapping[str, str]) -> list[RatesRecord | None]:
+    """The softest and the stiffest rates of a group, where they are given.
+
+    Raises:
+        VehicleError: the softest are above the stiffest.
+    """
+    given = bushing.softest, bushing.stiffest
+    if np.isnan(given).all():
+        return [None, None]
+    usual = usual_bounds(MountRates(*bushing.stiffness[:3]))  # three numbers, whatever they are called
+    low, high = (
+        np.where(np.isnan(bound), other.as_tuple(), bound)
+        for bound, other in zip(given, usual, strict=True)
+    )
+    if not (low < high).all():
+        raise VehicleError(
+            f"{bushing.where}: the softest rates, {_list(low)} N/m, are not below the stiffest, "
+            f"{_list(high)} N/m"
+        )
+    return [_rates(low, named), _rates(high, named)]
