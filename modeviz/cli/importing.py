@@ -203,8 +203,14 @@ def listing(component: Component) -> str:
     if not component.n_modes:
         return "\n".join(lines)
     modes = component.modes
+    first_residual = component.n_modes - modes.n_residuals
     rows = [
-        [str(number + 1), f"{frequency:.5g}", _known(mass, "{:.5g}"), _known(100 * ratio, "{:.2f}")]
+        [
+            f"{number + 1}" if number < first_residual else f"{number + 1}, residual vector",
+            f"{frequency:.5g}",
+            _known(mass, "{:.5g}"),
+            _known(100 * ratio, "{:.2f}"),
+        ]
         for number, (frequency, mass, ratio) in enumerate(
             zip(modes.frequency_hz, modes.modal_mass, modes.damping_ratio, strict=True)
         )

@@ -37,6 +37,8 @@ class ShapeSet:
     """λ, (n_modes,), rad/s, of complex modes: motion goes as e^{λt}."""
     modal_a: Complexes | None = None
     """(n_modes,), kg rad/s: ψᵀ(2λM + C)ψ of complex modes; the modal B is -λ times that."""
+    n_residuals: int = 0
+    """How many of the last are residual vectors, of a body alone."""
 
 
 def vehicle_modes(results: ModalResults, below_hz: float) -> ShapeSet:
@@ -141,4 +143,5 @@ def body_modes(body: FlexibleBody) -> ShapeSet:
         body.loss_factor,
         np.eye(n),
         {body.name: slice(0, n)},
+        n_residuals=body.n_residuals,
     )

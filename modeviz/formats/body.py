@@ -124,6 +124,7 @@ def flexible_body(
         raise VehicleError(f"{component.source}: cannot be coupled to others: {reason}")
     modes = component.modes
     omega_n_squared, n_near_zero = with_zeros(_omega_n_squared(modes.frequency_hz))
+    n_normal = component.n_modes - modes.n_residuals
     component, n_still = _without_still_nodes(component, omega_n_squared == 0, attachments)
     kind = modes.shapes.dtype.type
     normalised = modes.shapes / np.sqrt(modes.modal_mass * units.mass).astype(kind)
@@ -138,7 +139,7 @@ def flexible_body(
         label=name,
         omega_n_squared=omega_n_squared,
         n_residuals=modes.n_residuals,
-        damping_ratio=_damping(modes.damping_ratio[omega_n_squared > 0]),
+        damping_ratio=_damping(modes.damping_ratio[:n_normal][omega_n_squared[:n_normal] > 0]),
         attachments=tuple(Attachment(a.name, a.position, a.shapes(normalised)) for a in attachments),
         nodes=places[kept],
         shapes=normalised[kept],
@@ -200,7 +201,7 @@ def _carriers(component: Component, drawn: Array) -> tuple[Array, int]:
 
 
 def _damping(ratios: Floats) -> float | tuple[float, ...]:
-    """Those of the file, if it says all of them."""
+    """Those of the file for the elastic normal modes, if it says all of them."""
     if len(ratios) and np.isfinite(ratios).all():
         return tuple(ratios.tolist())
     return USUAL_DAMPING_RATIO

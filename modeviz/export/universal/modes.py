@@ -12,6 +12,7 @@ from modeviz.export.axes import FileAxes
 from modeviz.export.points import Points
 from modeviz.export.shapes import ShapeSet
 from modeviz.export.universal.blocks import (
+    LEFT_OUT,
     data_set,
     interleaved,
     line_of_text,
@@ -20,6 +21,7 @@ from modeviz.export.universal.blocks import (
     whole,
 )
 from modeviz.export.universal.geometry import nodes, trace_line, triangles, units
+from modeviz.formats.universal.shapes import RESIDUAL
 from modeviz.vehicle.arrays import Array
 
 STRUCTURAL, NORMAL, COMPLEX = 1, 2, 3
@@ -67,15 +69,20 @@ def _sets(name: str, points: Points, shapes: ShapeSet, axes: FileAxes, number: i
 
 
 def _titles(name: str, shapes: ShapeSet, mode: int) -> list[str]:
-    """Five lines that say what a mode is, and its numbers with all their digits."""
+    """Five lines that say what a mode is, and its numbers with all their digits.
+
+    The fourth marks a residual vector, as our reader has it: no kind of analysis of these data sets is
+    one, and other programs use it like a mode.
+    """
+    is_residual = mode >= len(shapes.numbers) - shapes.n_residuals
     return [
         line_of_text(f"{name}: mode {shapes.numbers[mode]}, {shapes.names[mode]}"),
         line_of_text(
             f"{shapes.frequency_hz[mode]:.12g} Hz, damping ratio {shapes.damping_ratio[mode]:.9g}"
         ),
         line_of_text("mass-normalised: 1/sqrt(kg), rotations rad/(m sqrt(kg))"),
-        "NONE",
-        "NONE",
+        RESIDUAL if is_residual else LEFT_OUT,
+        LEFT_OUT,
     ]
 
 

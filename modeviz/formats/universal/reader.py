@@ -27,7 +27,7 @@ from modeviz.formats.universal.geometry import (
     read_units,
 )
 from modeviz.formats.universal.groups import read_groups
-from modeviz.formats.universal.shapes import Shape, read_mode
+from modeviz.formats.universal.shapes import Shape, read_mode, unread_name
 from modeviz.vehicle.arrays import Array, Floats
 
 SUFFIXES = (".unv", ".uff", ".uf", ".uf5", ".ufb")
@@ -57,7 +57,7 @@ class _Content:
     node_sets: dict[str, NodeSet] = field(default_factory=dict)
     """By name."""
     unread: Counter[str] = field(default_factory=Counter)
-    """Data sets that are not a component's, by their numbers."""
+    """Data sets that are not a component's, by what they are."""
 
     def add(self, block: Block) -> None:
         """Takes in what a data set has."""
@@ -82,7 +82,7 @@ class _Content:
         elif kind in ("55", "2414") and (shape := read_mode(block)):
             self.shapes.append(shape)
         elif kind not in SILENT:
-            self.unread[kind] += 1
+            self.unread[unread_name(block)] += 1
 
 
 def read_universal(paths: Sequence[Path]) -> Component:
@@ -195,8 +195,8 @@ def _with_unplaced(labels: Array, shapes: Sequence[Shape]) -> Array:
 
 
 def _modes(labels: Array, shapes: Sequence[Shape]) -> Modes:
-    """The modes, the slowest first."""
-    ordered = sorted(shapes, key=lambda shape: shape.frequency_hz)
+    """The modes, the slowest first, and after them residual vectors."""
+    ordered = sorted(shapes, key=lambda shape: (shape.is_residual, shape.frequency_hz))
     check_shapes(len(labels), len(ordered))
     is_complex = any(np.iscomplexobj(shape.values) for shape in ordered)
     array = np.zeros((len(labels), 6, len(ordered)), np.complex128 if is_complex else np.float64)
@@ -210,6 +210,7 @@ def _modes(labels: Array, shapes: Sequence[Shape]) -> Modes:
         np.array([shape.modal_mass for shape in ordered]),
         np.array([shape.damping_ratio for shape in ordered]),
         array,
+        sum(shape.is_residual for shape in shapes),
     )
 
 

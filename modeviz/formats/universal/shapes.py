@@ -1,5 +1,6 @@
 """Mode shapes of a universal file: data sets 55 and 2414."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +24,12 @@ COMPLEX_DATA = (5, 6)
 MOST_VALUES = 12
 """Of a node in a shape: six complex ones."""
 
+RESIDUAL = "RESIDUAL VECTOR"
+"""The line of text of what is used like a mode and is none, which no kind of analysis says."""
+
+STATIC = {10: "Craig-Bampton constraint modes", 11: "equivalent attachment modes"}
+"""Kinds of analysis of 2414 whose shapes go with modes, and have neither frequency nor modal mass."""
+
 
 @dataclass(frozen=True, eq=False)
 class Shape:
@@ -36,6 +43,8 @@ class Shape:
     """(n,), of the nodes that it moves."""
     values: Array
     """(n, 3 or 6), in each node's own system."""
+    is_residual: bool = False
+    """Whether it is said to be a residual vector."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +69,7 @@ def read_shape_55(block: Block) -> Shape | None:
     _check_header(0 <= n_whole <= 100 and 4 <= n_real <= 100, f"{n_whole} and {n_real} parameters")
     _, rest = _cut(rest, -(-(n_whole + 2) // 8) - 1)
     text, rest = _cut(rest, -(-n_real // 6))
-    return _shape(header, numbers(text), rest)
+    return _shape(header, numbers(text), rest, lines[:5])
 
 
 def read_shape_2414(block: Block) -> Shape | None:
@@ -74,7 +83,7 @@ def read_shape_2414(block: Block) -> Shape | None:
     real, rest = _cut(rest, 1)
     other, rest = _cut(rest, 1)
     text = other if header.analysis in COMPLEX else " ".join(_columns(real)[1:2] + _columns(real)[3:])
-    return _shape(header, numbers(text), rest)
+    return _shape(header, numbers(text), rest, lines[3:8])
 
 
 def _columns(line: str) -> list[str]:
@@ -86,8 +95,8 @@ def _is_mode(header: _Header) -> bool:
     return header.analysis in (NORMAL, *COMPLEX) and header.characteristic in MOTIONS
 
 
-def _shape(header: _Header, parameters: Floats, text: bytes) -> Shape:
-    """The mode of a header, its parameters and the lines of its nodes."""
+def _shape(header: _Header, parameters: Floats, text: bytes, titles: Sequence[str]) -> Shape:
+    """The mode of a header, its parameters, the lines of its nodes and its five of text."""
     is_complex = header.data in COMPLEX_DATA
     n_values = header.n_values
     _check_header(n_values == MOTIONS[header.characteristic], f"{n_values} values of each node")
@@ -99,7 +108,8 @@ def _shape(header: _Header, parameters: Floats, text: bytes) -> Shape:
     frequency, mass, damping = _parameters(header, parameters)
     if not (np.isfinite(frequency) and frequency >= 0):
         raise VehicleError(f"found a mode of {frequency:g} Hz")
-    return Shape(frequency, mass, damping, ids(rows[:, 0], "node"), values)
+    is_residual = any(line.strip().upper() == RESIDUAL for line in titles)
+    return Shape(frequency, mass, damping, ids(rows[:, 0], "node"), values, is_residual)
 
 
 def _parameters(header: _Header, parameters: Floats) -> tuple[float, float, float]:
@@ -124,6 +134,15 @@ def _cut(text: bytes, n_lines: int) -> tuple[str, bytes]:
 def _check_header(holds: bool, found: str) -> None:
     if not holds:
         raise VehicleError(f"found {found}, as no data set of a mode has")
+
+
+def unread_name(block: Block) -> str:
+    """Return what a data set is that is not read: its number, and of 2414 what goes with modes."""
+    if block.kind != "2414":
+        return block.kind
+    lines, _ = block.split(9)
+    analysis = int(whole_numbers(lines[8], 6)[1])
+    return f"{block.kind} ({STATIC[analysis]})" if analysis in STATIC else block.kind
 
 
 def read_mode(block: Block) -> Shape | None:

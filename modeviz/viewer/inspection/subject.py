@@ -104,9 +104,11 @@ def subject_of_component(component: Component, name: str, units: UnitSystem | No
         shapes = carried_by_nodes(component.nodes[rows] * length, motions, drawn.vertices)
     modes = component.modes
     kind = "complex mode" if component.is_complex else "mode"
+    kinds = [kind] * (component.n_modes - modes.n_residuals) + ["residual vector"] * modes.n_residuals
     listed = [
-        ListedMode(kind, *values)
+        ListedMode(*values)
         for values in zip(
+            kinds,
             modes.frequency_hz.tolist(),
             modes.damping_ratio.tolist(),
             modes.modal_mass.tolist(),
