@@ -1,7 +1,10 @@
 """Matrices as Abaqus and CalculiX write them, after the Keywords guide and files of theirs."""
 
+import io
+
 import numpy as np
 import pytest
+import scipy.io
 import scipy.linalg
 from free_network import CORNERS, LABELS, free_network
 
@@ -71,6 +74,30 @@ def test_a_substructure_has_the_modes_of_its_matrices(read, unsymmetric):
     component = solved(read(Z1=substructure(unsymmetric=unsymmetric)), Wanted(n_modes=20))
     np.testing.assert_allclose(component.modes.frequency_hz[6:], EXACT[:14], rtol=1e-9)
     assert component.node_ids.tolist() == LABELS.tolist()
+
+
+def market(A) -> str:
+    """A file of Matrix Market, which says nothing of its rows."""
+    content = io.BytesIO()
+    scipy.io.mmwrite(content, A)
+    return content.getvalue().decode()
+
+
+TWICE = np.array([*LABELS[:7], LABELS[2]])
+
+
+@pytest.mark.parametrize(
+    "files",
+    [
+        {"Z1": substructure(TWICE)},
+        {"Z1": substructure(TWICE).split("*MATRIX,TYPE=MASS")[0], "mass": market(M)},
+        {"Z1": substructure(dofs="1, 2, 1")},
+    ],
+)
+def test_a_direction_that_is_there_twice_in_a_matrix_is_refused(read, files):
+    """Whether both matrices say of their rows what they are, or one."""
+    with pytest.raises(VehicleError, match=r"node \d+, direction 1: is there twice in a matrix"):
+        read(**files)
 
 
 def test_a_substructure_may_name_its_nodes_in_any_order(read):

@@ -190,6 +190,12 @@ def test_a_superelement_in_output4_has_the_order_of_its_cards(read):
     check(component, exact)
 
 
+def test_an_order_that_lists_a_direction_twice_is_refused(read):
+    cards = external([*LABELS[:7], LABELS[6]]) + grids()
+    with pytest.raises(VehicleError, match=rf"node {LABELS[6]}, direction 1: is there twice"):
+        read(super_pch=cards, super_op4=op4_binary({"KXX": K, "MXX": M}))
+
+
 def test_grids_that_the_matrices_do_not_move_are_left_out_and_told(read):
     deck = grids() + "GRID,900,,1.,2.,3.\nCBAR,1,1,11,900\n"
     cards = dmig("K2GG", K, DIRECTIONS) + dmig("M2GG", M, DIRECTIONS)

@@ -173,28 +173,39 @@ def _labels(
     mass: NamedMatrix, stiffness: NamedMatrix, table: NodeTable, orders: Sequence[Array]
 ) -> Array:
     """The node and the direction of each degree of freedom, (n_dofs, 2)."""
-    if mass.labels is not None and stiffness.labels is not None:
-        return np.unique(np.concatenate([mass.labels, stiffness.labels]), axis=0)
+    given = [_once(m.labels) for m in (mass, stiffness) if m.labels is not None]
+    if len(given) == 2:
+        return np.unique(np.concatenate(given), axis=0)
     if mass.shape != stiffness.shape:
         raise VehicleError(
             f"matrix {mass.name} has {mass.shape[0]} rows, matrix {stiffness.name} "
             f"{stiffness.shape[0]}, expected as many"
         )
-    known = mass.labels if mass.labels is not None else stiffness.labels
-    if known is not None:
-        return known
+    if given:
+        return given[0]
     fitting = [order for order in orders if len(order) == mass.shape[0]]
-    return fitting[0] if fitting else table.labels(mass.shape[0])
+    return _once(fitting[0]) if fitting else table.labels(mass.shape[0])
+
+
+def _once(labels: Array) -> Array:
+    """The labels of a matrix's rows as they are; raises VehicleError if two of them are the same."""
+    keys = np.sort(_keys(labels))
+    if len(again := keys[1:][keys[1:] == keys[:-1]]):
+        node, direction = divmod(int(again[0]), 10)
+        raise VehicleError(f"node {node}, direction {direction}: is there twice in a matrix")
+    return labels
+
+
+def _keys(labels: Array) -> Array:
+    """A number for each node and direction, (n_dofs,)."""
+    return np.asarray(10 * labels[:, 0] + labels[:, 1])
 
 
 def _expanded(A: sp.csc_array, own: Array, labels: Array) -> sp.csc_array:
     """A matrix in more degrees of freedom than its own, which are among them."""
-    keys, wanted = (array[:, 0] * 10 + array[:, 1] for array in (own, labels))
-    if len(np.unique(keys)) != len(keys):
-        raise VehicleError("a degree of freedom is there twice in a matrix")
-    place = np.searchsorted(wanted, keys)
-    n = len(labels)
-    S = sp.csc_array((np.ones(len(keys)), (place, np.arange(len(keys)))), shape=(n, len(keys)))
+    place = np.searchsorted(_keys(labels), _keys(own))
+    shape = (len(labels), len(own))
+    S = sp.csc_array((np.ones(len(own)), (place, np.arange(len(own)))), shape=shape)
     return sp.csc_array(S @ A @ S.T)
 
 
@@ -222,11 +233,6 @@ def _matrices(M: sp.csc_array, K: sp.csc_array, labels: Array, geometry: Compone
             f"{listed(missing[:5].tolist())}: the table or the file with the geometry lacks them"
         )
     dofs = 6 * geometry.rows(ids) + directions - 1
-    if len(np.unique(dofs)) != len(dofs):
-        dof = np.sort(dofs)[:-1][np.diff(np.sort(dofs)) == 0][0]
-        raise VehicleError(
-            f"node {geometry.node_ids[dof // 6]}, direction {dof % 6 + 1}: is there twice"
-        )
     motion = _motion(geometry, dofs, moves, len(labels))
     return Matrices(geometry.nodes, M, K, motion, _rigid(motion, geometry.nodes))
 

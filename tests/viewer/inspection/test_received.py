@@ -10,6 +10,7 @@ from network_files import network_unv
 
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle
+from modeviz.viewer.inspection import putting
 from modeviz.viewer.inspection import received as module
 from modeviz.viewer.inspection.putting import Asked, component_in, put
 from modeviz.viewer.inspection.received import Received
@@ -153,6 +154,17 @@ def test_a_mount_table_reads_no_property_file_elsewhere(received, vehicle, tmp_p
         put(paths, Asked(), vehicle)
     assert "SECRET" not in str(error.value)
     assert (vehicle / "vehicle.toml").read_bytes() == before
+
+
+def test_mounts_are_read_among_what_came_whatever_looked_at_them_before(
+    received, vehicle, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(putting, "component_in", lambda paths: None)
+    outside = tmp_path / "springs.inc"
+    outside.write_text("CBUSH,1,1,11,,,,,0\nPBUSH,1,K,5.,5.,5.\n", encoding="utf-8")
+    received.add("deck.bdf", f"BEGIN BULK\nGRID,11,,0.,0.,0.\nINCLUDE '{outside}'\nENDDATA\n".encode())
+    with pytest.raises(VehicleError, match="in another folder"), received.told() as paths:
+        put(paths, Asked(units="mm-t-s"), vehicle)
 
 
 @pytest.mark.parametrize("text", ["{table}", "corner={table}", "{table}/"])
