@@ -12,8 +12,9 @@ from modeviz.formats.matrices import SUFFIXES as MATRICES
 from modeviz.formats.matrices import read_matrices
 from modeviz.formats.nastran import SUFFIXES as NASTRAN
 from modeviz.formats.nastran import has_punched_modes, read_nastran
-from modeviz.formats.nastran.dmig import read_dmig
-from modeviz.formats.nastran.reader import DECKS, read_geometry
+from modeviz.formats.nastran.input_file import InputFile, read_input
+from modeviz.formats.nastran.punch_modes import PUNCH
+from modeviz.formats.nastran.reader import DECKS, MODES_ELSEWHERE
 from modeviz.formats.universal import SUFFIXES as UNIVERSAL
 from modeviz.formats.universal import read_universal
 
@@ -43,12 +44,13 @@ def read_component(paths: Sequence[Path]) -> Component:
     matrices = [path for path in paths if _has_matrices(path)]
     others = [path for path in paths if path not in matrices]
     decks = others if all(path.suffix.lower() in DECKS for path in others) else []
-    of_decks = [matrix for deck in decks for matrix in read_dmig(deck)]
-    if matrices or of_decks or not others:
-        geometry = read_geometry(decks[0]) if len(decks) == 1 else None
-        if geometry is None and others:
-            geometry = _read_others(others)
-        component = read_matrices(matrices, geometry, decks, of_decks)
+    punched = [path for path in matrices if path.suffix.lower() == PUNCH]
+    inputs = [read_input(path) for path in (*decks, *punched)]
+    if matrices or any(one.matrices for one in inputs) or not others:
+        files = [path for path in matrices if path not in punched]
+        component = read_matrices(files, _geometry(others, decks, inputs), inputs)
+    elif len(decks) == 1:
+        component = inputs[0].geometry(MODES_ELSEWHERE)
     else:
         component = _read_others(others)
     return replace(component, source=", ".join(path.name for path in paths))
@@ -57,6 +59,15 @@ def read_component(paths: Sequence[Path]) -> Component:
 def _has_matrices(path: Path) -> bool:
     """Whether a file is named as those with matrices, and has no modes, as a punch file may."""
     return path.suffix.lower() in MATRICES and not has_punched_modes(path)
+
+
+def _geometry(
+    others: Sequence[Path], decks: Sequence[Path], inputs: Sequence[InputFile]
+) -> Component | None:
+    """What files without matrices have; None if there are none."""
+    if len(decks) == 1:
+        return inputs[0].geometry()
+    return _read_others(others) if others else None
 
 
 def _read_others(paths: Sequence[Path]) -> Component:

@@ -7,6 +7,7 @@ from free_network import CORNERS, HEXA, LABELS, free_network
 from op4_files import dmig, op4_binary, op4_text
 
 from modeviz.errors import VehicleError
+from modeviz.formats.nastran import bulk, deck, input_file
 from modeviz.formats.nastran.op4 import read_op4
 from modeviz.formats.reading import read_component
 from modeviz.formats.solving import Wanted, solved
@@ -41,6 +42,25 @@ def read(tmp_path):
 def check(component, expected=EXACT, rtol=1e-9, n=14):
     found = solved(component, Wanted(n_modes=n + 6)).modes.frequency_hz
     np.testing.assert_allclose(found[6:], expected[:n], rtol=rtol)
+
+
+@pytest.mark.parametrize("names", [("super_pch",), ("block_bdf",), ("block_bdf", "mk_pch")])
+def test_cards_are_read_in_one_pass(read, monkeypatch, names):
+    """Geometry and matrices may be in one file, or each in its own."""
+    began = []
+    lines = bulk.cards
+
+    def counted(path, names):
+        began.append(path.name)
+        return lines(path, names)
+
+    monkeypatch.setattr(input_file, "cards", counted)
+    monkeypatch.setattr(deck, "cards", counted)
+    contents = [grids(), dmig("K", K, DIRECTIONS) + dmig("M", M, DIRECTIONS)]
+    if len(names) == 1:
+        contents = ["".join(contents)]
+    check(read(**dict(zip(names, contents, strict=True))), rtol=1e-7)
+    assert sorted(began) == sorted(name.replace("_", ".") for name in names)
 
 
 RANDOM = np.random.default_rng(5).standard_normal((30, 30)) * (

@@ -20,17 +20,14 @@ from modeviz.formats.matrices.matlab import read_matlab
 from modeviz.formats.matrices.node_table import NodeTable, read_node_table
 from modeviz.formats.matrices.soundness import check_structure
 from modeviz.formats.named_matrices import NamedMatrix, mass_and_stiffness, symmetric
-from modeviz.formats.nastran.dmig import read_dmig, read_orders
+from modeviz.formats.nastran.input_file import InputFile
 from modeviz.formats.nastran.op4 import read_op4
-from modeviz.formats.nastran.reader import read_geometry
+from modeviz.formats.nastran.punch_modes import PUNCH
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.rigid import rigid_motions
 
 TABLES = (".csv", ".txt")
 """Endings of node tables."""
-
-PUNCH = ".pch"
-"""The ending of what Nastran punches: cards with matrices, or with the geometry of a superelement."""
 
 
 def _read_mtx(path: Path) -> list[NamedMatrix]:
@@ -46,26 +43,23 @@ READERS: Mapping[str, Callable[[Path], list[NamedMatrix]]] = {
     ".mtx": _read_mtx,
     ".mat": read_matlab,
     ".op4": read_op4,
-    PUNCH: read_dmig,
 }
 """By the ending of a file's name."""
 
-SUFFIXES = (*READERS, *TABLES)
+SUFFIXES = (*READERS, PUNCH, *TABLES)
 
 
 def read_matrices(
     paths: Sequence[Path],
     geometry: Component | None,
-    decks: Sequence[Path] = (),
-    of_decks: Sequence[NamedMatrix] = (),
+    inputs: Sequence[InputFile] = (),
 ) -> Component:
     """Return the component of mass and stiffness matrices and of the nodes that they move.
 
     Args:
         paths: of matrices and, if wanted, of a node table.
         geometry: places of nodes, and elements to draw, from other files.
-        decks: Nastran input files that the geometry is from.
-        of_decks: matrices that these have.
+        inputs: Nastran's input files and what it punched, with matrices or the geometry.
 
     Raises:
         VehicleError: a file is damaged, something is missing or there twice, or the matrices are none
@@ -78,13 +72,13 @@ def read_matrices(
         )
     found = [m for path in paths if path not in tables for m in READERS[path.suffix.lower()](path)]
     table = read_node_table(tables[0]) if tables else None
-    punches = [path for path in paths if path.suffix.lower() == PUNCH]
-    if geometry is None and table is None and len(punches) == 1:
-        geometry = read_geometry(punches[0])
-    with located(", ".join(map(str, [*paths, *decks]))):
-        mass, stiffness, others = mass_and_stiffness([*found, *of_decks])
+    found += [matrix for one in inputs for matrix in one.matrices]
+    if geometry is None and table is None and len(inputs) == 1:
+        geometry = inputs[0].geometry()
+    with located(", ".join(map(str, [*paths, *(one.path for one in inputs)]))):
+        mass, stiffness, others = mass_and_stiffness(found)
         nodes = _geometry(geometry, table)
-        orders = [] if table else [o for path in (*decks, *punches) for o in read_orders(path)]
+        orders = [] if table else [order for one in inputs for order in one.orders]
         component = _component(mass, stiffness, nodes, table, orders)
     left_out = f"the matrices {listed(others)} are left out: neither mass nor stiffness"
     drawn = (
@@ -93,9 +87,13 @@ def read_matrices(
     notes = [
         *component.notes,
         *([left_out] if others else []),
-        *([drawn] if of_decks and component.elements else []),
+        *([drawn] if component.elements and any(map(_is_deck_with_matrices, inputs)) else []),
     ]
     return replace(component, notes=tuple(notes))
+
+
+def _is_deck_with_matrices(one: InputFile) -> bool:
+    return one.path.suffix.lower() != PUNCH and bool(one.matrices)
 
 
 def _geometry(geometry: Component | None, table: NodeTable | None) -> Component:

@@ -1,6 +1,7 @@
 """The geometry of a Nastran input file."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -41,53 +42,65 @@ def read_deck(path: Path) -> Model:
         VehicleError: a file is missing, a card is wrong, or there is no GRID.
     """
     with located(path):
-        return _model(cards(path, NAMES))
+        found = GeometryCards()
+        for card in cards(path, NAMES):
+            found.add(card)
+        return found.model()
 
 
-def _model(every: Iterator[Card]) -> Model:
-    grids: list[Card] = []
-    usual = Card("GRDSET", [])
-    frames: dict[int, FrameCard] = {}
-    elements: dict[ElementKind, list[list[int]]] = {}
-    norms: list[str] = []
-    asked: list[ModesAsked] = []
-    notes: list[str] = []
-    node_sets: dict[str, NodeSet] = {}
-    for card in every:
+@dataclass
+class GeometryCards:
+    """What cards say of the geometry, one after the other."""
+
+    grids: list[Card] = field(default_factory=list)
+    usual: Card = field(default_factory=lambda: Card("GRDSET", []))
+    """What grids have where nothing stands in their fields."""
+    frames: dict[int, FrameCard] = field(default_factory=dict)
+    elements: dict[ElementKind, list[list[int]]] = field(default_factory=dict)
+    norms: list[str] = field(default_factory=list)
+    asked: list[ModesAsked] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    node_sets: dict[str, NodeSet] = field(default_factory=dict)
+
+    def add(self, card: Card) -> None:
+        """Take in one of `NAMES`, or what is told; raises VehicleError if it is wrong."""
         if card.name == TOLD:
-            notes.append(card.text(0))
+            self.notes.append(card.text(0))
         elif card.name == "GRID":
-            grids.append(card)
+            self.grids.append(card)
         elif card.name == "GRDSET":
-            usual = card
+            self.usual = card
         elif card.name in FRAMES:
-            frames.update(_frames(card))
+            self.frames.update(_frames(card))
         elif card.name in ("EIGRL", "EIGR"):
-            norms.append(_norm(card))
-            asked.append(modes_asked(card))
+            self.norms.append(_norm(card))
+            self.asked.append(modes_asked(card))
         elif card.name == "PARAM":
-            notes += _parameter(card)
+            self.notes += _parameter(card)
         elif card.name in SET_CARDS:
-            node_sets.update(filter(None, [node_set(card)]))
+            self.node_sets.update(filter(None, [node_set(card)]))
         else:
-            elements.setdefault(CORNERS_OF[card.name], []).extend(_corners(card))
-    if not grids:
-        raise VehicleError("found no GRID, so it has no geometry; is it the whole input?")
-    ids = np.array([card.whole(0) for card in grids], np.int64)
-    systems = np.array(
-        [(card.whole(1, usual.whole(1, 0)), card.whole(5, usual.whole(5, 0))) for card in grids],
-        np.int64,
-    )
-    coordinates = np.array([[card.real(i) for i in (2, 3, 4)] for card in grids])
-    return Model(
-        *sorted_grids(ids, systems, coordinates),
-        frames,
-        {kind: _rows(kind, corners) for kind, corners in elements.items() if corners},
-        is_mass_normalised=bool(norms) and set(norms) == {"MASS"},
-        notes=tuple(notes),
-        asked=tuple(asked),
-        node_sets=node_sets,
-    )
+            self.elements.setdefault(CORNERS_OF[card.name], []).extend(_corners(card))
+
+    def model(self) -> Model:
+        """Return the geometry; raises VehicleError if there is no GRID, or one is wrong."""
+        if not self.grids:
+            raise VehicleError("found no GRID, so it has no geometry; is it the whole input?")
+        ids = np.array([card.whole(0) for card in self.grids], np.int64)
+        usual = self.usual.whole(1, 0), self.usual.whole(5, 0)
+        systems = np.array(
+            [(card.whole(1, usual[0]), card.whole(5, usual[1])) for card in self.grids], np.int64
+        )
+        coordinates = np.array([[card.real(i) for i in (2, 3, 4)] for card in self.grids])
+        return Model(
+            *sorted_grids(ids, systems, coordinates),
+            self.frames,
+            {kind: _rows(kind, corners) for kind, corners in self.elements.items() if corners},
+            is_mass_normalised=bool(self.norms) and set(self.norms) == {"MASS"},
+            notes=tuple(self.notes),
+            asked=tuple(self.asked),
+            node_sets=self.node_sets,
+        )
 
 
 def _rows(kind: ElementKind, corners: list[list[int]]) -> Array:

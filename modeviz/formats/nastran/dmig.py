@@ -2,14 +2,13 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located, quoted
 from modeviz.files.limits import check_size
 from modeviz.formats.named_matrices import MOST_ENTRIES, NamedMatrix, from_entries
-from modeviz.formats.nastran.bulk import Card, cards
+from modeviz.formats.nastran.bulk import Card
 from modeviz.vehicle.arrays import Array
 
 FORMS = (1, 6)
@@ -28,18 +27,41 @@ class _Entries:
     values: list[float] = field(default_factory=list)
 
 
-def read_dmig(path: Path) -> list[NamedMatrix]:
-    """Return the square real matrices of the DMIG cards of a file and of those it includes.
+NAMES = frozenset({"DMIG", "EXTRN", "SPOINT"})
+"""The cards that are read."""
 
-    Raises:
-        VehicleError: a file is missing or a card is wrong.
-    """
-    with located(path):
-        found: dict[str, _Entries] = {}
-        for card in cards(path, frozenset({"DMIG"})):
-            if card.name == "DMIG":
-                _add(card, found)
-        return list(_matrices(found))
+
+@dataclass
+class MatrixCards:
+    """What cards say of matrices and of the order of their rows, one after the other."""
+
+    found: dict[str, _Entries] = field(default_factory=dict)
+    external: list[tuple[int, int]] = field(default_factory=list)
+    """The degrees of freedom of an external superelement."""
+    scalars: set[int] = field(default_factory=set)
+
+    def add(self, card: Card) -> None:
+        """Take in one of `NAMES`; raises VehicleError if it is wrong."""
+        if card.name == "DMIG":
+            _add(card, self.found)
+        elif card.name == "EXTRN":
+            self.external += _external(card)
+        else:
+            self.scalars.update(_listed(card))
+
+    def matrices(self) -> list[NamedMatrix]:
+        """Return the square real ones; raises VehicleError if one is wrong."""
+        return list(_matrices(self.found))
+
+    def orders(self, grids: Iterable[int]) -> list[Array]:
+        """Return what rows of matrices may be, in their order: grids and directions, (n, 2).
+
+        The degrees of freedom of an external superelement; and all grids with six directions each
+        and all scalar points, by their numbers (the g-set).
+        """
+        whole = [(grid, d) for grid in set(grids) for d in range(1, 7)]
+        orders = [self.external, sorted([*whole, *((scalar, 0) for scalar in self.scalars)])]
+        return [np.array(order, np.int64) for order in orders if order]
 
 
 def _add(card: Card, found: dict[str, _Entries]) -> None:
@@ -86,31 +108,6 @@ def _matrix(name: str, entries: _Entries) -> NamedMatrix:
     n = len(every)
     matrix = from_entries(rows[:, 0], rows[:, 1], np.array(entries.values), (n, n))
     return NamedMatrix(name, matrix, np.column_stack([every // 10, every % 10]))
-
-
-def read_orders(path: Path) -> list[Array]:
-    """Return what rows of matrices of a model may be, in their order: grids and directions, (n, 2).
-
-    The degrees of freedom of an external superelement, which EXTRN cards list; and all grids with six
-    directions each and all scalar points, by their numbers (the g-set).
-
-    Raises:
-        VehicleError: a file is missing or a card is wrong.
-    """
-    external: list[tuple[int, int]] = []
-    grids: set[int] = set()
-    scalars: set[int] = set()
-    with located(path):
-        for card in cards(path, frozenset({"EXTRN", "GRID", "SPOINT"})):
-            if card.name == "EXTRN":
-                external += _external(card)
-            elif card.name == "GRID":
-                grids.add(card.whole(0))
-            elif card.name == "SPOINT":
-                scalars.update(_listed(card))
-    whole = [(grid, d) for grid in grids for d in range(1, 7)] + [(scalar, 0) for scalar in scalars]
-    orders = [external, sorted(whole)]
-    return [np.array(order, np.int64) for order in orders if order]
 
 
 def _external(card: Card) -> Iterable[tuple[int, int]]:

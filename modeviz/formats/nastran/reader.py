@@ -1,6 +1,6 @@
 """Nastran's files as a component."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -9,9 +9,11 @@ import numpy as np
 
 from modeviz.errors import VehicleError, located
 from modeviz.formats.component import Component, ElementKind, Modes, rows_of
-from modeviz.formats.frames import Frame, turn_to_basic
+from modeviz.formats.frames import turn_to_basic
 from modeviz.formats.nastran.deck import read_deck
+from modeviz.formats.nastran.geometry import once, without_modes
 from modeviz.formats.nastran.hdf5 import read_hdf5_model, read_hdf5_shapes
+from modeviz.formats.nastran.input_file import read_input
 from modeviz.formats.nastran.model import Model, basic_geometry
 from modeviz.formats.nastran.op2_geometry import read_model
 from modeviz.formats.nastran.op2_modes import eigenvalue_rows, read_shapes
@@ -25,6 +27,8 @@ from modeviz.vehicle.arrays import Array, Floats
 
 DECKS = (".bdf", ".dat", ".nas")
 HDF5 = (".h5", ".hdf5")
+MODES_ELSEWHERE = "the modes are in a file of results (OP2, HDF5, punch, F06): give it too"
+
 SUFFIXES = (*DECKS, ".op2", *HDF5, PUNCH, PRINTED)
 
 
@@ -58,23 +62,20 @@ def read_nastran(paths: Sequence[Path]) -> Component:
             f"found {', '.join(path.name for path in paths)}, expected one input file, one file of "
             "results (OP2, HDF5, punch, F06) or one of each; files that are included are found"
         )
-    results = [_read_results(path) for path in others]
-    model = read_deck(decks[0]) if decks else results[0].model()
+    if not others:
+        return read_input(decks[0]).geometry(MODES_ELSEWHERE)
+    results = _read_results(others[0])
+    model = read_deck(decks[0]) if decks else results.model()
     if model is None:
-        return _without_geometry(results[0])
+        return _without_geometry(results)
     with located(", ".join(map(str, paths))):
         places, frames = basic_geometry(model)
-        if decks and results:
-            _check_one_model(model, results[0])
-        if not results or results[0].shapes is None:
-            missing = (
-                "the file of results has no modes"
-                if results
-                else "the modes are in a file of results (OP2, HDF5, punch, F06): give it too"
-            )
-            said = [*(note for one in results for note in one.notes), missing]
-            return _without_modes(model, places, frames, said)
-        return _component(model, places, frames, results[0])
+        if decks:
+            _check_one_model(model, results)
+        if results.shapes is None:
+            said = [*results.notes, "the file of results has no modes"]
+            return without_modes(model, places, frames, said)
+        return _component(model, places, frames, results)
 
 
 def _check_one_model(model: Model, results: _Results) -> None:
@@ -122,43 +123,6 @@ def _without_geometry(results: _Results) -> Component:
     return replace(component, notes=(*results.notes, *results.shapes.notes, note))
 
 
-def read_geometry(path: Path) -> Component:
-    """Return the geometry of an input file, or of a part of one; errors as `read_nastran`."""
-    model = read_deck(path)
-    with located(path):
-        return _without_modes(model, *basic_geometry(model))
-
-
-def _without_modes(
-    model: Model, places: Floats, frames: Mapping[int, Frame], notes: Sequence[str] = ()
-) -> Component:
-    none = np.zeros(0)
-    modes = Modes(none, none, none, np.zeros((len(model.ids), 6, 0)))
-    elements: dict[ElementKind, Array] = {
-        kind: rows_of(model.ids, corners) for kind, corners in model.elements.items()
-    }
-    return Component(
-        model.ids,
-        places,
-        elements,
-        modes,
-        notes=_once(model.notes, notes),
-        node_sets=model.node_sets,
-        axes=_axes(model, places, frames),
-    )
-
-
-def _axes(model: Model, places: Floats, frames: Mapping[int, Frame]) -> Floats | None:
-    """The directions of the grids' own motions; none if all are those of the basic system."""
-    systems = model.systems[:, 1]
-    if not (systems > 0).any():
-        return None
-    axes = np.tile(np.eye(3), (len(systems), 1, 1))
-    for number in np.unique(systems[systems > 0]).tolist():
-        axes[systems == number] = frames[number].directions(places[systems == number])
-    return axes
-
-
 def _component(model: Model, places: Floats, frames: dict, results: _Results) -> Component:
     shapes = results.shapes
     assert shapes is not None
@@ -188,14 +152,9 @@ def _component(model: Model, places: Floats, frames: dict, results: _Results) ->
         placed,
         elements,
         modes,
-        notes=_once(results.notes, model.notes, notes),
+        notes=once(results.notes, model.notes, notes),
         node_sets=model.node_sets,
     )
-
-
-def _once(*notes: Sequence[str]) -> tuple[str, ...]:
-    """All notes in order; the input file and the results may say the same."""
-    return tuple(dict.fromkeys(note for some in notes for note in some))
 
 
 def _places(model: Model, places: Floats, ids: Array) -> tuple[Array, Floats, Array]:
