@@ -23,6 +23,8 @@ from modeviz.study.peaks import ResponsePeak as ResponsePeak
 from modeviz.study.pictures import WrittenFile as WrittenFile
 from modeviz.study.rates import StudyRates as StudyRates
 from modeviz.study.ride import Ride as Ride
+from modeviz.study.rigid import RigidBodies as RigidBodies
+from modeviz.study.rigid import RigidOnMounts as RigidOnMounts
 from modeviz.study.scatter import ScatterResult as ScatterResult
 from modeviz.study.sensitivity import RateSensitivity as RateSensitivity
 from modeviz.study.study import Study as Study
@@ -42,6 +44,7 @@ from modeviz.vehicle.connections import MountRates as MountRates
 from modeviz.vehicle.connections import Rod as Rod
 from modeviz.vehicle.connections import Spring as Spring
 from modeviz.vehicle.connections import Tyre as Tyre
+from modeviz.vehicle.decoupling import Decoupling as Decoupling
 from modeviz.vehicle.iso_8608 import rough_road as rough_road
 from modeviz.vehicle.loads import BaseMotion as BaseMotion
 from modeviz.vehicle.loads import Force as Force

@@ -74,7 +74,8 @@ class ModalResults:
         return self.prepared.system.momentum(self.modes.shapes)
 
     @cached_property
-    def _mount_rates(self) -> Floats:
+    def mount_rates(self) -> Floats:
+        """The real rate of every mount spring, (n_springs,), N/m and N m/rad."""
         return np.real(self.prepared.mount_stiffness(self.rates)).astype(np.float64)
 
     @cached_property
@@ -85,7 +86,7 @@ class ModalResults:
     @cached_property
     def strain_energy(self) -> Mapping[str, Floats]:
         """Share of each flexible body and connection group, (n_modes,) by name."""
-        return strain_energy(self.prepared.system, self.modes.shapes, self._mount_rates)
+        return strain_energy(self.prepared.system, self.modes.shapes, self.mount_rates)
 
     def strain_shares(self, shape: Array) -> dict[str, float]:
         """The strain energy of a shape: share of each flexible body and connection group.
@@ -95,7 +96,7 @@ class ModalResults:
         """
         system, phi = self.prepared.system, shape[:, None]
         norm = np.sqrt(np.vdot(phi, system.momentum(phi)).real) or 1.0
-        shares = strain_energy(system, phi / norm, self._mount_rates)
+        shares = strain_energy(system, phi / norm, self.mount_rates)
         return {name: float(share[0]) for name, share in shares.items()}
 
     def mode_index(self, name: str) -> int | None:

@@ -18,12 +18,13 @@ from modeviz.cli.optimise import OPTIMISE
 from modeviz.cli.psd import PSD
 from modeviz.cli.render import RENDER
 from modeviz.cli.report import REPORT
+from modeviz.cli.rigid import RIGID
 from modeviz.cli.scatter import SCATTER
 from modeviz.cli.view import VIEW
 from modeviz.cli.wheels import WHEELS
 from modeviz.errors import ModevizError, unknown
 
-COMMANDS = (VIEW, MODES, PSD, WHEELS, RENDER, REPORT, OPTIMISE, SCATTER, IMPORT, CHECK, EXPORT)
+COMMANDS = (VIEW, MODES, RIGID, PSD, WHEELS, RENDER, REPORT, OPTIMISE, SCATTER, IMPORT, CHECK, EXPORT)
 
 
 OPTION = re.compile(r"--[\w-]+")

@@ -25,6 +25,7 @@ from modeviz.files.records.connections import (
     RodRecord,
     TyreRecord,
 )
+from modeviz.files.records.decoupling import DecouplingRecord
 from modeviz.files.records.loads import (
     BaseMotionRecord,
     ForceRecord,
@@ -205,6 +206,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         },
         mode_damping=[ModeDampingRecord.of(damping) for damping in vehicle.mode_damping],
         problem=[ProblemRecord.of(problem) for problem in vehicle.problems],
+        decoupling=DecouplingRecord.of(vehicle.decoupling),
     )
 
 

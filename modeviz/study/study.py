@@ -5,13 +5,16 @@ from os import PathLike
 from pathlib import Path
 from typing import get_args
 
+from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.mode_tracking import solve_followed
+from modeviz.analysis.rigid import rigid_figures
 from modeviz.analysis.sensitivity import sensitivity
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.compute.threads import one_thread
 from modeviz.dynamics.band import Method
 from modeviz.errors import ModevizError, unknown
 from modeviz.files import builtin_vehicle, read_vehicle
+from modeviz.mounting.frames import Axes
 from modeviz.optimise.run import BUDGET
 from modeviz.optimise.search import prepare_search
 from modeviz.optimise.trade_off import chosen_sides, prepare_trade_off
@@ -25,6 +28,7 @@ from modeviz.study.optimum import OptimiseResult
 from modeviz.study.output import StudyOutput
 from modeviz.study.rates import StudyRates
 from modeviz.study.ride import Ride
+from modeviz.study.rigid import RigidBodies
 from modeviz.study.scatter import ScatterResult
 from modeviz.study.searching import chosen_problem, find_designs, telling
 from modeviz.study.sensitivity import RateSensitivity
@@ -111,13 +115,29 @@ class Study(StudyOutput):
             ModevizError: that frequency is not above zero, or there is no such method.
             SolveError: the vehicle has no meaningful modes.
         """
-        below = self.vehicle.highest_frequency if below_hz is None else below_hz
-        if not 0 < below < float("inf"):
-            raise ModevizError(f"below_hz: found {below:g}, expected a frequency above zero")
+        below = self._frequency("below_hz", below_hz)
         if method not in get_args(Method):
             raise ModevizError(unknown("method", method, get_args(Method)))
         prepared = self._tuned.prepared_modes(below)
         return ModesTable(solve_followed(prepared, self.rates.by_group, method), below)
+
+    @one_thread()
+    def rigid(self, axes: Axes = "vehicle", up_to_hz: float | None = None) -> RigidBodies:
+        """Return how pure the modes of bodies on their mounts are, and their axes and centres.
+
+        Args:
+            axes: along which kinetic energy is told: "vehicle"; "principal": of the body's inertia; or
+                "crank": the vehicle's, turned so that one lies along the crank.
+            up_to_hz: to where modes are looked for, if beyond the vehicle's band.
+
+        Raises:
+            ModevizError: that frequency is not above zero, or there are no such axes.
+        """
+        below = self._frequency("up_to_hz", up_to_hz)
+        if axes not in get_args(Axes):
+            raise ModevizError(unknown("axes", axes, get_args(Axes)))
+        results = solve_modal(self._tuned.prepared_modes(below), self.rates.by_group)
+        return RigidBodies(results, axes, rigid_figures(results, axes))
 
     @one_thread()
     def ride(self, road: str | None = None) -> Ride:
@@ -270,6 +290,13 @@ class Study(StudyOutput):
                 tell,
             )
         return ScatterResult(told)
+
+    def _frequency(self, what: str, given: float | None) -> float:
+        """A frequency, Hz, or the end of the vehicle's band; raises ModevizError for none such."""
+        found = self.vehicle.highest_frequency if given is None else given
+        if not 0 < found < float("inf"):
+            raise ModevizError(f"{what}: found {found:g}, expected a frequency above zero")
+        return found
 
     def __repr__(self) -> str:
         return "\n".join(

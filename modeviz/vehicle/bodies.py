@@ -122,12 +122,15 @@ class FlexibleBody:
     """Structural damping: the stiffness is K (1 + j loss_factor)."""
     stated_mass: float | None = None
     """kg, if it is known otherwise than from the modes."""
+    crank_axis: Floats | None = None
+    """(3,): a unit vector along its crank, if it has one and says so."""
 
     N_RIGID = 6
     """How many rigid modes a body has that is no rod."""
 
     def __post_init__(self) -> None:
         _check_role(self.role)
+        _check_crank(self)
         check_unique(f"body {self.name!r}: mesh part", (part.name for part in self.mesh))
         check_unique(f"body {self.name!r}: attachment", (a.name for a in self.attachments))
         frozen(self, "omega_n_squared", self.omega_n_squared, (None,))
@@ -299,9 +302,12 @@ class RigidBody:
     inertia: Floats
     """(3, 3) about the centre of gravity, kg m²; products enter as -Ixy."""
     mesh: Mesh = ()
+    crank_axis: Floats | None = None
+    """(3,): a unit vector along its crank, if it has one and says so."""
 
     def __post_init__(self) -> None:
         _check_role(self.role)
+        _check_crank(self)
         check_unique(f"body {self.name!r}: mesh part", (part.name for part in self.mesh))
         if not (np.isfinite(self.mass) and self.mass > 0):
             raise VehicleError(f"body {self.name!r}: mass: found {self.mass} kg, expected more than 0")
@@ -341,3 +347,16 @@ class AddedMass:
 def _check_role(role: str) -> None:
     if role not in get_args(Role):
         raise VehicleError(unknown("role", role, get_args(Role)))
+
+
+def _check_crank(body: Body) -> None:
+    """Makes the direction of a body's crank a unit vector; raises VehicleError if it has no length."""
+    if body.crank_axis is None:
+        return
+    given = np.asarray(body.crank_axis, float)
+    length = float(np.linalg.norm(given))
+    if given.shape != (3,) or not 0 < length < np.inf:
+        raise VehicleError(
+            f"body {body.name!r}: crank_axis: found {given.tolist()}, expected a direction"
+        )
+    frozen(body, "crank_axis", given / length, (3,))

@@ -22,6 +22,7 @@ from modeviz.vehicle.connections import (
     Spring,
     Tyre,
 )
+from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.iso_8608 import CLASSES, USUAL_ROAD, named_road
 from modeviz.vehicle.loads import (
     BaseMotion,
@@ -83,6 +84,8 @@ class Vehicle:
     base_motions: tuple[BaseMotion, ...] = ()
     mode_damping: tuple[ModeDamping, ...] = ()
     """Damping ratios of modes of the vehicle with its own rates, where they are known."""
+    decoupling: Decoupling = USUAL
+    """What the rigid modes of its bodies are held against."""
     notes: tuple[str, ...] = ()
     """What reading it had to say: what was taken otherwise than it stands, or is likely wrong.
 

@@ -11,17 +11,19 @@ from modeviz.errors import Fault, FaultsError, at_key, quoted
 from modeviz.files.meshes import DEFAULT_COLOR, read_mesh
 from modeviz.files.modal import read_flexible_body
 from modeviz.files.records.fields import (
+    Direction,
     Inertia,
     Mass,
     Name,
     Position,
     Ratio,
 )
-from modeviz.files.records.record import Record, tuples
+from modeviz.files.records.record import Record, tuples, vector_along
 from modeviz.files.schema.axes import axes_of
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
 from modeviz.units import factor
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import AddedMass, FlexibleBody, Material, Mesh, RigidBody, Role
 
 
@@ -41,6 +43,13 @@ class BodyRecord(Record, kw_only=True):
     which axis is up is turned."""
     color: Annotated[tuple[int, int, int], UNITLESS] = DEFAULT_COLOR
     """sRGB, of the mesh parts that have no material."""
+    crank_axis: Direction | None = None
+    """Along which an engine's crank lies."""
+
+    @property
+    def crank(self) -> Floats | None:
+        """The direction of its crank, if it is given."""
+        return None if self.crank_axis is None else vector_along(self.crank_axis)
 
     @property
     def spoken(self) -> str:
@@ -92,6 +101,7 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
             damping_ratio=body.damping_ratio,
             loss_factor=body.loss_factor,
             mass=body.stated_mass,
+            crank_axis=tuples(body.crank_axis),
         )
 
     def build(self, source: Source) -> FlexibleBody:
@@ -107,6 +117,7 @@ class FlexibleBodyRecord(BodyRecord, kw_only=True):
             "damping_ratio": self.damping_ratio,
             "loss_factor": self.loss_factor,
             "stated_mass": self.mass,
+            "crank_axis": self.crank,
         }
         with at_key("units"):
             conventions = source.conventions.with_units(self.units)
@@ -144,6 +155,7 @@ class RigidBodyRecord(BodyRecord, kw_only=True):
             mass=body.mass,
             center_of_gravity=tuples(body.center_of_gravity),
             inertia=(*moments, *products) if any(products) else tuple(moments),
+            crank_axis=tuples(body.crank_axis),
         )
 
     def build(self, source: Source) -> RigidBody:
@@ -154,7 +166,16 @@ class RigidBodyRecord(BodyRecord, kw_only=True):
             inertia[row, column] = inertia[column, row] = 0.0 - product
         mesh = self.read_mesh(source)
         center_of_gravity = np.array(self.center_of_gravity)
-        return RigidBody(self.name, self.role, self.spoken, self.mass, center_of_gravity, inertia, mesh)
+        return RigidBody(
+            self.name,
+            self.role,
+            self.spoken,
+            self.mass,
+            center_of_gravity,
+            inertia,
+            mesh,
+            self.crank,
+        )
 
 
 class AddedMassRecord(Record, kw_only=True):

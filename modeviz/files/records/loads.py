@@ -22,13 +22,12 @@ from modeviz.files.records.fields import (
     TrackWidth,
     WheelLoadAmplitude,
 )
-from modeviz.files.records.record import Record
+from modeviz.files.records.record import Record, vector_along
 from modeviz.files.roads import read_road
 from modeviz.files.schema.quantities import Vector, quantity_of
 from modeviz.files.source import Source
 from modeviz.files.spectra import read_spectrum
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS
 from modeviz.vehicle.iso_8608 import CLASSES, RoadClass, rough_road
 from modeviz.vehicle.loads import (
     BaseMotion,
@@ -168,7 +167,7 @@ class ForceRecord(Record, kw_only=True):
     def build(self, source: Source) -> Force:
         key = _the_one({"amplitude": self.amplitude, "psd": self.psd})
         amplitude = _amplitude(source, self, key)
-        position, direction = np.array(self.at), _unit_vector(self.direction)
+        position, direction = np.array(self.at), vector_along(self.direction)
         return Force(self.name, self.body, position, direction, amplitude)
 
 
@@ -207,7 +206,7 @@ class BaseMotionRecord(Record, kw_only=True):
         key = _the_one({key: getattr(self, key) for key in keys})
         quantity = "displacement" if quantity_of(type(self), key) == "length" else "acceleration"
         amplitude = _amplitude(source, self, key)
-        direction = _unit_vector(self.direction)
+        direction = vector_along(self.direction)
         return BaseMotion(self.name, direction, quantity, amplitude, self.connections)
 
 
@@ -238,13 +237,6 @@ def _amplitude(source: Source, record: Record, key: str) -> float | Spectrum:
         )
     source.count_lines(len(spectrum.frequency_hz))
     return spectrum
-
-
-def _unit_vector(direction: str | Vector) -> Floats:
-    """A direction, of any length, in our axes."""
-    if isinstance(direction, str):
-        return np.eye(3)[2 - DIRECTIONS.index(direction)]
-    return np.array(direction)
 
 
 def _vector(values: Floats) -> Vector:

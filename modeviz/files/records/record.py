@@ -7,7 +7,9 @@ import msgspec
 import numpy as np
 
 from modeviz.errors import Fault, FaultsError, at_key
-from modeviz.files.schema.quantities import check_annotations
+from modeviz.files.schema.quantities import Vector, check_annotations
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import DIRECTIONS
 
 R = TypeVar("R")
 P = TypeVar("P")
@@ -62,3 +64,10 @@ def tuples(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return tuple(map(tuples, value)) if value.ndim else float(value)
     return float(value) if isinstance(value, np.floating) else value
+
+
+def vector_along(direction: str | Vector) -> Floats:
+    """A direction, of any length, in our axes: itself, or the one that a word of `DIRECTIONS` means."""
+    if isinstance(direction, str):
+        return np.eye(3)[2 - DIRECTIONS.index(direction)]
+    return np.array(direction)

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Self
 import msgspec
 import numpy as np
 
+from modeviz.errors import at_key
 from modeviz.files.limits import check_size
 from modeviz.files.records.bodies import AddedMassRecord, FlexibleBodyRecord, RigidBodyRecord
 from modeviz.files.records.connections import (
@@ -15,6 +16,7 @@ from modeviz.files.records.connections import (
     RodRecord,
     TyreRecord,
 )
+from modeviz.files.records.decoupling import DecouplingRecord
 from modeviz.files.records.fields import (
     Frequency,
     Name,
@@ -42,6 +44,7 @@ from modeviz.vehicle.connections import (
     Spring,
     Tyre,
 )
+from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mode_damping import ModeDamping
 from modeviz.vehicle.vehicle import OUR_AXES, USUAL_SPEED, Vehicle, track_width
@@ -125,6 +128,7 @@ class VehicleRecord(FileRecord, kw_only=True):
     rates: dict[str, dict[str, RateSetRecord]] = msgspec.field(default_factory=dict)
     """[rates.SET.GROUP]."""
     problem: list[ProblemRecord] = msgspec.field(default_factory=list)
+    decoupling: DecouplingRecord | None = None
 
     def build(self, source: Source) -> Vehicle:
         """The vehicle: flexible bodies first, connections as in `CONNECTION_KINDS`."""
@@ -166,7 +170,14 @@ class VehicleRecord(FileRecord, kw_only=True):
             highest_frequency=self.highest_frequency,
             frequency_step=self.frequency_step,
             mode_damping=built(self.mode_damping, "mode_damping", ModeDampingRecord.build),
+            decoupling=self._decoupling(),
         )
+
+    def _decoupling(self) -> Decoupling:
+        if self.decoupling is None:
+            return USUAL
+        with at_key("decoupling"):
+            return self.decoupling.build()
 
     def _check_counts(self) -> None:
         """Raises VehicleError for more than can be computed, before it is built."""
