@@ -11,6 +11,9 @@ from modeviz.files import read_vehicle as read_vehicle
 from modeviz.files import write_vehicle as write_vehicle
 from modeviz.formats.imported import Imported as Imported
 from modeviz.formats.imported import import_component as import_component
+from modeviz.mounting.statics import Carried as Carried
+from modeviz.mounting.statics import StaticCase as StaticCase
+from modeviz.mounting.travel import Travel as Travel
 from modeviz.optimise.active_limits import ActiveConstraint as ActiveConstraint
 from modeviz.ride.rating import Rating as Rating
 from modeviz.scatter.tolerance import Tolerance as Tolerance
@@ -27,6 +30,7 @@ from modeviz.study.rigid import RigidBodies as RigidBodies
 from modeviz.study.rigid import RigidOnMounts as RigidOnMounts
 from modeviz.study.scatter import ScatterResult as ScatterResult
 from modeviz.study.sensitivity import RateSensitivity as RateSensitivity
+from modeviz.study.static import StaticResults as StaticResults
 from modeviz.study.study import Study as Study
 from modeviz.study.trade_off import FrontResult as FrontResult
 from modeviz.study.wheels import WheelRide as WheelRide
@@ -46,6 +50,8 @@ from modeviz.vehicle.connections import Spring as Spring
 from modeviz.vehicle.connections import Tyre as Tyre
 from modeviz.vehicle.decoupling import Decoupling as Decoupling
 from modeviz.vehicle.iso_8608 import rough_road as rough_road
+from modeviz.vehicle.load_cases import LoadCase as LoadCase
+from modeviz.vehicle.load_cases import StaticLoad as StaticLoad
 from modeviz.vehicle.loads import BaseMotion as BaseMotion
 from modeviz.vehicle.loads import Force as Force
 from modeviz.vehicle.loads import ResponsePoint as ResponsePoint

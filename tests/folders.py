@@ -21,6 +21,7 @@ from modeviz.vehicle.connections import (
     Spring,
     Tyre,
 )
+from modeviz.vehicle.load_cases import LoadCase, StaticLoad
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum, WheelLoad
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
@@ -79,7 +80,17 @@ def mount_group() -> MountGroup:
     mounts = tuple(
         Mount(f"C1 {side}", "", ("cab", "Engine & box"), ORIGIN) for side in ("left", "right")
     )
-    return MountGroup("C1", "cab front", rates, 0.15, bounds, mounts, (0.25, 0.8))
+    return MountGroup(
+        "C1",
+        "cab front",
+        rates,
+        0.15,
+        bounds,
+        mounts,
+        (0.25, 0.8),
+        static_ratio=1.45,
+        travel={"vertical": (-0.0085, 0.005), "fore-aft": (-0.003, 0.004)},
+    )
 
 
 def connections() -> tuple[Spring | Rod | Bolt | Damper | Tyre, ...]:
@@ -127,6 +138,13 @@ def spectrum() -> Spectrum:
     return Spectrum(np.cumsum(rng.uniform(0.1, 1.0, 6)), rng.uniform(1e-4, 1e-2, 6))
 
 
+def forward_torque() -> LoadCase:
+    """Of the engine, and a push of the cab off its centre of gravity."""
+    torque = StaticLoad("Engine & box", torque=np.array([100.0, 1250.0 / 3, 0.0]))
+    push = StaticLoad("cab", np.array([0.0, 0.0, -750.5]), position=np.array([0.1, 0.2, 0.25]))
+    return LoadCase("forward torque", loads=(torque, push))
+
+
 def one_of_everything() -> Vehicle:
     return Vehicle(
         'Bänk "42", and\nmore',
@@ -150,4 +168,5 @@ def one_of_everything() -> Vehicle:
             BaseMotion("post", np.array([0.0, 0.0, 1.0]), "displacement", 0.0012, ("tyre left",)),
             BaseMotion("floor", np.array([1.0, 0.0, 0.0]), "acceleration", spectrum(), ("tyre left",)),
         ),
+        load_cases=(LoadCase("pothole", np.array([-0.5, 0.0, -3.0])), forward_torque()),
     )

@@ -10,6 +10,7 @@ from typing import get_args
 
 import pytest
 from builtin_truck import builtin_truck
+from engine_on_mounts import limited_engine
 from shared_preparations import shared_preparations
 
 import modeviz as mv
@@ -94,6 +95,17 @@ def test_json_has_the_keys_that_the_readme_documents(command, capsys: pytest.Cap
     assert main([command, str(builtin_vehicle()), "--json"]) == 0
     printed = keys(json.loads(capsys.readouterr().out))
     assert printed == set(re.findall(r'"(\w+)"', documented + rates))
+
+
+def test_static_json_has_the_keys_that_the_readme_documents(tmp_path, printed_json):
+    (documented,) = re.findall(r"^static +(\{.*?)^(?=\w)", README, re.DOTALL | re.MULTILINE)
+    write_vehicle(limited_engine(), tmp_path / "engine")
+    record = printed_json("static", str(tmp_path / "engine"))
+    del record["rates"]
+    (refused,) = record["refused"]
+    case = record["cases"][0]
+    found = {*record, *case, *case["mounts"]["M1"], *case["travel"][0], *refused}
+    assert found | {"rates", *case["connections"]["stop"]} == set(re.findall(r'"(\w+)"', documented))
 
 
 def test_links_lead_to_files_of_the_checkout():

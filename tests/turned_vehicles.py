@@ -41,7 +41,12 @@ def turned_folder(folder: Path, vehicle: Vehicle, words: tuple[str, ...]) -> Pat
 def turned(vehicle: Vehicle, words: tuple[str, ...]) -> Vehicle:
     """The same vehicle, with the numbers that it has in these axes."""
     groups = tuple(
-        replace(g, mounts=tuple(_connection(m, words) for m in g.mounts)) for g in vehicle.mount_groups
+        replace(
+            g,
+            mounts=tuple(_connection(m, words) for m in g.mounts),
+            travel={d: _range(d, limits, words) for d, limits in g.travel.items()},
+        )
+        for g in vehicle.mount_groups
     )
     return replace(
         vehicle,
@@ -61,7 +66,28 @@ def turned(vehicle: Vehicle, words: tuple[str, ...]) -> Vehicle:
         response_points=tuple(
             replace(p, position=_vector(p.position, words)) for p in vehicle.response_points
         ),
+        load_cases=tuple(_load_case(case, words) for case in vehicle.load_cases),
     )
+
+
+def _range(direction, limits, words):
+    """What is measured along a local axis that is called after one of the vehicle's."""
+    line = {"vertical": 2, "lateral": 1, "fore-aft": 0}[direction]
+    sign = next(sign for other, sign in map(WAYS.__getitem__, words) if other == line)
+    return tuple(sorted(sign * limit for limit in limits))
+
+
+def _load_case(case, words):
+    loads = tuple(
+        replace(
+            load,
+            force=_vector(load.force, words),
+            torque=_vector(load.torque, words),
+            position=None if load.position is None else _vector(load.position, words),
+        )
+        for load in case.loads
+    )
+    return replace(case, load_g=_vector(case.load_g, words), loads=loads)
 
 
 def _vector(v, words):

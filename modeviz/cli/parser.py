@@ -20,11 +20,26 @@ from modeviz.cli.render import RENDER
 from modeviz.cli.report import REPORT
 from modeviz.cli.rigid import RIGID
 from modeviz.cli.scatter import SCATTER
+from modeviz.cli.static import STATIC
 from modeviz.cli.view import VIEW
 from modeviz.cli.wheels import WHEELS
 from modeviz.errors import ModevizError, unknown
 
-COMMANDS = (VIEW, MODES, RIGID, PSD, WHEELS, RENDER, REPORT, OPTIMISE, SCATTER, IMPORT, CHECK, EXPORT)
+COMMANDS = (
+    VIEW,
+    MODES,
+    RIGID,
+    PSD,
+    WHEELS,
+    STATIC,
+    RENDER,
+    REPORT,
+    OPTIMISE,
+    SCATTER,
+    IMPORT,
+    CHECK,
+    EXPORT,
+)
 
 
 OPTION = re.compile(r"--[\w-]+")

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.mount_rates import mount_stiffness, turning_axes
+from modeviz.dynamics.mount_rates import mount_stiffness, rows_of_springs
 from modeviz.dynamics.rigid_joints import RigidJoints, rigid_joints
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Array, Complexes, Floats
@@ -60,7 +60,7 @@ class System:
     @property
     def held_motions(self) -> Floats:
         """Rows (n_rigid, n_dofs), see `relative_motion`: those of `rigid_motions`."""
-        return self.connection_motions[_is_rigid(self.vehicle)]
+        return self.connection_motions[is_rigid(self.vehicle)]
 
     @property
     def n_bytes(self) -> int:
@@ -108,9 +108,7 @@ class System:
     @cached_property
     def mount_motions(self) -> Floats:
         """Rows (n_springs, n_dofs): how every mount spring is stretched; see `mount_stiffness`."""
-        turns = turning_axes(self.vehicle)
-        by_mount = self.connection_motions.reshape(-1, 6, self.n_dofs)[: len(turns)]
-        return np.vstack([by_mount[:, :3].reshape(-1, self.n_dofs), by_mount[:, 3:][turns]])
+        return self.connection_motions[rows_of_springs(self.vehicle)]
 
     def condensed(self, matrix: Array) -> Array:
         """TᵀAT, (n_free, n_free): a matrix for the motions that rigid joints leave."""
@@ -181,7 +179,7 @@ def assemble(vehicle: Vehicle) -> System:
         np.concatenate(v)
         for v in zip(*map(connection_coefficients, vehicle.all_connections), strict=True)
     )
-    held = _is_rigid(vehicle)
+    held = is_rigid(vehicle)
     joints = rigid_joints(M, R[held]) if held.any() else None
     if joints and not joints.freedom.size:
         raise VehicleError(
@@ -199,7 +197,7 @@ def assemble(vehicle: Vehicle) -> System:
     )
 
 
-def _is_rigid(vehicle: Vehicle) -> NDArray[np.bool_]:
+def is_rigid(vehicle: Vehicle) -> NDArray[np.bool_]:
     """A mask of the relative motions of all connections that are held, (6 n_connections,)."""
     return np.array([m in c.rigid for c in vehicle.all_connections for m in MOTIONS], bool)
 

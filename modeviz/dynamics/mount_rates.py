@@ -78,6 +78,21 @@ def mounts_of_springs(vehicle: Vehicle) -> NDArray[np.intp]:
     return np.concatenate([np.repeat(np.arange(len(turns)), 3), turns.nonzero()[0]])
 
 
+def static_ratios(vehicle: Vehicle) -> Floats:
+    """How many times as stiff each mount spring is when it vibrates as under a load that stays.
+
+    (n_springs,).
+    """
+    of_mounts = [g.static_ratio for g in vehicle.mount_groups for _ in g.mounts]
+    return np.array(of_mounts, float)[mounts_of_springs(vehicle)]
+
+
+def rows_of_springs(vehicle: Vehicle) -> NDArray[np.intp]:
+    """Which of the six motions of all connections each mount spring resists, (n_springs,)."""
+    motions = np.arange(6 * len(vehicle.mounts)).reshape(-1, 6)
+    return np.concatenate([motions[:, :3].ravel(), motions[:, 3:][turning_axes(vehicle)]])
+
+
 def turning_axes(vehicle: Vehicle) -> NDArray[np.bool_]:
     """About which of its local axes each mount has rotational stiffness, (n_mounts, 3)."""
     return np.array([m.rotational_stiffness for m in vehicle.mounts]).reshape(-1, 3) > 0

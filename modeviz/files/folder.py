@@ -26,6 +26,7 @@ from modeviz.files.records.connections import (
     TyreRecord,
 )
 from modeviz.files.records.decoupling import DecouplingRecord
+from modeviz.files.records.load_cases import LoadCaseRecord
 from modeviz.files.records.loads import (
     BaseMotionRecord,
     ForceRecord,
@@ -207,13 +208,17 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         mode_damping=[ModeDampingRecord.of(damping) for damping in vehicle.mode_damping],
         problem=[ProblemRecord.of(problem) for problem in vehicle.problems],
         decoupling=DecouplingRecord.of(vehicle.decoupling),
+        load_case=[LoadCaseRecord.of(case) for case in vehicle.load_cases],
     )
 
 
 def _units(vehicle: Vehicle) -> dict[str, str]:
-    """The units of the vehicle's file, without that of roads which it does not have."""
-    of_surfaces = any(road.roughness for road in vehicle.roads)
-    return {key: unit for key, unit in WRITTEN_UNITS.items() if of_surfaces or key != "roughness"}
+    """The units of the vehicle's file, without those of roads and loads which it does not have."""
+    rare = {
+        "roughness": any(road.roughness for road in vehicle.roads),
+        "torque": any(load.torque.any() for case in vehicle.load_cases for load in case.loads),
+    }
+    return {key: unit for key, unit in WRITTEN_UNITS.items() if rare.get(key, True)}
 
 
 def _record_of_flexible(body: FlexibleBody, stem: str, folder: Path) -> FlexibleBodyRecord:

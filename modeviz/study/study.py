@@ -15,6 +15,7 @@ from modeviz.dynamics.band import Method
 from modeviz.errors import ModevizError, unknown
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.mounting.frames import Axes
+from modeviz.mounting.statics import solve_statics
 from modeviz.optimise.run import BUDGET
 from modeviz.optimise.search import prepare_search
 from modeviz.optimise.trade_off import chosen_sides, prepare_trade_off
@@ -32,6 +33,7 @@ from modeviz.study.rigid import RigidBodies
 from modeviz.study.scatter import ScatterResult
 from modeviz.study.searching import chosen_problem, find_designs, telling
 from modeviz.study.sensitivity import RateSensitivity
+from modeviz.study.static import StaticResults
 from modeviz.study.telling import Tell, cancelled_by_ctrl_c, say_nothing
 from modeviz.study.trade_off import FrontResult
 from modeviz.study.tuned_vehicle import TunedVehicle
@@ -165,6 +167,15 @@ class Study(StudyOutput):
         results = solve_wheels(self._tuned.prepared(), self.rates.by_group)
         ride = self._tuned.ride(None) if has_ride(vehicle) else None
         return WheelRide(vehicle.with_rates(self.rates.by_group), results, ride)
+
+    @one_thread()
+    def static(self) -> StaticResults:
+        """Return sag, forces, deflections and travel of mounts in every load case.
+
+        Raises:
+            SolveError: nothing holds the vehicle in any of them.
+        """
+        return StaticResults(solve_statics(self._tuned.statics(), self.rates.by_group))
 
     @one_thread()
     def sensitivity(self, road: str | None = None) -> RateSensitivity:

@@ -4,7 +4,9 @@ from functools import partial
 
 from modeviz.analysis.preparation import Prepared, PreparedModes, prepare, prepare_modes
 from modeviz.analysis.results import Conditions, Results, solve
-from modeviz.errors import ModevizError, located
+from modeviz.dynamics.assembly import assemble
+from modeviz.errors import ModevizError, located, of_file
+from modeviz.mounting.static_system import PreparedStatics, prepare_statics
 from modeviz.study.conditions import has_ride, on_even_road, road_conditions
 from modeviz.study.rates import StudyRates
 from modeviz.study.telling import Tell
@@ -22,6 +24,7 @@ class TunedVehicle:
         self._tell = tell
         self._speed = vehicle.speed
         self._prepared: PreparedModes | None = None
+        self._statics: PreparedStatics | None = None
 
     @property
     def speed(self) -> float:
@@ -49,6 +52,13 @@ class TunedVehicle:
         if not isinstance(self._prepared, Prepared):
             self._prepared = prepare(self.vehicle, progress=partial(self._tell, "preparing"))
         return self._prepared
+
+    def statics(self) -> PreparedStatics:
+        """Return it made ready for its load cases; raises as `prepare_statics`."""
+        if self._statics is None:
+            with of_file(self.vehicle.file):
+                self._statics = prepare_statics(assemble(self.vehicle))
+        return self._statics
 
     def ride(self, road: str | None) -> Results:
         """Return the answer on a road; arguments and errors as `road_conditions`."""

@@ -39,6 +39,9 @@ RATE_FIELDS = ("vertical", "lateral", "fore_aft")
 USUAL_RANGE = 4.0
 """How many times its rate a mount can be softer or stiffer, where nothing is said."""
 
+USUAL_STATIC_RATIO = 1.3
+"""How many times as stiff rubber is when it vibrates as under a load that stays, if nothing is said."""
+
 UNKNOWN_RATE = 1e6
 """N/m: of a mount that has no rates."""
 
@@ -241,7 +244,7 @@ def _along(rod: str, first: Floats, second: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class MountRates:
-    """The static rates of a mount, N/m, and how much of its stiffness is damping."""
+    """The rates with which a mount vibrates, N/m, and how much of its stiffness is damping."""
 
     vertical: float
     lateral: float
@@ -293,6 +296,9 @@ Rates = Mapping[str, MountRates]
 """The rates of mount groups, by the group's name."""
 
 
+Travel = Mapping[str, tuple[float, float]]
+"""The least and the most deflection, m, by one of `DIRECTIONS`; positive along the local axis."""
+
 SHARED = ("rotational_stiffness", "damping", "rotational_damping")
 """What a mount has from its group unless it has its own."""
 
@@ -319,10 +325,15 @@ class MountGroup:
     """(3,) viscous, along its axes, likewise, N s/m."""
     rotational_damping: Floats = field(default_factory=lambda: np.zeros(3))
     """(3,) viscous, about its axes, likewise, N m s/rad."""
+    static_ratio: float = USUAL_STATIC_RATIO
+    """Its rates by those under a load that stays."""
+    travel: Travel = field(default_factory=dict)
+    """How far its first end may go from its second, m, the least and the most, by direction."""
 
     def __post_init__(self) -> None:
         for name in SHARED:
             frozen(self, name, getattr(self, name), (3,))
+        self._check_static()
         if not self.mounts:
             raise VehicleError(f"mount group {self.name!r}: has no mounts")
         if any(r.loss_factor is not None for r in (self.rates, *self.bounds)):
@@ -337,6 +348,22 @@ class MountGroup:
                 "lower one first"
             )
         object.__setattr__(self, "mounts", tuple(map(self._tuned, self.mounts)))
+
+    def _check_static(self) -> None:
+        """Raises VehicleError for a ratio or a travel that no mount has."""
+        where = f"mount group {self.name!r}"
+        if not (np.isfinite(self.static_ratio) and self.static_ratio > 0):
+            raise VehicleError(
+                f"{where}: static_ratio: found {self.static_ratio:g}, expected more than zero"
+            )
+        for direction, (least, most) in self.travel.items():
+            if direction not in DIRECTIONS:
+                raise VehicleError(f"{where}: travel: " + unknown("direction", direction, DIRECTIONS))
+            if not least <= 0 <= most or least == most:
+                raise VehicleError(
+                    f"{where}: travel: {direction}: found {1e3 * least:g} to {1e3 * most:g} mm, "
+                    "expected the least first, zero or below, and the most, zero or above"
+                )
 
     @property
     def meaning(self) -> str:

@@ -24,6 +24,7 @@ from modeviz.vehicle.connections import (
 )
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.iso_8608 import CLASSES, USUAL_ROAD, named_road
+from modeviz.vehicle.load_cases import LoadCase
 from modeviz.vehicle.loads import (
     BaseMotion,
     Force,
@@ -86,6 +87,8 @@ class Vehicle:
     """Damping ratios of modes of the vehicle with its own rates, where they are known."""
     decoupling: Decoupling = USUAL
     """What the rigid modes of its bodies are held against."""
+    load_cases: tuple[LoadCase, ...] = ()
+    """Those in which it is looked at standing still; none are the usual ones, see `usual_if_none`."""
     notes: tuple[str, ...] = ()
     """What reading it had to say: what was taken otherwise than it stands, or is likely wrong.
 
@@ -113,6 +116,9 @@ class Vehicle:
             for thing in things:
                 with of_part(kind, thing.name):
                     self._check_place(thing.body, thing.position)
+        for case in self.load_cases:
+            with of_part("load case", case.name):
+                self._check_load_case(case)
         check_unique("mode damping of", (damping.name for damping in self.mode_damping))
         self._check_references()
 
@@ -290,6 +296,7 @@ class Vehicle:
             ("random load", self.random_loads),
             ("harmonic load", self.harmonic_loads),
             ("problem", self.problems),
+            ("load case", self.load_cases),
         ):
             check_unique(kind, (item.name for item in items))
         if GROUND in (body.name for body in self.bodies):
@@ -325,6 +332,13 @@ class Vehicle:
                 raise VehicleError(unknown("connection to the ground", name, grounded))
         if not self.moved_connections(motion):
             raise VehicleError("nothing is connected to the ground, so nothing moves")
+
+    def _check_load_case(self, case: LoadCase) -> None:
+        """Raises VehicleError unless every body it presses on is there, and can be where it does."""
+        for load in case.loads:
+            self.body(load.body)
+            if load.position is not None:
+                self._check_place(load.body, load.position)
 
     def _check_ends(self, connection: Connection) -> None:
         if not isinstance(connection, Mount | Spring | Rod | Bolt | Damper | Tyre):

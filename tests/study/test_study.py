@@ -57,6 +57,7 @@ def test_answers_become_what_the_command_line_prints(study, cabin_folder, printe
         (study.modes(25), "modes"),
         (study.ride("rough"), "psd", "--road", "rough"),
         (study.wheels(), "wheels"),
+        (study.static(), "static"),
         (study.scatter(40, seed=3), "scatter", "--samples", "40", "--seed", "3"),
         (study.optimise(starts=2), "optimise", "--starts", "2"),
     ):
@@ -70,6 +71,7 @@ def test_answers_print_what_the_command_line_prints(study, cabin_folder, capsys)
         (study.modes(25), "modes"),
         (study.ride(), "psd"),
         (study.wheels(), "wheels"),
+        (study.static(), "static"),
     ):
         capsys.readouterr()
         assert main([command, cabin_folder, "--set", "A.lateral=200 N/mm"]) == 0

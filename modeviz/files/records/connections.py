@@ -5,13 +5,16 @@ from typing import Annotated, Any, Self
 
 import msgspec
 import numpy as np
+from msgspec import Meta
 
 from modeviz.errors import VehicleError
 from modeviz.files.records.fields import (
     Damping,
     DampingRate,
     Ends,
+    ForeAftRange,
     Frame,
+    LateralRange,
     Length,
     Motions,
     Name,
@@ -23,19 +26,23 @@ from modeviz.files.records.fields import (
     RotationalDamping,
     RotationalStiffness,
     Stiffness,
+    VerticalRange,
 )
 from modeviz.files.records.rates import RatesRecord
 from modeviz.files.records.record import Record, said, tuples
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import (
+    DIRECTIONS,
     MOTIONS,
     SHARED,
+    USUAL_STATIC_RATIO,
     Connection,
     Mount,
     MountGroup,
     Rod,
     Track,
+    Travel,
     usual_bounds,
 )
 
@@ -75,6 +82,24 @@ class MountRecord(Record, kw_only=True):
         return np.array(ends, float)
 
 
+class TravelRecord(Record, kw_only=True):
+    """[mount_group.travel]: how far the first end of a mount may go from the second."""
+
+    vertical: VerticalRange | None = None
+    lateral: LateralRange | None = None
+    fore_aft: ForeAftRange | None = None
+
+    @classmethod
+    def of(cls, travel: Travel) -> Self | None:
+        """None if nothing is limited."""
+        ranges = {d.replace("-", "_"): (float(low), float(high)) for d, (low, high) in travel.items()}
+        return cls(**ranges) if ranges else None
+
+    def build(self) -> Travel:
+        ranges = dict(zip(DIRECTIONS, (self.vertical, self.lateral, self.fore_aft), strict=True))
+        return {direction: limits for direction, limits in ranges.items() if limits is not None}
+
+
 class MountGroupRecord(Record, kw_only=True):
     """[[mount_group]]."""
 
@@ -91,6 +116,9 @@ class MountGroupRecord(Record, kw_only=True):
     """Of each mount that has none of its own, as what follows."""
     damping: Damping = NO_RATES
     rotational_damping: RotationalDamping = NO_RATES
+    static_ratio: Annotated[float, Meta(gt=0), UNITLESS] = USUAL_STATIC_RATIO
+    """Its rates by those under a load that stays."""
+    travel: TravelRecord | None = None
     mount: list[MountRecord]
 
     @classmethod
@@ -103,6 +131,8 @@ class MountGroupRecord(Record, kw_only=True):
             softest=RatesRecord.of(group.bounds[0]),
             stiffest=RatesRecord.of(group.bounds[1]),
             ratio_limits=group.ratio_limits,
+            static_ratio=group.static_ratio,
+            travel=TravelRecord.of(group.travel),
             mount=[MountRecord.of(_own(mount, group)) for mount in group.mounts],
             **{name: tuples(getattr(group, name)) for name in SHARED},
         )
@@ -121,6 +151,8 @@ class MountGroupRecord(Record, kw_only=True):
             ),
             tuple(Mount(group=self.name, **mount.arguments()) for mount in self.mount),
             self.ratio_limits,
+            static_ratio=self.static_ratio,
+            travel=self.travel.build() if self.travel else {},
             **{name: np.array(getattr(self, name)) for name in SHARED},
         )
 

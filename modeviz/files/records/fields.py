@@ -1,5 +1,6 @@
 """Types of the fields of records: numbers with their bounds and quantities, and how they turn."""
 
+from functools import partial
 from typing import Annotated, Literal
 
 from msgspec import Meta
@@ -10,6 +11,7 @@ from modeviz.files.schema.axes import (
     turn_frame,
     turn_inertia,
     turn_motions,
+    turn_range,
     turn_rates,
     turn_vectors,
 )
@@ -47,6 +49,16 @@ Stiffness = Annotated[Vector, Quantity("stiffness"), Turns(turn_rates)]
 RotationalStiffness = Annotated[Vector, Quantity("rotational_stiffness"), Turns(turn_rates)]
 Damping = Annotated[Vector, Quantity("damping"), Turns(turn_rates)]
 RotationalDamping = Annotated[Vector, Quantity("rotational_damping"), Turns(turn_rates)]
+
+ForceVector = Annotated[Vector, Quantity("force"), Turns(turn_vectors)]
+TorqueVector = Annotated[Vector, Quantity("torque"), Turns(turn_vectors)]
+LoadInG = Annotated[Vector, FixedUnit("g"), Turns(turn_vectors)]
+
+Range = tuple[float, float]
+VerticalRange = Annotated[Range, Quantity("length"), Turns(partial(turn_range, 2))]
+LateralRange = Annotated[Range, Quantity("length"), Turns(partial(turn_range, 1))]
+ForeAftRange = Annotated[Range, Quantity("length"), Turns(partial(turn_range, 0))]
+"""The least and the most along a local axis."""
 
 ForceAmplitude = Annotated[float, Meta(ge=0), Quantity("force")]
 Displacement = Annotated[float, Meta(ge=0), Quantity("length")]

@@ -24,6 +24,7 @@ from modeviz.files.records.fields import (
     Ratio,
     Speed,
 )
+from modeviz.files.records.load_cases import LoadCaseRecord
 from modeviz.files.records.loads import (
     BaseMotionRecord,
     ForceRecord,
@@ -129,6 +130,7 @@ class VehicleRecord(FileRecord, kw_only=True):
     """[rates.SET.GROUP]."""
     problem: list[ProblemRecord] = msgspec.field(default_factory=list)
     decoupling: DecouplingRecord | None = None
+    load_case: list[LoadCaseRecord] = msgspec.field(default_factory=list)
 
     def build(self, source: Source) -> Vehicle:
         """The vehicle: flexible bodies first, connections as in `CONNECTION_KINDS`."""
@@ -171,6 +173,7 @@ class VehicleRecord(FileRecord, kw_only=True):
             frequency_step=self.frequency_step,
             mode_damping=built(self.mode_damping, "mode_damping", ModeDampingRecord.build),
             decoupling=self._decoupling(),
+            load_cases=built(self.load_case, "load_case", LoadCaseRecord.build),
         )
 
     def _decoupling(self) -> Decoupling:

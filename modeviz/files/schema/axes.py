@@ -92,6 +92,11 @@ def turn_rates(value: Any, T: Floats) -> Any:
     return (np.abs(T) @ np.array(value, float)).tolist()
 
 
+def turn_range(axis: int, value: Any, T: Floats) -> Any:
+    """The least and the most along that one of our axes, in a frame that is turned by `turn_frame`."""
+    return [0.0 - bound for bound in reversed(value)] if T[axis].sum() < 0 else value
+
+
 def turn_frame(value: Any, T: Floats) -> Any:
     """Local axes as rows; the one along the file's x becomes the one along our axis there."""
     return (T @ np.array(value, float) @ T.T + 0.0).tolist()

@@ -17,6 +17,7 @@ WRITTEN_UNITS: Mapping[QuantityName, str] = {
     "damping": "N s/m",
     "rotational_damping": "N m s/rad",
     "force": "N",
+    "torque": "N m",
     "acceleration": "m/s²",
     "unbalance": "g m",
     "speed": "km/h",

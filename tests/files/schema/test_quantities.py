@@ -128,6 +128,7 @@ OTHER_UNITS: Mapping[QuantityName, str] = {
     "damping": "lbf s/in",
     "rotational_damping": "N m s/deg",
     "force": "lbf",
+    "torque": "lbf ft",
     "acceleration": "g",
     "unbalance": "oz in",
     "speed": "mph",

@@ -1,0 +1,152 @@
+"""How a vehicle sags under loads that stay, and what its mounts and other connections then carry."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from modeviz.dynamics.assembly import is_rigid
+from modeviz.dynamics.mount_rates import rows_of_springs
+from modeviz.errors import SolveError, VehicleError, unknown
+from modeviz.mounting.static_system import HeldCase, PreparedStatics, RefusedCase
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Connection, Rates
+from modeviz.vehicle.vehicle import Vehicle
+
+SINGULAR = 1e12
+"""The condition of the springs' equation from which on rounding has more to say than they."""
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """What a connection does in a load case, along and about its local axes: x, y, z, rx, ry, rz."""
+
+    connection: Connection
+    deflection: Floats
+    """(6,), m and rad: how far its first body has gone from the second."""
+    force: Floats
+    """(6,), N and N m, on its first body at the elastic centre; the second has the opposite."""
+
+    @property
+    def vehicle_force(self) -> Floats:
+        """The same force and moment along and about the vehicle's axes, (6,)."""
+        return np.kron(np.eye(2), self.connection.axes.T) @ self.force
+
+
+@dataclass(frozen=True, eq=False)
+class StaticCase:
+    """A vehicle in one load case."""
+
+    name: str
+    notes: tuple[str, ...]
+    """Sentences on what nothing holds."""
+    motion: Floats
+    """(n_dofs,), in the generalised coordinates."""
+    bodies: Mapping[str, Floats]
+    """x, y, z, rx, ry, rz of the centre of gravity, (6,), m and rad, by the body's name; of a flexible
+    body what its rigid modes do."""
+    connections: Mapping[str, Carried]
+    """By the connection's name, mounts first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Statics:
+    """A vehicle in its load cases."""
+
+    vehicle: Vehicle
+    """With the rates that it has there."""
+    cases: tuple[StaticCase, ...]
+    refused: tuple[RefusedCase, ...]
+
+    def case(self, name: str) -> StaticCase:
+        """Return the case of that name.
+
+        Raises:
+            VehicleError: there is none, with the names there are.
+            SolveError: it has no answer, and why.
+        """
+        return self.chosen((name,)).cases[0]
+
+    def chosen(self, names: Sequence[str]) -> "Statics":
+        """Return some cases alone, all if none is named; raises as `case`."""
+        if not names:
+            return self
+        by_name = {case.name: case for case in self.cases}
+        why_not = {refused.name: refused.reason for refused in self.refused}
+        for name in names:
+            if name in why_not:
+                raise SolveError(f"load case {name!r}: {why_not[name]}")
+            if name not in by_name:
+                raise VehicleError(unknown("load case", name, (*by_name, *why_not)))
+        return replace(self, cases=tuple(by_name[name] for name in names), refused=())
+
+
+def solve_statics(prepared: PreparedStatics, rates: Rates) -> Statics:
+    """Return a vehicle in its load cases with other mount rates.
+
+    Args:
+        prepared: see `prepare_statics`.
+        rates: of the groups that differ from the vehicle's own.
+
+    Raises:
+        VehicleError: a group that the vehicle does not have.
+        SolveError: with these rates nothing holds what a mount held.
+    """
+    vehicle = prepared.vehicle.with_rates(rates)
+    k = prepared.stiffness(rates)
+    x = prepared.sag + prepared.compliance @ _missing(prepared, k)
+    forces = _forces(prepared, x, k[:, None] * (prepared.system.mount_motions @ x))
+    cases = (
+        _case(prepared, vehicle, held, x[:, i], forces[:, i]) for i, held in enumerate(prepared.cases)
+    )
+    return Statics(vehicle, tuple(cases), prepared.refused)
+
+
+def _missing(prepared: PreparedStatics, stiffness: Floats) -> Floats:
+    """q, (n_springs, n_cases): the forces that springs lack of those that K₀ has.
+
+    (I + Δ R K₀⁻¹Rᵀ) q = -Δ R x₀ with Δ = k - k₀.
+    """
+    change = stiffness - prepared.base
+    equation = np.eye(len(change)) + change[:, None] * prepared.between_springs
+    if change.size and np.linalg.cond(equation) > SINGULAR:
+        raise SolveError("with these mount rates something moves freely that only a mount holds")
+    stretched = prepared.system.mount_motions @ prepared.sag
+    return np.asarray(np.linalg.solve(equation, -change[:, None] * stretched), np.float64)
+
+
+def _forces(prepared: PreparedStatics, x: Floats, of_mounts: Floats) -> Floats:
+    """What every connection does to its first body along its axes, (6 n_connections, n_cases).
+
+    Rigid joints carry Uᵀ times what springs leave of the loads; where joints hold more than is needed,
+    it is shared so that the squares are least.
+
+    Args:
+        prepared: of the vehicle.
+        x: (n_dofs, n_cases).
+        of_mounts: (n_springs, n_cases), with which the mounts resist.
+    """
+    system, vehicle = prepared.system, prepared.vehicle
+    rows = rows_of_springs(vehicle)
+    resisting = system.connection_stiffness[:, None] * (system.connection_motions @ x)
+    change = of_mounts - resisting[rows]
+    resisting[rows] = of_mounts
+    if system.rigid_joints is not None:
+        left = prepared.forces - system.stiffness @ x - system.mount_motions.T @ change
+        resisting[is_rigid(vehicle)] += system.rigid_joints.led.T @ left
+    return -resisting
+
+
+def _case(
+    prepared: PreparedStatics, vehicle: Vehicle, held: HeldCase, x: Floats, forces: Floats
+) -> StaticCase:
+    """The answer to a case from its motion, (n_dofs,), and the forces on first bodies, (n_rows,)."""
+    deflections = (prepared.system.connection_motions @ x).reshape(-1, 6)
+    every = zip(vehicle.all_connections, deflections, forces.reshape(-1, 6), strict=True)
+    return StaticCase(
+        held.case.name,
+        held.notes,
+        x,
+        {body: rows @ x for body, rows in prepared.body_rows.items()},
+        {connection.name: Carried(connection, d, f) for connection, d, f in every},
+    )
