@@ -5,13 +5,14 @@ something can stand in for it. What referred to it by name goes when the rest is
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from modeviz.errors import Fault
+from modeviz.files.own_tables import BODIES, MOUNTS
 from modeviz.files.records.vehicle import CONNECTION_KINDS, VehicleRecord
 from modeviz.files.schema.hints import is_record, joined
 from modeviz.files.schema.mismatches import faults_of
@@ -53,9 +54,12 @@ Step = tuple[Any, Any, Any]
 class Draft:
     """The tables of a vehicle file, which get fewer."""
 
-    def __init__(self, tables: dict[str, Any]) -> None:
+    def __init__(self, tables: dict[str, Any], table_bodies: Sequence[str] = ()) -> None:
         self.tables: dict[str, Any] = tables
         """What is left; those given are changed."""
+        self._table_bodies: Sequence[str] = table_bodies
+        """The bodies in the file that the key `BODIES` names."""
+        self._taken: set[tuple[int, str]] = set()
         self._paths: dict[int, str] = {id(table): path for path, table in each_table(tables)}
         self._lost: set[str] = set()
         self._lost_bodies: set[str] = set()
@@ -135,6 +139,8 @@ class Draft:
     def _orphans(self) -> Iterator[str]:
         """Keys of tables that name something lost; of a problem's tables, that of the problem."""
         lost = self._lost - self._names()
+        if MOUNTS in self.tables and BODIES not in self.tables and lost & {*self._table_bodies}:
+            yield MOUNTS
         for path, table in each_table(self.tables):
             if not lost.isdisjoint(_references(table)):
                 yield re.sub(r"^(problem\[\d+\]).*", r"\1", path)
@@ -192,9 +198,14 @@ class Draft:
             elif (stand_in := self._stand_in(container, key)) is not None:
                 container[key] = stand_in
                 return joined(self._paths[id(container)], key)
+            elif (id(container), key) in self._taken:
+                return joined(self._paths[id(container)], key)  # for another fault
             elif key in container and key not in required_keys(hint):
                 for each in BAND if key in BAND else (key,):
                     self._lose(container.pop(each, None))
+                    self._taken.add((id(container), each))
+                if container is self.tables and key == BODIES:
+                    self._lost_bodies |= {*self._table_bodies}
                 return item or joined(self._paths[id(container)], key)
             else:
                 item = ""

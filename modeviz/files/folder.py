@@ -13,10 +13,11 @@ from typing import Any
 
 import msgspec
 
-from modeviz.errors import VehicleError, at_key, located
+from modeviz.errors import ModevizError, VehicleError, at_key, located
 from modeviz.files.disk import file_stems, read_text, replace_folder, write_text
 from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
+from modeviz.files.own_tables import with_tables
 from modeviz.files.records.bodies import AddedMassRecord, FlexibleBodyRecord, RigidBodyRecord
 from modeviz.files.records.connections import (
     ConnectionRecord,
@@ -134,9 +135,13 @@ def vehicle_of(tables: Mapping[str, Any], source: Source) -> Vehicle:
     record = in_si(tables, VehicleRecord)
     with at_key("axes"):
         axes = axes_of(record.axes)
-    ours = turned(msgspec.to_builtins(record), VehicleRecord, axes)
+    whole = with_tables(record, source, axes)
+    ours = turned(msgspec.to_builtins(whole.record), VehicleRecord, axes)
     own = replace(source, conventions=Conventions(record.units, axes))
-    vehicle = msgspec.convert(ours, VehicleRecord).build(own)
+    try:
+        vehicle = msgspec.convert(ours, VehicleRecord).build(own)
+    except ModevizError as error:
+        raise whole.located(error) from None
     if not own.stand_ins:
         of_bodies = (*doubts(vehicle), *size_doubts(vehicle), *mesh_doubts(vehicle))
         for doubt in (*of_bodies, *orientation_doubts(vehicle, axes)):

@@ -15,6 +15,7 @@ from modeviz.files.broken_lines import without_broken_lines
 from modeviz.files.draft import Draft
 from modeviz.files.folder import VEHICLE_FILE, read_vehicle_text, vehicle_of
 from modeviz.files.key_lines import key_lines, line_of
+from modeviz.files.own_tables import BODIES, names_in_body_table
 from modeviz.files.source import Source
 from modeviz.files.toml_reader import tables_of
 from modeviz.files.workload import check_workload
@@ -75,7 +76,8 @@ def survey(folder: Path | str) -> Survey:
     ]
     if text is None:
         return Survey(None, tuple(problems))
-    draft, source, lines = Draft(tables_of(text)), Source(folder), list(key_lines(text))
+    tables, source, lines = tables_of(text), Source(folder), list(key_lines(text))
+    draft = Draft(tables, names_in_body_table(tables.get(BODIES), source))
     problems += [
         Problem(VEHICLE_FILE, f.path, _inside(folder, f.words), line_of(f.path, lines), left_out)
         for f, left_out in islice(_mended(draft, source), MOST_PROBLEMS)

@@ -15,9 +15,6 @@ AXES = ("x", "y", "z")
 OBLIQUE = np.radians(1.0)
 """By how much two of them may be off a right angle, for rounding."""
 
-LOCKED = 1e-9
-"""Radians: of two turns about the same line only their sum is known."""
-
 _FIXED = {"fixed", "extrinsic", "space"}
 _TURNED = {"turned", "intrinsic", "moving", "body", "local"}
 
@@ -101,18 +98,6 @@ def axes_of_angles(angles: Floats, order: TurnOrder) -> Floats:
         turn = _turn(axis, angles[axis])
         R = turn @ R if order.is_fixed else R @ turn
     return R.T
-
-
-def angles_of_axes(axes: Floats) -> Floats:
-    """Return the angles (3,), rad, about the fixed x, then y, then z, that give right-handed axes.
-
-    That about y is from -π/2 to π/2; at either end that about x is zero.
-    """
-    R = axes.T
-    pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
-    if np.hypot(R[0, 0], R[1, 0]) < LOCKED:
-        return np.array([0.0, pitch, np.arctan2(-R[0, 1], R[1, 1])])
-    return np.array([np.arctan2(R[2, 1], R[2, 2]), pitch, np.arctan2(R[1, 0], R[0, 0])])
 
 
 def _turn(axis: int, angle: float) -> Floats:

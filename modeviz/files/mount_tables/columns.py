@@ -2,15 +2,11 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Literal
 
 from modeviz.errors import VehicleError, listed, quoted
-from modeviz.units import QuantityName
+from modeviz.files.columns import Column, Kind, bare, split_header
 from modeviz.vehicle.local_axes import AXES
-
-Kind = QuantityName | Literal["text", "ratio", "number", "angle"]
 
 NAMED = ("vertical", "lateral", "fore_aft")
 """Directions that are called so in all axes."""
@@ -62,9 +58,6 @@ BOUNDS = {
     **dict.fromkeys(("max", "maximum", "upper", "stiffest"), "stiffest"),
 }
 """Words in a header that make it that of a bound."""
-
-UNIT = re.compile(r"(.*?)\s*(?:[\[(](.*)[\])]|\s/\s*(.*)|,\s*(.*)|\sin\s+(\S+/\S+|mm|m))\s*")
-"""A header and its unit: "kx [N/mm]", "kx (N/mm)", "kx / (N/mm)", "kx, N/mm", "kx in N/mm"."""
 
 
 def _synonyms() -> Iterator[tuple[str, str]]:
@@ -126,28 +119,6 @@ WEAK = {"id", "label", "designation", "element", "partnumber", "partno", "nodeid
 """Synonyms that mean something else where another column means the same."""
 
 
-@dataclass(frozen=True)
-class Column:
-    """A column of a table."""
-
-    header: str
-    """As it stands there."""
-    name: str
-    """One of `KINDS`."""
-    unit: str
-    """As its header or the row below it says it; empty for none."""
-
-    @property
-    def has_known_order(self) -> bool:
-        """Whether it is one of roll, pitch and yaw, which are angles in an order of their own."""
-        return _plain(self.header).startswith(tuple(ROLL_PITCH_YAW))
-
-    @property
-    def kind(self) -> Kind:
-        """Of what its numbers are."""
-        return KINDS[self.name]
-
-
 def read_headers(cells: Sequence[str]) -> tuple[dict[int, Column], list[str]]:
     """Return the columns that are read, by where they stand, and the headers of others.
 
@@ -179,18 +150,15 @@ def read_headers(cells: Sequence[str]) -> tuple[dict[int, Column], list[str]]:
 
 
 def _is_weak(header: str) -> bool:
-    return _plain(header) in WEAK
+    return bare(header) in WEAK
 
 
 def _column(header: str) -> Column | None:
     """What a header means; None if nothing that is read."""
-    found = UNIT.fullmatch(header)
-    name, unit = header, ""
-    if found and _meaning(found[1]):
-        name, unit = found[1], next((u for u in found.groups()[1:] if u), "")
+    name, unit = split_header(header, _meaning)
     if meaning := _meaning(name):
-        return Column(header, meaning, unit.strip().strip("()"))
-    close = get_close_matches(_plain(name), SYNONYMS, n=1, cutoff=0.85)
+        return Column(header, meaning, unit, KINDS[meaning])
+    close = get_close_matches(bare(name), SYNONYMS, n=1, cutoff=0.85)
     if close:
         raise VehicleError(
             f"unknown column {quoted(header)}: did you mean {SYNONYMS[close[0]]}? There are "
@@ -199,13 +167,9 @@ def _column(header: str) -> Column | None:
     return None
 
 
-def _plain(text: str) -> str:
-    return re.sub(r"[\W_]+", "", text.lower())
-
-
 def _meaning(text: str) -> str | None:
     """The column that a header without its unit means."""
-    if plain := SYNONYMS.get(_plain(text)):
+    if plain := SYNONYMS.get(bare(text)):
         return plain
     words = re.findall(r"[^\W\d_]+|\d+", text.lower())
     for place, word in enumerate(words):
@@ -215,3 +179,8 @@ def _meaning(text: str) -> str | None:
             meant = f"{bound}_{rate.removeprefix('k_')}"
             return meant if meant in KINDS else None
     return None
+
+
+def has_known_order(column: Column) -> bool:
+    """Return whether a column is one of roll, pitch and yaw, angles in an order of their own."""
+    return bare(split_header(column.header, _meaning)[0]) in ROLL_PITCH_YAW

@@ -1,23 +1,21 @@
 """A line of a mount table as a bushing."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from modeviz.errors import VehicleError, listed, located, quoted, unknown
+from modeviz.files.columns import Column, rate_unit
 from modeviz.files.disk import inside
+from modeviz.files.headed_table import TableLine
 from modeviz.files.mount_tables.bushing import DIRECTIONS, Bushing, End
-from modeviz.files.mount_tables.column_units import column_factor, rate_unit
-from modeviz.files.mount_tables.columns import NAMED, Column
+from modeviz.files.mount_tables.columns import NAMED, has_known_order
 from modeviz.files.mount_tables.reading import Reading, SixRates
-from modeviz.files.schema.scaling import BEYOND_ANY_VEHICLE, WRITTEN_UNITS
-from modeviz.files.tables import Row
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import AXES, TurnOrder, axes_of_angles, axes_of_vectors
-from modeviz.vehicle.vehicle import FARTHEST
 
 RATES = tuple(f"k_{direction}" for direction in DIRECTIONS)
 DAMPINGS = tuple(f"c_{direction}" for direction in DIRECTIONS)
@@ -25,59 +23,22 @@ ANGLES = tuple(f"angle_{axis}" for axis in AXES)
 
 
 @dataclass(frozen=True)
-class MountLine:
+class MountLine(TableLine):
     """The line of a mount."""
 
-    row: Row
-    columns: Mapping[str, Column]
     reading: Reading
 
-    def where(self, name: str) -> str:
-        """The place of a cell, for errors."""
-        header = self.columns[name].header if name in self.columns else name
-        return self.row.where(header)
+    @property
+    def otherwise(self) -> str:
+        """What else may be done where a header has no unit."""
+        return "" if self.reading.is_own else ", or give --units"
 
-    def text(self, name: str) -> str:
-        """What stands in a column; nothing if there is none."""
-        return self.row.cells[self.columns[name].header] if name in self.columns else ""
-
-    def number(self, name: str, at_least: float = -np.inf) -> float | None:
-        """The number in a column, SI; None if it is empty.
-
-        Raises:
-            VehicleError: it is no number, too small, or without a unit.
-        """
-        if not self.text(name):
-            return None
-        column = self.columns[name]
-        if column.kind == "ratio" and self.text(name).endswith("%"):
-            cells = {column.header: self.text(name).removesuffix("%").strip()}
-            return replace(self.row, cells=cells).number(column.header, at_least) / 100
-        value = self.row.number(column.header, at_least)
-        factor = column_factor(column, self.reading.units)
+    def factor(self, column: Column) -> float | None:
+        """One of a column's numbers in SI; None if nothing says it."""
         if column.kind == "stiffness" and not column.unit and self.text("units"):
             with located(self.where("units")):
-                factor = rate_unit(self.text("units"))
-        if factor is None:
-            usual = next((u for kind, u in WRITTEN_UNITS.items() if kind == column.kind), "deg")
-            raise VehicleError(
-                f"{self.where(name)}: found {self.text(name)} without a unit; write it in the header, "
-                f"'{column.header} [{usual}]'{'' if self.reading.is_own else ', or give --units'}"
-            )
-        if abs(value * factor) > BEYOND_ANY_VEHICLE:
-            raise VehicleError(
-                f"{self.where(name)}: found {self.text(name)}, which is beyond any vehicle"
-            )
-        return value * factor
-
-    def numbers(
-        self, names: tuple[str, ...], at_least: float = -np.inf, empty: float = 0.0
-    ) -> Floats | None:
-        """Those in columns, `empty` where one is; None if all are."""
-        found = [self.number(name, at_least) for name in names]
-        if all(value is None for value in found):
-            return None
-        return np.array([empty if value is None else value for value in found])
+                return rate_unit(self.text("units"))
+        return super().factor(column)
 
     def bushing(self, path: Path, before: Mapping[str, Bushing]) -> Bushing:
         """The mount of this line.
@@ -86,9 +47,7 @@ class MountLine:
             path: of the table.
             before: the mounts of the lines above it, by name.
         """
-        name = self.text("name")
-        if not name:
-            raise VehicleError(f"{self.where('name')}: empty, expected the mount's name")
+        name = self.required("name", "the mount's name")
         group = self.text("group") if "group" in self.columns else name
         twin = next((b for b in before.values() if group and b.group == group), None)
         stiffness, damping = self._rates(path, twin)
@@ -164,30 +123,9 @@ class MountLine:
         return np.full(3, np.nan) if found is None else found
 
     def _place(self, suffix: str) -> Floats | None:
-        """A place of which all coordinates are there, or none.
-
-        Raises:
-            VehicleError: some are missing.
-        """
+        """A place of which all coordinates are there, or none; raises VehicleError if some are."""
         names = tuple(f"{axis}{suffix}" for axis in AXES)
-        missing = [name for name in names if not self.text(name)]
-        if len(missing) == len(names):
-            return None
-        if missing:
-            raise VehicleError(f"{self.where(missing[0])}: empty, expected all of {', '.join(names)}")
-        if self.reading.is_own:
-            for name in names:
-                self._check_near(name)
-        return self.numbers(names)
-
-    def _check_near(self, name: str) -> None:
-        """Raises VehicleError for a coordinate that no vehicle has."""
-        value = self.number(name) or 0.0
-        if abs(value) > FARTHEST:
-            raise VehicleError(
-                f"{self.where(name)}: found {self.text(name)}, which is {abs(value):.4g} m from the "
-                f"origin, expected at most {FARTHEST:g} m; if it is in mm, say so: '{name} [mm]'"
-            )
+        return self.near_place(names) if self.reading.is_own else self.place(names)
 
     def _second_place(self) -> Floats | None:
         """That of the second end, the first one's unless it is given."""
@@ -241,7 +179,7 @@ class MountLine:
             with located(self.where("angle_order")):
                 return TurnOrder.of(text)
         given = [name for name, angle in zip(ANGLES, angles, strict=True) if angle]
-        if len(given) > 1 and not all(self.columns[name].has_known_order for name in given):
+        if len(given) > 1 and not all(has_known_order(self.columns[name]) for name in given):
             raise VehicleError(
                 f"{self.where('angle_order')}: empty, expected the order of the angles, such as "
                 "'xyz fixed', about axes that stay, or 'zyx turned', about those turned before"

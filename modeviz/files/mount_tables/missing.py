@@ -4,8 +4,8 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 
 from modeviz.errors import VehicleError, listed, quoted
-from modeviz.files.mount_tables.column_units import is_unit
-from modeviz.files.mount_tables.columns import UNIT, Column
+from modeviz.files.columns import UNIT, Column, is_unit
+from modeviz.files.mount_tables.columns import KINDS
 from modeviz.files.sheets import Sheet
 from modeviz.vehicle.local_axes import AXES
 
@@ -71,7 +71,7 @@ def _may_be(header: str, letter: str, missing: Sequence[str]) -> bool:
     found = UNIT.fullmatch(header)
     unit = next((text for text in found.groups()[1:] if text), "") if found else ""
     if unit:
-        return is_unit(unit, Column(header, f"{letter}_x", ""))
+        return is_unit(unit, Column(header, f"{letter}_x", "", KINDS[f"{letter}_x"]))
     return len(missing) == 1 or bool({*missing} & {*re.split(r"[\W_]+", header.lower())})
 
 

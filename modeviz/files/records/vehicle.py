@@ -111,6 +111,10 @@ class VehicleRecord(FileRecord, kw_only=True):
     """Hz: up to where modes and responses are looked at."""
     frequency_step: Frequency = 0.1
     """Hz: between the lines at which responses are given."""
+    body_table: str | None = None
+    """A file of the folder, .csv or .xlsx, with rigid bodies."""
+    mount_table: str | None = None
+    """A file of the folder, .csv or .xlsx, with mounts, springs and dampers."""
     flexible_body: list[FlexibleBodyRecord] = msgspec.field(default_factory=list)
     rigid_body: list[RigidBodyRecord] = msgspec.field(default_factory=list)
     added_mass: list[AddedMassRecord] = msgspec.field(default_factory=list)

@@ -1,18 +1,55 @@
-"""The units of the columns of a mount table, however people spell them."""
+"""The columns of tables that people keep: their headers and units, however they are spelt."""
 
 import re
 import unicodedata
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
 from modeviz.errors import VehicleError, located, quoted
-from modeviz.files.mount_tables.columns import Column, Kind
 from modeviz.units import UNITS, QuantityName, spoken
 
 ANGLES = {"deg": np.pi / 180, "rad": 1.0}
 RATIOS = {"": 1.0, "%": 0.01, "-": 1.0, "1": 1.0}
+
+Kind = QuantityName | Literal["text", "ratio", "number", "angle"]
+"""Of what a column's numbers are, or that it has none."""
+
+UNIT = re.compile(r"(.*?)\s*(?:[\[(](.*)[\])]|\s/\s*(.*)|,\s*(.*)|\sin\s+(\S+/\S+|mm|m))\s*")
+"""A header and its unit: "kx [N/mm]", "kx (N/mm)", "kx / (N/mm)", "kx, N/mm", "kx in N/mm"."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table."""
+
+    header: str
+    """As it stands there."""
+    name: str
+    """What it means."""
+    unit: str
+    """As its header or the row below it says it; empty for none."""
+    kind: Kind
+
+
+def bare(text: str) -> str:
+    """Return a header without spaces and marks, in small letters."""
+    return re.sub(r"[\W_]+", "", text.lower())
+
+
+def split_header(header: str, meaning: Callable[[str], str | None]) -> tuple[str, str]:
+    """Return the name in a header and its unit: all of it is the name where that alone means nothing.
+
+    Args:
+        header: such as "kx [N/mm]".
+        meaning: tells what a name means, if anything.
+    """
+    found = UNIT.fullmatch(header)
+    if not (found and meaning(found[1])):
+        return header, ""
+    return found[1], next((u for u in found.groups()[1:] if u), "").strip().strip("()")
 
 
 def column_factor(column: Column, units: Mapping[QuantityName, float]) -> float | None:
@@ -74,7 +111,8 @@ def is_unit(text: str, column: Column) -> bool:
     if text in ("", "-"):
         return True
     try:
-        return column.kind != "text" and column_factor(Column("", column.name, text), {}) is not None
+        said = replace(column, header="", unit=text)
+        return column.kind != "text" and column_factor(said, {}) is not None
     except VehicleError:
         return False
 
