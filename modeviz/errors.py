@@ -121,6 +121,25 @@ def reason(error: BaseException) -> str:
     return next(iter(said.splitlines()), type(error).__name__)
 
 
+def placed(where: str, text: str) -> str:
+    """Return a text with the place that it speaks of in front, which is not said twice.
+
+    A file may be called by its name alone in one of both: it is as the longer has it. Of several files,
+    with commas between, the one that the text says is enough.
+    """
+    said, _, words = text.partition(": ")
+    for place in (*where.split(", "), where):
+        if words and _is_same_place(said, place):
+            return f"{max(said, place, key=len)}: {words}"
+    return f"{where}: {text}"
+
+
+def _is_same_place(one: str, other: str) -> bool:
+    """Whether two places are the same, or one is the name of the other, which is a path."""
+    shorter, longer = sorted((one, other), key=len)
+    return longer == shorter or longer.endswith((f"/{shorter}", f"\\{shorter}"))
+
+
 @contextmanager
 def of_file(path: str) -> Iterator[None]:
     """Puts a file, if there is one, in front of what its content makes impossible inside the block.
@@ -131,12 +150,12 @@ def of_file(path: str) -> Iterator[None]:
     try:
         yield
     except ModevizError as error:
-        raise type(error)(f"{path}: {error}" if path else str(error)) from None
+        raise type(error)(placed(path, str(error)) if path else str(error)) from None
 
 
 @contextmanager
 def located(where: object) -> Iterator[None]:
-    """Puts the place in front of whatever the user got wrong inside the block.
+    """Puts the place in front of whatever the user got wrong inside the block, if it isn't there.
 
     Raises:
         VehicleError: something inside raised a ModevizError.
@@ -144,7 +163,7 @@ def located(where: object) -> Iterator[None]:
     try:
         yield
     except ModevizError as error:
-        raise VehicleError(f"{where}: {error}") from None
+        raise VehicleError(placed(str(where), str(error))) from None
 
 
 @contextmanager
@@ -169,7 +188,8 @@ def of_part(kind: str, name: str) -> Iterator[None]:
     Raises:
         PartError: something inside raised a ModevizError.
     """
+    part = f"{kind} {quoted(name)}"
     try:
         yield
     except ModevizError as error:
-        raise PartError(kind, name, f": {error}") from None
+        raise PartError(kind, name, placed(part, str(error)).removeprefix(part)) from None

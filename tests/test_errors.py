@@ -15,12 +15,14 @@ from modeviz.cli import main
 from modeviz.errors import (
     LONGEST,
     ModevizError,
+    PartError,
     SolveError,
     VehicleError,
     cut,
     listed,
     located,
     of_file,
+    of_part,
     quoted,
     reason,
     unknown,
@@ -168,3 +170,33 @@ def test_a_reason_is_never_empty():
 def test_a_reason_is_one_line():
     assert reason(ValueError("no workbook.\nSee the exception for more.")) == "no workbook."
     assert reason(ValueError("\n")) == "ValueError"
+
+
+@pytest.mark.parametrize(
+    ("where", "text", "expected"),
+    [
+        ("a.bdf", "is cut", "a.bdf: is cut"),
+        ("a.bdf", "a.bdf: is cut", "a.bdf: is cut"),
+        ("a.bdf", "there/a.bdf: is cut", "there/a.bdf: is cut"),
+        ("there/a.bdf", "a.bdf: is cut", "there/a.bdf: is cut"),
+        ("there/a.bdf", "a.bdf: line 3: is cut", "there/a.bdf: line 3: is cut"),
+        ("there/a.bdf", "f: is cut", "there/a.bdf: f: is cut"),
+        ("a.bdf, there/b.op2", "b.op2: is cut", "there/b.op2: is cut"),
+        ("a.bdf, b.op2", "are of two models", "a.bdf, b.op2: are of two models"),
+        ("--residual", "a.csv: a.csv", "--residual: a.csv: a.csv"),
+        ("a.csv", "a.csv", "a.csv: a.csv"),
+    ],
+)
+def test_a_place_is_said_once(where, text, expected):
+    with pytest.raises(VehicleError) as error, located(where):
+        raise ModevizError(text)
+    assert str(error.value) == expected
+    with pytest.raises(SolveError) as error, of_file(where):
+        raise SolveError(text)
+    assert str(error.value) == expected
+
+
+def test_a_part_is_said_once():
+    with pytest.raises(PartError) as error, of_part("body", "cab"), of_part("body", "cab"):
+        raise VehicleError("is too heavy")
+    assert str(error.value) == "body 'cab': is too heavy"

@@ -26,13 +26,13 @@ def import_road_file(files: Sequence[Path], output: Path | None, settings: RoadS
         raise ModevizError(f"found {len(files)} roads, expected one at a time")
     news = News(output, road_doubts)
     road = import_road(path, output, settings, lambda text: remark(f"{path.name}: {text}"))
-    print_result(summary(path, road.surface, road.spectra, road.track_width))
+    print_result(summary(path, road.surface, road.spectra))
     if road.vehicle:
         news.tell(road.vehicle)
         print_result(f"{output}: road {road.name!r}")
 
 
-def summary(path: Path, surface: Surface, spectra: TrackSpectra, width: float) -> str:
+def summary(path: Path, surface: Surface, spectra: TrackSpectra) -> str:
     """Return what an engineer can compare with what they know of a road."""
     n = spectra.spatial_frequency
     level, waviness = spectra.fit()
@@ -42,7 +42,7 @@ def summary(path: Path, surface: Surface, spectra: TrackSpectra, width: float) -
         [
             f"{path.name}: {surface.length:.5g} m long every {surface.increment:.4g} m, "
             f"{surface.v[0]:.4g} to {surface.v[-1]:.4g} m across in {len(surface.v)} sections",
-            f"tracks {width:.4g} m apart over {spectra.length:.5g} m: RMS {left:.4g} mm left, "
+            f"tracks {spectra.width:.4g} m apart over {spectra.length:.5g} m: RMS {left:.4g} mm left, "
             f"{right:.4g} mm right",
             f"spectra from {n[0]:.3g} to {n[-1]:.4g} cycles/m; G_d(0.1 cycles/m) {1e6 * level:.4g} "
             f"cm³, waviness {waviness:.3g}, as ISO {near}",

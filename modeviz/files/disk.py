@@ -74,6 +74,20 @@ def opened(path: Path, most: int) -> Iterator[BinaryIO]:
         yield file
 
 
+def check_each_once(paths: Iterable[Path]) -> None:
+    """Checks that no file is there twice, by whatever way.
+
+    Raises:
+        VehicleError: one is.
+    """
+    seen: set[str] = set()
+    for path in paths:
+        whole = os.path.abspath(path)
+        if whole in seen:
+            raise VehicleError(f"{path}: found twice, expected each file once")
+        seen.add(whole)
+
+
 def _likely(path: Path) -> str:
     """Words for the file that may be meant by a path at which there is none."""
     try:

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from modeviz.errors import VehicleError, quoted
+from modeviz.files.disk import check_each_once
 from modeviz.files.meshes import READERS as MESHES
 from modeviz.formats.ansys import RESULTS, read_ansys
 from modeviz.formats.component import Component
@@ -37,8 +38,9 @@ def read_component(paths: Sequence[Path]) -> Component:
     Files with matrices may come with a file of another format that has the geometry.
 
     Raises:
-        VehicleError: a file cannot be read, or is a folder, or they are of different formats.
+        VehicleError: a file cannot be read, is a folder or there twice, or they are of several formats.
     """
+    check_each_once(paths)
     if folders := [path for path in paths if path.is_dir()]:
         raise VehicleError(f"{folders[0]}: is a folder, expected the files of a component")
     matrices = [path for path in paths if _has_matrices(path)]

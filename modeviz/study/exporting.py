@@ -7,7 +7,7 @@ from pathlib import Path
 from modeviz.analysis.modal_results import ModalResults, solve_modal
 from modeviz.export.catalogue import writer
 from modeviz.export.solution import ExportOptions, Solution
-from modeviz.files.disk import check_writable, write_bytes
+from modeviz.files.disk import check_each_once, check_writable, write_bytes
 from modeviz.study.conditions import road_conditions
 from modeviz.study.tuned_vehicle import TunedVehicle
 
@@ -29,9 +29,10 @@ def export_files(
         note: told what is left out of a file.
 
     Raises:
-        ModevizError: there is no such content, format or road, it cannot be solved, or a file cannot
-            be written.
+        ModevizError: there is no such content, format or road, it cannot be solved, or a file is there
+            twice or cannot be written.
     """
+    check_each_once(paths)
     writers = [writer(path, tuned.vehicle) for path in paths]
     for path in paths:
         check_writable(path)

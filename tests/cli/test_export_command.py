@@ -88,6 +88,12 @@ def test_a_file_that_is_there_is_replaced_whole_and_a_folder_is_not(folder, here
     assert (here / "rates.csv").read_text().startswith("group,units")
 
 
+def test_one_file_is_not_written_twice(folder, here, capsys):
+    assert main(["export", str(folder), "rates.csv", "rates.json", "./rates.csv"]) == 2
+    assert "rates.csv: found twice, expected each file once" in capsys.readouterr().err
+    assert not [*here.glob("rates.*")]
+
+
 def test_a_vehicle_after_its_files_is_said_to_come_first(folder, here, capsys):
     (here / "pick up").mkdir()
     assert main(["export", "rates.csv", "pick up"]) == 2

@@ -444,6 +444,11 @@ def test_files_of_no_known_format_are_refused(tmp_path, capsys):
     assert "there is no such file" in refused(capsys, tmp_path / "b.unv")
 
 
+def test_one_file_is_not_read_twice(tmp_path, file, capsys):
+    path = Path(file(network_unv()))
+    assert "block.unv: found twice" in refused(capsys, path, path.parent / "." / path.name)
+
+
 def test_a_folder_in_place_of_files_is_told(tmp_path, capsys):
     (tmp_path / "pick up").mkdir()
     assert "pick up: is a folder, expected files" in refused(capsys, tmp_path / "pick up")

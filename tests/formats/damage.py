@@ -4,6 +4,8 @@ import resource
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import pairwise
+from pathlib import Path
 
 MOST_SECONDS, MOST_KILOBYTES = 10, 2_000_000
 
@@ -50,4 +52,6 @@ def check_refusal(said: str) -> str:
     assert [line for line in lines if not line.startswith("modeviz: note:")] == lines[-1:]
     assert lines[-1].startswith("modeviz: ")
     assert len(lines[-1]) < 600
+    places = [Path(place).name for place in lines[-1].split(": ")]
+    assert not [one for one, other in pairwise(places) if one == other]
     return lines[-1]

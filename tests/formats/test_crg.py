@@ -182,8 +182,18 @@ def test_tracks_are_between_sections_and_at_the_edges_of_a_narrow_road():
     assert {at: found.track(at)[0] for at in expected} == pytest.approx(expected)
     notes = []
     rough = np.random.default_rng(6).normal(size=2000)
-    track_spectra(surface(rough, rough), 5.0, notes.append)
-    assert notes == ["the surface is 4 m wide and the tracks 5 m apart: they are taken at its edges"]
+    assert track_spectra(surface(rough, rough), 5.0, notes.append).width == 4.0
+    assert notes == ["the surface is 4 m wide: its edges are taken for tracks that are to be 5 m apart"]
+
+
+def test_what_is_said_of_a_narrow_road_is_one_thing(tmp_path, capsys):
+    path = tmp_path / "road.crg"
+    path.write_bytes(GOOD)
+    assert main(["import", str(path), "--track-width", "5"]) == 0
+    said = capsys.readouterr()
+    assert len(said.err.splitlines()) == 1
+    assert "tracks 2 m apart over" in said.out
+    assert "5 m apart" not in said.out
 
 
 def test_even_ends_and_unknown_ones_are_left_out_and_small_gaps_bridged():

@@ -33,8 +33,6 @@ class ImportedRoad:
     name: str
     surface: Surface
     spectra: TrackSpectra
-    track_width: float
-    """m."""
     vehicle: Vehicle | None
     """Of the folder that it was put into."""
 
@@ -65,7 +63,7 @@ def import_road(
         spectra = track_spectra(surface, width, note)
     name = settings.name or path.stem
     after = add_road(spectra, name, folder, vehicle, path.name) if folder and vehicle else None
-    return ImportedRoad(name, surface, spectra, width, after)
+    return ImportedRoad(name, surface, spectra, after)
 
 
 def _track_width(given: float | None, vehicle: Vehicle | None) -> float:

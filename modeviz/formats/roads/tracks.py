@@ -39,6 +39,8 @@ class TrackSpectra:
     """m: of left and right, without their straight line."""
     length: float
     """m: of the part of the road that was taken."""
+    width: float
+    """m: between the tracks as they were taken."""
 
     def fit(self) -> tuple[float, float]:
         """Return G_d(n₀), m³, and the waviness of the line of ISO 8608 nearest to both tracks."""
@@ -69,10 +71,11 @@ def track_spectra(surface: Surface, width: float, note: Callable[[str], None]) -
     widest = float(np.ptp(surface.v))
     if width > widest:
         note(
-            f"the surface is {widest:.4g} m wide and the tracks {width:.4g} m apart: they are taken at "
-            "its edges"
+            f"the surface is {widest:.4g} m wide: its edges are taken for tracks that are to be "
+            f"{width:.4g} m apart"
         )
-    half = min(width, widest) / 2
+    width = min(width, widest)
+    half = width / 2
     both = np.stack([surface.track(middle + half), surface.track(middle - half)])
     both = _rough_part(_filled(both, surface.increment, note), surface.increment, note)
     n_rows = both.shape[1]
@@ -92,7 +95,7 @@ def track_spectra(surface: Surface, width: float, note: Callable[[str], None]) -
     S_rr, S_lr = csd(right, right, **settings)[1], csd(right, left, **settings)[1]
     S = np.array([[S_ll, S_lr], [np.conj(S_lr), S_rr]], complex).transpose(2, 0, 1)
     rms = detrend(both).std(axis=1).tolist()
-    return TrackSpectra(n[1:], S[1:], (rms[0], rms[1]), surface.increment * (n_rows - 1))
+    return TrackSpectra(n[1:], S[1:], (rms[0], rms[1]), surface.increment * (n_rows - 1), width)
 
 
 def _filled(both: Floats, increment: float, note: Callable[[str], None]) -> Floats:

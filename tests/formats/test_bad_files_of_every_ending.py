@@ -1,0 +1,81 @@
+"""Whatever is in a file of any ending that is taken, a refusal names it once."""
+
+import random
+
+import pytest
+from damage import check_refusal
+from network_files import network_unv
+
+from modeviz.cli import main
+from modeviz.files.meshes import READERS as MESHES
+from modeviz.formats.ansys import FULL, RESULTS
+from modeviz.formats.endings import TAKEN
+
+CONTENTS = {
+    "nothing": b"",
+    "text": b"so it goes\nand on\n",
+    "zeros": bytes(600),
+    "noise": random.Random(1).randbytes(3000),
+    "archive": b"PK\3\4" + random.Random(2).randbytes(300),
+    "numbers": b"1,2,3\n4,5,6\n",
+}
+
+ANSYS = (RESULTS, FULL)
+"""Their library takes seconds to be there."""
+
+
+def refused(capsys, *arguments: object) -> str:
+    capsys.readouterr()
+    assert main(["import", *map(str, arguments)]) == 2
+    return check_refusal(capsys.readouterr().err)
+
+
+@pytest.mark.parametrize(
+    ("ending", "content"),
+    [
+        (ending, content)
+        for ending in TAKEN
+        for content in ((None, "noise") if ending in ANSYS else (None, *CONTENTS))
+    ],
+)
+def test_a_bad_file_is_named_once(tmp_path, capsys, ending, content):
+    path = tmp_path / f"wrong{ending}"
+    if content is not None:
+        path.write_bytes(CONTENTS[content])
+    assert refused(capsys, path).count(path.name) == 1
+
+
+@pytest.mark.parametrize("content", [None, *CONTENTS])
+@pytest.mark.parametrize("ending", MESHES)
+def test_a_bad_mesh_is_named_once(tmp_path, capsys, ending, content):
+    path, body = tmp_path / f"wrong{ending}", tmp_path / "body.unv"
+    body.write_text(network_unv())
+    if content is not None:
+        path.write_bytes(CONTENTS[content])
+    options = ["--units", "mm-t-s", "--output", tmp_path / "vehicle", "--mesh", path]
+    assert refused(capsys, body, *options).count(path.name) == 1
+
+
+@pytest.mark.parametrize("content", [None, *CONTENTS])
+@pytest.mark.parametrize(
+    ("option", "ending"),
+    [("--residual", ".csv"), ("--antisymmetric", ".unv"), ("--antisymmetric", ".op2")],
+)
+def test_another_bad_file_is_named_once(tmp_path, capsys, option, ending, content):
+    path, body = tmp_path / f"wrong{ending}", tmp_path / "body.unv"
+    body.write_text(network_unv())
+    if content is not None:
+        path.write_bytes(CONTENTS[content])
+    options = ["--units", "mm-t-s", "--output", tmp_path / "vehicle", option, path]
+    assert refused(capsys, body, *options).count(path.name) == 1
+
+
+@pytest.mark.parametrize("content", [None, *CONTENTS])
+@pytest.mark.parametrize("ending", [".csv", ".npz", ".bdf", ".pch"])
+def test_a_bad_file_of_several_is_named_once(tmp_path, capsys, ending, content):
+    path, body = tmp_path / f"wrong{ending}", tmp_path / "K.npz"
+    body.write_bytes(CONTENTS["noise"])
+    if content is not None:
+        path.write_bytes(CONTENTS[content])
+    said = refused(capsys, path, body, "--output", tmp_path / "vehicle")
+    assert max(said.count(path.name), said.count(body.name)) == 1
