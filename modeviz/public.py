@@ -17,10 +17,12 @@ from modeviz.mounting.travel import Travel as Travel
 from modeviz.optimise.active_limits import ActiveConstraint as ActiveConstraint
 from modeviz.ride.rating import Rating as Rating
 from modeviz.scatter.tolerance import Tolerance as Tolerance
+from modeviz.study.forces import MountForces as MountForces
 from modeviz.study.modes import Mode as Mode
 from modeviz.study.modes import ModesTable as ModesTable
 from modeviz.study.optimum import OptimiseResult as OptimiseResult
 from modeviz.study.page import Page as Page
+from modeviz.study.paths import ResponsePaths as ResponsePaths
 from modeviz.study.peaks import PeakPart as PeakPart
 from modeviz.study.peaks import ResponsePeak as ResponsePeak
 from modeviz.study.pictures import WrittenFile as WrittenFile

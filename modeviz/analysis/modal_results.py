@@ -16,6 +16,7 @@ from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.naming import ModeName, name_modes
 from modeviz.dynamics.resonances import Resonances, resonances
 from modeviz.dynamics.trust import ErrorEstimate
+from modeviz.mounting.dissipation import dissipated_energy
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -87,6 +88,12 @@ class ModalResults:
     def strain_energy(self) -> Mapping[str, Floats]:
         """Share of each flexible body and connection group, (n_modes,) by name."""
         return strain_energy(self.prepared.system, self.modes.shapes, self.mount_rates)
+
+    @cached_property
+    def dissipated_energy(self) -> Mapping[str, Floats]:
+        """Share of each flexible body and connection group in a cycle's loss, (n_modes,) by name."""
+        modes, stiffness = self.modes, self.prepared.mount_stiffness(self.rates)
+        return dissipated_energy(self.prepared.system, modes.shapes, modes.frequency_hz, stiffness)
 
     def strain_shares(self, shape: Array) -> dict[str, float]:
         """The strain energy of a shape: share of each flexible body and connection group.

@@ -4,7 +4,8 @@ from argparse import ArgumentParser
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeviz.analysis.preparation import Prepared, prepare
+from modeviz.analysis.forces import LoadedForces
+from modeviz.analysis.preparation import Prepared, prepare, prepare_modes
 from modeviz.analysis.results import Conditions
 from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError, located
@@ -12,6 +13,7 @@ from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.files.rate_settings import ORIGINAL, resolve_rates
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.study.conditions import has_ride, on_even_road, road_conditions
+from modeviz.study.forces import loaded_forces
 from modeviz.study.searching import chosen_problem
 from modeviz.units import parse
 from modeviz.vehicle.connections import Rates
@@ -87,6 +89,25 @@ class RoadOptions(SpeedOptions):
         """Return a vehicle that can be shown, and its ride: without one, on an even road unfelt."""
         chosen = self.ride(vehicle)
         return on_even_road(vehicle) if chosen is None else (vehicle, chosen)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadOptions(SpeedOptions):
+    """Under which load, random or harmonic, and where in the band."""
+
+    load: str | None = None
+    """Its name, or that of a road of ISO 8608; None: what usually shakes the vehicle."""
+    at: float | None = None
+    """Hz: the only frequency that is asked for; None: the vehicle's band."""
+
+    def __post_init__(self) -> None:
+        if self.at is not None and not 0 < self.at < float("inf"):
+            raise ModevizError(f"at: found {self.at:g} Hz, expected more than zero")
+
+    def forces(self, vehicle: Vehicle, rates: Rates) -> LoadedForces:
+        """Return the forces under that load; shows on a terminal how far that is."""
+        speed, tell = self.chosen_speed(vehicle), progress("solving")
+        return loaded_forces(prepare_modes(vehicle), rates, self.load, speed, self.at, tell)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,6 +197,20 @@ def add_road(command: ArgumentParser) -> None:
         metavar="NAME",
         help='or another random load, or a road of ISO 8608: "ISO C", "ISO 100 cm³, waviness 2.3"; '
         "default: the vehicle's first, or else ISO C",
+    )
+    add_speed(command)
+
+
+def add_load(command: ArgumentParser) -> None:
+    """Reads `LoadOptions`."""
+    command.add_argument(
+        "--load",
+        metavar="NAME",
+        help='a road, another random load or a harmonic one, or a road of ISO 8608, "ISO C"; default: '
+        "the random load that usually shakes the vehicle, else its first harmonic one",
+    )
+    command.add_argument(
+        "--at", type=float, metavar="HZ", help="the only frequency (default: the vehicle's band)"
     )
     add_speed(command)
 

@@ -12,9 +12,11 @@ from pathlib import Path
 from modeviz.cli.check import CHECK
 from modeviz.cli.command import Command
 from modeviz.cli.export import EXPORT
+from modeviz.cli.forces import FORCES
 from modeviz.cli.importing import IMPORT
 from modeviz.cli.modes import MODES
 from modeviz.cli.optimise import OPTIMISE
+from modeviz.cli.paths import PATHS
 from modeviz.cli.psd import PSD
 from modeviz.cli.render import RENDER
 from modeviz.cli.report import REPORT
@@ -31,6 +33,8 @@ COMMANDS = (
     RIGID,
     PSD,
     WHEELS,
+    FORCES,
+    PATHS,
     STATIC,
     RENDER,
     REPORT,

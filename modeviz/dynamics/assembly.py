@@ -175,10 +175,7 @@ def assemble(vehicle: Vehicle) -> System:
     if not vehicle.all_connections:
         return bare
     R = np.vstack([bare.relative_motion(c) for c in vehicle.all_connections])
-    k, c, g = (
-        np.concatenate(v)
-        for v in zip(*map(connection_coefficients, vehicle.all_connections), strict=True)
-    )
+    k, c, g = all_coefficients(vehicle)
     held = is_rigid(vehicle)
     joints = rigid_joints(M, R[held]) if held.any() else None
     if joints and not joints.freedom.size:
@@ -247,3 +244,9 @@ def connection_coefficients(connection: Connection) -> tuple[Floats, Floats, Flo
     k = np.concatenate([connection.stiffness, connection.rotational_stiffness])
     c = np.concatenate([connection.damping, connection.rotational_damping])
     return k, c, np.full(6, connection.loss_factor)
+
+
+def all_coefficients(vehicle: Vehicle) -> Floats:
+    """The same of `vehicle.all_connections`, (3, 6 n_connections)."""
+    every = (np.array(connection_coefficients(c)) for c in vehicle.all_connections)
+    return np.hstack([np.zeros((3, 0)), *every])

@@ -8,17 +8,34 @@ end of a joint moves.
 
 import numpy as np
 
-from modeviz.dynamics.assembly import System
+from modeviz.dynamics.assembly import System, is_rigid
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 
 
 def directions(system: System, *rows: Floats) -> Floats:
     """Rows (n_rows, n_dofs + n_rigid) along which something acts, some blocks one after another.
 
-    Rows (n_rows, n_dofs) give nothing to rigid joints.
+    Rows (n_rows, n_dofs) give nothing to rigid joints; where some are wider, as of `opened`, all are.
     """
-    width = system.n_dofs + len(system.rigid_motions)
+    least = system.n_dofs + len(system.rigid_motions)
+    width = max(least, *(r.shape[1] for r in rows))
     return np.vstack([np.pad(r, ((0, 0), (0, width - r.shape[1]))) for r in rows])
+
+
+def opened(system: System) -> Floats:
+    """Rows (6 n_connections, n_dofs + n_rigid + 6 n_connections) that open a gap in each connection.
+
+    What is opened by a metre closes by itself as far as the connection is stiff: where it is rigid that
+    is the motion given to it, where it has a rate R x - F/z = 1, and where it has none nothing happens.
+    What a `dynamics.receptance` of such a row reads is the force F, which the first body puts on the
+    connection.
+    """
+    n, n_rigid = len(system.connection_motions), len(system.rigid_motions)
+    rows = np.zeros((n, system.n_dofs + n_rigid + n))
+    held = is_rigid(system.vehicle)
+    rows[np.arange(n), system.n_dofs + n_rigid + np.arange(n)] = ~held
+    rows[np.flatnonzero(held), system.n_dofs + np.arange(n_rigid)] = 1
+    return rows
 
 
 def led(system: System, actions: Array) -> Array:

@@ -11,8 +11,8 @@ coordinates e are eliminated; some, u, are kept with the forces:
 
 z = k (1 + jg) + jωc for a connection, -ω²m for an added mass, 1/z = 0 for a rigid joint (D. de Klerk,
 D. J. Rixen, S. N. Voormeeren, "General framework for dynamic substructuring", AIAA Journal 46(5),
-2008). A motion given to a rigid joint adds itself to the right side of the joint's line; by reciprocity
-what a force there gives is the joint's own force.
+2008). A gap that a joint has to close, as a motion given to a rigid one, adds itself to the right side
+of the joint's line; by reciprocity what a force there gives is the joint's own force.
 """
 
 from collections.abc import Callable, Iterator
@@ -22,7 +22,7 @@ from itertools import chain
 import numpy as np
 
 from modeviz.compute.threads import in_turn, thread_pool
-from modeviz.dynamics.assembly import System, connection_coefficients, modal_coefficients
+from modeviz.dynamics.assembly import System, all_coefficients, modal_coefficients
 from modeviz.dynamics.inputs import directions
 from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
 from modeviz.errors import SolveError
@@ -59,7 +59,8 @@ def receptance_lines(
     Args:
         system: what vibrates.
         frequency_hz: (n_freqs,), rising, above zero.
-        rows: P, (n_rows, n_dofs), or wider by the motions that rigid joints are given.
+        rows: P, (n_rows, n_dofs), or wider by the motions that rigid joints are given and then by gaps
+            of all connections, see `opened`.
         progress: told the fraction that is done, up to one.
 
     Raises:
@@ -130,7 +131,7 @@ class _Disassembled:
     motions: Floats
     """(n_directions, n_dofs)."""
     given: Floats
-    """(n_rows, n_held): what motion each row gives to the rigid joints."""
+    """(n_rows, n_joints + n_rigid): what gap each row opens in joints, a motion given to rigid ones."""
     moved: tuple[tuple[slice, Floats, tuple[np.ndarray, ...]], ...]
     """The coordinates of each body, the motions of the directions that they move, and where a square
     matrix of all directions has those of these."""
@@ -177,9 +178,9 @@ class _Disassembled:
         matrix[:n_kept, n_kept:] = self.motions[:, kept].T
         matrix[n_kept:, n_kept:] = -self._flexibility(per_force)
         first_row = len(matrix) - len(self.given)
-        held = slice(first_row - self.given.shape[1], first_row)
-        matrix[first_row:, held] += self.given
-        matrix[held, first_row:] += self.given.T
+        opened = slice(first_row - self.given.shape[1], first_row)
+        matrix[first_row:, opened] += self.given
+        matrix[opened, first_row:] += self.given.T
         joints = np.arange(n_kept, n_kept + len(compliance))
         matrix[joints, joints] -= compliance
         own_parts = self.omega_n_squared + omega**2
@@ -208,10 +209,9 @@ class _Disassembled:
 def _disassemble(system: System, rows: Floats) -> _Disassembled:
     bodies = system.vehicle.bodies
     joined, joints = _joints(system)
-    rows, given = np.split(directions(system, rows), [system.n_dofs], axis=1)
+    n_dofs, n_rigid = system.n_dofs, len(system.rigid_motions)
+    rows, given, gaps = np.split(directions(system, rows), [n_dofs, n_dofs + n_rigid], axis=1)
     motions = np.vstack([joined, rows])
-    if system.rigid_joints:
-        given = given @ system.rigid_joints.shares.T
     for body in bodies:
         own = system.dofs[body.name]
         motions[:, own] = motions[:, own] @ _normalising(body)
@@ -230,18 +230,32 @@ def _disassemble(system: System, rows: Floats) -> _Disassembled:
         damping,
         structural,
         motions,
-        given,
+        np.hstack([_in_joints(system, gaps, len(joined) - joints.n_rigid), _in_held(system, given)]),
         tuple(moved),
         squares,
         squares @ elastic,
     )
 
 
+def _in_joints(system: System, gaps: Floats, n_joints: int) -> Floats:
+    """Gaps of connections as those of the joints that yield, (n_rows, n_joints); they are the first."""
+    yielding = np.zeros((len(gaps), n_joints))
+    if gaps.shape[1]:
+        k, c, _ = all_coefficients(system.vehicle)
+        own = gaps[:, (k > 0) | (c > 0)]
+        yielding[:, : own.shape[1]] = own
+    return yielding
+
+
+def _in_held(system: System, given: Floats) -> Floats:
+    """Motions given to rigid connections as those of what these hold, (n_rows, n_held)."""
+    return given @ system.rigid_joints.shares.T if system.rigid_joints else given[:, :0]
+
+
 def _joints(system: System) -> tuple[Floats, _Joints]:
     """Directions (n_joints, n_dofs) that are joined, and by what. Without a rate there is no joint."""
     vehicle = system.vehicle
-    coefficients = map(connection_coefficients, vehicle.all_connections)
-    k, c, g = np.hstack([np.zeros((3, 0)), *map(np.array, coefficients)])
+    k, c, g = all_coefficients(vehicle)
     joined = (k > 0) | (c > 0)
     carried = [system.motion(a.body, a.position)[:3] for a in vehicle.added_masses]
     mass = np.repeat([a.mass for a in vehicle.added_masses], 3)

@@ -37,9 +37,9 @@ def modes_record(followed: Followed, below_hz: float) -> Record:
 
     `{"vehicle", "rates": see rates_record, "n_missed", "modes": [{"number", "frequency_hz",
     "frequency_error_hz", "damping_ratio", "name", "name_score", "kinetic_energy": {body: share},
-    "strain_energy": {body or connection group: share}}], "original": [{"number", "frequency_hz",
-    "name", "now": number or null, "mac", "weak", "parts": [{"number", "share"}]}], "components": [the
-    fields of dynamics.component_trust.ComponentTrust]}`.
+    "strain_energy": {body or connection group: share}, "dissipated_energy": likewise}], "original":
+    [{"number", "frequency_hz", "name", "now": number or null, "mac", "weak", "parts": [{"number",
+    "share"}]}], "components": [the fields of dynamics.component_trust.ComponentTrust]}`.
     """
     results = followed.now
     return {
@@ -66,6 +66,7 @@ def _mode_record(results: ModalResults, i: int) -> Record:
         "name_score": results.names[i].score,
         "kinetic_energy": _shares(results.kinetic_energy, i),
         "strain_energy": _shares(results.strain_energy, i),
+        "dissipated_energy": _shares(results.dissipated_energy, i),
     }
 
 

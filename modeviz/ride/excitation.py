@@ -18,6 +18,7 @@ from modeviz.errors import VehicleError
 from modeviz.ride.roads import (
     held,
     interpolated_power,
+    patch_motion,
     road_spectrum,
     track_amplitudes,
     tyre_directions,
@@ -95,14 +96,41 @@ def excitation(
         case Force():
             forces[:, slots.forces[load.name]] = _peak(load)
         case BaseMotion():
-            displacement = _peak(load) * _displacement(load, f)
+            motions = ground_motions(vehicle, load, f, speed)
             for connection in vehicle.moved_connections(load):
-                along = np.outer(displacement, connection.axes @ load.direction)
+                along = motions[connection.name][:, :, 0]
                 springs = _springs(vehicle, connection)
                 z = _dynamic_stiffness(connection, f, mount_stiffness[springs])
                 forces[:, slots.moved[connection.name], 0] = z * along
                 ground[:, springs, 0] = along[:, : len(mount_stiffness[springs])]
     return Excitation(forces, ground)
+
+
+def ground_motions(
+    vehicle: Vehicle, load: Load, frequency_hz: Floats, speed: float
+) -> dict[str, Complexes]:
+    """How far a load moves the ground ends of connections along their local axes, per unit of input.
+
+    A road moves those of tyres, a base motion those that it names; no other load moves the ground.
+
+    Args:
+        vehicle: whose connections.
+        load: one of its loads.
+        frequency_hz: (n_freqs,).
+        speed: on a road, m/s.
+
+    Returns:
+        (n_freqs, 3, n_inputs), m, by the name of the connection.
+    """
+    if isinstance(load, Road):
+        return {t.name: patch_motion(vehicle, t, frequency_hz, speed) for t in vehicle.tyres}
+    if not isinstance(load, BaseMotion):
+        return {}
+    displacement = (_peak(load) * _displacement(load, frequency_hz)).astype(complex)
+    return {
+        c.name: np.outer(displacement, c.axes @ load.direction)[:, :, None]
+        for c in vehicle.moved_connections(load)
+    }
 
 
 def together(excitations: Sequence[Excitation]) -> Excitation:

@@ -59,10 +59,18 @@ def track_amplitudes(vehicle: Vehicle, frequency_hz: Floats, speed: float) -> Co
     amplitudes = np.zeros((len(omega), len(tyres), 3, 2), complex)
     for i, tyre in enumerate(tyres):
         push = tyre.stiffness * (1 + 1j * tyre.loss_factor) + 1j * omega * tyre.damping
-        delay = np.exp(-1j * omega * lag(tyre, tyres, speed))
-        along = push * tyre.axes[:, 2] * delay
-        amplitudes[:, i] = along[:, :, None] * track_shares(tyre)
+        amplitudes[:, i] = push[:, :, None] * patch_motion(vehicle, tyre, frequency_hz, speed)
     return amplitudes.reshape(len(omega), 3 * len(tyres), 2)
+
+
+def patch_motion(vehicle: Vehicle, tyre: Tyre, frequency_hz: Floats, speed: float) -> Complexes:
+    """How far the road moves a tyre's ground end along its local axes, (n_freqs, 3, 2).
+
+    ẑ e^{-jωτ} per unit displacement of the left and the right track; arguments as `track_amplitudes`.
+    """
+    omega = 2 * np.pi * np.asarray(frequency_hz)[:, None]
+    up = tyre.axes[:, 2] * np.exp(-1j * omega * lag(tyre, vehicle.tyres, speed))
+    return (up[:, :, None] * np.array(track_shares(tyre))).astype(complex)
 
 
 def track_shares(tyre: Tyre) -> tuple[float, float]:

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from modeviz.analysis.results import Conditions
-from modeviz.errors import ModevizError
-from modeviz.ride.excitation import known_part
-from modeviz.vehicle.loads import Road
+from modeviz.errors import ModevizError, VehicleError, unknown
+from modeviz.ride.excitation import Load, known_part
+from modeviz.vehicle.loads import RandomLoad, Road
 from modeviz.vehicle.vehicle import Vehicle
 
 EVEN_HZ = np.array([1e-3, 1e3])
@@ -35,11 +35,7 @@ def road_conditions(vehicle: Vehicle, road: str | None, speed: float) -> Conditi
         )
     need(vehicle, "response point", vehicle.response_points)
     load = usual if road is None else vehicle.random_load(road)
-    if not vehicle.is_shaken_by(load):
-        raise ModevizError(
-            f"road {load.name!r} does not shake vehicle {vehicle.name!r}: give its vehicle.toml a "
-            "[[tyre]] with stiffness or damping along z"
-        )
+    check_shaken(vehicle, load)
     known_part(load, vehicle.frequency_hz, speed)  # what is wrong there is better said before preparing
     return Conditions(load.name, speed)
 
@@ -54,6 +50,47 @@ def on_even_road(vehicle: Vehicle) -> tuple[Vehicle, Conditions]:
     even = Road("no road", "No road", vehicle.speed, EVEN_HZ, np.zeros((len(EVEN_HZ), 2, 2), complex))
     still = replace(vehicle, roads=(even,), response_points=(), problems=())
     return still, Conditions(even.name, still.speed)
+
+
+def chosen_load(vehicle: Vehicle, name: str | None) -> Load:
+    """Return a load of a vehicle: a road or another random one, or a harmonic one.
+
+    Args:
+        vehicle: that is to be shaken.
+        name: of the load, or a class of ISO 8608, "ISO C"; None: the random load that usually shakes
+            it, else its first harmonic one.
+
+    Raises:
+        ModevizError: there is no such load, or it does not get into the vehicle.
+    """
+    harmonic = {load.name: load for load in vehicle.harmonic_loads}
+    if name in harmonic:
+        return harmonic[name]
+    usual = vehicle.usual_load or next(iter(vehicle.harmonic_loads), None)
+    if name is None and usual is not None:
+        return usual
+    if name is None:
+        raise ModevizError(
+            f"vehicle {vehicle.name!r} has no load: give its vehicle.toml a [[force]], a "
+            "[[base_motion]] or a [[tyre]] with stiffness along z, which can be driven over roads of "
+            "ISO 8608"
+        )
+    try:
+        load = vehicle.random_load(name)
+    except VehicleError:
+        offered = [each.name for each in (*vehicle.offered_loads, *vehicle.harmonic_loads)]
+        raise VehicleError(unknown("load", name, offered)) from None
+    check_shaken(vehicle, load)
+    return load
+
+
+def check_shaken(vehicle: Vehicle, load: RandomLoad) -> None:
+    """Raises ModevizError unless a load gets into a vehicle."""
+    if not vehicle.is_shaken_by(load):
+        raise ModevizError(
+            f"road {load.name!r} does not shake vehicle {vehicle.name!r}: give its vehicle.toml a "
+            "[[tyre]] with stiffness or damping along z"
+        )
 
 
 def need(vehicle: Vehicle, what: str, found: Sized) -> None:

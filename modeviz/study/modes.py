@@ -37,6 +37,7 @@ class Mode:
     kinetic_energy: Mapping[str, float] = field(repr=False)
     """The share of each body."""
     strain_energy: Mapping[str, float] = field(repr=False)
+    dissipated_energy: Mapping[str, float] = field(repr=False)
     """The share of each flexible body and connection group."""
     was: str
     """Which modes with the vehicle's own rates it comes from, with their frequencies."""
@@ -148,6 +149,7 @@ class ModesTable(Displayed):
             damping_ratio=float(results.modes.damping_ratio[i]),
             kinetic_energy=_shares(results.kinetic_energy, i),
             strain_energy=_shares(results.strain_energy, i),
+            dissipated_energy=_shares(results.dissipated_energy, i),
             was=came_from(self.followed, i),
             shape=results.modes.shapes[:, i],
         )

@@ -5,6 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import get_args
 
+from modeviz.analysis.forces import LoadedForces
 from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.mode_tracking import solve_followed
 from modeviz.analysis.rigid import rigid_figures
@@ -15,6 +16,7 @@ from modeviz.dynamics.band import Method
 from modeviz.errors import ModevizError, unknown
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.mounting.frames import Axes
+from modeviz.mounting.paths import By
 from modeviz.mounting.statics import solve_statics
 from modeviz.optimise.run import BUDGET
 from modeviz.optimise.search import prepare_search
@@ -23,10 +25,12 @@ from modeviz.scatter.driving import ScatterOptions, drive_many
 from modeviz.scatter.searching import FRONT_STARTS, SearchOptions, find_best
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.study.conditions import has_ride, need, road_conditions
+from modeviz.study.forces import MountForces, loaded_forces
 from modeviz.study.modes import ModesTable
 from modeviz.study.notebook import block, paragraphs
 from modeviz.study.optimum import OptimiseResult
 from modeviz.study.output import StudyOutput
+from modeviz.study.paths import ResponsePaths, point_paths
 from modeviz.study.rates import StudyRates
 from modeviz.study.ride import Ride
 from modeviz.study.rigid import RigidBodies
@@ -176,6 +180,55 @@ class Study(StudyOutput):
             SolveError: nothing holds the vehicle in any of them.
         """
         return StaticResults(solve_statics(self._tuned.statics(), self.rates.by_group))
+
+    @one_thread()
+    def forces(self, load: str | None = None, frequency_hz: float | None = None) -> MountForces:
+        """Return the force of every mount and other connection under a load.
+
+        Args:
+            load: name of a road, of another random load or of a harmonic one, or a road of ISO 8608;
+                None: the random load that usually shakes the vehicle, else its first harmonic one.
+            frequency_hz: the only frequency that is asked for; None: the vehicle's band.
+
+        Raises:
+            ModevizError: there is no such load, it does not get into the vehicle, or its spectrum is
+                not known there.
+        """
+        return MountForces(self._loaded(load, frequency_hz))
+
+    @one_thread()
+    def paths(
+        self,
+        point: str | None = None,
+        direction: str = "vertical",
+        load: str | None = None,
+        *,
+        by: By = "mount",
+        frequency_hz: float | None = None,
+    ) -> ResponsePaths:
+        """Return what of the acceleration at a point comes through which mount or other connection.
+
+        Args:
+            point: name of a response point; None: the driver's.
+            direction: "vertical", "lateral" or "fore-aft".
+            load: as of `forces`, as is the frequency.
+            by: "mount", "direction": each direction of each mount, "body": the one at the mount's other
+                end, or "group".
+            frequency_hz: likewise.
+
+        Raises:
+            ModevizError: there is no such point or direction, or as `forces`.
+        """
+        if by not in get_args(By):
+            raise ModevizError(unknown("way to tell paths", by, get_args(By)))
+        solve = partial(self._loaded, load, frequency_hz)
+        return ResponsePaths(point_paths(self.vehicle, point, direction, solve), by)
+
+    def _loaded(self, load: str | None, frequency_hz: float | None) -> LoadedForces:
+        tell = partial(self._tell, "solving")
+        return loaded_forces(
+            self._tuned.prepared_modes(), self.rates.by_group, load, self.speed, frequency_hz, tell
+        )
 
     @one_thread()
     def sensitivity(self, road: str | None = None) -> RateSensitivity:

@@ -39,6 +39,7 @@ def test_modes_json_has_its_documented_structure(printed_json, folder):
         assert set(mode) == {
             "number", "frequency_hz", "frequency_error_hz", "damping_ratio", "name", "name_score",
             "kinetic_energy", "strain_energy",
+            "dissipated_energy",
         }  # fmt: skip
         assert sum(mode["kinetic_energy"].values()) == pytest.approx(1.0)
         assert sum(mode["strain_energy"].values()) == pytest.approx(1.0)

@@ -19,6 +19,8 @@ ASKED = {
     "modes": lambda study: study.modes(),
     "ride": lambda study: study.ride(),
     "wheels": lambda study: study.wheels(),
+    "forces": lambda study: study.forces(),
+    "paths": lambda study: study.paths(),
     "sensitivity": lambda study: study.sensitivity(),
     "optimise": lambda study: study.optimise(starts=1, budget=9),
     "front": lambda study: study.front("lateral against vertical", starts=1, budget=60),

@@ -58,6 +58,8 @@ def test_answers_become_what_the_command_line_prints(study, cabin_folder, printe
         (study.ride("rough"), "psd", "--road", "rough"),
         (study.wheels(), "wheels"),
         (study.static(), "static"),
+        (study.forces(), "forces", "--all"),
+        (study.paths("seat", "lateral", LOAD), "paths", "--direction", "lateral", "--load", LOAD),
         (study.scatter(40, seed=3), "scatter", "--samples", "40", "--seed", "3"),
         (study.optimise(starts=2), "optimise", "--starts", "2"),
     ):
@@ -72,6 +74,8 @@ def test_answers_print_what_the_command_line_prints(study, cabin_folder, capsys)
         (study.ride(), "psd"),
         (study.wheels(), "wheels"),
         (study.static(), "static"),
+        (study.forces(), "forces"),
+        (study.paths(), "paths"),
     ):
         capsys.readouterr()
         assert main([command, cabin_folder, "--set", "A.lateral=200 N/mm"]) == 0
