@@ -63,7 +63,7 @@ def read_mesh(
     if suffix not in READERS:
         raise VehicleError(f"{path}: found {suffix!r}, expected one of {', '.join(READERS)}")
     content = read_bytes(path, LARGEST_FILE)
-    with located(path):
+    with located(path), np.errstate(all="ignore"):  # what is not finite is refused in the end
         found = READERS[suffix](content, Material(color), partial(_beside, path.parent))
         if not found.parts:
             raise VehicleError("found no triangles")

@@ -3,6 +3,7 @@
 import itertools
 import random
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -110,6 +111,23 @@ def test_the_unit_is_the_files_unless_another_is_said(read):
     inches = dae(asset='<unit name="inch" meter="0.0254"/><up_axis>Z_UP</up_axis>')
     np.testing.assert_allclose(corners(read(inches)), 0.0254 * SQUARE)
     np.testing.assert_allclose(corners(read(inches, length=1e-3)), 1e-3 * SQUARE)
+
+
+@pytest.mark.parametrize(
+    "place",
+    [
+        "<rotate>inf 0 0 90</rotate>",
+        "<rotate>0 0 1 inf</rotate>",
+        "<scale>1e308 1 1</scale><scale>1e308 1 1</scale><scale>0 1 1</scale>",
+        "<matrix>nan 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>",
+    ],
+)
+def test_places_beyond_all_numbers_are_refused_without_a_warning(read, place):
+    node = '<node>{}<node><scale>0 1 1</scale><instance_geometry url="#g"/></node></node>'
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(VehicleError, match=r"not finite|expected"):
+            read(dae(nodes=node.format(place)))
 
 
 def test_axes_that_are_said_count_instead_of_the_files(read):

@@ -169,14 +169,17 @@ def test_quantised_places_are_scaled(read):
     np.testing.assert_allclose(second.vertices, rows[:, :3])
 
 
-def test_signalling_nans_are_refused_without_a_warning(complaint):
+@pytest.mark.parametrize("suffix", [".glb", ".ply", ".stl"])
+def test_signalling_nans_are_refused_without_a_warning(complaint, suffix):
     glb = GlbFile()
     glb.surface(glb.square())
-    corner = np.float32(1).tobytes()
-    content = glb.content().replace(corner, b"\1\0\x80\x7f", 1)
+    contents = {".glb": glb.content(), ".ply": binary_ply([[0, 1, 2, 3]]), ".stl": stl(*HALVES)}
+    one, signalling = np.float32(1).tobytes(), b"\1\0\x80\x7f"
+    place = contents[suffix].rindex(one)
+    content = contents[suffix][:place] + signalling + contents[suffix][place + 4 :]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert "not finite" in complaint(content)
+        assert "not finite" in complaint(content, suffix)
 
 
 def test_sparse_rows_replace_those_of_the_view_or_zeros(read):

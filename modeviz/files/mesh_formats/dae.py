@@ -142,8 +142,7 @@ def _matrix(node: Element) -> Floats:
                 step[:3, :3] = _rotation(np.array(axis), np.radians(angle))
             case "skew" | "lookat":
                 raise VehicleError(f"<{element.tag}> in <node>: is not read, expected <matrix>")
-        with np.errstate(all="ignore"):  # what is not finite is refused when the mesh is made
-            matrix = matrix @ step
+        matrix = matrix @ step
     return matrix
 
 
@@ -171,8 +170,7 @@ def _part(dae: Dae, placed: Placed, primitive: Element, plain: Material) -> RawP
             f"<{primitive.tag}>: a face names vertex {wrong}; there are {len(positions)}, from 0"
         )
     drawn, numbered = used(np.arange(len(positions)), faces)
-    with np.errstate(all="ignore"):
-        vertices = positions[drawn] @ placed.place[:3, :3].T + placed.place[:3, 3]
+    vertices = positions[drawn] @ placed.place[:3, :3].T + placed.place[:3, 3]
     material = placed.materials.get(primitive.get("material", ""))
     return RawPart(placed.name, vertices, numbered, material_of(dae, material, plain))
 

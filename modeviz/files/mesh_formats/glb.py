@@ -164,5 +164,4 @@ def _triangles(corners: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
 
 
 def _moved(vertices: Floats, place: Floats) -> Floats:
-    with np.errstate(all="ignore"):  # what is not finite is refused when the mesh is made
-        return vertices @ place[:3, :3].T + place[:3, 3]
+    return vertices @ place[:3, :3].T + place[:3, 3]

@@ -47,8 +47,7 @@ def scaled(stored: Array, accessor: Accessor) -> Array:
 
     glTF 2.0 specification, section 3.6.2.2, and KHR_mesh_quantization.
     """
-    with np.errstate(invalid="ignore"):  # of what is no number, which is refused where it counts
-        numbers = stored.astype(float)
+    numbers = stored.astype(float)
     if not accessor.normalized or stored.dtype.kind == "f":
         return numbers
     return np.maximum(numbers / np.iinfo(stored.dtype).max, -1.0)

@@ -46,8 +46,7 @@ class RawMesh:
         """
         unit = length or self.length or usual
         T = turn if turn is not None else self.up
-        with np.errstate(all="ignore"):  # what is not finite is refused when the mesh is made
-            return mesh([replace(p, vertices=_turned(p.vertices, T) * unit) for p in self.parts])
+        return mesh([replace(p, vertices=_turned(p.vertices, T) * unit) for p in self.parts])
 
 
 def _turned(vertices: Array, T: Floats | None) -> Array:

@@ -49,8 +49,7 @@ def _binary_corners(content: bytes, n_faces: int) -> Floats:
         raise VehicleError(f"is cut: found {n_found} of its {n_faces} faces")
     check_size("faces", n_faces, MOST_POINTS)
     corners = np.frombuffer(content, FACE, n_faces, HEADER)["corners"].reshape(-1, 3)
-    with np.errstate(invalid="ignore"):  # what is no number is refused when the mesh is made
-        return corners.astype(float)
+    return corners.astype(float)
 
 
 def _text_corners(content: bytes) -> Floats:
