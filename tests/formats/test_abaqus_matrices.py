@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scipy.io
 import scipy.linalg
+from damage import within_bounds
 from free_network import CORNERS, LABELS, free_network
 
 from modeviz.errors import VehicleError
@@ -188,7 +189,12 @@ GOOD = substructure()
         (GOOD[GOOD.index("*MATRIX") :], "stands before"),
         (GOOD + GOOD, "several elements"),
         ("", "neither Matrix Market's nor Abaqus's"),
-        ("11,1,12,1\n", "lines of 4 numbers"),
+        ("11,1,12,1\n", "found '11,1,12,1', expected node, direction, node, direction and value"),
+        ("1,2,3,4\n" * 5_000_000, "found '1,2,3,4', expected node, direction"),
+        ("1" * 20_000_000, "a line of more than 10,000 letters"),
+        ("*A\n" * 1_000_000, "found 1,001 keywords, expected at most 1,000"),
+        (GOOD[: GOOD.index("*MATRIX")] + "1,2,3\n" * 5_000_000, "100,001 lines with directions"),
+        (GOOD.replace("*MATRIX,TYPE=MASS\n", "9.0,9.0\n" * 5_000_000), "expected 300 of the lower"),
         ("11,1,12,1,x\n", "neither Matrix Market's nor Abaqus's"),
         ("11,1,12.5,1,4.0\n", "no whole numbers"),
         ("-3,1,12,1,4.0\n", "node -3, an internal one"),
@@ -199,5 +205,6 @@ GOOD = substructure()
     ],
 )
 def test_damaged_files_are_refused_in_a_sentence(read, text, words):
-    with pytest.raises(VehicleError, match=words):
+    """At once, however long they are."""
+    with within_bounds(), pytest.raises(VehicleError, match=words):
         read(K=text, M=entries(M, by_labels))

@@ -109,7 +109,9 @@ GOOD, GOOD_73 = saved(SPARSE), saved_73(SPARSE)
     ("content", "words"),
     [
         (b"", "has no square matrix"),
-        (b"\0" * 200, r"no whole .mat file|no square matrix"),
+        (b"\0" * 50_000_000, "no .mat file, or a damaged one"),
+        ((bytes(16) + b"\2\0\0\0a\0") * 100_001, "found 100,001 variables, expected at most"),
+        (GOOD[:128] + bytes(8) * 100_001, "found 100,001 variables, expected at most"),
         (GOOD[:700], "is cut or damaged"),
         (saved(ARRAYS, do_compression=True)[:300], "is cut or damaged"),
         (

@@ -9,15 +9,17 @@ The package abaqus-mtx-parser reads the first of these alone, without checks: th
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import chain, groupby, islice
 from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
 
 from modeviz.errors import VehicleError, located, quoted
-from modeviz.files.disk import read_text
+from modeviz.files.disk import opened
 from modeviz.files.limits import check_size
 from modeviz.formats.limits import LARGEST_FILE
+from modeviz.formats.matrices.lines import lines_of
 from modeviz.formats.named_matrices import MOST_ENTRIES, NamedMatrix, from_entries
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -27,7 +29,12 @@ HELD = 1e36
 MOST_NODES = 100_000
 """Of a substructure, whose matrices are full."""
 
-_KEYWORD = re.compile(r"^\*(?!\*)(.*)$", re.MULTILINE)
+MOST_KEYWORDS = 1000
+
+AT_ONCE = 10_000
+"""Lines whose numbers are read together."""
+
+ENTRY = "node, direction, node, direction and value, or row, column and value"
 
 
 def read_abaqus(path: Path) -> list[NamedMatrix]:
@@ -36,51 +43,68 @@ def read_abaqus(path: Path) -> list[NamedMatrix]:
     Raises:
         VehicleError: the file is damaged or none of these, or has a direction that is held.
     """
-    text = read_text(path, LARGEST_FILE)
-    with located(path):
-        if _KEYWORD.search(text):
-            return list(_substructure(text))
-        return [_of_model(path.stem, text)]
+    with opened(path, LARGEST_FILE) as file, located(path):
+        lines = (line.strip() for line in lines_of(file))
+        first = next((line for line in lines if line and not line.startswith("**")), "")
+        lines = chain([first], lines)
+        if first.startswith("*"):
+            return list(_substructure(lines))
+        return [_of_model(path.stem, lines)]
 
 
-def _substructure(text: str) -> Iterator[NamedMatrix]:
+def _substructure(lines: Iterator[str]) -> Iterator[NamedMatrix]:
     labels: Array | None = None
-    for keyword, options, comments, lines in _blocks(text):
+    for keyword, options, body in _blocks(lines):
         if keyword == "USER ELEMENT":
             if labels is not None:
                 raise VehicleError("found several elements, expected the matrices of one substructure")
-            labels = _labels(options, comments, lines)
+            labels = _labels(options, body)
         elif keyword == "MATRIX":
             if labels is None:
                 raise VehicleError("*MATRIX: stands before *USER ELEMENT, which names its nodes")
             with located(f"*MATRIX, TYPE={options.get('TYPE', '')}"):
-                matrix = _filled(_numbers(lines), len(labels))
+                matrix = _filled(_numbers(_data(body), len(labels) ** 2), len(labels))
             yield NamedMatrix(options.get("TYPE", "matrix"), matrix, labels)
 
 
-def _blocks(text: str) -> Iterator[tuple[str, dict[str, str], list[str], list[str]]]:
-    """Keywords with their options, their comments, and their lines of data."""
-    found = list(_KEYWORD.finditer(text))
-    for match, end in zip(found, [*(m.start() for m in found[1:]), len(text)], strict=True):
-        name, *options = (part.strip().upper() for part in match[1].split(","))
+def _blocks(lines: Iterator[str]) -> Iterator[tuple[str, dict[str, str], Iterator[str]]]:
+    """Keywords with their options and the lines that follow them, of which the first is one."""
+    n_keywords = 0
+
+    def block(line: str) -> int:
+        nonlocal n_keywords
+        n_keywords += line.startswith("*") and not line.startswith("**")
+        check_size("keywords", n_keywords, MOST_KEYWORDS)
+        return n_keywords
+
+    for _, body in groupby(lines, block):
+        name, *options = (part.strip().upper() for part in next(body)[1:].split(","))
         pairs = (option.partition("=") for option in options)
-        body = text[match.end() : end].splitlines()
-        comments = [line[2:] for line in body if line.startswith("**")]
-        lines = [line for line in body if line.strip() and not line.startswith("**")]
-        yield name, {key.strip(): value.strip() for key, _, value in pairs}, comments, lines
+        yield name, {key.strip(): value.strip() for key, _, value in pairs}, body
 
 
-def _labels(options: dict[str, str], comments: Sequence[str], lines: Sequence[str]) -> Array:
+def _data(lines: Iterator[str]) -> Iterator[str]:
+    """The lines that are neither empty nor comments."""
+    return (line for line in lines if line and not line.startswith("**"))
+
+
+def _labels(options: dict[str, str], lines: Iterator[str]) -> Array:
     """The node and the direction of each row, (n_dofs, 2)."""
-    wholes = [_wholes(line) for line in comments if re.fullmatch(r"[\s\d,]+", line)]
-    nodes = [node for line in wholes for node in line]
+    nodes: list[int] = []
+    changes: list[list[int]] = []
+    for line in lines:
+        if not line.startswith("**"):
+            changes += [_wholes(line)] if line else []
+            check_size("lines with directions of a substructure", len(changes), MOST_NODES)
+        elif re.fullmatch(r"[\s\d,]+", line[2:]):
+            nodes += _wholes(line[2:])
+            check_size("nodes of a substructure", len(nodes), MOST_NODES)
     n_nodes = options.get("NODES", "")
     if not nodes or str(len(nodes)) != n_nodes:
         raise VehicleError(
             f"*USER ELEMENT: found NODES={n_nodes} and {len(nodes)} numbers under ** ELEMENT NODES"
         )
-    check_size("nodes of a substructure", len(nodes), MOST_NODES)
-    directions = _directions([_wholes(line) for line in lines], len(nodes))
+    directions = _directions(changes, len(nodes))
     counts = [len(those) for those in directions]
     return np.column_stack([np.repeat(nodes, counts), [d for those in directions for d in those]])
 
@@ -108,11 +132,17 @@ def _directions(lines: Sequence[Sequence[int]], n_nodes: int) -> list[Sequence[i
     return every
 
 
-def _numbers(lines: Sequence[str]) -> Floats:
-    try:
-        return np.array(" ".join(lines).replace(",", " ").replace("D", "E").split(), float)
-    except ValueError as error:
-        raise VehicleError(f"found no numbers ({error})") from None
+def _numbers(lines: Iterator[str], most: int) -> Floats:
+    """All numbers of lines, or a few more than most."""
+    parts = [np.zeros(0)]
+    n_found = 0
+    while n_found <= most and (some := list(islice(lines, AT_ONCE))):
+        try:
+            parts.append(np.array(" ".join(some).replace(",", " ").replace("D", "E").split(), float))
+        except ValueError as error:
+            raise VehicleError(f"found no numbers ({error})") from None
+        n_found += len(parts[-1])
+    return np.concatenate(parts)
 
 
 def _filled(numbers: Floats, n: int) -> sp.csc_array:
@@ -129,21 +159,22 @@ def _filled(numbers: Floats, n: int) -> sp.csc_array:
     return sp.csc_array(lower + np.tril(lower, -1).T)
 
 
-def _of_model(name: str, text: str) -> NamedMatrix:
+def _of_model(name: str, lines: Iterator[str]) -> NamedMatrix:
     """The matrix of a whole model, an entry a line."""
-    check_size("entries in a matrix", text.count("\n"), MOST_ENTRIES)
-    lines = (line for line in text.splitlines() if line.strip() and not line.startswith("**"))
-    try:
-        first = next(lines)
-        separator = "," if "," in first else None
-        table = np.loadtxt([first, *lines], delimiter=separator, ndmin=2, comments=None)
-    except (StopIteration, ValueError) as error:
-        raise VehicleError(f"is neither Matrix Market's nor Abaqus's ({error})") from None
-    if table.shape[1] not in (3, 5):
+    data = _data(lines)
+    first = next(data, "")
+    separator = "," if "," in first else None
+    if len(first.split(separator)) not in (3, 5):
         raise VehicleError(
-            f"found lines of {table.shape[1]} numbers, expected node, direction, node, direction and "
-            "value, or row, column and value"
+            f"is neither Matrix Market's nor Abaqus's: found {quoted(first)}, expected {ENTRY}"
         )
+    try:
+        table = np.loadtxt(
+            chain([first], data), delimiter=separator, ndmin=2, comments=None, max_rows=MOST_ENTRIES
+        )
+    except ValueError as error:
+        raise VehicleError(f"is neither Matrix Market's nor Abaqus's ({error})") from None
+    check_size("entries in a matrix", len(table) + 1, MOST_ENTRIES)
     places, values = table[:, :-1], table[:, -1]
     if not (places == np.round(places)).all() or np.abs(places).max() >= 2**53:
         raise VehicleError("found places in the matrix that are no whole numbers")

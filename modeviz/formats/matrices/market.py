@@ -17,6 +17,7 @@ from modeviz.errors import VehicleError, cut, located, quoted
 from modeviz.files.disk import opened
 from modeviz.files.limits import check_size
 from modeviz.formats.limits import LARGEST_FILE
+from modeviz.formats.matrices.lines import LONGEST_LINE
 from modeviz.formats.named_matrices import MOST_DOFS, MOST_ENTRIES, NamedMatrix, from_entries
 from modeviz.vehicle.arrays import Array, Floats
 
@@ -26,9 +27,6 @@ SIZES = {"coordinate": 3, "array": 2}
 """Numbers in the line with the size of each kind of matrix."""
 
 SYMMETRIES = ("general", "symmetric")
-
-LONGEST_LINE = 10_000
-"""Letters."""
 
 
 def read_market(path: Path) -> list[NamedMatrix]:

@@ -8,6 +8,7 @@ damaged files make it read beyond its memory.
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 import scipy.sparse as sp
@@ -29,6 +30,9 @@ COMPLEX = 0x800
 
 NUMBERS_4 = ("f8", "f4", "i4", "i2", "u2", "u1")
 """By the tens of a type of version 4."""
+
+MOST_VARIABLES = 100_000
+"""In a file, whether they are matrices or not."""
 
 HEADER = 128
 """Bytes of text, version and byte order before the elements."""
@@ -72,7 +76,8 @@ def variables(content: bytes) -> Iterator[tuple[str, sp.csc_array | Array]]:
     if order is None:
         yield from _of_version_4(content)
         return
-    for kind, element in Elements(content[HEADER:], order):
+    for number, (kind, element) in enumerate(Elements(content[HEADER:], order), 1):
+        check_size("variables", number, MOST_VARIABLES)
         if kind == PACKED:
             kind, element = next(iter(Elements(_unpacked(element), order)), (0, b""))
         if kind == MATRIX:
@@ -93,11 +98,12 @@ def _unpacked(element: bytes) -> bytes:
 
 def _matrix(elements: Elements) -> Iterator[tuple[str, sp.csc_array | Array]]:
     """The array of an element, if it is a numeric one in two dimensions."""
-    parts = list(elements)
-    if len(parts) < 3:
+    parts = iter(elements)
+    head = list(islice(parts, 3))
+    if len(head) < 3:
         return
-    flags, shape = _numbers(parts[0], elements.order), _numbers(parts[1], elements.order)
-    name = parts[2][1].decode("latin-1")
+    flags, shape = (_numbers(part, elements.order) for part in head[:2])
+    name = head[2][1].decode("latin-1")
     kind = int(flags[0]) & 0xFF if len(flags) else 0
     if len(shape) != 2 or not (kind == SPARSE or FIRST_NUMERIC <= kind <= LAST_NUMERIC):
         return
@@ -107,7 +113,7 @@ def _matrix(elements: Elements) -> Iterator[tuple[str, sp.csc_array | Array]]:
     if min(n_rows, n_columns) < 0:
         raise VehicleError(f"variable {quoted(name)}: found {n_rows} by {n_columns} numbers")
     check_size("degrees of freedom in a matrix", max(n_rows, n_columns), MOST_DOFS)
-    data = [_numbers(part, elements.order) for part in parts[3:]]
+    data = [_numbers(part, elements.order) for part in islice(parts, 3)]
     if kind == SPARSE:
         yield name, _sparse(name, data, (n_rows, n_columns))
     elif data and len(data[0]) == n_rows * n_columns:
@@ -146,19 +152,23 @@ def _numbers(part: tuple[int, bytes], order: str) -> Array:
 def _of_version_4(content: bytes) -> Iterator[tuple[str, Array]]:
     """Full variables, each behind five numbers: type, rows, columns, whether complex, letters."""
     place, order = 0, "<" if content[:2] != b"\0\0" or content[:4] == bytes(4) else ">"
+    n_variables = 0
     while place < len(content):
+        n_variables += 1
+        check_size("variables", n_variables, MOST_VARIABLES)
         if place + 20 > len(content):
             raise VehicleError("no whole .mat file: it ends within a variable")
         kind, n_rows, n_columns, is_complex, n_letters = np.frombuffer(
             content, f"{order}i4", 5, place
         ).tolist()
         thousands, tens = kind // 1000, kind // 10 % 10
-        if thousands not in (0, 1) or tens >= len(NUMBERS_4) or is_complex not in (0, 1):
+        is_known = thousands in (0, 1) and tens < len(NUMBERS_4) and is_complex in (0, 1)
+        if not is_known or n_letters < 1:  # the last letter of a name is a zero
             raise VehicleError("no .mat file, or a damaged one")
         number = np.dtype(f"{order}{NUMBERS_4[tens]}")
         begin = place + 20 + n_letters
         end = begin + n_rows * n_columns * number.itemsize * (1 + is_complex)
-        if min(n_rows, n_columns, n_letters) < 0 or end > len(content):
+        if min(n_rows, n_columns) < 0 or end > len(content):
             raise VehicleError("no whole .mat file: a variable ends beyond it")
         name = content[place + 20 : begin].split(b"\0")[0].decode("latin-1")
         if kind % 10 == 0 and not is_complex:
