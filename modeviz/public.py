@@ -9,6 +9,7 @@ from modeviz.files import builtin_vehicle as builtin_vehicle
 from modeviz.files import read_problem as read_problem
 from modeviz.files import read_vehicle as read_vehicle
 from modeviz.files import write_vehicle as write_vehicle
+from modeviz.files.new_vehicle import new_vehicle as new_vehicle
 from modeviz.formats.imported import Imported as Imported
 from modeviz.formats.imported import import_component as import_component
 from modeviz.mounting.statics import Carried as Carried

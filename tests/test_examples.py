@@ -205,3 +205,11 @@ def test_components_of_ones_own_become_a_tuned_vehicle():
     assert tuned < 0.7 * study.ride().rms("seat", "vertical")
     cards = re.findall(r"PBUSH\*\s+\d+\s+K(.{16})(.{16})\s*\n\*.{7}(.{16})", own.cards)
     assert [[1000 * float(k) for k in card] for card in cards] == [pytest.approx(r) for r in rates]
+
+
+def test_an_engine_from_csv_has_the_frequencies_of_a_public_study():
+    """Solved again, independently, from the study's numbers."""
+    engine = example("09_engine_from_csv")
+    known = [10.0739, 11.5762, 14.6973, 16.3353, 19.7130, 31.4272]
+    assert [*engine.frequency_hz.values()] == pytest.approx(known, abs=1e-4)
+    assert all(name.startswith("engine ") for name in engine.frequency_hz)

@@ -15,6 +15,7 @@ from modeviz.cli.export import EXPORT
 from modeviz.cli.forces import FORCES
 from modeviz.cli.importing import IMPORT
 from modeviz.cli.modes import MODES
+from modeviz.cli.new import NEW
 from modeviz.cli.optimise import OPTIMISE
 from modeviz.cli.paths import PATHS
 from modeviz.cli.psd import PSD
@@ -29,6 +30,7 @@ from modeviz.errors import ModevizError, unknown
 
 COMMANDS = (
     VIEW,
+    NEW,
     MODES,
     RIGID,
     PSD,

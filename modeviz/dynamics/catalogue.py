@@ -9,6 +9,8 @@ from modeviz.dynamics.roles import Axle, Unit
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Role
 
+MOTION_WORDS = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
+
 RIDE_SHARE = 0.7
 """A mode with more than this in the rigid motion of the whole vehicle is a ride mode."""
 
@@ -34,8 +36,13 @@ class Shares:
 
     @cached_property
     def ride(self) -> np.ndarray:
-        """A mask of the ride modes, (n_modes,)."""
-        return self.whole.sum(axis=0) > RIDE_SHARE
+        """A mask of the ride modes, (n_modes,); a vehicle that is one unit is called after that."""
+        return (self.whole.sum(axis=0) > RIDE_SHARE) & (not self.is_one)
+
+    @property
+    def is_one(self) -> bool:
+        """Whether the vehicle is a single unit, such as an engine on its mounts."""
+        return len(self.units) == 1 and not self.axles
 
     def of_role(self, role: Role) -> tuple[str, Floats] | None:
         """The word for the unit of a role and its rigid shares, (6, n_modes); None if there is none."""
@@ -46,6 +53,12 @@ class Shares:
 
 def named_motions(shares: Shares) -> dict[str, Floats]:
     """The score (n_modes,) of every mode in each named motion the vehicle can have."""
+    if shares.is_one:
+        word = shares.units[0].word
+        motions = dict(
+            zip((f"{word} {motion}" for motion in MOTION_WORDS), shares.rigid[0], strict=True)
+        )
+        return {**motions, **_frame_motions(shares)}
     scores = {name: s * shares.ride for name, s in _ride_motions(shares).items()}
     for motions in (_wheel_motions, _frame_motions, _body_motions):
         scores |= {name: s * ~shares.ride for name, s in motions(shares).items()}

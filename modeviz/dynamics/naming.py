@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from modeviz.dynamics.assembly import System
-from modeviz.dynamics.catalogue import Shares, named_motions
+from modeviz.dynamics.catalogue import MOTION_WORDS, Shares, named_motions
 from modeviz.dynamics.energy import kinetic_energy
 from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.motions import (
@@ -32,13 +32,14 @@ from modeviz.vehicle.bodies import Body, FlexibleBody
 MINIMUM_SCORE = 0.3
 """Below this a mode is not called by a named motion."""
 
+MINIMUM_OF_ONE = 0.1
+"""The same of a single body on its mounts, whose modes are to have six different names."""
+
 WEAK_SCORE = 0.5
 """Below this most of the mode's energy is in other motions than the one it is called after."""
 
 ALIKE = 9
 """Decimals of scores that count: axles that are alike are called the same however arithmetic rounds."""
-
-MOTION_WORDS = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
 
 
 @dataclass(frozen=True)
@@ -114,7 +115,7 @@ def name_modes(namer: Namer, modes: Modes) -> tuple[ModeName, ...]:
     given = {
         int(mode): ModeName(names[row], float(scores[row, mode]))
         for row, mode in zip(rows, columns, strict=True)
-        if scores[row, mode] >= MINIMUM_SCORE
+        if scores[row, mode] >= (MINIMUM_OF_ONE if shares.is_one else MINIMUM_SCORE)
     }
     return _without_repeats(given.get(i, name) for i, name in enumerate(described))
 

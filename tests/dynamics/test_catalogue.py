@@ -66,4 +66,9 @@ def test_engine_pitch_and_cab_bounce_is_full_where_both_have_half():
         found = scores(units=(CAB, ENGINE), rigid=part * rows)
         assert found["engine pitch and cab bounce"] == pytest.approx(expected)
     assert "engine pitch and cab bounce" not in scores(units=(CAB,), rigid=rows[:1])
-    assert list(scores(units=(ENGINE,), rigid=rows[1:])) == ["engine pitch", "engine roll"]
+
+
+def test_a_single_unit_is_called_after_its_six_motions():
+    rows = np.eye(6)[:, :, None][:1]
+    words = ("fore-aft", "lateral", "bounce", "roll", "pitch", "yaw")
+    assert list(scores(units=(ENGINE,), rigid=rows)) == [f"engine {word}" for word in words]

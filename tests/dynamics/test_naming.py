@@ -49,6 +49,25 @@ def test_the_lowest_bending_of_a_frame_is_its_first_beaming():
     assert found["first beaming"] == pytest.approx(bending, rel=1e-3)
 
 
+def test_an_engine_on_its_mounts_is_called_after_itself():
+    """On four springs at the height of its centre of gravity each mode is one motion."""
+    corners = [(x, y, 0) for x in (-0.3, 0.3) for y in (-0.2, 0.2)]
+    engine = rigid("engine", "powertrain", 100, (0, 0, 0), (4, 6, 7))
+    feet = tuple(
+        link(f"m{i}", ("engine", "ground"), at, (1e5, 2e5, 3e5)) for i, at in enumerate(corners)
+    )
+    found = names_and_frequencies(Vehicle("test", (engine,), feet))
+    expected = {"fore-aft": 4e5 / 100, "lateral": 8e5 / 100, "bounce": 12e5 / 100}
+    expected |= {
+        "roll": 12e5 * 0.04 / 4,
+        "pitch": 12e5 * 0.09 / 6,
+        "yaw": (4e5 * 0.04 + 8e5 * 0.09) / 7,
+    }
+    assert found == pytest.approx(
+        {f"engine {motion}": np.sqrt(square) / (2 * np.pi) for motion, square in expected.items()}
+    )
+
+
 def test_every_mode_has_a_name_of_its_own():
     system = assemble(car())
     modes = solve_modes(system)

@@ -9,6 +9,7 @@ from modeviz.vehicle.local_axes import AXES
 
 CENTER = ("cg_x", "cg_y", "cg_z")
 POINT = ("point_x", "point_y", "point_z")
+CRANK = ("crank_x", "crank_y", "crank_z")
 MOMENTS = ("ixx", "iyy", "izz")
 PRODUCTS = ("ixy", "ixz", "iyz")
 NEGATIVE = tuple(f"-{product}" for product in PRODUCTS)
@@ -18,6 +19,7 @@ KINDS: Mapping[str, Kind] = {
     **dict.fromkeys(("name", "role", "label", "mesh", "mesh_unit", "inertia_at", "note"), "text"),
     "mass": "mass",
     **dict.fromkeys((*CENTER, *POINT), "length"),
+    **dict.fromkeys(CRANK, "number"),
     **dict.fromkeys((*MOMENTS, *PRODUCTS, *NEGATIVE), "inertia"),
 }
 """Every column that is read, and of what its numbers are."""
@@ -32,6 +34,7 @@ def _synonyms() -> Iterator[tuple[str, str]]:
         )
         yield from ((word, center) for word in words.split())
         yield f"inertiapoint{axis}", point
+        yield f"crankaxis{axis}", f"crank_{axis}"
     yield from (("body", "name"), ("m", "mass"), ("weight", "mass"), ("remark", "note"))
     yield from (("comment", "note"), ("inertiaabout", "inertia_at"), ("about", "inertia_at"))
 

@@ -5,11 +5,12 @@ from typing import get_args
 import numpy as np
 
 from modeviz.errors import VehicleError, quoted, unknown
-from modeviz.files.body_tables.columns import CENTER, MOMENTS, POINT, PRODUCTS
+from modeviz.files.body_tables.columns import CENTER, CRANK, MOMENTS, POINT, PRODUCTS
 from modeviz.files.columns import bare
 from modeviz.files.headed_table import TableLine
 from modeviz.files.records.bodies import RigidBodyRecord
 from modeviz.files.records.record import tuples
+from modeviz.files.schema.quantities import Vector
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Role
 from modeviz.vehicle.connections import GROUND
@@ -41,10 +42,20 @@ class BodyLine(TableLine):
             label=self.text("label"),
             mesh=self.text("mesh") or None,
             mesh_unit=self.text("mesh_unit") or None,
+            crank_axis=self._crank(),
             mass=mass,
             center_of_gravity=tuples(center),
             inertia=(*np.diag(inertia).tolist(), *products),
         )
+
+    def _crank(self) -> Vector | None:
+        """The direction of its crank, if the line has one."""
+        direction = self.place(CRANK)
+        if direction is None:
+            return None
+        if not direction.any():
+            raise VehicleError(f"{self.where(CRANK[0])}: found 0, 0, 0, expected a direction")
+        return tuples(direction)
 
     def _above_zero(self, name: str) -> float:
         value = self.number(name)
