@@ -12,10 +12,12 @@ from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
 from modeviz.files.folder import check_is_folder
 from modeviz.files.survey import Problem, Survey, survey
-from modeviz.report.check import Summary, summarised, summary_record
+from modeviz.report.check import summarised, summary_record
 from modeviz.report.check_text import summary_text
+from modeviz.report.stiff_connections import stiff_record, stiff_table
 from modeviz.report.truncation import truncation_doubts
 from modeviz.vehicle.doubts import road_doubts
+from modeviz.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,40 +38,51 @@ def check(options: CheckOptions) -> None:
     folder = options.vehicle or builtin_vehicle()
     check_is_folder(folder)
     found = survey(folder)
-    if found.vehicle and not found.problems:
-        more = (*road_doubts(found.vehicle), *truncation_doubts(found.vehicle))
+    if whole := _whole(found):
+        more = (*road_doubts(whole), *truncation_doubts(whole))
         found = replace(found, doubts=(*found.doubts, *more))
-    summary = summarised(found.vehicle) if found.vehicle else None
-    print_result(
-        _record(folder, found, summary) if options.json else "\n".join(_lines(folder, found, summary))
-    )
+    if options.json:
+        print_result(_record(folder, found))
+    else:
+        print_result("\n".join(_lines(folder, found)))
     if found.problems:
         raise ModevizError(f"{folder}: {_counted(len(found.problems), 'problem')} to put right")
 
 
-def _record(folder: Path, found: Survey, summary: Summary | None) -> dict[str, object]:
-    """`{"folder", "problems": [{"file", "key", "line", "words", "left_out"}], "doubts", "summary"}`."""
+def _whole(found: Survey) -> Vehicle | None:
+    """The vehicle if it is read as it stands, so that it can be told what it feels."""
+    return None if found.problems else found.vehicle
+
+
+def _record(folder: Path, found: Survey) -> dict[str, object]:
+    """`{"folder", "problems": [{"file", "key", "line", "words", "left_out"}], "doubts", "summary",
+    "stiff_connections": of bodies that lack residual vectors, the fields of
+    dynamics.truncation_gap.StiffConnection}`.
+    """
     return {
         "folder": str(folder),
         "problems": [asdict(problem) for problem in found.problems],
         "doubts": list(found.doubts),
-        "summary": summary and summary_record(summary),
+        "summary": found.vehicle and summary_record(summarised(found.vehicle)),
+        "stiff_connections": stiff_record(whole) if (whole := _whole(found)) else [],
     }
 
 
-def _lines(folder: Path, found: Survey, summary: Summary | None) -> Iterator[str]:
+def _lines(folder: Path, found: Survey) -> Iterator[str]:
     problems, doubts = len(found.problems), len(found.doubts)
     yield f"{folder}: {_counted(problems, 'problem')}, {_counted(doubts, 'doubt')}"
     for number, problem in enumerate(found.problems, 1):
         yield f"{number:3d}. {_told(problem)}"
     yield from (f"doubt: {doubt}" for doubt in found.doubts)
     yield ""
-    if summary is None:
+    if found.vehicle is None:
         yield "No body can be read, so there is nothing to sum up."
         return
     if problems:
         yield "What can be read so far:"
-    yield summary_text(summary)
+    yield summary_text(summarised(found.vehicle))
+    if (whole := _whole(found)) and (stiff := stiff_table(whole)):
+        yield f"\nStiffer than a tenth of bodies that lack residual vectors:\n{stiff}"
 
 
 def _told(problem: Problem) -> str:

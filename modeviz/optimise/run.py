@@ -213,7 +213,7 @@ def best_of(
     rates = search.space.rates(best.x)
     n_evaluations = sum(d.evaluations for d in descents)
     tell(Progress(n_evaluations, rates, best.value, len(descents), n_starts, history, is_checking=True))
-    verification = verify(search, best.x, best.value)
+    verification = verify((search,), best.x, (best.value,))
     return Optimum(
         x=best.x,
         rates=rates,

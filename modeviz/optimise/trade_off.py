@@ -55,12 +55,7 @@ class TradeOff:
 
     def verified(self, design: ParetoPoint) -> ParetoPoint:
         """Return the same design with what the full model says of it."""
-        both = [
-            verify(search, design.x, value)
-            for search, value in zip(self.searches, design.values, strict=True)
-        ]
-        worse = int(np.argmax([v.difference for v in both]))  # of which NaN is the largest
-        return replace(design, verification=both[worse])
+        return replace(design, verification=verify(self.searches, design.x, design.values))
 
     def weighted(self, weights: Floats) -> Search:
         """The search for the least of the larger of both goals, each times its weight, (2,)."""

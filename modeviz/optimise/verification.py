@@ -1,5 +1,6 @@
 """The found design held against the full model as given before it is called a result."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,14 +30,15 @@ class Verification:
     none lacks it. Of this the model as given knows nothing."""
 
 
-def verify(search: Search, x: Floats, value: float) -> Verification:
+def verify(searches: Sequence[Search], x: Floats, values: Sequence[float]) -> Verification:
     """Return what the full model says of a design: no receptances, no reduced basis.
 
     Args:
-        search: what was sought.
+        searches: what was sought, in one space and within the same windows.
         x: (n_variables,), the design.
-        value: its goal, as the search found it.
+        values: its goals, as the searches found them; said is of that which differs most.
     """
+    search = searches[0]
     rates = search.space.rates(x)
     frequency_hz, are_kept = np.zeros(0), True
     if search.windows is not None:
@@ -45,10 +47,12 @@ def verify(search: Search, x: Floats, value: float) -> Verification:
         are_kept = all(window.allows(f) for window, f in pairs)
     gap = gap_if_solved(search.space.vehicle.with_rates(rates))
     try:
-        exact = search.goal.exact_value(rates)
+        exact = [search.goal.exact_value(rates) for search in searches]
     except SolveError as error:
         return Verification(np.nan, np.nan, frequency_hz, are_kept, str(error), gap)
-    return Verification(exact, _relative(value, exact), frequency_hz, are_kept, gap=gap)
+    differences = [_relative(value, own) for value, own in zip(values, exact, strict=True)]
+    worst = int(np.argmax(differences))
+    return Verification(exact[worst], differences[worst], frequency_hz, are_kept, gap=gap)
 
 
 def _relative(found: float, exact: float) -> float:

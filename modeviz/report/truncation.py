@@ -1,14 +1,13 @@
-"""Words for how much too stiff bodies are that lack residual vectors, and which connections feel it."""
+"""Words for how much too stiff bodies are that lack residual vectors."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.component_trust import component_trust
 from modeviz.dynamics.truncation_gap import (
-    StiffConnection,
     TruncationGap,
     gap_if_solved,
     on_trial_mounts,
@@ -16,7 +15,7 @@ from modeviz.dynamics.truncation_gap import (
 )
 from modeviz.errors import listed, quoted
 from modeviz.report.components import change_words
-from modeviz.units import factor
+from modeviz.report.stiff_connections import stiff_words
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.residuals import estimated_residual_compliance
 from modeviz.vehicle.vehicle import Vehicle
@@ -42,7 +41,7 @@ def gap_doubts(gap: TruncationGap, vehicle: Vehicle) -> Iterator[str]:
     for body in gap.bodies:
         if stiff := [s for s in stiff_connections(vehicle) if s.body == body]:
             lack = _lack(vehicle.body(body))
-            yield f"body {quoted(body)} {lack} where {_stiff_words(stiff)}"
+            yield f"body {quoted(body)} {lack} where {stiff_words(stiff)}"
     if is_large(gap):
         yield f"{gap_words(gap)}; {REMEDY}"
 
@@ -106,24 +105,3 @@ def _too_high(gap: TruncationGap) -> str:
         else ("an estimate, mostly within a factor of two")
     )
     return f"too high by up to about {100 * gap.change:.2g} % (at {gap.at_hz:.3g} Hz; {sure})"
-
-
-def _stiff_words(every: Sequence[StiffConnection]) -> str:
-    """Which connections are stiff in which directions, and the stiffest of them."""
-    directions: dict[str, str] = {}
-    for stiff in every:
-        directions[stiff.connection] = directions.get(stiff.connection, "") + stiff.direction
-    names = listed(f"{quoted(name)} ({', '.join(along)})" for name, along in directions.items())
-    most = max(every, key=lambda stiff: stiff.stiffness / stiff.local_stiffness)
-    own = "is rigid" if math.isinf(most.stiffness) else f"has {_rate(most.stiffness)} N/mm"
-    return (
-        f"connections are stiffer than a tenth of it: {names}; the most, {quoted(most.connection)} "
-        f"along {most.direction}, {own}, and the body about {_rate(most.local_stiffness)} N/mm at "
-        f"{quoted(most.attachment)}"
-    )
-
-
-def _rate(stiffness: float) -> str:
-    """N/mm, without powers of ten."""
-    value = stiffness / factor("N/mm", "stiffness")
-    return f"{value:,.0f}" if value >= 1000 else f"{value:.3g}"

@@ -17,9 +17,11 @@ from modeviz.fem.attachments import OnNode
 from modeviz.fem.component import flexible_body
 from modeviz.fem.matrices import assemble as assemble_mesh
 from modeviz.files import builtin_vehicle, read_vehicle
+from modeviz.report.stiff_connections import stiff_record, stiff_table
 from modeviz.report.truncation import import_notes, truncation_doubts
 from modeviz.vehicle.connections import Spring
 from modeviz.vehicle.residuals import estimated_residual_compliance, with_residual_compliance
+from modeviz.vehicle.vehicle import Vehicle
 
 
 @pytest.fixture(scope="module")
@@ -99,6 +101,46 @@ def test_connections_that_are_nearly_as_stiff_as_a_body_are_named():
     assert (
         "connections are stiffer than a tenth of it: 'mount 1' (z); the most, 'mount 1' along z" in said
     )
+
+
+def many_on_a_floor(n: int, stiffness: float) -> Vehicle:
+    """A sheet on so many springs at each of its points, each a little softer than the last."""
+    body = sheets()[0].body(24)
+    springs = tuple(
+        Spring(
+            f"spring {n * i + j}",
+            "s",
+            ("floor", "ground"),
+            np.tile(a.position, (2, 1)),
+            stiffness=np.array([0, 0, stiffness * (1 - 0.01 * (n * i + j))]),
+        )
+        for i, a in enumerate(body.attachments)
+        for j in range(n)
+    )
+    return replace(on_trial_mounts(body), connections=springs)
+
+
+def test_of_many_stiff_connections_the_stiffest_are_named_and_the_others_counted():
+    vehicle = many_on_a_floor(6, 1e7)
+    stiff = {s.connection: s.stiffness / s.local_stiffness for s in stiff_connections(vehicle)}
+    order = sorted(stiff, key=stiff.__getitem__, reverse=True)
+    assert len(order) == 24
+    said = next(iter(truncation_doubts(vehicle)))
+    names = ", ".join(f"'{name}' (z)" for name in order[:3])
+    assert f"stiffer than a tenth of it: {names} and 21 more; the most, '{order[0]}' along z" in said
+    assert len(said) < 350
+    lines = stiff_table(vehicle).splitlines()
+    assert [line.split("  ")[0] for line in lines[2:-1]] == order[:20]
+    assert lines[-1] == "and 4 more; --json has all"
+    assert stiff_table(many_on_a_floor(6, 10.0)) == ""
+    assert len(stiff_record(vehicle)) == 24
+
+
+def test_where_words_name_all_stiff_connections_there_is_no_table():
+    vehicle = many_on_a_floor(6, 1e7)
+    few = replace(vehicle, connections=vehicle.connections[:3])
+    assert stiff_table(few) == ""
+    assert len(stiff_record(few)) == 3
 
 
 def test_a_rigid_connection_is_stiff_beside_any_body():

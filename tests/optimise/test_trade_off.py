@@ -6,6 +6,7 @@ from cabin_problem import PROBLEM
 from mounted_cabin import mounted_cabin
 from rounding import CABIN
 
+from modeviz.dynamics.truncation_gap import gap_if_solved
 from modeviz.errors import VehicleError
 from modeviz.optimise.trade_off import Side, prepare_trade_off, sides
 from modeviz.vehicle.loads import ResponsePoint
@@ -52,6 +53,28 @@ def test_both_goals_together_are_the_whole(goal):
         together = max(first, second) if goal == "peak" else first + second
         for search in both.searches:
             assert search.goal.value({}) == pytest.approx(together, rel=CABIN)
+
+
+def test_of_both_goals_the_one_that_differs_more_is_said_and_what_truncation_does_is_found_once(
+    monkeypatch,
+):
+    found = []
+
+    def noted(vehicle):
+        found.append(vehicle.rates)
+        return gap_if_solved(vehicle)
+
+    monkeypatch.setattr("modeviz.optimise.verification.gap_if_solved", noted)
+    vehicle = two_rows()
+    pair = next(iter(sides(vehicle, PROBLEM).values()))
+    trade_off = prepare_trade_off(vehicle, PROBLEM, pair, vehicle.rates, vehicle.speed)
+    design = trade_off.compromise(np.zeros(trade_off.searches[0].space.n_variables))
+    first, second = design.values
+    wrong = replace(design, values=(first, 1.01 * second))
+    verification = trade_off.verified(wrong).verification
+    assert verification.difference == pytest.approx(0.01, rel=1e-6)
+    assert verification.value == pytest.approx(second, rel=CABIN)
+    assert len(found) == 1
 
 
 def test_the_worse_of_two_goals_has_the_parts_of_both():
