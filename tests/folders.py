@@ -23,6 +23,7 @@ from modeviz.vehicle.connections import (
 )
 from modeviz.vehicle.load_cases import LoadCase, StaticLoad
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum, WheelLoad
+from modeviz.vehicle.progressive import ForceCurve
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -74,6 +75,13 @@ def engine() -> RigidBody:
     return RigidBody("Engine & box", "powertrain", "engine", 240.5, np.array([0.1, 0, 0.58]), inertia)
 
 
+def bump_stop() -> ForceCurve:
+    """Harder to one side than to the other."""
+    return ForceCurve(
+        np.array([-0.01, -0.002, 0.005, 0.02 / 3]), np.array([-5e3, -1e3, 2.5e3, 1e4 / 3])
+    )
+
+
 def mount_group() -> MountGroup:
     rates = MountRates(1094000.0, 670000.0, 131000.0 / 3)
     bounds = MountRates(1e5, 1e5, 1e4), MountRates(2e6, 2e6, 2e6)
@@ -90,6 +98,7 @@ def mount_group() -> MountGroup:
         (0.25, 0.8),
         static_ratio=1.45,
         travel={"vertical": (-0.0085, 0.005), "fore-aft": (-0.003, 0.004)},
+        curves={"lateral": bump_stop()},
     )
 
 

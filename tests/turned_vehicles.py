@@ -45,6 +45,7 @@ def turned(vehicle: Vehicle, words: tuple[str, ...]) -> Vehicle:
             g,
             mounts=tuple(_connection(m, words) for m in g.mounts),
             travel={d: _range(d, limits, words) for d, limits in g.travel.items()},
+            curves={d: _curve(d, curve, words) for d, curve in g.curves.items()},
         )
         for g in vehicle.mount_groups
     )
@@ -70,11 +71,19 @@ def turned(vehicle: Vehicle, words: tuple[str, ...]) -> Vehicle:
     )
 
 
-def _range(direction, limits, words):
-    """What is measured along a local axis that is called after one of the vehicle's."""
+def _sign(direction, words):
+    """Whether what is called after a direction is along our axis, 1, or against it, -1."""
     line = {"vertical": 2, "lateral": 1, "fore-aft": 0}[direction]
-    sign = next(sign for other, sign in map(WAYS.__getitem__, words) if other == line)
-    return tuple(sorted(sign * limit for limit in limits))
+    return next(sign for other, sign in map(WAYS.__getitem__, words) if other == line)
+
+
+def _range(direction, limits, words):
+    return tuple(sorted(_sign(direction, words) * limit for limit in limits))
+
+
+def _curve(direction, curve, words):
+    sign = _sign(direction, words)
+    return replace(curve, deflection=sign * curve.deflection[::sign], force=sign * curve.force[::sign])
 
 
 def _load_case(case, words):

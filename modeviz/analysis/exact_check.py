@@ -55,7 +55,7 @@ def check_exactly(results: Results) -> Iterator[Check]:
     exact = solve_modal(results.prepared, results.rates, "exact")
     check = Check(_frequency_error(results.modes, exact.modes), 0.0, 0, len(results.frequency_hz))
     yield check
-    system = results.prepared.system.with_rates(results.rates)
+    system = results.prepared.system_at(results.rates)
     load, speed = results.drive.load, results.conditions.speed
     largest = results.psd.max(axis=0, initial=FLOOR)
     for lines in _coarse_first(len(results.frequency_hz)):

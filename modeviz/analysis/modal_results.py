@@ -47,12 +47,12 @@ class ModalResults:
     @cached_property
     def system(self) -> System:
         """With these rates."""
-        return self.prepared.system.with_rates(self.rates)
+        return self.prepared.system_at(self.rates)
 
     @cached_property
     def vehicle(self) -> Vehicle:
         """With these rates."""
-        return self.prepared.vehicle.with_rates(self.rates)
+        return self.prepared.vehicle_at(self.rates)
 
     @cached_property
     def components(self) -> tuple[ComponentTrust, ...]:

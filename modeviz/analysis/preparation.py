@@ -18,6 +18,7 @@ from modeviz.dynamics.receptance import receptances_along
 from modeviz.dynamics.resonances import Resonances
 from modeviz.dynamics.spacing import placed_lines
 from modeviz.errors import of_file
+from modeviz.mounting.working_point import WorkingPoint, working_point
 from modeviz.ride.excitation import Load, excitation, input_directions, together
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MountRates, Rates
@@ -39,10 +40,26 @@ class PreparedModes:
     """With the vehicle's own rates."""
     basis: EnrichedBasis
     namer: Namer
+    working: WorkingPoint
+    """Where its mounts work, which tells how stiff progressive ones are."""
 
     @property
     def vehicle(self) -> Vehicle:
+        """With its own rates."""
         return self.system.vehicle
+
+    def vehicle_at(self, rates: Rates) -> Vehicle:
+        """Return the vehicle with other rates, progressive mounts as they work then.
+
+        Raises:
+            VehicleError: a group that the vehicle does not have.
+            SolveError: progressive mounts do not settle.
+        """
+        return self.working.vehicle(self.vehicle, rates)
+
+    def system_at(self, rates: Rates) -> System:
+        """Return the system with other rates; raises as `vehicle_at`."""
+        return self.system.with_mounts(self.vehicle_at(rates))
 
     @property
     def n_bytes(self) -> int:
@@ -60,7 +77,7 @@ class PreparedModes:
     @cached_property
     def springs(self) -> MountSprings:
         """The springs of the mounts, at any rates."""
-        return MountSprings(self.vehicle)
+        return MountSprings(self.vehicle, self.working.tangents)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,8 +169,9 @@ def prepare_modes(vehicle: Vehicle, top_hz: float | None = None) -> PreparedMode
     """
     top_hz = vehicle.highest_frequency if top_hz is None else top_hz
     with of_file(vehicle.file):
-        system = with_mode_damping(assemble(vehicle), top_hz)
-        return PreparedModes(system, prepare_basis(system, top_hz), prepare_names(system))
+        working = working_point(vehicle)
+        system = with_mode_damping(assemble(working.vehicle(vehicle, {})), top_hz)
+        return PreparedModes(system, prepare_basis(system, top_hz), prepare_names(system), working)
 
 
 def prepare(
@@ -198,7 +216,7 @@ def _with_responses(
 ) -> Prepared:
     """Return what is ready for modes made ready for responses; arguments and errors as `prepare`."""
     vehicle = modal.vehicle
-    softest = modal.system.with_rates(_soft({g.name: g.bounds[0] for g in vehicle.mount_groups}))
+    softest = modal.system_at(_soft({g.name: g.bounds[0] for g in vehicle.mount_groups}))
     inputs = input_directions(softest)
     points = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
     outputs = np.vstack([np.zeros((0, softest.n_dofs)), *points])
@@ -209,7 +227,15 @@ def _with_responses(
         along = receptances_along(softest, rows)
         between = prepare_between(receptances, modal.basis, (outputs, inputs), along)
     return Prepared(
-        modal.system, modal.basis, modal.namer, receptances, between, is_graded, inputs, outputs
+        modal.system,
+        modal.basis,
+        modal.namer,
+        modal.working,
+        receptances,
+        between,
+        is_graded,
+        inputs,
+        outputs,
     )
 
 

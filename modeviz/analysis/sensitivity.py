@@ -31,11 +31,8 @@ def rate_variables(vehicle: Vehicle) -> tuple[RateVariable, ...]:
 
 
 def spring_shares(prepared: PreparedModes, rates: Rates) -> Complexes:
-    """∂(spring rate)/∂(rate), (n_springs, n_variables): 1 + jg where a spring has that rate.
-
-    Arguments and errors as `MountSprings.loss`.
-    """
-    return prepared.springs.loss(rates)[:, None] * prepared.springs.has_rate
+    """∂(spring rate)/∂(rate), (n_springs, n_variables), complex; raises as `MountSprings.stiffness`."""
+    return prepared.springs.shares(rates)
 
 
 def frequency_sensitivity(results: ModalResults) -> Floats:

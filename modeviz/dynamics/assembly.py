@@ -138,7 +138,10 @@ class System:
         Raises:
             VehicleError: a group that does not exist.
         """
-        vehicle = self.vehicle.with_rates(rates)
+        return self.with_mounts(self.vehicle.with_rates(rates))
+
+    def with_mounts(self, vehicle: Vehicle) -> "System":
+        """The system of the same vehicle with mounts of other rates."""
         change = mount_stiffness(vehicle) - mount_stiffness(self.vehicle)
         return replace(self.with_springs(change), vehicle=vehicle)
 

@@ -1,5 +1,6 @@
 """The complex rates k (1 + jg) of a vehicle's mount springs, at any rates of its groups."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,6 +13,11 @@ from modeviz.vehicle.connections import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 
+def not_progressive(_rates: Rates) -> float:
+    """Return how many times as stiff mounts without curves are where the vehicle stands as unloaded."""
+    return 1.0
+
+
 @dataclass(frozen=True, eq=False)
 class MountSprings:
     """The springs of all mounts: three along the local axes of each, then those about axes.
@@ -21,6 +27,8 @@ class MountSprings:
     """
 
     vehicle: Vehicle
+    tangents: Callable[[Rates], Floats | float] = not_progressive
+    """How many times as stiff each spring is where the vehicle stands as unloaded, (n_springs,)."""
 
     def stiffness(self, rates: Rates) -> Complexes:
         """Return k (1 + jg) with other rates, (n_springs,), N/m and N m/rad.
@@ -30,16 +38,28 @@ class MountSprings:
 
         Raises:
             VehicleError: a group that the vehicle does not have.
+            SolveError: as `tangents`.
         """
+        return self.tangents(rates) * self.unloaded(rates) * self.loss(rates)
+
+    def unloaded(self, rates: Rates) -> Floats:
+        """Return k of mounts without a load, (n_springs,); arguments and errors as `stiffness`."""
         every = self.vehicle.all_rates(rates)
         along = [every[g.name].local() for g in self.vehicle.mount_groups for _ in g.mounts]
-        return np.concatenate([np.ravel(along), self._rotational]) * self.loss(rates)
+        return np.concatenate([np.ravel(along), self._rotational])
 
     def loss(self, rates: Rates) -> Complexes:
         """Return 1 + jg of every spring, (n_springs,); arguments and errors as `stiffness`."""
         every, groups = self.vehicle.all_rates(rates), self.vehicle.mount_groups
         factors = [g.loss_factor_with(every[g.name]) for g in groups for _ in g.mounts]
         return 1 + 1j * np.array(factors)[self.mounts]
+
+    def shares(self, rates: Rates) -> Complexes:
+        """Return ∂(spring rate)/∂(rate of a group), (n_springs, 3 n_groups), complex.
+
+        Progressive mounts are as stiff where they stand as their curve's straight part there, scaled.
+        """
+        return (self.tangents(rates) * self.loss(rates))[:, None] * self.has_rate
 
     @cached_property
     def has_rate(self) -> Floats:

@@ -39,7 +39,7 @@ def _cells(group: MountGroup, mount: Mount, axes: FileAxes) -> Iterator[tuple[st
     yield from zip(("body_1", "body_2"), mount.bodies, strict=True)
     yield from _with_unit("{}", "length", first)
     yield from _with_unit("{}_2", "length", second)
-    yield from _with_unit("k_{}", "stiffness", axes.rates(mount.stiffness))
+    yield from _with_unit("k_{}", "stiffness", axes.rates(mount.stiffness / mount.tangent))
     yield from _with_unit("k_r{}", "rotational_stiffness", axes.rates(mount.rotational_stiffness))
     yield from _with_unit("c_{}", "damping", axes.rates(mount.damping))
     yield from _with_unit("c_r{}", "rotational_damping", axes.rates(mount.rotational_damping))

@@ -20,13 +20,20 @@ import scipy.linalg
 
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.motions import rigid_coordinates
-from modeviz.dynamics.mount_rates import MountSprings, mount_stiffness, static_ratios
+from modeviz.dynamics.mount_rates import (
+    MountSprings,
+    mount_stiffness,
+    rows_of_springs,
+    static_ratios,
+)
 from modeviz.errors import SolveError
 from modeviz.mounting.held import FreeMotions, body_rows, free_motions_of
+from modeviz.mounting.settling import Settling
+from modeviz.mounting.springs import SpringLaws, spring_laws
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.connections import MOTIONS, Rates
 from modeviz.vehicle.load_cases import LoadCase, StaticLoad, usual_if_none
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -95,8 +102,28 @@ class PreparedStatics:
         """(n_dofs, n_cases): what is balanced in each case."""
         return np.stack([held.force for held in self.cases], axis=1)
 
-    def stiffness(self, rates: Rates) -> Floats:
-        """Return the mount springs' rates under a load that stays, (n_springs,), N/m and N m/rad.
+    @cached_property
+    def stretched(self) -> Floats:
+        """R x₀, (n_springs, n_cases)."""
+        return self.system.mount_motions @ self.sag
+
+    @cached_property
+    def spring_names(self) -> tuple[str, ...]:
+        """Of the mount springs: the mount and the motion that it resists."""
+        every = [
+            f"mount {mount.name!r} along {motion}"
+            for mount in self.vehicle.mounts
+            for motion in MOTIONS
+        ]
+        return tuple(every[row] for row in rows_of_springs(self.vehicle))
+
+    @cached_property
+    def laws(self) -> SpringLaws:
+        """What the mount springs do."""
+        return spring_laws(self.vehicle)
+
+    def settling(self, rates: Rates) -> Settling:
+        """Return the mount springs under a load that stays.
 
         Args:
             rates: of the groups that differ from the vehicle's own.
@@ -104,14 +131,18 @@ class PreparedStatics:
         Raises:
             VehicleError: a group that the vehicle does not have.
         """
-        dynamic = self.springs.stiffness(rates).real.astype(np.float64)
-        return dynamic / static_ratios(self.vehicle)
+        unloaded = self.springs.unloaded(rates) / static_ratios(self.vehicle)
+        return Settling(self.laws, unloaded, self.base, self.between_springs)
 
 
-def prepare_statics(system: System) -> PreparedStatics:
-    """Return a vehicle made ready for its load cases at any mount rates.
+def prepare_statics(system: System, cases: Sequence[LoadCase] | None = None) -> PreparedStatics:
+    """Return a vehicle made ready for load cases at any mount rates.
 
     A mount without a rate is given its stiffest in K₀, so that what it could hold is held.
+
+    Args:
+        system: of the vehicle.
+        cases: None: the vehicle's, or the usual ones if it has none.
 
     Raises:
         SolveError: nothing is held in any of the cases, with the reason of the first; or as
@@ -119,16 +150,17 @@ def prepare_statics(system: System) -> PreparedStatics:
     """
     vehicle = system.vehicle
     own = mount_stiffness(vehicle).real
-    stiffest = MountSprings(vehicle).stiffness({g.name: g.bounds[1] for g in vehicle.mount_groups})
-    k0 = np.where(own > 0, own, stiffest.real) / static_ratios(vehicle)
+    stiffest = MountSprings(vehicle).unloaded({g.name: g.bounds[1] for g in vehicle.mount_groups})
+    k0 = np.where(own > 0, own, stiffest) / static_ratios(vehicle)
     standing = system.with_springs((k0 - own).astype(complex))
     free = free_motions_of(standing)
-    cases, refused = _held(free, usual_if_none(vehicle.load_cases))
-    if not cases:
+    every = usual_if_none(vehicle.load_cases) if cases is None else cases
+    held, refused = _held(free, every)
+    if not held:
         raise SolveError(f"load case {refused[0].name!r}: {refused[0].reason}")
-    forces = np.stack([held.force for held in cases], axis=1)
+    forces = np.stack([one.force for one in held], axis=1)
     x = _solved(standing, free, np.hstack([forces, system.mount_motions.T]))
-    return PreparedStatics(system, cases, refused, k0, x[:, : len(cases)], x[:, len(cases) :])
+    return PreparedStatics(system, held, refused, k0, x[:, : len(held)], x[:, len(held) :])
 
 
 def _held(

@@ -8,13 +8,11 @@ import numpy as np
 from modeviz.dynamics.assembly import is_rigid
 from modeviz.dynamics.mount_rates import rows_of_springs
 from modeviz.errors import SolveError, VehicleError, unknown
+from modeviz.mounting.settling import Settling
 from modeviz.mounting.static_system import HeldCase, PreparedStatics, RefusedCase
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Connection, Rates
 from modeviz.vehicle.vehicle import Vehicle
-
-SINGULAR = 1e12
-"""The condition of the springs' equation from which on rounding has more to say than they."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,29 +88,30 @@ def solve_statics(prepared: PreparedStatics, rates: Rates) -> Statics:
 
     Raises:
         VehicleError: a group that the vehicle does not have.
-        SolveError: with these rates nothing holds what a mount held.
+        SolveError: with these rates nothing holds what a mount held, or progressive mounts do not
+            settle.
     """
     vehicle = prepared.vehicle.with_rates(rates)
-    k = prepared.stiffness(rates)
-    x = prepared.sag + prepared.compliance @ _missing(prepared, k)
-    forces = _forces(prepared, x, k[:, None] * (prepared.system.mount_motions @ x))
+    settling = prepared.settling(rates)
+    x = prepared.sag + prepared.compliance @ _missing(prepared, settling)
+    stretched = prepared.system.mount_motions @ x
+    of_mounts = [settling.laws.force(settling.stiffness, d) for d in stretched.T]
+    forces = _forces(prepared, x, np.array(of_mounts).T)
     cases = (
         _case(prepared, vehicle, held, x[:, i], forces[:, i]) for i, held in enumerate(prepared.cases)
     )
     return Statics(vehicle, tuple(cases), prepared.refused)
 
 
-def _missing(prepared: PreparedStatics, stiffness: Floats) -> Floats:
-    """q, (n_springs, n_cases): the forces that springs lack of those that K₀ has.
-
-    (I + Δ R K₀⁻¹Rᵀ) q = -Δ R x₀ with Δ = k - k₀.
-    """
-    change = stiffness - prepared.base
-    equation = np.eye(len(change)) + change[:, None] * prepared.between_springs
-    if change.size and np.linalg.cond(equation) > SINGULAR:
-        raise SolveError("with these mount rates something moves freely that only a mount holds")
-    stretched = prepared.system.mount_motions @ prepared.sag
-    return np.asarray(np.linalg.solve(equation, -change[:, None] * stretched), np.float64)
+def _missing(prepared: PreparedStatics, settling: Settling) -> Floats:
+    """q, (n_springs, n_cases): the forces that springs lack of those that K₀ has."""
+    if not settling.laws.curves:
+        return settling.straight(prepared.stretched)
+    settled = (
+        settling.settled(d, held.case.name, prepared.spring_names)
+        for d, held in zip(prepared.stretched.T, prepared.cases, strict=True)
+    )
+    return np.stack(list(settled), axis=1)
 
 
 def _forces(prepared: PreparedStatics, x: Floats, of_mounts: Floats) -> Floats:

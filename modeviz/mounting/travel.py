@@ -3,11 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from modeviz.mounting.springs import AXIS
 from modeviz.mounting.statics import StaticCase, Statics
-from modeviz.vehicle.connections import DIRECTIONS
-
-AXIS: dict[str, int] = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
-"""Where a direction is among a mount's local x, y, z."""
 
 
 @dataclass(frozen=True)

@@ -155,7 +155,7 @@ class Objective:
             VehicleError: a group that the vehicle does not have.
             SolveError: as `direct_response`.
         """
-        system = self.prepared.system.with_rates(rates)
+        system = self.prepared.system_at(rates)
         return self.exact_response_of(system, self.prepared.mount_stiffness(rates))
 
     def totals(self, stiffness: Complexes) -> Floats:

@@ -151,7 +151,7 @@ class PeakGoal(MinMax):
 
     def exact_value(self, rates: Rates) -> float:
         stiffness = self.prepared.mount_stiffness(rates)
-        return self.exact_total(self.prepared.system.with_rates(rates), stiffness)
+        return self.exact_total(self.prepared.system_at(rates), stiffness)
 
     def exact_total(self, system: System, stiffness: Complexes) -> float:
         """Return the exact value of a system with these mount rates; raises as `direct_response`."""

@@ -8,6 +8,7 @@ from modeviz.analysis.modal_results import ModalResults, solve_modal
 from modeviz.export.catalogue import writer
 from modeviz.export.solution import ExportOptions, Solution
 from modeviz.files.disk import check_each_once, check_writable, write_bytes
+from modeviz.mounting.working_point import working_point
 from modeviz.study.conditions import road_conditions
 from modeviz.study.tuned_vehicle import TunedVehicle
 
@@ -38,7 +39,7 @@ def export_files(
         check_writable(path)
     tuned.conditions(road)  # that there is no such road is said even if no file is of one
     solution = Solution(
-        tuned.vehicle.with_rates(tuned.rates.by_group),
+        working_point(tuned.vehicle).vehicle(tuned.vehicle, tuned.rates.by_group),
         tuned.rates.by_group,
         partial(road_conditions, tuned.vehicle, road, tuned.speed),
         partial(_modes, tuned),

@@ -15,6 +15,7 @@ import numpy as np
 from modeviz.errors import VehicleError, unknown
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats, frozen, frozen_places
+from modeviz.vehicle.progressive import ForceCurve
 
 GROUND = "ground"
 """The name, in place of a body's, of what does not move."""
@@ -135,8 +136,16 @@ class Bolt(Connection):
     """A rigid joint between two flexible bodies, a stiff spring in every direction."""
 
 
+@dataclass(frozen=True, eq=False)
 class Mount(Connection):
     """One rubber mount of a tunable group."""
+
+    tangent: Floats = field(default_factory=lambda: np.ones(3))
+    """(3,): how many times as stiff along its axes it is at its working point as unloaded."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        frozen(self, "tangent", self.tangent, (3,))
 
 
 @dataclass(frozen=True, eq=False)
@@ -329,6 +338,9 @@ class MountGroup:
     """Its rates by those under a load that stays."""
     travel: Travel = field(default_factory=dict)
     """How far its first end may go from its second, m, the least and the most, by direction."""
+    curves: Mapping[str, ForceCurve] = field(default_factory=dict)
+    """By direction, where a mount is progressive; each is scaled so that unloaded it has the group's
+    rate by its static ratio."""
 
     def __post_init__(self) -> None:
         for name in SHARED:
@@ -356,9 +368,12 @@ class MountGroup:
             raise VehicleError(
                 f"{where}: static_ratio: found {self.static_ratio:g}, expected more than zero"
             )
+        for what, directions in (("travel", self.travel), ("curve", self.curves)):
+            for direction in directions:
+                if direction not in DIRECTIONS:
+                    words = unknown("direction", direction, DIRECTIONS)
+                    raise VehicleError(f"{where}: {what}: {words}")
         for direction, (least, most) in self.travel.items():
-            if direction not in DIRECTIONS:
-                raise VehicleError(f"{where}: travel: " + unknown("direction", direction, DIRECTIONS))
             if not least <= 0 <= most or least == most:
                 raise VehicleError(
                     f"{where}: travel: {direction}: found {1e3 * least:g} to {1e3 * most:g} mm, "
@@ -381,7 +396,7 @@ class MountGroup:
         return replace(
             mount,
             group=self.name,
-            stiffness=self.rates.local(),
+            stiffness=mount.tangent * self.rates.local(),
             loss_factor=self.loss_factor,
             **shared,
         )

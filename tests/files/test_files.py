@@ -184,6 +184,7 @@ def numbers(vehicle: Vehicle) -> dict[str, list[np.ndarray]]:
             tyre.wheel_center,
             tyre.trail,
             *map(np.array, group.travel.values()),
+            group.curves["lateral"].deflection,
             vehicle.load_cases[1].loads[1].position,
         ],
         "mass": [body.mass, vehicle.added_masses[0].mass],
@@ -191,7 +192,11 @@ def numbers(vehicle: Vehicle) -> dict[str, list[np.ndarray]]:
         "stiffness": [*(c.stiffness for c in joints), *(r.as_tuple() for r in rates)],
         "rotational_stiffness": [joints[2].rotational_stiffness],
         "damping": [joints[1].damping, joints[3].damping],
-        "force": [vehicle.wheel_loads[1].amplitude, vehicle.load_cases[1].loads[1].force],
+        "force": [
+            vehicle.wheel_loads[1].amplitude,
+            group.curves["lateral"].force,
+            vehicle.load_cases[1].loads[1].force,
+        ],
         "torque": [vehicle.load_cases[1].loads[0].torque],
         "unbalance": [vehicle.wheel_loads[0].amplitude],
         "speed": [vehicle.speed, vehicle.roads[0].speed],
@@ -424,6 +429,37 @@ EDITS = {
         "[-0.0085, 0.005]",
         "[0.005, -0.0085]",
         "mount group 'C1': travel: vertical: found 5 to -8.5 mm, expected the least first",
+    ),
+    "a curve that falls back": (
+        "force = [-5000.0, -1000.0, 2500.0,",
+        "force = [-5000.0, -1000.0, -1000.0,",
+        "mount_group[0].curve[0].force[2]: is not above the value before it; deflections and forces",
+    ),
+    "a curve of fewer forces": (
+        "force = [-5000.0, -1000.0, 2500.0,",
+        "force = [-5000.0, -1000.0,",
+        "mount_group[0].curve[0]: found 4 deflections and 3 forces, expected as many",
+    ),
+    "two curves of a direction": (
+        "[[mount_group.curve]]",
+        "[[mount_group.curve]]\ndirection = 'lateral'\ndeflection = [0, 1]\nforce = [0, 1]\n\n"
+        "[[mount_group.curve]]",
+        "mount_group[0]: curve of 'lateral' is there twice",
+    ),
+    "a curve of nothing": (
+        "deflection = [-0.01",
+        "#",
+        "mount_group[0].curve[0]: found 0 deflections and 4 forces, expected as many",
+    ),
+    "a curve in a file and here": (
+        "deflection = [-0.01",
+        "file = 'x.csv'\ndeflection = [-0.01",
+        "mount_group[0].curve[0]: expected either file, or deflection and force",
+    ),
+    "no rate and no curve": (
+        "vertical = 1094.0, ",
+        "",
+        "mount_group[0].rates.vertical: missing; only a direction that has a [[mount_group.curve]]",
     ),
     "no static ratio": ("static_ratio = 1.45", "static_ratio = 0", "static_ratio: found 0, expected"),
     "file name with a zero": ("roads/road_1.csv", "a\\u0000b", "road[0].file: found 'a\\x00b'"),

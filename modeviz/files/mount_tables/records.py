@@ -13,6 +13,7 @@ from modeviz.files.records.connections import (
     MountGroupRecord,
     MountRecord,
 )
+from modeviz.files.records.progressive import GroupRatesRecord
 from modeviz.files.records.rates import RatesRecord
 from modeviz.files.records.record import Record, said, tuples
 from modeviz.vehicle.arrays import Floats
@@ -106,7 +107,7 @@ def _group(
     softest, stiffest = _bounds(first, named)
     return MountGroupRecord(
         name=name,
-        rates=_rates(first.stiffness[:3], named),
+        rates=GroupRatesRecord(**_rates(first.stiffness[:3], named)),
         loss_factor=first.loss_factor,
         softest=softest,
         stiffest=stiffest,
@@ -135,8 +136,9 @@ def _list(values: Floats | float) -> str:
     return ", ".join(f"{value:.6g}" for value in np.atleast_1d(values))
 
 
-def _rates(stiffness: Floats, named: Mapping[str, str]) -> RatesRecord:
-    return RatesRecord(**{name: float(stiffness[AXES.index(named[name])]) for name in named})
+def _rates(stiffness: Floats, named: Mapping[str, str]) -> dict[str, float]:
+    """Rates by what they are called."""
+    return {name: float(stiffness[AXES.index(named[name])]) for name in named}
 
 
 def _bounds(bushing: Bushing, named: Mapping[str, str]) -> list[RatesRecord | None]:
@@ -158,4 +160,4 @@ def _bounds(bushing: Bushing, named: Mapping[str, str]) -> list[RatesRecord | No
             f"{bushing.where}: the softest rates, {_list(low)} N/m, are not below the stiffest, "
             f"{_list(high)} N/m"
         )
-    return [_rates(low, named), _rates(high, named)]
+    return [RatesRecord(**_rates(bound, named)) for bound in (low, high)]

@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 from msgspec import Meta
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, at_key, check_unique
 from modeviz.files.records.fields import (
     Damping,
     DampingRate,
@@ -28,9 +28,11 @@ from modeviz.files.records.fields import (
     Stiffness,
     VerticalRange,
 )
+from modeviz.files.records.progressive import CurveRecord, GroupRatesRecord
 from modeviz.files.records.rates import RatesRecord
-from modeviz.files.records.record import Record, said, tuples
+from modeviz.files.records.record import Record, built, said, tuples
 from modeviz.files.schema.quantities import UNITLESS
+from modeviz.files.source import Source
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import (
     DIRECTIONS,
@@ -45,6 +47,7 @@ from modeviz.vehicle.connections import (
     Travel,
     usual_bounds,
 )
+from modeviz.vehicle.progressive import ForceCurve
 
 NO_RATES = (0.0, 0.0, 0.0)
 VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -106,7 +109,7 @@ class MountGroupRecord(Record, kw_only=True):
     name: Name
     label: str = ""
     """The name, if not given."""
-    rates: RatesRecord
+    rates: GroupRatesRecord
     loss_factor: Ratio
     softest: RatesRecord | None = None
     stiffest: RatesRecord | None = None
@@ -119,6 +122,7 @@ class MountGroupRecord(Record, kw_only=True):
     static_ratio: Annotated[float, Meta(gt=0), UNITLESS] = USUAL_STATIC_RATIO
     """Its rates by those under a load that stays."""
     travel: TravelRecord | None = None
+    curve: list[CurveRecord] = msgspec.field(default_factory=list)
     mount: list[MountRecord]
 
     @classmethod
@@ -126,19 +130,22 @@ class MountGroupRecord(Record, kw_only=True):
         return cls(
             name=group.name,
             label=group.label,
-            rates=RatesRecord.of(group.rates),
+            rates=GroupRatesRecord.of(group.rates),
             loss_factor=group.loss_factor,
             softest=RatesRecord.of(group.bounds[0]),
             stiffest=RatesRecord.of(group.bounds[1]),
             ratio_limits=group.ratio_limits,
             static_ratio=group.static_ratio,
             travel=TravelRecord.of(group.travel),
+            curve=[CurveRecord.of(direction, curve) for direction, curve in group.curves.items()],
             mount=[MountRecord.of(_own(mount, group)) for mount in group.mounts],
             **{name: tuples(getattr(group, name)) for name in SHARED},
         )
 
-    def build(self) -> MountGroup:
-        rates = self.rates.build()
+    def build(self, source: Source) -> MountGroup:
+        curves = self._curves(source)
+        with at_key("rates"):
+            rates = self.rates.build(curves, self.static_ratio)
         softest, stiffest = usual_bounds(rates)
         return MountGroup(
             self.name,
@@ -153,8 +160,15 @@ class MountGroupRecord(Record, kw_only=True):
             self.ratio_limits,
             static_ratio=self.static_ratio,
             travel=self.travel.build() if self.travel else {},
+            curves=curves,
             **{name: np.array(getattr(self, name)) for name in SHARED},
         )
+
+    def _curves(self, source: Source) -> dict[str, ForceCurve]:
+        """By direction; raises VehicleError for two of one direction."""
+        check_unique("curve of", (curve.direction for curve in self.curve))
+        curves = built(self.curve, "curve", lambda curve: curve.build(source))
+        return dict(zip((curve.direction for curve in self.curve), curves, strict=True))
 
 
 def _own(mount: Mount, group: MountGroup) -> Mount:
