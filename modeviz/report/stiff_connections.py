@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
+from typing import Any
 
 from modeviz.dynamics.truncation_gap import StiffConnection, stiff_connections
 from modeviz.errors import quoted
@@ -65,7 +66,7 @@ def stiff_table(vehicle: Vehicle) -> str:
     return "\n".join([table(header, rows), *more])
 
 
-def stiff_record(vehicle: Vehicle) -> list[dict[str, object]]:
+def stiff_record(vehicle: Vehicle) -> list[dict[str, Any]]:
     """Return all of them as JSON has them, rates in N/m, null of a rigid one."""
     return [
         asdict(stiff) | {"stiffness": None if math.isinf(stiff.stiffness) else stiff.stiffness}

@@ -19,24 +19,6 @@ from modeviz.fem.mesh import FiniteElementMesh
 from modeviz.vehicle.rigid import rigid_motions
 
 
-@pytest.fixture(scope="module")
-def body():
-    return assemble(twisted_plate())
-
-
-@pytest.fixture(scope="module")
-def modes(body):
-    return free_modes(body, 16)
-
-
-@pytest.fixture(scope="module")
-def loads(body):
-    """Forces and couples at four nodes, none of them balanced; two are the same."""
-    f = np.zeros((body.n_dofs, 6))
-    f[[2, 6 * 48 + 2, 6 * 24, 6 * 30 + 3, 6 * 6 + 1, 2], np.arange(6)] = 1.0
-    return f
-
-
 def test_free_body_has_six_zero_modes(modes):
     assert (modes.omega_n_squared[:6] == 0).all()
     assert (modes.omega_n_squared[6:] > (2 * np.pi) ** 2).all()

@@ -3,31 +3,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.linalg
-from small_meshes import bar, twisted_plate
+from small_meshes import bar
 
 from modeviz.fem.free import free_modes, static_response
 from modeviz.fem.matrices import assemble
 from modeviz.fem.residuals import dynamic_residual_vectors, residual_response, residual_vectors
 
 BOTH = pytest.mark.parametrize("vectors", [residual_vectors, dynamic_residual_vectors])
-
-
-@pytest.fixture(scope="module")
-def body():
-    return assemble(twisted_plate())
-
-
-@pytest.fixture(scope="module")
-def modes(body):
-    return free_modes(body, 16)
-
-
-@pytest.fixture(scope="module")
-def loads(body):
-    """Forces and couples at four nodes, none of them balanced; two are the same."""
-    f = np.zeros((body.n_dofs, 6))
-    f[[2, 6 * 48 + 2, 6 * 24, 6 * 30 + 3, 6 * 6 + 1, 2], np.arange(6)] = 1.0
-    return f
 
 
 @BOTH

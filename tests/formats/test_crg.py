@@ -231,7 +231,7 @@ def test_a_road_without_enough_of_one_is_refused(change, expected):
 
 
 TOML = """name = "block"
-{axes}
+
 [units]
 length = "in"
 mass = "kg"
@@ -255,14 +255,26 @@ wheel_center = [0, {y}, 10]
 
 
 @pytest.fixture
-def vehicle(tmp_path):
-    """A folder in inches, with tyres 1.5 m apart."""
+def block(tmp_path):
+    """A folder of a vehicle in inches, without tyres."""
     folder = tmp_path / "vehicle"
     folder.mkdir()
+    (folder / "vehicle.toml").write_text(TOML)
+    return folder
+
+
+@pytest.fixture
+def vehicle(block):
+    """The same with tyres 1.5 m apart."""
     y = 0.75 / INCH
     tyres = TYRE.format(name="left", y=-y) + TYRE.format(name="right", y=y)
-    (folder / "vehicle.toml").write_text(TOML.format(axes="") + tyres)
-    return folder
+    (block / "vehicle.toml").write_text(TOML + tyres)
+    return block
+
+
+def put(path, folder, *options) -> int:
+    """What `modeviz import` ends with that puts a road into a folder."""
+    return main(["import", str(path), "--output", str(folder), *options])
 
 
 def test_an_imported_road_is_driven_as_it_was_measured(vehicle, tmp_path, capsys):
@@ -272,7 +284,7 @@ def test_an_imported_road_is_driven_as_it_was_measured(vehicle, tmp_path, capsys
     path = tmp_path / "proving ground.crg"
     path.write_bytes(crg(z, 0.05, [-0.75, 0, 0.75], "KDBI"))
     before = (vehicle / "vehicle.toml").read_text()
-    assert main(["import", str(path), "--output", str(vehicle)]) == 0
+    assert put(path, vehicle) == 0
     assert (vehicle / "vehicle.toml").read_text().startswith(before)
     said = capsys.readouterr().out
     (road,) = read_vehicle(vehicle).roads
@@ -281,26 +293,23 @@ def test_an_imported_road_is_driven_as_it_was_measured(vehicle, tmp_path, capsys
     np.testing.assert_allclose(road.spectrum, expected.spectrum, rtol=1e-12, atol=1e-20)
     np.testing.assert_allclose(road.frequency_hz / road.speed, expected.spatial_frequency)
     assert re.search(r"tracks 1.5 m apart over 399.95 m: RMS (29|30).* left, (9|10).* right", said)
-    assert main(["import", str(path), "--output", str(vehicle)]) == 2
+    assert put(path, vehicle) == 2
     assert "has a road 'proving ground' already" in capsys.readouterr().err
-    assert main(["import", str(path), "--output", str(vehicle), "--name", "again"]) == 0
+    assert put(path, vehicle, "--name", "again") == 0
     assert [r.name for r in read_vehicle(vehicle).roads] == ["proving ground", "again"]
 
 
-def test_a_vehicle_without_tyres_needs_the_track_width(tmp_path, capsys):
-    folder = tmp_path / "vehicle"
-    folder.mkdir()
-    (folder / "vehicle.toml").write_text(TOML.format(axes=""))
+def test_a_vehicle_without_tyres_needs_the_track_width(block, tmp_path, capsys):
     path = tmp_path / "road.crg"
     path.write_bytes(crg(np.random.default_rng(1).normal(0, 0.01, (2000, 3)), 0.05, [-2, 0, 2]))
-    assert main(["import", str(path), "--output", str(folder)]) == 2
+    assert put(path, block) == 2
     said = capsys.readouterr().err
     assert "the vehicle has no tyres on both sides" in said
     assert "or say it with --track-width" in said
-    assert main(["import", str(path), "--output", str(folder), "--track-width", "0"]) == 2
+    assert put(path, block, "--track-width", "0") == 2
     assert "--track-width: found 0 m" in capsys.readouterr().err
-    assert main(["import", str(path), "--output", str(folder), "--track-width", "1.4"]) == 0
-    assert len(read_vehicle(folder).roads) == 1
+    assert put(path, block, "--track-width", "1.4") == 0
+    assert len(read_vehicle(block).roads) == 1
 
 
 @pytest.mark.shared
@@ -422,7 +431,7 @@ def test_a_bad_file_is_refused_in_one_sentence_and_changes_nothing(vehicle, tmp_
     path = tmp_path / "road.crg"
     path.write_bytes(content)
     before = {p.name: p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()}
-    assert main(["import", str(path), "--output", str(vehicle)]) == 2
+    assert put(path, vehicle) == 2
     error = capsys.readouterr().err.splitlines()[-1]
     assert "road.crg" in error
     assert expected in error

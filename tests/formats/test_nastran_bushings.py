@@ -31,14 +31,24 @@ def grids(numbers, places, output=0):
 
 
 @pytest.fixture
-def read(tmp_path):
+def deck(tmp_path):
+    """An input file of cards."""
+
+    def deck(*cards) -> Path:
+        path = tmp_path / "joints.bdf"
+        path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]) + "\n")
+        return path
+
+    return deck
+
+
+@pytest.fixture
+def read(deck):
     """The bushings of cards, and what is said of them."""
 
     def read(*cards, frequency=None, bodies=(), units=MM):
-        path = tmp_path / "joints.bdf"
-        path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]) + "\n")
         notes = []
-        return read_bushings(path, units, frequency, bodies, notes.append), notes
+        return read_bushings(deck(*cards), units, frequency, bodies, notes.append), notes
 
     return read
 
@@ -54,13 +64,33 @@ def pair(networks, tmp_path):
     return Path(shutil.copytree(networks, tmp_path / "pair"))
 
 
+def put(path, folder, *options, units="mm-t-s") -> int:
+    """What `modeviz import` ends with that puts a file into a folder."""
+    return main(["import", str(path), "--output", str(folder), "--units", units, *options])
+
+
+def there_and_back(table, pair, networks, *options):
+    """The vehicle with the mounts of a table, and that with those of its cards; they vibrate alike."""
+    path = pair.parent / "mounts.csv"
+    path.write_text("\n".join(table))
+    assert main(["import", str(path), "--output", str(pair)]) == 0
+    cards = pair.parent / "rates.bdf"
+    assert main(["export", str(pair), str(cards)]) == 0
+    again = Path(shutil.copytree(networks, pair.parent / "again"))
+    assert put(cards, again, *options) == 0
+    first, second = (read_vehicle(folder) for folder in (pair, again))
+    frequencies = [solve_modes(assemble(vehicle)).frequency_hz[6:] for vehicle in (first, second)]
+    np.testing.assert_allclose(*frequencies, rtol=1e-9)
+    return second
+
+
 TWO = grids([1, 2], [[0, 0, 0], [100, 0, 0]])
 PBUSH = "PBUSH,7,K,10.,20.,30.,4.+3,5.+3,6.+3"
 K = [10_000, 20_000, 30_000, 4, 5, 6]
 
 
 @pytest.mark.parametrize("axes", ["", 'axes = "x forward, y left, z up"\n'])
-def test_bushes_between_flexible_bodies_couple_as_the_whole_matrices_do(pair, tmp_path, axes):
+def test_bushes_between_flexible_bodies_couple_as_the_whole_matrices_do(pair, axes, deck):
     """Grids of the lower body have other numbers: they are found by place; CID turns the axes.
 
     In whichever axes the vehicle's file is, the deck is in the same.
@@ -79,9 +109,8 @@ def test_bushes_between_flexible_bodies_couple_as_the_whole_matrices_do(pair, tm
             free("PBUSH", i + 1, "K", *rates[node]),
             free("CBUSH", 100 + i, i + 1, node, node + 1000, "", "", "", 5),
         ]
-    path = tmp_path / "joints.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
-    assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s"]) == 0
+    path = deck(*cards)
+    assert put(path, pair) == 0
     vehicle = read_vehicle(pair)
     assert {frozenset(m.bodies) for m in vehicle.mounts} == {frozenset({"upper", "lower"})}
     assert [g.name for g in vehicle.mount_groups] == ["PBUSH 1", "PBUSH 2", "PBUSH 3", "PBUSH 4"]
@@ -90,15 +119,14 @@ def test_bushes_between_flexible_bodies_couple_as_the_whole_matrices_do(pair, tm
     np.testing.assert_allclose(found[6:30], expected[6:30], rtol=2e-4)
 
 
-def test_scalar_springs_and_grounded_bushes_hold_as_the_whole_matrices_do(pair, tmp_path):
+def test_scalar_springs_and_grounded_bushes_hold_as_the_whole_matrices_do(pair, deck):
     cards = [*grids(LABELS, CORNERS), *grids(LABELS + 1000, CORNERS), "PELAS,3,40.,,,4,90."]
     for i, node in enumerate(ATTACHED):
         cards += [free("CELAS2", 10 * i + d, 25.0 * d, node, d, node + 1000, d) for d in (1, 2, 3)]
     cards += ["CELAS1,50,3,11,1", "CELAS1,51,4,,,11,2", "CBUSH,52,8,1014,,,,,0", "PBUSH,8,K,70.,,80."]
-    path = tmp_path / "joints.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    path = deck(*cards)
     bodies = ["--bodies", "upper", "lower"]
-    assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s", *bodies]) == 0
+    assert put(path, pair, *bodies) == 0
     vehicle = read_vehicle(pair)
     grounded = [(11, np.diag([40.0, 90.0, 0])), (14, np.diag([70.0, 0, 80.0]))]
     expected = joined_frequencies([(n, np.diag([25.0, 50, 75])) for n in ATTACHED], grounded)
@@ -106,20 +134,11 @@ def test_scalar_springs_and_grounded_bushes_hold_as_the_whole_matrices_do(pair, 
     np.testing.assert_allclose(found[2:30], expected[2:30], rtol=2e-4)
 
 
-def test_mounts_that_are_written_as_cards_come_back_as_they_were(pair, networks, tmp_path):
+def test_mounts_that_are_written_as_cards_come_back_as_they_were(pair, networks):
     """But for their names; large fields hold all digits of a number that is not too long."""
-    table = tmp_path / "m.csv"
     lines = ["name,group,node 1,node 2,body 1,body 2,kx [N/mm],ky [N/mm],kz [N/mm],yaw [deg],eta"]
     lines += [f"m{n},M,{n},{n},upper,lower,10,20,30,{3 * n},0.1" for n in ATTACHED]
-    table.write_text("\n".join(lines))
-    assert main(["import", str(table), "--output", str(pair)]) == 0
-    deck = tmp_path / "rates.bdf"
-    assert main(["export", str(pair), str(deck)]) == 0
-    again = Path(shutil.copytree(networks, tmp_path / "again"))
-    assert main(["import", str(deck), "--output", str(again), "--units", "mm-t-s"]) == 0
-    first, second = (read_vehicle(folder) for folder in (pair, again))
-    frequencies = [solve_modes(assemble(vehicle)).frequency_hz[6:] for vehicle in (first, second)]
-    np.testing.assert_allclose(*frequencies, rtol=1e-9)
+    second = there_and_back(lines, pair, networks)
     assert second.mount_groups[0].loss_factor == pytest.approx(0.1)
     assert len(second.mount_groups) == 1
 
@@ -262,11 +281,10 @@ def test_elements_that_are_not_read_are_told(read):
     assert notes == ["1 CDAMP2, 1 CELAS4 are left out"]
 
 
-def test_a_bush_of_dampers_alone_and_a_rigid_one_are_what_they_are(pair, tmp_path):
+def test_a_bush_of_dampers_alone_and_a_rigid_one_are_what_they_are(pair, deck):
     cards = [*grids(LABELS, CORNERS), "PBUSH,7,B,.5", "CBUSH,1,7,11,,,,,0"]
     cards += ["PBUSH,8,K,RIGID,3.", "CBUSH,2,8,14,,,,,0", "PBUSH,9,K,3.", "CBUSH,3,9,22,,,,,0"]
-    path = tmp_path / "joints.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    path = deck(*cards)
     options = ["--units", "mm-t-s", "--bodies", "upper", "ground"]
     assert main(["import", str(path), "--output", str(pair), *options]) == 0
     kinds = {c.name: type(c) for c in read_vehicle(pair).all_connections}
@@ -335,13 +353,9 @@ def test_a_bad_file_is_refused_with_its_card(read, cards, expected):
     assert expected in str(error.value)
 
 
-def test_grids_that_no_body_is_at_and_attachments_elsewhere_are_refused(pair, tmp_path, capsys):
-    path = tmp_path / "joints.bdf"
-
+def test_grids_that_no_body_is_at_and_attachments_elsewhere_are_refused(pair, capsys, deck):
     def refused(cards, *options):
-        path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
-        command = ["import", str(path), "--output", str(pair), "--units", "mm-t-s", *options]
-        assert main(command) == 2
+        assert put(deck(*cards), pair, *options) == 2
         return capsys.readouterr().err.splitlines()[-1]
 
     far = grids([900], [[5000, 0, 0]])
@@ -358,21 +372,11 @@ def test_grids_that_no_body_is_at_and_attachments_elsewhere_are_refused(pair, tm
     )
 
 
-def test_a_grid_that_is_held_is_the_ground(pair, networks, tmp_path):
-    table = tmp_path / "m.csv"
+def test_a_grid_that_is_held_is_the_ground(pair, networks):
     lines = ["name,group,node 1,body 1,body 2,kx [N/mm],ky [N/mm],kz [N/mm]"]
     lines += [f"m{n},M,{n},upper,ground,10,20,30" for n in ATTACHED]
-    table.write_text("\n".join(lines))
-    assert main(["import", str(table), "--output", str(pair)]) == 0
-    deck = tmp_path / "rates.bdf"
-    assert main(["export", str(pair), str(deck)]) == 0
-    again = Path(shutil.copytree(networks, tmp_path / "again"))
-    options = ["--units", "mm-t-s", "--bodies", "upper", "lower"]
-    assert main(["import", str(deck), "--output", str(again), *options]) == 0
-    first, second = (read_vehicle(folder) for folder in (pair, again))
+    second = there_and_back(lines, pair, networks, "--bodies", "upper", "lower")
     assert {mount.bodies for mount in second.mounts} == {("upper", GROUND)}
-    frequencies = [solve_modes(assemble(vehicle)).frequency_hz[6:] for vehicle in (first, second)]
-    np.testing.assert_allclose(*frequencies, rtol=1e-9)
 
 
 def test_grids_that_are_held_unless_they_say_otherwise_are_the_ground_too(read):
@@ -386,53 +390,44 @@ def test_superelements_that_are_left_out_are_told(read):
     assert notes == ["1 superelements that the input file has are left out"]
 
 
-def test_springs_that_are_near_no_attachment_are_left_out_and_told(pair, tmp_path, capsys):
+def test_springs_that_are_near_no_attachment_are_left_out_and_told(pair, capsys, deck):
     inner = grids([900, 901], [[5000, 0, 0], [5000, 0, 10]])
     inner_springs = ["CBUSH,2,7,900,901,,,,0", "CELAS2,3,5.,900,1,901,1"]
     mounts = ["CBUSH,1,7,11,1011,,,,0", "CBUSH,4,7,22,1022,,,,0", *inner_springs]
-    path = tmp_path / "joints.bdf"
-    cards = [*grids(LABELS, CORNERS), *grids(LABELS + 1000, CORNERS), *inner, PBUSH, *mounts]
-    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
-    assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s"]) == 0
+    path = deck(*grids(LABELS, CORNERS), *grids(LABELS + 1000, CORNERS), *inner, PBUSH, *mounts)
+    assert put(path, pair) == 0
     assert [c.name for c in read_vehicle(pair).all_connections] == ["CBUSH 1", "CBUSH 4"]
     said = capsys.readouterr().err
     assert "CBUSH 2, CELAS 3: no body has an attachment near, and are left out" in said
 
 
-def test_a_file_in_other_units_is_refused_even_if_a_spring_of_it_is_at_the_origin(
-    pair, tmp_path, capsys
-):
+def test_a_file_in_other_units_is_refused_even_if_a_spring_of_it_is_at_the_origin(pair, capsys, deck):
     at = CORNERS[list(LABELS).index(11)]
     cards = [*grids(LABELS + 1000, CORNERS - at), *grids(LABELS + 2000, CORNERS - at), PBUSH]
     cards += [f"CBUSH,{n},7,{n + 1000},{n + 2000},,,,0" for n in (11, 12, 22)]
-    path = tmp_path / "joints.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    path = deck(*cards)
     before = (pair / "vehicle.toml").read_bytes()
-    options = ["--output", str(pair), "--units", "m-kg-s"]
-    assert main(["import", str(path), *options]) == 2
+    assert put(path, pair, units="m-kg-s") == 2
     assert "joints.bdf: 2 of 3 springs have no attachment of a body near" in capsys.readouterr().err
     assert (pair / "vehicle.toml").read_bytes() == before
 
 
-def test_a_file_stands_in_the_vehicle_as_its_pose_says(pair, tmp_path):
+def test_a_file_stands_in_the_vehicle_as_its_pose_says(pair, deck):
     """By grids whose places in the vehicle are known."""
     turn = Rotation.from_euler("zx", [30, 50], degrees=True).as_matrix()
     there = (CORNERS - [500, 20, 30]) @ turn.T
     cards = [*grids(LABELS, there), "PBUSH,7,K,10.,20.,30.", "CBUSH,1,7,11,,,,,0", ",,0,5.,0.,0."]
-    path = tmp_path / "joints.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
+    path = deck(*cards)
     pose = "; ".join(f"{n}={','.join(map(str, place(n)))}" for n in (11, 12, 13, 23))
-    options = ["--units", "mm-t-s", "--bodies", "upper", "ground", "--pose", pose]
-    assert main(["import", str(path), "--output", str(pair), *options]) == 0
+    assert put(path, pair, "--bodies", "upper", "ground", "--pose", pose) == 0
     (mount,) = read_vehicle(pair).mounts
     np.testing.assert_allclose(1000 * mount.points[0], place(11) + turn.T @ [5, 0, 0], atol=1e-9)
     K = mount.axes.T * mount.stiffness @ mount.axes
     np.testing.assert_allclose(K, turn.T @ np.diag([10e3, 20e3, 30e3]) @ turn, atol=1e-4)
 
 
-def test_springs_of_a_file_that_is_listed_are_listed_in_its_own_units(tmp_path, capsys):
-    path = tmp_path / "joints.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *TWO, PBUSH, CBUSH]))
+def test_springs_of_a_file_that_is_listed_are_listed_in_its_own_units(capsys, deck):
+    path = deck(*TWO, PBUSH, CBUSH)
     assert main(["import", str(path)]) == 0
     said = capsys.readouterr()
     assert "joints.bdf: has CBUSH or CELAS; --output and --units put" in said.err
@@ -440,28 +435,24 @@ def test_springs_of_a_file_that_is_listed_are_listed_in_its_own_units(tmp_path, 
     assert re.search(r"CBUSH 1 +PBUSH 7 +10, 20, 30 +4000, 5000, 6000 +0", springs)
 
 
-def test_springs_that_cannot_be_read_do_not_keep_a_file_from_being_listed(tmp_path, capsys):
-    path = tmp_path / "joints.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *TWO, CBUSH]))
+def test_springs_that_cannot_be_read_do_not_keep_a_file_from_being_listed(capsys, deck):
+    path = deck(*TWO, CBUSH)
     assert main(["import", str(path)]) == 0
     said = capsys.readouterr()
     assert "2 nodes" in said.out
     assert "property 7: is no PBUSH of the file" in said.err
 
 
-def test_a_grid_with_the_number_of_an_attachment_elsewhere_is_on_the_one_that_is_there(pair, tmp_path):
+def test_a_grid_with_the_number_of_an_attachment_elsewhere_is_on_the_one_that_is_there(pair, deck):
     """Grids of an exported deck are numbered from one, as nodes are."""
-    path = tmp_path / "joints.bdf"
-    cards = [*grids([11, 22], [place(14), place(14)]), PBUSH, "CBUSH,1,7,11,22,,,,0"]
-    path.write_text("\n".join(["BEGIN BULK", *cards, "ENDDATA"]))
-    assert main(["import", str(path), "--output", str(pair), "--units", "mm-t-s"]) == 0
+    path = deck(*grids([11, 22], [place(14), place(14)]), PBUSH, "CBUSH,1,7,11,22,,,,0")
+    assert put(path, pair) == 0
     (mount,) = read_vehicle(pair).mounts
     assert set(mount.bodies) == {"upper", "lower"}
     np.testing.assert_allclose(1000 * mount.points, [place(14)] * 2)
 
 
-def test_units_are_asked_for(pair, tmp_path, capsys):
-    path = tmp_path / "joints.bdf"
-    path.write_text("\n".join(["BEGIN BULK", *TWO, PBUSH, CBUSH]))
+def test_units_are_asked_for(pair, capsys, deck):
+    path = deck(*TWO, PBUSH, CBUSH)
     assert main(["import", str(path), "--output", str(pair)]) == 2
     assert "doesn't say its units, and they are not guessed" in capsys.readouterr().err

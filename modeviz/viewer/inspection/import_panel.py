@@ -11,12 +11,11 @@ from tempfile import TemporaryDirectory
 import viser
 
 from modeviz.errors import ModevizError
-from modeviz.formats.component import UNIT_SYSTEMS, Component
+from modeviz.formats.component import Component
 from modeviz.formats.endings import TAKEN
-from modeviz.formats.places import FORMS
-from modeviz.formats.poses import FORMS as POSE_FORMS
 from modeviz.text.wording import sentence_case
-from modeviz.viewer.inspection.putting import Asked, Put, component_in, put
+from modeviz.viewer.inspection.import_fields import ImportFields
+from modeviz.viewer.inspection.putting import Put, component_in, put
 from modeviz.viewer.inspection.received import Received
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.handles import assign, name_of
@@ -39,10 +38,6 @@ LABELS = {
     "with --name": "under Name",
 }
 """What options are called here."""
-
-RESIDUAL_FORM = "NAME=X,Y,Z along x, y and z, length over force in the files' units"
-
-AS_THE_FILES_SAY = "As the files say"
 
 
 class ImportPanel:
@@ -69,39 +64,33 @@ class ImportPanel:
         self._received = Received()
         self._lock = threading.Lock()
         self._named = ""
-        self._upload = gui.add_upload_button(
+        self._upload = self._upload_button()
+        self._content = gui.add_html("")
+        self._fields = ImportFields.of(gui)
+        self._fields.units.on_update(self._redraw)
+        self._add_buttons(gui)
+        scripts.run(gui, "inspection/drop.js", name_of(self._upload), TAB)
+        self._say(span(f"Drop files here: {', '.join(TAKEN)}", "dim"))
+
+    def _upload_button(self) -> viser.GuiUploadButtonHandle:
+        upload = self._server.gui.add_upload_button(
             "Choose a file…",
             icon=viser.Icon.UPLOAD,
             hint="Or drop files anywhere on the page; a component may be in several",
         )
-        take_files_of(self._upload, LARGEST_FILE)
-        self._upload.on_upload(self._take)
-        self._content = gui.add_html("")
-        self._units = gui.add_dropdown(
-            "Units", (AS_THE_FILES_SAY, *UNIT_SYSTEMS), hint="Of the files; they are never guessed"
-        )
-        self._name = gui.add_text("Name", "", hint="Of the body in the vehicle")
-        self._attach = gui.add_text(
-            "Attachments",
-            "",
-            hint=f"Where others hold on to it, with semicolons between: {FORMS}",
-        )
-        self._pose = gui.add_text("Place", "", hint=f"Where it stands in the vehicle: {POSE_FORMS}")
-        self._residual = gui.add_text(
-            "Residual", "", hint=f"What the modes leave out, with semicolons between: {RESIDUAL_FORM}"
-        )
-        self._replaces = gui.add_checkbox(
-            "Replace", False, hint="The body of that name gets new modes, mesh and attachments"
-        )
-        where = "Put it into the vehicle" if folder else "Download as a vehicle…"
+        take_files_of(upload, LARGEST_FILE)
+        upload.on_upload(self._take)
+        return upload
+
+    def _add_buttons(self, gui: viser.GuiApi) -> None:
+        where = "Put it into the vehicle" if self._folder else "Download as a vehicle…"
         add = gui.add_button(where, icon=viser.Icon.PACKAGE_IMPORT, hint=self._destination())
         add.on_click(self._add)
         forget = gui.add_button(
             "Other files", icon=viser.Icon.X, color="gray", hint="Forgets the files that have come"
         )
         forget.on_click(lambda _: self._forget())
-        self._units.on_update(self._redraw)
-        if folder is not None:
+        if self._folder is not None:
             again = gui.add_button(
                 "Read the folder again",
                 icon=viser.Icon.REFRESH,
@@ -109,8 +98,6 @@ class ImportPanel:
                 hint="After its vehicle.toml was changed elsewhere",
             )
             again.on_click(self._read_again)
-        scripts.run(gui, "inspection/drop.js", name_of(self._upload), TAB)
-        self._say(span(f"Drop files here: {', '.join(TAKEN)}", "dim"))
 
     def close(self) -> None:
         """Deletes what has come."""
@@ -134,8 +121,9 @@ class ImportPanel:
 
     def _name_after(self, file: str) -> None:
         """Calls the body as the first of its files, unless somebody has given it a name."""
-        if self._name.value in ("", self._named):
-            self._name.value = self._named = PurePath(file).stem
+        name = self._fields.name
+        if name.value in ("", self._named):
+            name.value = self._named = PurePath(file).stem
 
     def _redraw(self, event: viser.GuiEvent) -> None:
         if event.client is not None and self._received.names:
@@ -149,7 +137,7 @@ class ImportPanel:
         with self._received.told() as paths:
             component = component_in(paths)
         if component is not None:
-            self._look_at(component, self._name.value, self._chosen_units())
+            self._look_at(component, self._fields.name.value, self._fields.chosen_units)
         self._say(self._listed())
 
     def _add(self, event: viser.GuiEvent) -> None:
@@ -168,16 +156,7 @@ class ImportPanel:
             self._say(f"<div>{escape(sentence_case(done.what))}: in the vehicle.</div>", notes)
 
     def _put(self, client: viser.ClientHandle) -> Put:
-        name = _printed(self._name.value)
-        asked = Asked(
-            name=None if name == self._named else name or None,
-            usual_name=self._named or "body",
-            units=self._chosen_units(),
-            attach=_parts(self._attach.value),
-            residual=_parts(self._residual.value),
-            pose=_printed(self._pose.value) or None,
-            replace=self._replaces.value,
-        )
+        asked = self._fields.asked(self._named)
         if self._folder is not None:
             with self._received.told() as paths:
                 done = put(paths, asked, self._folder)
@@ -197,9 +176,6 @@ class ImportPanel:
         except ModevizError as error:
             event.client.add_notification("Not read", str(error), color="red")
 
-    def _chosen_units(self) -> str | None:
-        return None if self._units.value == AS_THE_FILES_SAY else self._units.value
-
     def _forget(self) -> None:
         with self._lock:
             self._clear()
@@ -207,10 +183,7 @@ class ImportPanel:
 
     def _clear(self) -> None:
         self._received.clear()
-        for text in (self._name, self._attach, self._pose, self._residual):
-            text.value = ""
-        self._units.value = AS_THE_FILES_SAY
-        self._replaces.value = False
+        self._fields.clear()
 
     def _refuse(self, error: ModevizError) -> None:
         words = str(error)
@@ -223,16 +196,6 @@ class ImportPanel:
 
     def _say(self, *content: str) -> None:
         assign(self._content, content=block(*content))
-
-
-def _parts(text: str) -> tuple[str, ...]:
-    """What stands between semicolons."""
-    return tuple(filter(None, map(_printed, text.split(";"))))
-
-
-def _printed(text: str) -> str:
-    """Text without what is no letter, such as half of one, and without blanks around it."""
-    return "".join(filter(str.isprintable, text)).strip()
 
 
 def _zipped(folder: Path) -> bytes:

@@ -13,7 +13,7 @@ from modeviz.viewer.inspection.subject import ListedMode, Subject
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block, heading, hinted, named, row, span, table
-from modeviz.viewer.panels.view import VIEWS
+from modeviz.viewer.scene.cameras import add_view_buttons
 
 N_ROWS = 40
 """Modes that are listed at once, the chosen one among them."""
@@ -99,15 +99,9 @@ class LookPanel:
         Args:
             gui: where.
             inspection: what the choices change.
-            look: turns a page's camera to one of `VIEWS`.
+            look: turns a page's camera to one of `stage.VIEWS`.
         """
-        views = gui.add_button_group("View", VIEWS, hint="Where to look from")
-
-        @views.on_click
-        def _(event: viser.GuiEvent) -> None:
-            if event.client is not None:
-                look(event.client, views.value)
-
+        add_view_buttons(gui, look)
         state = inspection.state
         words = {value: word for word, value in COLORINGS.items()}
         self._bindings = [

@@ -8,11 +8,11 @@ import viser
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.bodies import Body
 from modeviz.viewer.page.binding import Binding, Read, Write, show_all
+from modeviz.viewer.scene.cameras import add_view_buttons
 from modeviz.viewer.session.commands.looks import ChangeLook, ShowBody, ShowClassicError, ShowGhost
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import Coloring
 
-VIEWS = ("Iso", "Side", "Front", "Top", "Under")
 COLORINGS = {sentence_case(name): name for name in get_args(Coloring)}
 GHOSTS = {"None": "none", "At rest": "rest", "Compared set": "compared"}
 
@@ -28,16 +28,10 @@ class ViewPanel:
         Args:
             gui: where.
             session: what the choices change.
-            look: turns a page's camera to one of `VIEWS`.
+            look: turns a page's camera to one of `stage.VIEWS`.
         """
         self._gui, self._session = gui, session
-        views = gui.add_button_group("View", VIEWS, hint="Where to look from")
-
-        @views.on_click
-        def _(event: viser.GuiEvent) -> None:
-            if event.client is not None:
-                look(event.client, views.value)
-
+        add_view_buttons(gui, look)
         self._bindings = [
             self._choice(
                 "Colours",

@@ -3,13 +3,14 @@
 import threading
 import time
 from collections import Counter
+from collections.abc import Callable
 
 import numpy as np
 import viser
 
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page import scripts
-from modeviz.viewer.scene.stage import FAR, FIELD_OF_VIEW, ISO, NEAR, Box, camera
+from modeviz.viewer.scene.stage import FAR, FIELD_OF_VIEW, ISO, NEAR, VIEWS, Box, camera
 
 UNTOUCHED = 2e-4
 """Of what is framed: a camera this close to where it was put has not been moved by anybody."""
@@ -18,6 +19,21 @@ GLIDE_STEPS, STEP_SECONDS = 16, 0.025
 
 Pose = tuple[Floats, Floats]
 """Where a camera is and what it looks at, m."""
+
+
+def add_view_buttons(gui: viser.GuiApi, look: Callable[[viser.ClientHandle, str], None]) -> None:
+    """Builds the buttons for where to look from.
+
+    Args:
+        gui: where.
+        look: turns a page's camera to one of `stage.VIEWS`.
+    """
+    views = gui.add_button_group("View", tuple(VIEWS), hint="Where to look from")
+
+    @views.on_click
+    def _(event: viser.GuiEvent) -> None:
+        if event.client is not None:
+            look(event.client, views.value)
 
 
 class Cameras:
