@@ -80,7 +80,7 @@ def body_axes(results: ModalResults, number: int, crank: Floats | None = None) -
     rates, held = results.mount_rates, held_bodies(system)[number]
     part = held.part
     direction = crank_direction(part) if crank is None else crank
-    roll = torque_roll_axis(part, direction)
+    roll, mounts = torque_roll_axis(part, direction), system.vehicle.mounts
     still = held.compliance(rates)
     mounted = mounted_bodies(system).compliance(number, rates)
     return BodyAxes(
@@ -88,7 +88,7 @@ def body_axes(results: ModalResults, number: int, crank: Floats | None = None) -
         roll,
         None if still is None else elastic_axes(part.center, still, direction, roll),
         None if mounted is None else elastic_axes(part.center, mounted, direction, roll),
-        focus(results.vehicle, part.body.name),
+        focus(mounts, rates[: 3 * len(mounts)].reshape(-1, 3), part.body.name),
     )
 
 

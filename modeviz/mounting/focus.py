@@ -7,7 +7,6 @@ import numpy as np
 
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Mount
-from modeviz.vehicle.vehicle import Vehicle
 
 UPRIGHT = np.cos(np.radians(1.0))
 """A mount whose axis is closer to one of the vehicle's is not inclined."""
@@ -27,7 +26,7 @@ class Focus:
     """How far the axes pass it, m, the root of the mean square."""
 
 
-def focus(vehicle: Vehicle, body: str) -> Focus | None:
+def focus(mounts: Sequence[Mount], stiffness: Floats, body: str) -> Focus | None:
     """Return the focus of a body's inclined mounts; None of fewer than two, or if they are parallel.
 
     A mount's axis runs through its elastic centre along its stiffest direction, in compression. The
@@ -37,11 +36,13 @@ def focus(vehicle: Vehicle, body: str) -> Focus | None:
     chapter 3; T. Jeong, R. Singh, Journal of Sound and Vibration 234(1), 2000, call it focalisation).
 
     Args:
-        vehicle: with the rates that it is asked for.
+        mounts: all of the vehicle's.
+        stiffness: of each along its local x, y, z, (n_mounts, 3), N/m.
         body: its name.
     """
-    inclined = [m for m in vehicle.mounts if body in m.bodies and _is_inclined(mount_axis(m))]
-    axes = np.array([mount_axis(m) for m in inclined]).reshape(-1, 3)
+    every = [(m, mount_axis(m, k)) for m, k in zip(mounts, stiffness, strict=True) if body in m.bodies]
+    inclined = [m for m, axis in every if _is_inclined(axis)]
+    axes = np.array([axis for _, axis in every if _is_inclined(axis)]).reshape(-1, 3)
     centers = np.array([m.center for m in inclined]).reshape(-1, 3)
     across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
     total = across.sum(axis=0)
@@ -52,9 +53,9 @@ def focus(vehicle: Vehicle, body: str) -> Focus | None:
     return Focus(_names(inclined), point, float(np.sqrt(np.mean(np.sum(off**2, axis=1)))))
 
 
-def mount_axis(mount: Mount) -> Floats:
+def mount_axis(mount: Mount, stiffness: Floats) -> Floats:
     """Return the direction in which a mount is stiffest, (3,), upwards; its local z among equals."""
-    stiffest = 2 - int(np.argmax(mount.stiffness[::-1]))
+    stiffest = 2 - int(np.argmax(stiffness[::-1]))
     axis = mount.axes[stiffest]
     return axis if axis[2] >= 0 else -axis
 

@@ -113,13 +113,18 @@ def axes_table(axes: BodyAxes) -> str:
     return table(header, rows)
 
 
-def axis_rows(axes: ElasticAxes | None) -> dict[str, str]:
-    """Return the numbers of one way in which a body is held, by what they are."""
+def axis_rows(axes: ElasticAxes | None, decimals: int = 4) -> dict[str, str]:
+    """Return the numbers of one way in which a body is held, by what they are.
+
+    Args:
+        axes: those of the body; None if it moves freely.
+        decimals: of places and directions.
+    """
     rows = {
         "elastic torque axis": "-",
         "  through, m": "-",
-        "  angle to the torque roll axis, °": "-",
-        "  distance from it, mm": "-",
+        "  off the roll axis, °": "-",
+        "  apart from it, mm": "-",
         "elastic centre, m": "-",
         **{f"elastic axis {n}, N/mm": "-" for n in "123"},
     }
@@ -128,12 +133,12 @@ def axis_rows(axes: ElasticAxes | None) -> dict[str, str]:
     per_mm, axis = factor("N/mm", "stiffness"), axes.torque_axis
     if axis is not None:
         angle, offset = f"{np.degrees(axes.angle):.3f}", f"{1e3 * axes.offset:.1f}"
-        values = vector(axis.direction), vector(axis.point), angle, offset
+        values = vector(axis.direction, decimals), vector(axis.point, decimals), angle, offset
         rows |= dict(zip(list(rows)[:4], values, strict=True))
     if axes.center is not None:
-        rows["elastic centre, m"] = vector(axes.center)
+        rows["elastic centre, m"] = vector(axes.center, decimals)
     for n, rate, direction in zip("123", axes.rates, axes.principal_axes, strict=True):
-        rows[f"elastic axis {n}, N/mm"] = f"{vector(direction)}: {rate / per_mm:.4g}"
+        rows[f"elastic axis {n}, N/mm"] = f"{vector(direction, decimals)}: {rate / per_mm:.4g}"
     return rows
 
 
@@ -142,9 +147,11 @@ def focus_words(focus: Focus) -> str:
     return f"{vector(focus.point)}, missed by {1e3 * focus.miss:.1f} mm"
 
 
-def vector(values: Floats | None) -> str:
-    """Return three numbers, to four decimals; a dash for none."""
-    return "-" if values is None else " ".join(f"{v + 0.0:.4f}" for v in np.round(values, 4))
+def vector(values: Floats | None, decimals: int = 4) -> str:
+    """Return three numbers; a dash for none."""
+    if values is None:
+        return "-"
+    return " ".join(f"{v + 0.0:.{decimals}f}" for v in np.round(values, decimals))
 
 
 def rigid_record(results: ModalResults, bodies: Sequence[RigidBodyFigures], axes: Axes) -> Record:

@@ -35,6 +35,7 @@ from modeviz.viewer.panels.mounts.panel import MountsPanel
 from modeviz.viewer.panels.optimise.panel import OptimisePanel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
+from modeviz.viewer.panels.rigid.panel import RigidPanel
 from modeviz.viewer.panels.scatter import ScatterPanel
 from modeviz.viewer.panels.shape import ShapePanel
 from modeviz.viewer.panels.status import StatusPanel
@@ -205,6 +206,8 @@ class App:
                 self._energy = EnergyPanel(gui, session)
         with right.add_tab("Figures", viser.Icon.TABLE):
             self._table = TablePanel(gui)
+        with right.add_tab("Rigid", viser.Icon.AXIS_X):
+            self._rigid = RigidPanel(gui, session)
         with right.add_tab("Road", viser.Icon.ROAD):
             self._excitation = ExcitationPanel(gui, session)
         right.dock_right()
@@ -257,6 +260,7 @@ class App:
                 self._view.show()
                 self._modes.show(solved)
                 self._energy.show(solved)
+                self._rigid.show(solved)
         self.server.flush()
         self._scene.show(solved)
 

@@ -11,8 +11,8 @@ from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import SetRate
 
 LONG = "Donaudampfschifffahrtsgesellschaftskapitän with a second, third and fourth name"
-TABS = ("Variants", "Optimise", "View", "Pictures", "Mounts", "Energy", "Modes", "Figures", "Road",
-    "Response", "What moves", "Motion")  # fmt: skip
+TABS = ("Variants", "Optimise", "View", "Pictures", "Mounts", "Energy", "Modes", "Figures", "Rigid",
+    "Road", "Response", "What moves", "Motion")  # fmt: skip
 SHOW = """(name) => {
   const enter = new KeyboardEvent("keydown", { key: "Enter", bubbles: true });
   document.querySelector(`[role="tab"][title="${name}"]`).dispatchEvent(enter);

@@ -11,7 +11,6 @@ from modeviz.analysis.rigid import body_axes, rigid_figures
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.mounting.axes import elastic_axes, torque_roll_axis
-from modeviz.mounting.focus import focus
 from modeviz.mounting.frames import crank_direction
 from modeviz.mounting.rigid_part import rigid_parts
 from modeviz.mounting.stiffness import held_bodies, holding, mounted_bodies
@@ -74,11 +73,11 @@ def test_the_line_of_sideward_forces_is_at_the_height_found_by_hand():
 
 def test_leaning_mounts_meet_at_their_focus():
     vehicle = on_v_mounts(0.2)
-    found = focus(vehicle, "engine")
+    found = figures(vehicle).axes.focus
     assert found.point == pytest.approx([0.0, 0.0, HALF_WIDTH / np.tan(TILT)])
     assert found.miss == pytest.approx(0.4)  # lengthways: one pair aims there, the other here
     assert len(found.mounts) == 4
-    assert focus(four_cylinder(), "engine") is None
+    assert figures(four_cylinder()).axes.focus is None
 
 
 def test_mounts_without_shear_stiffness_have_their_elastic_axis_at_the_focus():

@@ -7,6 +7,7 @@ from msgspec import Meta
 from modeviz.files.records.fields import Frequency, LowestFrequency
 from modeviz.files.records.record import Record
 from modeviz.files.schema.quantities import UNITLESS
+from modeviz.files.toml_writer import toml_value
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 
 
@@ -28,3 +29,10 @@ class DecouplingRecord(Record, kw_only=True):
 
     def build(self) -> Decoupling:
         return Decoupling(**{key: getattr(self, key) for key in self.__struct_fields__})
+
+
+def decoupling_text(decoupling: Decoupling) -> str:
+    """The table of some targets, every key of it, to be put into a vehicle.toml."""
+    keys = DecouplingRecord.__struct_fields__
+    lines = (f"{key} = {toml_value(getattr(decoupling, key))}" for key in keys)
+    return "\n".join(["[decoupling]", *lines, ""])

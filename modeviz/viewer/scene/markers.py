@@ -1,7 +1,7 @@
 """Marks on the vehicle: its mounts, the selected group's card, response points and tyre patches."""
 
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from textwrap import fill
 
 import numpy as np
@@ -160,6 +160,7 @@ class Markers:
         theme: Theme,
         length: float,
         on_select: Callable[[str], None],
+        other_labels: Sequence[str] = (),
     ) -> None:
         """Draws them in sizes that go with the vehicle's.
 
@@ -169,6 +170,7 @@ class Markers:
             theme: of the scene.
             length: of the vehicle, m.
             on_select: called with the group of a clicked mount.
+            other_labels: nodes of labels that are to stay apart from those of the marks.
         """
         self._groups = {group.name: group for group in vehicle.mount_groups}
         self._mounts = {
@@ -183,6 +185,7 @@ class Markers:
         self._others = _add_points(scene, vehicle, length) + _add_patches(scene, vehicle, length)
         labels = [marker.label_name for markers in self._mounts.values() for marker in markers]
         labels += [f"{_point_path(point)}/name" for point in vehicle.response_points]
+        labels += other_labels
         keep_apart(scene, labels, f"{CARD}/text", f"{CARD}/line", theme)
 
     def hide(self, bodies: Collection[str]) -> None:

@@ -15,6 +15,7 @@ from modeviz.viewer.scene.body_view import DrawnBody
 from modeviz.viewer.scene.cameras import Cameras
 from modeviz.viewer.scene.driver import LARGEST, ShapeDriver
 from modeviz.viewer.scene.markers import Markers
+from modeviz.viewer.scene.rigid_axes import RigidAxesMarks
 from modeviz.viewer.scene.stage import DARK, LIGHT, Box, Stage, bodies_box, box
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import (
@@ -53,7 +54,10 @@ class Scene:
         self._stage = Stage(server.scene, self._box, theme)
         self.driver: ShapeDriver = ShapeDriver(server.scene)
         self._bodies = [DrawnBody.of(self.driver, body, theme) for body in vehicle.bodies if body.mesh]
-        self._markers = Markers(server.scene, vehicle, theme, self._box.length, on_select)
+        self._axes = RigidAxesMarks(server.scene, vehicle, self._box.length)
+        self._markers = Markers(
+            server.scene, vehicle, theme, self._box.length, on_select, self._axes.label_names
+        )
         self._cameras = Cameras(server, self._box)
 
     def show(self, solved: Solved) -> None:
@@ -68,6 +72,7 @@ class Scene:
             see_through = state.look.see_through and state.look.coloring == "bodies"
             has_ghost = state.look.ghost == "rest" or moving.other is not None
             self.show_bodies(hidden, see_through, has_ghost)
+            self._show_axes(solved)
             if solved.is_detailed:
                 strain = strain_shares(solved)
                 groups = {group: strain[group] for group in state.design.rates}
@@ -77,6 +82,14 @@ class Scene:
                     group, state.design.rates, state.unit, groups, what, share_colors(shares)
                 )
         self._cameras.frame(self._framed(solved))
+
+    def _show_axes(self, solved: Solved) -> None:
+        """Draws axes and centres of the body that is looked at, where they are wanted."""
+        look, alone = solved.state.rigid, solved.movement.bodies
+        if look.drawn and (alone is None or look.body in alone):
+            self._axes.show(look.body, solved.rigid_axes, look.support)
+        else:
+            self._axes.hide()
 
     def color_scale(self, solved: Solved) -> ColorScale | None:
         """Return the scale of the colours of a picture, if they mean something.

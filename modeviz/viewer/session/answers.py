@@ -8,8 +8,10 @@ from functools import cached_property
 from modeviz.analysis.exact_check import ClassicError, classic_error
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Results, RoadExcitation, drive, solve_on
+from modeviz.analysis.rigid import BodyAxes, body_axes, body_purity
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
+from modeviz.mounting.purity import Purity
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.findings import Findings
 from modeviz.viewer.session.followed_mode import FollowedMode, ModeFollower
@@ -58,6 +60,22 @@ class Solved:
     def strain(self) -> Mapping[str, float]:
         """Each flexible body's and connection group's share of the shown mode's strain energy."""
         return self.now.strain_shares(self.followed.shape)
+
+    @cached_property
+    def purity(self) -> Purity:
+        """How pure the modes of the body are that is looked at on its mounts."""
+        look, number = self.state.rigid, self._rigid_number
+        return body_purity(self.now, number, look.axes, self.state.design.decoupling, look.direction)
+
+    @cached_property
+    def rigid_axes(self) -> BodyAxes:
+        """Axes and centres of the body that is looked at on its mounts."""
+        return body_axes(self.now, self._rigid_number, self.state.rigid.direction)
+
+    @property
+    def _rigid_number(self) -> int:
+        names = [body.name for body in self.now.prepared.vehicle.bodies]
+        return names.index(self.state.rigid.body)
 
 
 class Answers:

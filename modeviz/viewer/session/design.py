@@ -6,6 +6,7 @@ from itertools import chain, count
 
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.plan import Plan
 
@@ -40,6 +41,8 @@ class Design:
     """Groups whose rates keep their ratios when one of them moves."""
     plan: Plan | None = None
     """What a search is to look for; None where there is nothing to optimise for."""
+    decoupling: Decoupling = USUAL
+    """What the modes of bodies on their mounts are held against."""
 
     def with_rates(self, rates: Rates) -> "Design":
         """Return it with other rates in the groups that are named, locked ones excepted."""

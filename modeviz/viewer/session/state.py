@@ -9,6 +9,7 @@ from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.design import ORIGINAL, Design, rate_sets
 from modeviz.viewer.session.planning.plan import first_plan
+from modeviz.viewer.session.rigid_look import RigidLook, first_look
 
 Coloring = Literal["bodies", "displacement", "kinetic energy", "strain energy"]
 """What the colours of the bodies mean."""
@@ -86,6 +87,7 @@ class State:
     motion: Motion
     charts: Charts = field(default_factory=Charts)
     look: Look = field(default_factory=Look)
+    rigid: RigidLook = field(default_factory=RigidLook)
     against: str = ORIGINAL
     """The name of the set that all is compared with."""
     group: str = ""
@@ -126,10 +128,11 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
     every = vehicle.all_rates(rates)
     mode = f"{cabin.word} yaw" if cabin else ""
     return State(
-        Design(every, plan=first_plan(vehicle)),
+        Design(every, plan=first_plan(vehicle), decoupling=vehicle.decoupling),
         conditions,
         Motion(mode, every, component=vehicle.bodies[0].name),
         Charts() if vehicle.response_points else Charts(curves=()),
+        rigid=first_look(vehicle),
         group=group,
     )
 

@@ -39,6 +39,7 @@ DECISIONS = [
     decisions.Pin("Mine"),
     decisions.AddVariant("Mine", {"A": RATES}),
     decisions.Load("Soft"),
+    decisions.ChangeTargets({"gap": 3.0}),
     decisions.ChangePlan(lambda _, plan: replace(plan, n_starts=3)),
 ]
 
@@ -47,6 +48,7 @@ LOOKS = [
     looks.ChangeMotion(kind="component", component="cab", component_mode=7, operating_hz=12.0),
     looks.ChangeCharts(load="front left radial force", decibels=False, log_frequency=True),
     looks.ChangeLook(coloring="displacement", see_through=False, follow=True),
+    looks.LookAtRigid(body="cab", axes="crank", crank="z", support="mounted", drawn=True),
     looks.ShowGhost("none"),
     looks.ShowComparedGhost(True),
     looks.ShowBody("cab", False),
@@ -75,8 +77,10 @@ def test_a_look_changes_all_that_it_names_and_leaves_the_design(state, command):
     assert after != state
     assert after.design == state.design
     named = {field.name: getattr(command, field.name) for field in fields(command)}
-    known = {n: v for n, v in named.items() if name_of(command).startswith(("Change", "Drive"))}
-    parts = (after.motion, after.charts, after.look, after.conditions)
+    known = {
+        n: v for n, v in named.items() if name_of(command).startswith(("Change", "Drive", "LookAt"))
+    }
+    parts = (after.motion, after.charts, after.look, after.rigid, after.conditions)
     assert known.items() <= {n: v for part in parts for n, v in vars(part).items()}.items()
 
 

@@ -1,6 +1,6 @@
 """Commands that decide something: they can be undone."""
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -199,6 +199,17 @@ class Swap(Command):
             own = next_name(design)
             design = design.with_variant(own, design.rates)
         return replace(state, design=replace(design, rates=dict(sets[state.against])), against=own)
+
+
+@dataclass(frozen=True)
+class ChangeTargets(Command):
+    """Holds the modes of bodies on their mounts against something else."""
+
+    fields: Mapping[str, float]
+    """Those of `Decoupling` that change."""
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        return _designed(state, decoupling=replace(state.design.decoupling, **self.fields))
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,12 @@ from dataclasses import dataclass, fields, replace
 from typing import TypeVar
 
 from modeviz.analysis.results import Conditions
+from modeviz.mounting.frames import Axes
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import rate_sets
+from modeviz.viewer.session.rigid_look import Crank, RigidLook, Support
 from modeviz.viewer.session.state import (
     Charts,
     Coloring,
@@ -19,7 +21,7 @@ from modeviz.viewer.session.state import (
     State,
 )
 
-Part = TypeVar("Part", Charts, Conditions, Look, Motion)
+Part = TypeVar("Part", Charts, Conditions, Look, Motion, RigidLook)
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,22 @@ class ChangeLook(Command):
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         return replace(state, look=_changed(state.look, self))
+
+
+@dataclass(frozen=True)
+class LookAtRigid(Command):
+    """Looks at another body on its mounts, or otherwise; what is None stays."""
+
+    body: str | None = None
+    axes: Axes | None = None
+    crank: Crank | None = None
+    support: Support | None = None
+    drawn: bool | None = None
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        if self.body is not None:
+            vehicle.body(self.body)
+        return replace(state, rigid=_changed(state.rigid, self))
 
 
 @dataclass(frozen=True)
@@ -195,7 +213,9 @@ class ShowClassicError(Command):
         return replace(state, classic=self.shown)
 
 
-def _changed(part: Part, command: ChangeMotion | ChangeCharts | ChangeLook | Drive) -> Part:
+def _changed(
+    part: Part, command: ChangeMotion | ChangeCharts | ChangeLook | LookAtRigid | Drive
+) -> Part:
     """A part of a state with what a command names."""
     asked = {field.name: getattr(command, field.name) for field in fields(command)}
     return replace(part, **{name: value for name, value in asked.items() if value is not None})
