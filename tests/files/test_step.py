@@ -1,5 +1,6 @@
 """STEP files become triangles in the unit that they say, in a process that may fail as it likes."""
 
+import re
 import subprocess
 import time
 
@@ -93,7 +94,7 @@ def test_the_process_is_held_to_its_memory(monkeypatch, read):
     run = subprocess.run
 
     def noted(command, **how):
-        held.append(int(command[4]))
+        held.append(int(re.findall(r"RLIMIT_AS, \((\d+),", command[3])[0]))
         return run(command, **how)
 
     monkeypatch.setattr(step.subprocess, "run", noted)

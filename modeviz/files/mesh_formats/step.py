@@ -8,7 +8,6 @@ file, and prints what it likes.
 
 import re
 import subprocess
-import sys
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,6 +17,7 @@ from modeviz.files.limits import most_allowed
 from modeviz.files.mesh_formats.glb import read_glb
 from modeviz.files.mesh_formats.limits import LARGEST_FILE
 from modeviz.files.mesh_formats.parts import RawMesh
+from modeviz.files.own_process import own_process
 from modeviz.vehicle.bodies import Material
 
 LONGEST_SECONDS = 60
@@ -30,17 +30,11 @@ CHORD, ANGLE = 0.01, 0.5
 """How far triangles may be from a surface, a part of its edges, and how many rad from each other."""
 
 CONVERT = """
-import sys
-try:
-    import resource
-    resource.setrlimit(resource.RLIMIT_AS, (int(sys.argv[1]), int(sys.argv[1])))
-except (ImportError, OSError, ValueError):
-    pass
 import cascadio
 content = cascadio.load(
-    sys.stdin.buffer.read(), "step", float(sys.argv[2]), float(sys.argv[3]), tol_relative=True
+    sys.stdin.buffer.read(), "step", float(sys.argv[1]), float(sys.argv[2]), tol_relative=True
 )
-open(sys.argv[4], "wb").write(content)
+open(sys.argv[3], "wb").write(content)
 """
 
 COLORS = re.compile(r"\x1b\[[0-9;]*m")
@@ -72,8 +66,7 @@ def read_step(content: bytes, plain: Material) -> RawMesh:
 
 def _convert(content: bytes, found: Path) -> str:
     """Writes the triangles of a file as GLB, in metres; returns words for what was printed last."""
-    numbers = (most_allowed(MOST_MEMORY), CHORD, ANGLE)
-    command = [sys.executable, "-P", "-c", CONVERT, *map(str, numbers), str(found)]
+    command = own_process(CONVERT, most_allowed(MOST_MEMORY), str(CHORD), str(ANGLE), str(found))
     seconds = most_allowed(LONGEST_SECONDS)
     try:
         done = subprocess.run(command, input=content, capture_output=True, timeout=seconds, check=False)

@@ -1,5 +1,7 @@
 """The process that reads one of Ansys's files: `python extract.py FILE OUTPUT` writes an `.npz`.
 
+It is run as text, see `modeviz.files.own_process`.
+
 It imports nothing of modeviz, so that it starts with the library alone. What it cannot read it says in
 a line to standard error, with exit status 1.
 """
@@ -34,12 +36,16 @@ def _results(file) -> dict[str, np.ndarray]:
     numbers = file.mesh.nnum
     names = file.result_dof(0)
     shapes = np.zeros((file.n_results, len(numbers), len(names)))
+    is_whole = True
     for i in range(file.n_results):
         moved, values = file.nodal_solution(i)
         shapes[i, np.searchsorted(numbers, moved)] = values[:, : len(names)]
+        is_whole &= len(moved) == len(numbers)
     return {
         "analysis": np.array(int(header["kan"])),
         "is_cyclic": np.array(type(file).__name__ != "Result"),
+        "is_complex": np.array(bool(header["cpxrst"])),
+        "is_whole": np.array(is_whole),
         "nodes": np.asarray(file.mesh.nodes)[:, :3],
         "numbers": numbers,
         "angles": np.asarray(file.mesh.node_angles),
@@ -57,6 +63,8 @@ def run(*arguments: str) -> None:
         main(*arguments)
     except ImportError as error:
         sys.exit(f"missing: {error}")
+    except MemoryError:
+        sys.exit("memory")
     except Exception as error:
         sys.exit(f"{type(error).__name__}: {error}")
 

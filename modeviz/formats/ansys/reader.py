@@ -1,7 +1,6 @@
 """Ansys's results and full matrices, from the arrays that the library's process leaves."""
 
 import subprocess
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -10,6 +9,8 @@ import numpy as np
 
 from modeviz.errors import VehicleError, cut, located
 from modeviz.files.disk import opened
+from modeviz.files.limits import VARIABLE, most_allowed
+from modeviz.files.own_process import own_process
 from modeviz.formats.ansys import extract
 from modeviz.formats.component import CORNERS, LARGEST, Component, ElementKind, Modes
 from modeviz.formats.limits import LARGEST_FILE, check_shapes
@@ -28,6 +29,15 @@ KINDS: Mapping[int, ElementKind] = {
     24: "tetra", 14: "pyramid", 27: "pyramid", 13: "wedge", 26: "wedge", 12: "hexa", 25: "hexa",
 }  # fmt: skip
 """By the number that VTK has for a cell; its corners come first."""
+
+ROUNDED = 1e-5
+"""By which a largest motion of one may differ, in single precision."""
+
+BEGINNINGS = (b"\x64\0\0\0", b"\0\0\0\x64")
+"""Of Ansys's binary files, little and big-endian: the length of their header, 100 words."""
+
+MOST_MEMORY = 4_000_000_000
+"""Bytes, for reading a file, where the system can hold a process to them."""
 
 LEAST_SECONDS, BYTES_A_SECOND = 60, 2_000_000
 """For reading a file."""
@@ -93,7 +103,15 @@ def _matrix(arrays: Mapping[str, Array], name: str, labels: Array) -> NamedMatri
 def _component(arrays: Mapping[str, Array]) -> Component:
     if int(arrays["analysis"]) != MODAL or bool(arrays["is_cyclic"]):
         raise VehicleError("has results of another analysis than a modal one, or of a cyclic sector")
+    if bool(arrays["is_complex"]):
+        raise VehicleError("its modes are complex, which are not read; solve without damping")
+    if not bool(arrays["is_whole"]):
+        raise VehicleError(
+            "has the motions of some of its nodes only, as a part of a distributed solution: give the "
+            "file that these are combined to, with the results of all nodes (OUTRES)"
+        )
     shapes = _shapes(arrays)
+    mass, note = _modal_mass(arrays)
     frequency = arrays["frequencies"].astype(float)
     order = np.argsort(frequency, kind="stable")
     unknown = np.full(len(frequency), np.nan)
@@ -101,8 +119,29 @@ def _component(arrays: Mapping[str, Array]) -> Component:
         arrays["numbers"].astype(np.int64),
         arrays["nodes"].astype(float),
         _elements(arrays["cells"], arrays["kinds"]),
-        Modes(frequency[order], unknown, unknown, shapes[:, :, order]),
+        Modes(frequency[order], np.full(len(frequency), mass), unknown, shapes[:, :, order]),
+        notes=(note,),
         axes=_axes(arrays["angles"]),
+    )
+
+
+def _modal_mass(arrays: Mapping[str, Array]) -> tuple[float, str]:
+    """The modal mass of all modes, NaN if it is not known, and a sentence on it.
+
+    MODOPT (Ansys, Mechanical APDL Command Reference) knows two normalisations: to the mass matrix, so
+    that modal masses are one, and with Nrmkey to a largest motion of one. The file doesn't say which.
+    """
+    is_motion = np.char.startswith(arrays["directions"], "U")
+    for shapes in (arrays["shapes"], arrays["shapes"][:, :, is_motion]):
+        largest = np.abs(shapes).max(axis=(1, 2), initial=0.0)
+        if (np.abs(largest - 1) < ROUNDED).any():
+            return np.nan, (
+                "its modes have a largest motion of one (Nrmkey of MODOPT), so that modal masses are "
+                "not known: give the .full file too, or solve with modes normalised to mass"
+            )
+    return 1.0, (
+        "the modal masses are taken for one: Ansys normalises modes to mass or to a largest motion of "
+        "one, which they don't have"
     )
 
 
@@ -157,11 +196,15 @@ def _axes(angles: Array) -> Floats | None:
 
 def _arrays(path: Path) -> dict[str, Array]:
     """What the library's process reads of a file."""
-    with opened(path, LARGEST_FILE):
+    with opened(path, LARGEST_FILE) as file:
+        if file.read(4) not in BEGINNINGS:
+            raise VehicleError("is empty or no binary file of Ansys, which begins with a header")
         seconds = LEAST_SECONDS + path.stat().st_size // BYTES_A_SECOND
+    memory = most_allowed(MOST_MEMORY)
     with TemporaryDirectory() as folder:
         output = Path(folder) / "arrays.npz"
-        command = [sys.executable, extract.__file__, str(path.resolve()), str(output)]
+        code = Path(extract.__file__).read_text("utf-8")
+        command = own_process(code, memory, str(path.resolve()), str(output))
         try:
             run = subprocess.run(command, capture_output=True, timeout=seconds, check=False)
         except subprocess.TimeoutExpired:
@@ -171,8 +214,13 @@ def _arrays(path: Path) -> dict[str, Array]:
             raise VehicleError(
                 "to read Ansys's files ansys-mapdl-reader is needed: pip install 'modeviz[ansys]'"
             )
+        if said == "memory":
+            raise VehicleError(
+                f"takes more than {memory:,} bytes of memory to be read: it is damaged, or "
+                f"{VARIABLE}=2 in the environment would allow twice as many"
+            )
         if run.returncode:
             what = f"ends with status {run.returncode}" if run.returncode < 0 else cut(said, 200)
-            raise VehicleError(f"is no such file of Ansys, or is damaged: its reader {what or 'ends'}")
+            raise VehicleError(f"is a damaged file of Ansys, or one that is not known ({what})")
         with np.load(output, allow_pickle=False) as arrays:
             return dict(arrays)
