@@ -14,6 +14,7 @@ from modeviz.report.comparison import Comparison
 from modeviz.report.html.exactness import exactness
 from modeviz.report.html.modes import frequencies, objective, participation, rates
 from modeviz.report.html.ride import levels, spectra
+from modeviz.report.html.rigid import rigid
 from modeviz.report.html.wheels import wheels
 from modeviz.text.markup import change, named_small, section, span
 from modeviz.text.wording import number, signed
@@ -52,6 +53,7 @@ def report(
             rates(comparison),
             objective(comparison),
             frequencies(comparison),
+            rigid(comparison),
             spectra(comparison),
             levels(comparison),
             participation(comparison),
