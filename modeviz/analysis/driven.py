@@ -53,15 +53,14 @@ class Driven:
             SolveError: with these rates an undamped resonance lies on a line.
         """
         prepared = self.prepared
-        n_changed = np.count_nonzero(stiffness != self.receptances.mount_stiffness)
-        if n_changed > prepared.system.n_dofs:
+        if len(self.receptances.changed(stiffness)) > prepared.system.n_dofs:
             return self.exact_response(stiffness, lines)
         kept, place = self._on_band(lines)
         on_band = self.receptances.response(stiffness)
         if kept.all():
             return on_band
         H = np.empty((len(lines), *on_band.shape[1:]), complex)
-        changed = np.flatnonzero(stiffness != self.prepared.between.known.mount_stiffness)
+        changed = prepared.between.known.changed(stiffness)
         between = self._between(lines[~kept], changed)
         H[kept], H[~kept] = on_band[place[kept]], between.response(stiffness[changed])
         return H
@@ -87,7 +86,8 @@ class Driven:
         """Return the response from the full model's equations of motion, as `direct_response`."""
         prepared = self.prepared
         system = prepared.system.with_springs(stiffness - prepared.basis.mount_stiffness)
-        forces = prepared.input_directions.T @ self._inputs(lines, stiffness).forces
+        there = self.receptances.law.stiffness(stiffness, lines)
+        forces = prepared.input_directions.T @ self._inputs(lines, there).forces
         return direct_response(system, lines, forces, prepared.outputs)
 
     def _inputs(self, lines: Floats, stiffness: Complexes) -> Excitation:

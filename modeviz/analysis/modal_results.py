@@ -76,7 +76,7 @@ class ModalResults:
 
     @cached_property
     def mount_rates(self) -> Floats:
-        """The real rate of every mount spring, (n_springs,), N/m and N m/rad."""
+        """The real rate of every mount spring, (n_springs,), N/m and N m/rad, at the reference."""
         return np.real(self.prepared.mount_stiffness(self.rates)).astype(np.float64)
 
     @cached_property
@@ -87,24 +87,32 @@ class ModalResults:
     @cached_property
     def strain_energy(self) -> Mapping[str, Floats]:
         """Share of each flexible body and connection group, (n_modes,) by name."""
-        return strain_energy(self.prepared.system, self.modes.shapes, self.mount_rates)
+        own = self.band.springs.real.T.astype(np.float64)
+        return strain_energy(self.prepared.system, self.modes.shapes, own)
 
     @cached_property
     def dissipated_energy(self) -> Mapping[str, Floats]:
         """Share of each flexible body and connection group in a cycle's loss, (n_modes,) by name."""
-        modes, stiffness = self.modes, self.prepared.mount_stiffness(self.rates)
-        return dissipated_energy(self.prepared.system, modes.shapes, modes.frequency_hz, stiffness)
+        modes, own = self.modes, self.band.springs
+        return dissipated_energy(self.prepared.system, modes.shapes, modes.frequency_hz, own)
 
-    def strain_shares(self, shape: Array) -> dict[str, float]:
+    def strain_shares(self, shape: Array, frequency_hz: float) -> dict[str, float]:
         """The strain energy of a shape: share of each flexible body and connection group.
 
         Args:
             shape: (n_dofs,), real or complex, in any scale.
+            frequency_hz: at which it moves.
         """
         system, phi = self.prepared.system, shape[:, None]
         norm = np.sqrt(np.vdot(phi, system.momentum(phi)).real) or 1.0
-        shares = strain_energy(system, phi / norm, self.mount_rates)
+        stiffness = self.prepared.mount_stiffness(self.rates)
+        there = self.prepared.basis.law.stiffness(stiffness, np.array([frequency_hz]))
+        shares = strain_energy(system, phi / norm, there.real.T.astype(np.float64))
         return {name: float(share[0]) for name, share in shares.items()}
+
+    def strain_shares_of_mode(self, mode: int) -> dict[str, float]:
+        """Return `strain_shares` of a mode, by its number from zero."""
+        return self.strain_shares(self.modes.shapes[:, mode], float(self.modes.frequency_hz[mode]))
 
     def mode_index(self, name: str) -> int | None:
         """Return which mode is called that; None if no mode is."""

@@ -224,7 +224,7 @@ def _with_responses(
     between = Between(receptances, NO_POLES)
     if is_graded:
         rows = directions(softest, softest.mount_motions, outputs, inputs)
-        along = receptances_along(softest, rows)
+        along = receptances_along(softest.with_constant_rates(), rows)
         between = prepare_between(receptances, modal.basis, (outputs, inputs), along)
     return Prepared(
         modal.system,

@@ -154,17 +154,18 @@ class Results(ModalResults):
         """
         band, above, prepared = self.band, self.above, self.prepared
         forces, moved = self._forces(load, frequency_hz)
+        shapes = band.modes.shapes / np.sqrt(band.dispersion)
         q = modal_coordinates(
             band.modes.omega_n_squared,
             band.damping,
             band.structural_damping,
             frequency_hz,
-            self.modes.shapes.T @ forces,
+            shapes.T @ forces,
         )
         row = prepared.outputs[output]
         return np.hstack(
             [
-                participation(row @ self.modes.shapes, q, input_psd),
+                participation(row @ shapes, q, input_psd),
                 participation_above(
                     above,
                     self._n_above,
@@ -183,11 +184,12 @@ class Results(ModalResults):
         Per unit of each input, (n_freqs, n_dofs, n_inputs) both.
         """
         prepared, system = self.prepared, self.prepared.system
-        stiffness = prepared.mount_stiffness(self.rates)
-        inputs = excitation(prepared.vehicle, load, frequency_hz, self.conditions.speed, stiffness)
+        law = prepared.basis.law
+        there = law.stiffness(prepared.mount_stiffness(self.rates), frequency_hz)
+        inputs = excitation(prepared.vehicle, load, frequency_hz, self.conditions.speed, there)
         actions = prepared.input_directions.T @ inputs.forces
-        moved, change = led(system, actions), stiffness - prepared.basis.mount_stiffness
-        pull = system.mount_motions.T @ (change[:, None] * (system.mount_motions @ moved))
+        moved, change = led(system, actions), there - prepared.basis.mount_stiffness
+        pull = system.mount_motions.T @ (change[:, :, None] * (system.mount_motions @ moved))
         return forces_on_rest(system, frequency_hz, actions) - pull, moved
 
     def part_name(self, part: int) -> str:

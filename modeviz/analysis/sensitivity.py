@@ -40,12 +40,15 @@ def frequency_sensitivity(results: ModalResults) -> Floats:
 
     ∂(ω²)/∂k = φᵀRᵀRφ over the springs with that rate (R. L. Fox and M. P. Kapoor, "Rates of change of
     eigenvalues and eigenvectors", AIAA Journal 6(12), 1968). Zero for a mode that moves freely; of
-    modes with the same frequency only the mean has a derivative.
+    modes with the same frequency only the mean has a derivative. Where rates depend on frequency the
+    mode follows its own: that over 1 - φᵀ ∂K/∂ω² φ.
     """
-    prepared = results.prepared
+    prepared, f = results.prepared, results.modes.frequency_hz
     stretch = prepared.system.mount_motions @ results.modes.shapes
-    squares = (stretch**2).T @ spring_shares(prepared, results.rates).real
-    f = results.modes.frequency_hz[:, None]
+    shares, ratios = spring_shares(prepared, results.rates), prepared.basis.law.ratios(f)
+    squares = np.einsum("sm,msv->mv", stretch**2, (ratios[:, :, None] * shares).real)
+    squares /= results.band.dispersion[:, None]
+    f = f[:, None]
     return np.divide(squares, 8 * np.pi**2 * f, out=np.zeros_like(squares), where=f > RESOLVED_HZ)
 
 

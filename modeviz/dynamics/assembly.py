@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from modeviz.dynamics.mount_rates import mount_stiffness, rows_of_springs
 from modeviz.dynamics.rigid_joints import RigidJoints, rigid_joints
+from modeviz.dynamics.spring_law import spring_law
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
@@ -40,6 +41,9 @@ class System:
     connection_motions: Floats
     """Rows (6 n_connections, n_dofs): how each of `vehicle.all_connections` is stretched and turned
     along its local axes, see `relative_motion`."""
+    mount_stiffness: Complexes
+    """(n_springs,), N/m and N m/rad: the complex rates of mount springs that the matrices have; where
+    these depend on frequency, those at the reference, see `at`."""
     rigid_joints: RigidJoints | None = None
     """What is held without a spring; None without a rigid joint."""
     mode_dampers: Floats = field(default_factory=lambda: np.zeros((0, 0)))
@@ -142,8 +146,21 @@ class System:
 
     def with_mounts(self, vehicle: Vehicle) -> "System":
         """The system of the same vehicle with mounts of other rates."""
-        change = mount_stiffness(vehicle) - mount_stiffness(self.vehicle)
+        change = mount_stiffness(vehicle) - self.mount_stiffness
         return replace(self.with_springs(change), vehicle=vehicle)
+
+    def at(self, frequency_hz: float) -> "System":
+        """The system with the rates that its mounts have at one frequency."""
+        law = spring_law(self.vehicle)
+        if law.is_constant:
+            return self
+        there = law.stiffness(self.mount_stiffness, np.array([frequency_hz]))[0]
+        return self.with_springs(there - self.mount_stiffness)
+
+    def with_constant_rates(self) -> "System":
+        """The same system at one frequency, but with mounts that keep their rates at all others."""
+        groups = tuple(replace(group, dynamic=None) for group in self.vehicle.mount_groups)
+        return replace(self, vehicle=replace(self.vehicle, mount_groups=groups))
 
     def with_springs(self, change: Complexes) -> "System":
         """The system with mount springs that differ from what the vehicle says.
@@ -156,6 +173,7 @@ class System:
             self,
             stiffness=self.stiffness + (R.T * change.real) @ R,
             structural_damping=self.structural_damping + (R.T * change.imag) @ R,
+            mount_stiffness=self.mount_stiffness + change,
         )
 
 
@@ -171,7 +189,7 @@ def assemble(vehicle: Vehicle) -> System:
     for body in vehicle.bodies:
         own = dofs[body.name], dofs[body.name]
         M[own], C[own], K[own], K_g[own] = _body_matrices(body)
-    bare = System(vehicle, dofs, M, C, K, K_g, np.zeros((0, n_dofs)))
+    bare = System(vehicle, dofs, M, C, K, K_g, np.zeros((0, n_dofs)), mount_stiffness(vehicle))
     for added in vehicle.added_masses:
         R = bare.motion(added.body, added.position)[:3]
         M += added.mass * R.T @ R
@@ -193,6 +211,7 @@ def assemble(vehicle: Vehicle) -> System:
         stiffness=K + (R.T * k) @ R,
         structural_damping=K_g + (R.T * (g * k)) @ R,
         connection_motions=R,
+        mount_stiffness=bare.mount_stiffness,
         rigid_joints=joints,
     )
 

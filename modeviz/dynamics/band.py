@@ -1,6 +1,7 @@
 """The modes of the band at other mount rates.
 
-In the enriched basis, in the base modes alone, or from the full matrices, and how good they are.
+In the enriched basis, in the base modes alone, or from the full matrices, and how good they are. Where
+rates depend on frequency, each mode is solved at its own.
 """
 
 from dataclasses import dataclass
@@ -12,6 +13,13 @@ import scipy.linalg
 from modeviz.dynamics.basis import REACH, EnrichedBasis
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes, damping_ratio
 from modeviz.dynamics.mount_rates import mounts_of_springs
+from modeviz.dynamics.own_frequency import (
+    Pencil,
+    full_pencil,
+    own_frequencies,
+    own_modes,
+    ritz_pencil,
+)
 from modeviz.dynamics.trust import EDGE, ErrorEstimate, count_below, frequency_error, gap_error, missed
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
@@ -27,9 +35,15 @@ class BandModes:
 
     modes: Modes
     damping: Floats
-    """φᵀCφ, (n_modes, n_modes): damping couples modes."""
+    """φᵀCφ, (n_modes, n_modes): damping couples modes. With `dispersion`, in parts of its roots."""
     structural_damping: Floats
-    """φᵀK_gφ, (n_modes, n_modes)."""
+    """φᵀK_gφ, (n_modes, n_modes), likewise; between two modes the mean of what each one has."""
+    springs: Complexes
+    """(n_modes or 1, n_springs), N/m: the complex rates of mount springs, at each mode's own frequency
+    where they depend on it."""
+    dispersion: Floats
+    """(n_modes,): 1 - φᵀ ∂K/∂ω² φ, the part of a mode's mass that is left where stiffness rises with
+    frequency. What drives or damps the mode does so as if its mass were that."""
     trust: ErrorEstimate
     ritz: tuple[Floats, Floats] | None
     """ω² (n_vectors,) and vectors (n_vectors, n_vectors) of all modes of the enriched basis; None if
@@ -47,21 +61,48 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
     Raises:
         SolveError: a spring so stiff that rounding drowns the slow modes.
     """
-    change = stiffness - basis.mount_stiffness
-    _check_resolved(basis, change.real)
-    solution = _exact(basis, change.real) if method == "exact" else _ritz(basis, change.real, method)
-    omega = np.sqrt(np.maximum(solution.omega_squared, 0.0))
-    stretch = solution.stretch
-    viscous, structural = solution.damping, solution.structural + (stretch.T * change.imag) @ stretch
-    ratio = damping_ratio(omega, np.diag(viscous), np.diag(structural))
-    n_counted = count_below(basis.n_below, basis.top_receptance, change.real)
+    at_top = _change(basis, stiffness, np.array([basis.top_hz]))[0].real
+    _check_resolved(basis, at_top)
+    solution = _solution(basis, stiffness, method)
+    omega, stretch = np.sqrt(np.maximum(solution.omega_squared, 0.0)), solution.stretch
+    f = omega / (2 * np.pi)
+    change = _change(basis, stiffness, f)
+    dispersion = 1 - _stiffening(basis, stiffness, f, stretch)
+    root = np.sqrt(np.multiply.outer(dispersion, dispersion))
+    viscous = solution.damping / root
+    structural = (
+        solution.structural + _mean_of_both(np.asarray(change.imag, np.float64), stretch)
+    ) / root
+    n_counted = count_below(basis.n_below, basis.top_receptance, at_top)
     trust = ErrorEstimate(
         solution.residual,
         frequency_error(solution.omega_squared, solution.error + basis.rounding),
-        missed(n_counted, solution.omega_squared, basis.top),
+        missed(n_counted + solution.n_against, solution.omega_squared, basis.top),
     )
-    modes = Modes(omega / (2 * np.pi), solution.shapes, ratio)
-    return BandModes(modes, viscous, structural, trust, solution.ritz)
+    modes = Modes(f, solution.shapes, damping_ratio(omega, np.diag(viscous), np.diag(structural)))
+    springs = change + basis.mount_stiffness
+    return BandModes(modes, viscous, structural, springs, dispersion, trust, solution.ritz)
+
+
+def _change(basis: EnrichedBasis, stiffness: Complexes, frequency_hz: Floats) -> Complexes:
+    """Δ of complex rates at frequencies, (n_freqs or 1, n_springs), N/m."""
+    return basis.law.stiffness(stiffness, frequency_hz) - basis.mount_stiffness
+
+
+def _mean_of_both(loss: Floats, stretch: Floats) -> Floats:
+    """φᵀRᵀ Im Δ Rφ, (n_modes, n_modes), from Im Δ (n_modes or 1, n_springs) of each mode."""
+    one_way = stretch.T @ (loss.T * stretch)
+    return (one_way + one_way.T) / 2
+
+
+def _stiffening(
+    basis: EnrichedBasis, stiffness: Complexes, frequency_hz: Floats, stretch: Floats
+) -> Floats:
+    """φᵀ ∂K/∂ω² φ of each mode, (n_modes,), with ∂/∂ω² = 1/(8π²f) ∂/∂f; zero for what moves freely."""
+    slopes = (stiffness * basis.law.slopes(frequency_hz)).real
+    rising = np.sum(slopes.T * stretch**2, axis=0)
+    f = np.maximum(frequency_hz, RESOLVED_HZ)
+    return np.where(frequency_hz > RESOLVED_HZ, rising / (8 * np.pi**2 * f), 0.0)
 
 
 def modes_above(basis: EnrichedBasis, stiffness: Complexes, band: BandModes) -> Modes:
@@ -74,7 +115,7 @@ def modes_above(basis: EnrichedBasis, stiffness: Complexes, band: BandModes) -> 
         stiffness: (n_springs,), complex rates, N/m.
         band: its modes at these rates.
     """
-    change = stiffness - basis.mount_stiffness
+    change = _change(basis, stiffness, np.array([basis.top_hz]))[0]
     R = basis.spring_motions
     omega_squared, y = band.ritz or np.linalg.eigh(basis.stiffness + (R.T * change.real) @ R)
     n_band = len(band.modes.frequency_hz)
@@ -89,10 +130,13 @@ def natural_frequencies(basis: EnrichedBasis, stiffness: Complexes) -> Floats:
 
     At other mount rates; cheaper than `band_modes`, without shapes; arguments as there.
     """
-    change = (stiffness - basis.mount_stiffness).real
+    change = _change(basis, stiffness, np.array([basis.top_hz]))[0].real
     _check_resolved(basis, change)
-    R = basis.spring_motions
-    omega_squared = np.linalg.eigvalsh(basis.stiffness + (R.T * change) @ R)[: basis.n_below]
+    if basis.law.is_constant:
+        R = basis.spring_motions
+        omega_squared = np.linalg.eigvalsh(basis.stiffness + (R.T * change) @ R)[: basis.n_below]
+    else:
+        omega_squared = own_frequencies(ritz_pencil(basis, stiffness), basis.n_below, basis.top)
     return np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)
 
 
@@ -128,31 +172,45 @@ class _Solution:
     """See `ErrorEstimate`, of ω², but for rounding."""
     ritz: tuple[Floats, Floats] | None = None
     """See `BandModes`."""
+    n_against: int = 0
+    """See `own_modes`."""
 
 
-def _ritz(basis: EnrichedBasis, change: Floats, method: Method) -> _Solution:
-    """The modes within the basis, or within its base modes."""
+def _solution(basis: EnrichedBasis, stiffness: Complexes, method: Method) -> _Solution:
+    """The modes of the band, by that method."""
+    if method == "exact":
+        return _exact(basis, stiffness)
     n = basis.n_modes if method == "classic" else basis.vectors.shape[1]
-    R = basis.spring_motions
-    A = basis.stiffness + (R.T * change) @ R
-    roughly, every = np.linalg.eigh(A[:n, :n])
-    y = every[:, roughly < 2 * basis.top]
-    omega_squared, y = _lowest(basis, basis.stiffness[:n, :n], R[:, :n], change, y)
-    stretch = R[:, :n] @ y
-    inside = A[:, :n] @ y
+    return _ritz(basis, stiffness, n)
+
+
+def _ritz(basis: EnrichedBasis, stiffness: Complexes, n: int) -> _Solution:
+    """The modes within the first vectors of the basis."""
+    pencil, ritz, n_against = ritz_pencil(basis, stiffness, n), None, 0
+    if basis.law.is_constant:
+        roughly, every = np.linalg.eigh(pencil.at(basis.top_hz))
+        y = every[:, roughly < 2 * basis.top]
+        omega_squared, y = _lowest(pencil, basis.top, y)
+        ritz = (roughly, every) if n == basis.vectors.shape[1] else None
+    else:
+        omega_squared, y, n_against = own_modes(pencil, basis.top)
+    stretch = pencil.motions @ y
+    change = _change(basis, stiffness, np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)).real
+    inside = basis.stiffness[:, :n] @ y + basis.spring_motions.T @ (change.T * stretch)
     inside[:n] -= omega_squared * y
-    outside = basis.remainder[:, :n] @ y + basis.spring_remainder @ (change[:, None] * stretch)
-    inside_norm = np.linalg.norm(inside, axis=0)
+    outside = basis.remainder[:, :n] @ y + basis.spring_remainder @ (change.T * stretch)
+    left_out = ritz_pencil(basis, stiffness).at(basis.top_hz)[n:, n:]
     return _Solution(
         omega_squared,
         basis.vectors[:, :n] @ y,
         stretch,
         y.T @ basis.damping[:n, :n] @ y,
         y.T @ basis.structural_damping[:n, :n] @ y,
-        np.hypot(inside_norm, np.linalg.norm(outside, axis=0)),
+        np.hypot(np.linalg.norm(inside, axis=0), np.linalg.norm(outside, axis=0)),
         _amplification(basis, omega_squared)
-        * (_quadratic(basis.remainder_compliance, outside) + _compliance_of(A[n:, n:], inside[n:])),
-        (roughly, every) if method == "enriched" else None,
+        * (_quadratic(basis.remainder_compliance, outside) + _compliance_of(left_out, inside[n:])),
+        ritz,
+        n_against,
     )
 
 
@@ -171,42 +229,47 @@ def _compliance_of(A: Floats, forces: Floats) -> Floats:
     return np.sum(forces * np.linalg.solve(A, forces), axis=0)
 
 
-def _exact(basis: EnrichedBasis, change: Floats) -> _Solution:
+def _exact(basis: EnrichedBasis, stiffness: Complexes) -> _Solution:
     """The modes of the full matrices."""
-    system = basis.system
-    R, M = system.mount_motions, system.condensed(system.mass)
-    K = system.condensed(system.stiffness + (R.T * change) @ R)
-    _, y = scipy.linalg.eigh(K, M, subset_by_value=(-np.inf, (1 + EDGE) * basis.top))
-    omega_squared, phi = _lowest(basis, system.stiffness, R, change, system.expanded(y))
-    y = system.condensed_shapes(phi)
+    system, pencil, n_against = basis.system, full_pencil(basis, stiffness), 0
+    M = system.condensed(system.mass)
+    if basis.law.is_constant:
+        K, below = pencil.at(basis.top_hz), (-np.inf, (1 + EDGE) * basis.top)
+        _, y = scipy.linalg.eigh(K, M, subset_by_value=below)
+        omega_squared, y = _lowest(pencil, basis.top, y)
+    else:
+        omega_squared, y, n_against = own_modes(pencil, basis.top)
+    stretch = pencil.motions @ y
+    change = _change(basis, stiffness, np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)).real
+    forces = pencil.stiffness @ y + pencil.motions.T @ (change.T * stretch)
+    unbalanced = forces - omega_squared * (M @ y)
     residual = np.linalg.norm(
-        scipy.linalg.solve_triangular(
-            scipy.linalg.cholesky(M, lower=True), K @ y - omega_squared * (M @ y), lower=True
-        ),
+        scipy.linalg.solve_triangular(scipy.linalg.cholesky(M, lower=True), unbalanced, lower=True),
         axis=0,
     )
+    phi = system.expanded(y)
     return _Solution(
         omega_squared,
         phi,
-        R @ phi,
+        stretch,
         phi.T @ system.damping @ phi,
         phi.T @ system.structural_damping @ phi,
         residual,
         gap_error(omega_squared, residual),
+        n_against=n_against,
     )
 
 
-def _lowest(
-    basis: EnrichedBasis, K: Floats, R: Floats, change: Floats, vectors: Floats
-) -> tuple[Floats, Floats]:
+def _lowest(pencil: Pencil, top: float, vectors: Floats) -> tuple[Floats, Floats]:
     """The vectors of the band in rising order, with Rayleigh's quotient of each.
 
     Base and change are summed apart: a spring that is practically rigid makes the eigenvalues of the
     sum inexact, but hardly stretches.
     """
-    omega_squared = _quadratic(K, vectors) + change @ (R @ vectors) ** 2
+    change = pencil.change(np.sqrt(top) / (2 * np.pi))
+    omega_squared = _quadratic(pencil.stiffness, vectors) + change @ (pencil.motions @ vectors) ** 2
     order = np.argsort(omega_squared, kind="stable")
-    order = order[omega_squared[order] < basis.top]
+    order = order[omega_squared[order] < top]
     return omega_squared[order], vectors[:, order]
 
 

@@ -15,7 +15,7 @@ import scipy.linalg
 
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.modes import rounding, solve_modes
-from modeviz.dynamics.mount_rates import mount_stiffness
+from modeviz.dynamics.spring_law import SpringLaw, spring_law
 from modeviz.vehicle.arrays import Complexes, Floats
 
 TOP_HZ = 40.0
@@ -68,10 +68,15 @@ class EnrichedBasis:
     n_below: int
     """How many modes the base has in the band, counted without solving for them."""
 
-    @cached_property
+    @property
     def mount_stiffness(self) -> Complexes:
         """The base rates, (n_springs,), complex, N/m."""
-        return mount_stiffness(self.system.vehicle)
+        return self.system.mount_stiffness
+
+    @cached_property
+    def law(self) -> SpringLaw:
+        """How rates depend on frequency."""
+        return spring_law(self.system.vehicle)
 
     @property
     def n_bytes(self) -> int:

@@ -2,6 +2,8 @@
 
 (λ²I + λC + Ω² + jK_g) y = 0 in the modes of the band says which damped mode is which. What the modes
 above the band add through the dampers is found in the enriched basis, for one mode at a time.
+
+Where rates depend on frequency, λ has those at λ/2πj, see `vehicle.dynamic_rates`.
 """
 
 from dataclasses import dataclass
@@ -112,14 +114,18 @@ def _sharpened(
     By Newton's method on both, the part of y along the first one kept (A. Ruhe, "Algorithms for the
     nonlinear eigenvalue problem", SIAM Journal on Numerical Analysis 10(4), 1973).
     """
-    change, R, n = stiffness - basis.mount_stiffness, basis.spring_motions, len(y)
-    K = basis.stiffness + 1j * basis.structural_damping + (R.T * change) @ R
+    R, n, law = basis.spring_motions, len(y), basis.law
+    base = basis.stiffness + 1j * basis.structural_damping
     bordered = np.zeros((n + 1, n + 1), complex)
     bordered[n, :n] = y.conj()
     kept = np.append(np.zeros(n), np.linalg.norm(y) ** 2)
     for _ in range(MAX_STEPS):
+        f = np.array([root / (2j * np.pi)])
+        change = law.stiffness(stiffness, f)[0] - basis.mount_stiffness
+        slope = stiffness * law.slopes(f)[0] / (2j * np.pi)
+        K = base + (R.T * change) @ R
         bordered[:n, :n] = K + root * basis.damping + root**2 * np.eye(n)
-        bordered[:n, n] = 2 * root * y + basis.damping @ y
+        bordered[:n, n] = 2 * root * y + basis.damping @ y + R.T @ (slope * (R @ y))
         solution: Complexes = np.asarray(np.linalg.solve(bordered, kept), complex)
         y, step = solution[:n], complex(solution[n])
         root += step

@@ -32,7 +32,8 @@ def strain_energy(
     Args:
         system: what vibrates.
         shapes: mass-normalised, (n_dofs, n_modes).
-        mount_stiffness: real rates of every mount spring, (n_springs,), in place of its own.
+        mount_stiffness: real rates of every mount spring, (n_springs, n_modes or 1), in place of its
+            own.
     """
     bodies = [body for body in system.vehicle.bodies if isinstance(body, FlexibleBody)]
     groups, stretch = _group_energy(system, shapes, mount_stiffness)
@@ -50,12 +51,12 @@ def _group_energy(
     system: System, shapes: Floats, mount_stiffness: Floats | None
 ) -> tuple[list[str], Floats]:
     """The connection groups and twice the strain energy of each, (n_groups, n_modes), J."""
-    k = system.connection_stiffness
+    k = np.repeat(system.connection_stiffness[:, None], shapes.shape[1], axis=1)
     if mount_stiffness is not None:
-        k = k.copy()
-        n_mounts = len(system.vehicle.mounts)
-        k.reshape(-1, 6)[:n_mounts, :3] = mount_stiffness[: 3 * n_mounts].reshape(-1, 3)
-    stretch = k[:, None] * np.abs(system.connection_motions @ shapes) ** 2
+        n_mounts, n_modes = len(system.vehicle.mounts), shapes.shape[1]
+        along = np.broadcast_to(mount_stiffness[: 3 * n_mounts], (3 * n_mounts, n_modes))
+        k.reshape(-1, 6, n_modes)[:n_mounts, :3] = along.reshape(n_mounts, 3, n_modes)
+    stretch = k * np.abs(system.connection_motions @ shapes) ** 2
     by_connection = stretch.reshape(-1, 6, shapes.shape[1]).sum(axis=1)
     group_of = [connection.group for connection in system.vehicle.all_connections]
     number = {group: i for i, group in enumerate(dict.fromkeys(group_of))}

@@ -6,11 +6,13 @@ have; within it (I + VᴴGΔV) y = Vᴴ b is a small system (A. K. Noor, J. M. P
 technique for nonlinear analysis of structures", AIAA Journal 18(4), 1980).
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeviz.dynamics.reanalysis import Receptances, solve_checked
+from modeviz.dynamics.spring_law import SpringLaw
 from modeviz.vehicle.arrays import Complexes, Floats
 
 TOLERANCE = 3e-4
@@ -56,12 +58,14 @@ class Reduced:
     """(n_springs,), N/m: from which rates change."""
     lines: tuple[_Line, ...]
     """One for each frequency."""
+    law: SpringLaw
+    """How rates depend on frequency."""
 
     def responses(self, stiffness: Complexes) -> Complexes:
         """The responses at sets of mount rates; arguments and errors as `Receptances.responses`."""
-        change = stiffness - self.mount_stiffness
-        pairs = zip(self.lines, self.frequency_hz.tolist(), strict=True)
-        return np.stack([line.responses(change, f) for line, f in pairs], axis=1)
+        changes = _changes(self.law, self.frequency_hz, stiffness, self.mount_stiffness)
+        pairs = zip(self.lines, changes, self.frequency_hz.tolist(), strict=True)
+        return np.stack([line.responses(change, f) for line, change, f in pairs], axis=1)
 
 
 def reduced(receptances: Receptances, stiffness: Complexes) -> Reduced:
@@ -74,12 +78,22 @@ def reduced(receptances: Receptances, stiffness: Complexes) -> Reduced:
     Raises:
         SolveError: with rates of a set an undamped resonance lies on a frequency.
     """
-    middle = receptances.modified(stiffness[0])
-    changes = stiffness - stiffness[0]
+    middle, f = receptances.modified(stiffness[0]), receptances.frequency_hz
     rates = np.abs(stiffness[0])
     scale = np.sqrt(np.maximum(rates, SOFTEST * rates.max()))
-    lines = tuple(_line(middle, i, changes, scale) for i in range(len(middle.frequency_hz)))
-    return Reduced(middle.frequency_hz, stiffness[0], lines)
+    changes = _changes(middle.law, f, stiffness, stiffness[0])
+    lines = tuple(_line(middle, i, change, scale) for i, change in enumerate(changes))
+    return Reduced(f, stiffness[0], lines, middle.law)
+
+
+def _changes(
+    law: SpringLaw, frequency_hz: Floats, stiffness: Complexes, base: Complexes
+) -> Iterator[Complexes]:
+    """Return the changes of sets of rates, (n_sets, n_springs), from others, frequency by frequency."""
+    ratios = law.ratios(frequency_hz)
+    return (
+        stiffness * ratio - base for ratio in np.broadcast_to(ratios, (len(frequency_hz), len(base)))
+    )
 
 
 def _line(middle: Receptances, i: int, changes: Complexes, scale: Floats) -> _Line:

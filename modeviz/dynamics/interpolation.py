@@ -73,7 +73,7 @@ class Between:
             part.reshape(len(x), *a.shape[1:])
             for part, a in zip(np.split(found, ends, axis=1), arrays, strict=True)
         )
-        return Receptances(x, wanted.mount_stiffness, *values)
+        return Receptances(x, wanted.mount_stiffness, *values, law=wanted.law)
 
     @property
     def _n_nodes(self) -> int:

@@ -1,7 +1,8 @@
 """Responses after a change of mount rates: structural modification on receptances.
 
 With G the displacements per unit force between mount springs, outputs and inputs at one set of rates,
-and Δ the change of the springs' complex rates, the vehicle with the new rates has
+and Δ the change of the springs' complex rates, which may be another at each frequency, the vehicle with
+the new rates has
 
     G' = G - G_·m Δ (I + G_mm Δ)⁻¹ G_m·
 
@@ -26,6 +27,7 @@ from modeviz.dynamics.inputs import directions
 from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.dynamics.receptance import receptance_lines
 from modeviz.dynamics.response import drowned
+from modeviz.dynamics.spring_law import SpringLaw, spring_law
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 
 POLE = 1e10
@@ -38,7 +40,11 @@ BLOCK = 2**22
 
 @dataclass(frozen=True, eq=False)
 class Receptances:
-    """Receptances among a vehicle's mount springs, outputs and inputs, at some mount rates."""
+    """Receptances among a vehicle's mount springs, outputs and inputs, at some mount rates.
+
+    These are the same at all frequencies; those asked for are rates at a reference, of which the law
+    makes what they are at each frequency.
+    """
 
     frequency_hz: Floats
     """(n_freqs,)."""
@@ -52,6 +58,8 @@ class Receptances:
     """(n_freqs, n_springs, n_inputs): stretch per unit of input, of a spring between moving ends."""
     direct: Complexes
     """(n_freqs, n_outputs, n_inputs): displacement of each output per unit of input."""
+    law: SpringLaw
+    """How rates depend on frequency."""
 
     @property
     def n_bytes(self) -> int:
@@ -70,7 +78,7 @@ class Receptances:
         return replace(self, inputs=self.inputs @ forces - ground, direct=self.direct @ forces)
 
     def modified(self, stiffness: Complexes, pole: float = POLE) -> "Receptances":
-        """All of these receptances at other mount rates.
+        """All of these receptances at other mount rates, the same at all frequencies.
 
         Args:
             stiffness: (n_springs,), complex rates, N/m.
@@ -80,14 +88,23 @@ class Receptances:
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
         columns = np.dstack([self.springs, self.outputs, self.inputs])
-        changed, forces = self._forces(stiffness, columns, pole)
+        change = (stiffness - self.mount_stiffness)[None]
+        changed, forces = self._forces(change, columns, pole)
         self._add_forces(columns, changed, forces)
         n_springs, n_outputs = self.outputs.shape[1:]
         springs, outputs, inputs = np.split(columns, [n_springs, n_springs + n_outputs], axis=2)
         direct = (
             self.direct - _transposed(self.outputs[:, changed]) @ forces[:, :, n_springs + n_outputs :]
         )
-        return Receptances(self.frequency_hz, stiffness, springs, outputs, inputs, direct)
+        return Receptances(self.frequency_hz, stiffness, springs, outputs, inputs, direct, self.law)
+
+    def change(self, stiffness: Complexes) -> Complexes:
+        """Return Δ of rates at the reference, (n_freqs or 1, n_springs), N/m."""
+        return self.law.stiffness(stiffness, self.frequency_hz) - self.mount_stiffness
+
+    def changed(self, stiffness: Complexes) -> NDArray[np.intp]:
+        """Return the springs whose rates are other ones, by their numbers."""
+        return np.flatnonzero(self.law.depends | (stiffness != self.mount_stiffness))
 
     def response(self, stiffness: Complexes) -> Complexes:
         """Displacement of each output per unit of input at other mount rates.
@@ -101,7 +118,7 @@ class Receptances:
         Raises:
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
-        changed, forces = self._forces(stiffness, self.inputs)
+        changed, forces = self._forces(self.change(stiffness), self.inputs)
         return self.direct - _transposed(self.outputs[:, changed]) @ forces
 
     def responses(self, stiffness: Complexes) -> Complexes:
@@ -118,18 +135,19 @@ class Receptances:
         Raises:
             SolveError: with rates of a set an undamped resonance lies on a frequency.
         """
-        u = self._sizes
-        change = (stiffness - self.mount_stiffness) * u**2
-        weight = 1 / (1 + np.abs(change))
-        scale = change * weight
+        u, ratios = self._sizes, self.law.ratios(self.frequency_hz)
         n_springs = len(u)
         H = np.empty((len(stiffness), *self.direct.shape), complex)
         for sets in _blocks(len(stiffness), 16 * n_springs**2):
             for i, f in enumerate(self.frequency_hz):
-                A = self.springs[i] / np.multiply.outer(u, u) * scale[sets, None]
-                A[:, range(n_springs), range(n_springs)] += weight[sets]
+                rates = stiffness[sets] * ratios[min(i, len(ratios) - 1)]
+                change = (rates - self.mount_stiffness) * u**2
+                weight = 1 / (1 + np.abs(change))
+                scale = change * weight
+                A = self.springs[i] / np.multiply.outer(u, u) * scale[:, None]
+                A[:, range(n_springs), range(n_springs)] += weight
                 b = np.broadcast_to(self.inputs[i] / u[:, None], (len(A), *self.inputs.shape[1:]))
-                forces = (scale[sets] / u)[:, :, None] * solve_checked(A, b, np.full(len(A), f))
+                forces = (scale / u)[:, :, None] * solve_checked(A, b, np.full(len(A), f))
                 H[sets, i] = self.direct[i] - _transposed(np.tensordot(forces, self.outputs[i], (1, 0)))
         return H
 
@@ -139,6 +157,7 @@ class Receptances:
             self.frequency_hz[lines],
             self.mount_stiffness,
             *(a[lines] for a in (self.springs, self.outputs, self.inputs, self.direct)),
+            law=self.law,
         )
 
     def part(
@@ -157,6 +176,7 @@ class Receptances:
             self.outputs[lines[:, None], s],
             self.inputs[lines[:, None], s][:, :, i],
             self.direct[lines][:, :, i],
+            self.law.of(s),
         )
 
     def merged(self, others: "Receptances", is_own: NDArray[np.bool_]) -> "Receptances":
@@ -174,6 +194,7 @@ class Receptances:
             both(self.outputs, others.outputs),
             both(self.inputs, others.inputs),
             both(self.direct, others.direct),
+            self.law,
         )
 
     def with_outputs(self, outputs: NDArray[np.intp]) -> "Receptances":
@@ -183,25 +204,27 @@ class Receptances:
     def response_gradient(self, stiffness: Complexes) -> tuple[Complexes, Complexes, Complexes]:
         """The response at other mount rates, and what its derivatives are made of.
 
-        ∂H/∂k_s = -a_s b_sᵀ for the complex rate of each spring, receptances at the new rates.
+        ∂H/∂k_s = -a_s b_sᵀ for the complex rate of each spring at the reference, receptances at the new
+        rates.
 
         Args:
             stiffness: (n_springs,), complex rates, N/m.
 
         Returns:
             H (n_freqs, n_outputs, n_inputs), a (n_freqs, n_springs, n_outputs), displacement of each
-            output per unit force in a spring, and b (n_freqs, n_springs, n_inputs), stretch of each
-            spring per unit of input.
+            output per unit force in a spring, and b (n_freqs, n_springs, n_inputs), force in each
+            spring per unit of its rate at the reference and of input.
 
         Raises:
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
         columns = np.dstack([self.outputs, self.inputs])
-        changed, forces = self._forces(stiffness, columns)
+        changed, forces = self._forces(self.change(stiffness), columns)
         self._add_forces(columns, changed, forces)
         n_outputs = self.outputs.shape[2]
         H = self.direct - _transposed(self.outputs[:, changed]) @ forces[:, :, n_outputs:]
-        return H, columns[:, :, :n_outputs], columns[:, :, n_outputs:]
+        ratios = self.law.ratios(self.frequency_hz)[:, :, None]
+        return H, columns[:, :, :n_outputs], ratios * columns[:, :, n_outputs:]
 
     @cached_property
     def _sizes(self) -> Floats:
@@ -210,25 +233,31 @@ class Receptances:
         return np.sqrt(np.maximum(own.max(axis=0, initial=0.0), np.finfo(np.float64).tiny))
 
     def _forces(
-        self, stiffness: Complexes, stretches: Complexes, pole: float = POLE
+        self, change: Complexes, stretches: Complexes, pole: float = POLE
     ) -> tuple[NDArray[np.intp], Complexes]:
         """The springs that change, and the forces Δ (I + G_mm Δ)⁻¹ b that this adds to stretches b.
 
         Stretches are scaled by u = √|G_ii| and forces by 1 + |Δ| u², so that nothing is large or small
         whether a rate is zero or practically rigid.
+
+        Args:
+            change: Δ, (n_freqs or 1, n_springs), N/m.
+            stretches: b, (n_freqs, n_springs, n_columns).
+            pole: see `POLE`.
         """
-        changed = np.flatnonzero(stiffness != self.mount_stiffness)
+        changed = np.flatnonzero(change.any(axis=0))
         u = self._sizes[changed]
-        change = (stiffness - self.mount_stiffness)[changed] * u**2
+        change = change[:, changed] * u**2
         weight = 1 / (1 + np.abs(change))
-        scale = change * weight / np.multiply.outer(u, u)
+        scaled = change * weight
         forces = np.empty((len(stretches), len(changed), stretches.shape[2]), complex)
         for lines in _blocks(len(stretches), 16 * len(changed) ** 2):
-            A = self._between(changed, lines) * scale
-            A[:, range(len(changed)), range(len(changed))] += weight
+            own = lines if len(change) > 1 else slice(None)
+            A = self._between(changed, lines) * (scaled[own, None] / np.multiply.outer(u, u))
+            A[:, range(len(changed)), range(len(changed))] += weight[own]
             b = stretches[lines, changed] / u[:, None]
             forces[lines] = solve_checked(A, b, self.frequency_hz[lines], pole)
-        return changed, (change * weight / u)[:, None] * forces
+        return changed, (scaled / u)[:, :, None] * forces
 
     def _add_forces(self, stretches: Complexes, changed: NDArray[np.intp], forces: Complexes) -> None:
         """Takes from stretches, in place, what the forces in changed springs do."""
@@ -268,10 +297,10 @@ def prepare_receptances(
     blocks = [(0, 0), (0, 1), (0, 2), (1, 2)]
     parts = [np.empty((len(f), sizes[i], sizes[j]), complex) for i, j in blocks]
     of = [slice(end - size, end) for size, end in zip(sizes, np.cumsum(sizes), strict=True)]
-    for line, G in enumerate(receptance_lines(system, f, rows, progress)):
+    for line, G in enumerate(receptance_lines(system.with_constant_rates(), f, rows, progress)):
         for part, (i, j) in zip(parts, blocks, strict=True):
             part[line] = G[of[i], of[j]]
-    return Receptances(f, mount_stiffness(system.vehicle), *parts)
+    return Receptances(f, mount_stiffness(system.vehicle), *parts, law=spring_law(system.vehicle))
 
 
 def solve_checked(A: Complexes, b: Complexes, frequency_hz: Floats, pole: float = POLE) -> Complexes:

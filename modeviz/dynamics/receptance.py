@@ -25,6 +25,7 @@ from modeviz.compute.threads import in_turn, thread_pool
 from modeviz.dynamics.assembly import System, all_coefficients, modal_coefficients
 from modeviz.dynamics.inputs import directions
 from modeviz.dynamics.response import check_accuracy, check_frequencies, drowned
+from modeviz.dynamics.spring_law import SpringLaw, connection_law
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
@@ -107,12 +108,15 @@ class _Joints:
     damping: Floats
     mass: Floats
     """(n_joints,) each."""
+    law: SpringLaw
+    """How the stiffness of these depends on frequency."""
     n_rigid: int
     """How many more there are, the last, that do not yield."""
 
     def compliance(self, omega: complex) -> Complexes:
         """1/z, (n_joints + n_rigid,)."""
-        z = self.stiffness + 1j * omega * self.damping - omega**2 * self.mass
+        stiffness = self.law.stiffness(self.stiffness, np.array([omega / (2 * np.pi)]))[0]
+        z = stiffness + 1j * omega * self.damping - omega**2 * self.mass
         return np.concatenate([1 / z, np.zeros(self.n_rigid, complex)])
 
 
@@ -267,6 +271,7 @@ def _joints(system: System) -> tuple[Floats, _Joints]:
         stiffness=np.r_[(k * (1 + 1j * g))[joined], none, damped],
         damping=np.r_[c[joined], none, system.mode_damping],
         mass=np.r_[np.zeros(np.count_nonzero(joined)), mass, damped],
+        law=connection_law(vehicle).of(joined).followed_by(len(mass) + len(damped)),
         n_rigid=len(held),
     )
     return np.vstack([system.connection_motions[joined], *carried, *dampers, held]), joints

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeviz.dynamics.band import band_modes
 from modeviz.dynamics.basis import EnrichedBasis
 from modeviz.dynamics.modes import Modes, damping_ratio, vibrating_roots
 from modeviz.vehicle.arrays import Complexes, Floats
@@ -92,6 +93,9 @@ def resonances(modes: Modes, damping: Floats, structural_damping: Floats) -> Res
 
 def resonances_at(basis: EnrichedBasis, stiffness: Complexes) -> Resonances:
     """The resonances of the band at other mount rates, (n_springs,), complex, N/m."""
+    if not basis.law.is_constant:
+        band = band_modes(basis, stiffness)
+        return resonances(band.modes, band.damping, band.structural_damping)
     change = stiffness - basis.mount_stiffness
     R = basis.spring_motions
     omega_squared, y = np.linalg.eigh(basis.stiffness + (R.T * change.real) @ R)

@@ -40,6 +40,8 @@ def direct_response(
 def direct_shape(system: System, frequency_hz: float, forces: Complexes, outputs: Floats) -> Complexes:
     """The displacement of every coordinate at one frequency, (n_dofs, n_inputs).
 
+    Mounts have the rates that they have there.
+
     Args:
         system: what vibrates.
         frequency_hz: above zero.
@@ -49,7 +51,7 @@ def direct_shape(system: System, frequency_hz: float, forces: Complexes, outputs
     Raises:
         SolveError: as `direct_response`.
     """
-    omega = 2 * np.pi * frequency_hz
+    system, omega = system.at(frequency_hz), 2 * np.pi * frequency_hz
     K = system.stiffness + 1j * system.structural_damping
     Z = system.condensed(K - omega**2 * system.mass + 1j * omega * system.damping)
     on_rest = forces_on_rest(system, frequency_hz, forces)

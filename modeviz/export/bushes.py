@@ -124,6 +124,8 @@ def _property_lines(
     yield comment(
         f"PBUSH {pid}: group {named}: {said} {force}/{length}, loss factor {kind.loss_factor:.6g}"
     )
+    if dynamic := vehicle.mount_group(kind.group).dynamic:
+        yield comment(f"These are its rates at {dynamic.reference_hz:g} Hz; they depend on frequency.")
     fields: list[Field] = [pid, "K", *_unless_zero(kind.stiffness)]
     if any(kind.damping):
         fields += [None, "B", *_unless_zero(kind.damping)]

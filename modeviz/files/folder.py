@@ -3,7 +3,8 @@
 FOLDER/vehicle.toml says everything but arrays, in the units that its `units` table declares; the keys
 are the fields of the records in `records`. FOLDER/bodies/NAME.npz has the modes of a
 flexible body, FOLDER/meshes/NAME.glb a display mesh, FOLDER/roads/NAME.csv a road's spectra,
-FOLDER/spectra/NAME.csv that of a force or a motion of the ground; all in SI.
+FOLDER/spectra/NAME.csv that of a force or a motion of the ground, FOLDER/rates/NAME.csv a mount's rates
+over frequency; all in SI.
 """
 
 from collections.abc import Mapping
@@ -18,6 +19,7 @@ from modeviz.files.disk import file_stems, read_text, replace_folder, write_text
 from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
 from modeviz.files.own_tables import with_tables
+from modeviz.files.rate_tables import write_rate_table
 from modeviz.files.records.bodies import AddedMassRecord, FlexibleBodyRecord, RigidBodyRecord
 from modeviz.files.records.connections import (
     ConnectionRecord,
@@ -51,8 +53,9 @@ from modeviz.files.toml_reader import in_si, tables_of
 from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
-from modeviz.vehicle.connections import Bolt, Damper, Rod, Spring
+from modeviz.vehicle.connections import Bolt, Damper, MountGroup, Rod, Spring
 from modeviz.vehicle.doubts import doubts
+from modeviz.vehicle.dynamic_rates import RateTable
 from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.orientation import orientation_doubts
@@ -60,7 +63,7 @@ from modeviz.vehicle.size_doubts import size_doubts
 from modeviz.vehicle.vehicle import Vehicle
 
 VEHICLE_FILE = "vehicle.toml"
-CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra"}
+CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra", "rates"}
 """What a vehicle folder holds."""
 
 
@@ -195,7 +198,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         flexible_body=[_record_of_flexible(b, stems[b.name], folder) for b in flexible],
         rigid_body=[RigidBodyRecord.of(b, _mesh_file(b, stems[b.name], folder)) for b in rigid],
         added_mass=[AddedMassRecord.of(m) for m in vehicle.added_masses],
-        mount_group=[MountGroupRecord.of(g) for g in vehicle.mount_groups],
+        mount_group=_group_records(vehicle.mount_groups, folder),
         spring=[JointRecord.of(c) for c in vehicle.connections if type(c) is Spring],
         rod=[RodRecord.of(c) for c in vehicle.connections if isinstance(c, Rod)],
         bolt=[JointRecord.of(c) for c in vehicle.connections if type(c) is Bolt],
@@ -248,6 +251,18 @@ def _road_records(roads: tuple[Road, ...], folder: Path) -> list[RoadRecord]:
         if record.file:
             write_road(folder / record.file, road)
     return records
+
+
+def _group_records(groups: tuple[MountGroup, ...], folder: Path) -> list[MountGroupRecord]:
+    """The records of mount groups, now that the tables of their rates over frequency are written."""
+    stems = file_stems(group.name for group in groups)
+    tables = {g.name: g.dynamic for g in groups if isinstance(g.dynamic, RateTable)}
+    if tables:
+        (folder / "rates").mkdir()
+    files = {group.name: f"rates/{stems[group.name]}.csv" for group in groups}
+    for name, rates in tables.items():
+        write_rate_table(folder / files[name], rates)
+    return [MountGroupRecord.of(group, files[group.name]) for group in groups]
 
 
 def _spectrum_files(vehicle: Vehicle, folder: Path) -> dict[str, str]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.dynamics.assembly import System, modal_coefficients
+from modeviz.dynamics.assembly import System, all_coefficients, modal_coefficients
 from modeviz.dynamics.mount_rates import turning_axes
 from modeviz.mounting.forces import N_MOTIONS, Forces, connection_rates
 from modeviz.mounting.free_bodies import body_motions
@@ -105,16 +105,14 @@ def dissipated_energy(
         system: what vibrates.
         shapes: (n_dofs, n_modes).
         frequency_hz: (n_modes,).
-        mount_stiffness: complex rates of every mount spring, (n_springs,), in place of its own.
+        mount_stiffness: complex rates of every mount spring, (n_modes or 1, n_springs), in place of its
+            own.
 
     Returns:
         (n_modes,) by name.
     """
     omega, vehicle = 2 * np.pi * np.asarray(frequency_hz), system.vehicle
-    z = connection_rates(system, omega).imag
-    if mount_stiffness is not None:
-        z = z + np.zeros_like(z)
-        z[:, : N_MOTIONS * len(vehicle.mounts)] += _changed_loss(system, mount_stiffness)
+    z = _loss(system, omega, mount_stiffness)
     lost = z.T * np.abs(system.connection_motions @ shapes) ** 2
     by_name: dict[str, Floats] = {}
     for i, connection in enumerate(vehicle.all_connections):
@@ -134,12 +132,16 @@ def dissipated_energy(
     }
 
 
-def _changed_loss(system: System, mount_stiffness: Complexes) -> Floats:
-    """What other rates add to the imaginary part of each mount's motions, (6 n_mounts,)."""
-    turns = turning_axes(system.vehicle)
+def _loss(system: System, omega: Floats, mount_stiffness: Complexes | None) -> Floats:
+    """The loss gk + ωc of every motion of connections, (n_modes, 6 n_connections)."""
+    z = np.array(connection_rates(system, omega).imag, np.float64)
+    if mount_stiffness is None:
+        return z
+    turns, n_modes = turning_axes(system.vehicle), len(omega)
     n = len(turns)
-    own = connection_rates(system, np.zeros(1)).imag[0, : N_MOTIONS * n].reshape(n, N_MOTIONS)
-    changed = np.zeros((n, N_MOTIONS))
-    changed[:, :3] = mount_stiffness[: 3 * n].imag.reshape(n, 3) - own[:, :3]
-    changed[:, 3:][turns] = mount_stiffness[3 * n :].imag - own[:, 3:][turns]
-    return changed.ravel()
+    viscous = np.multiply.outer(omega, all_coefficients(system.vehicle)[1, : N_MOTIONS * n])
+    structural = (z[:, : N_MOTIONS * n] - viscous).reshape(n_modes, n, N_MOTIONS)
+    structural[:, :, :3] = mount_stiffness[:, : 3 * n].imag.reshape(len(mount_stiffness), n, 3)
+    structural[:, :, 3:][:, turns] = mount_stiffness[:, 3 * n :].imag
+    z[:, : N_MOTIONS * n] = viscous + structural.reshape(n_modes, -1)
+    return z

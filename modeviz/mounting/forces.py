@@ -21,6 +21,7 @@ from modeviz.dynamics.assembly import System, all_coefficients, is_rigid
 from modeviz.dynamics.inputs import directions, opened
 from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.dynamics.receptance import receptance_lines
+from modeviz.dynamics.spring_law import connection_law
 from modeviz.ride.excitation import (
     Load,
     excitation,
@@ -151,7 +152,8 @@ def _pushes(system: System, load: Load, frequency_hz: Floats, speed: float) -> t
 def connection_rates(system: System, omega: Floats) -> Complexes:
     """Z = k (1 + jg) + jωc of every connection, (n_freqs, 6 n_connections); zero where it is rigid."""
     k, c, g = all_coefficients(system.vehicle)
-    return k * (1 + 1j * g) + 1j * omega[:, None] * c
+    stiffness = connection_law(system.vehicle).stiffness(k * (1 + 1j * g), omega / (2 * np.pi))
+    return stiffness + 1j * omega[:, None] * c
 
 
 def acting_motions(system: System) -> NDArray[np.bool_]:

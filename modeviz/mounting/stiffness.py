@@ -11,6 +11,7 @@ from modeviz.dynamics.assembly import System
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes, solve_modes
 from modeviz.dynamics.mount_rates import mount_stiffness, mounts_of_springs
 from modeviz.dynamics.reanalysis import Receptances
+from modeviz.dynamics.spring_law import constant_law
 from modeviz.errors import SolveError
 from modeviz.mounting.rigid_part import RigidPart, rigid_parts
 from modeviz.vehicle.arrays import Complexes, Floats
@@ -153,6 +154,7 @@ class MountedBodies:
             every.outputs[:, :, of_body],
             every.inputs[:, :, of_body],
             every.direct[:, of_body, of_body],
+            every.law,
         )
         try:
             found = own.response(mount_rates.astype(complex))[0].real
@@ -188,6 +190,7 @@ def mounted_bodies(system: System) -> MountedBodies:
             to_bodies,
             to_bodies,
             between(motion, motion),
+            constant_law(len(stretch)),
         )
     )
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from modeviz.analysis.results import AXIS, Conditions
 from modeviz.analysis.sensitivity import rate_variables
-from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.errors import VehicleError
 from modeviz.optimise.integral import BandCase, Integral, prepare_integral
 from modeviz.optimise.objective import LoadCase, Objective, prepare_objective
@@ -99,7 +98,7 @@ def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) 
 def exact_goal(goal: ResponseGoal, stiffness: Complexes) -> float:
     """The goal of parts with these complex rates, (n_springs,), N/m, from the full model."""
     system = goal.prepared.system
-    changed = system.with_springs(stiffness - mount_stiffness(system.vehicle))
+    changed = system.with_springs(stiffness - system.mount_stiffness)
     return goal.exact_total(changed, stiffness)
 
 

@@ -178,7 +178,8 @@ class Objective:
             stiffness: (n_springs,), their complex rates, N/m.
         """
         prepared = self.prepared
-        inputs = _inputs(prepared, self.loads, stiffness)
+        there = self.driven.law.stiffness(stiffness, prepared.frequency_hz)
+        inputs = _inputs(prepared, self.loads, there)
         forces = prepared.input_directions.T @ inputs.forces
         return direct_response(system, prepared.frequency_hz, forces, prepared.outputs[self.outputs])
 

@@ -10,6 +10,7 @@ from modeviz.analysis.results import AXIS, Results
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.dynamics.tracking import WEAK_MAC
+from modeviz.errors import listed
 from modeviz.report.components import believed
 from modeviz.report.coverage import band_text, coverage_note
 from modeviz.ride.participation import Peak
@@ -82,7 +83,21 @@ def health(results: ModalResults) -> str:
     return (
         f"{len(f)} modes below {results.prepared.basis.top_hz:.4g} Hz, {missed}; "
         f"natural frequencies within {scientific(worst)} Hz of exact for the model as given"
+        + "".join(f"; {words}" for words in own_frequencies(results.vehicle))
     )
+
+
+def own_frequencies(vehicle: Vehicle) -> list[str]:
+    """Words on mounts whose rates depend on frequency, if there are some."""
+    groups = [group for group in vehicle.mount_groups if group.dynamic]
+    if not groups:
+        return []
+    at = sorted({group.dynamic.reference_hz for group in groups if group.dynamic})
+    names = listed(group.name for group in groups)
+    return [
+        f"rates of {names} depend on frequency and are given at {listed(f'{f:g}' for f in at)} Hz: "
+        "each mode has those at its own"
+    ]
 
 
 def psd_table(results: Results) -> str:

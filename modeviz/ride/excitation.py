@@ -13,7 +13,7 @@ import numpy as np
 
 from modeviz.dynamics.assembly import System, connection_coefficients
 from modeviz.dynamics.inputs import directions
-from modeviz.dynamics.mount_rates import mount_stiffness
+from modeviz.dynamics.spring_law import spring_law
 from modeviz.errors import VehicleError
 from modeviz.ride.roads import (
     held,
@@ -81,13 +81,14 @@ def excitation(
         load: one of its loads.
         frequency_hz: (n_freqs,).
         speed: on a road, m/s.
-        mount_stiffness: (n_springs,), complex rates of the mounts, N/m, at which the forces hold.
+        mount_stiffness: (n_springs,) or (n_freqs, n_springs), complex rates of the mounts, N/m, at
+            which the forces hold.
     """
     f = np.asarray(frequency_hz, float)
     slots = _Slots(vehicle)
     n_inputs = 2 if isinstance(load, Road) else 1
     forces = np.zeros((len(f), slots.n_directions, n_inputs), complex)
-    ground = np.zeros((len(f), len(mount_stiffness), n_inputs), complex)
+    ground = np.zeros((len(f), mount_stiffness.shape[-1], n_inputs), complex)
     match load:
         case Road():
             forces[:, slots.tyres] = track_amplitudes(vehicle, f, speed)
@@ -100,9 +101,9 @@ def excitation(
             for connection in vehicle.moved_connections(load):
                 along = motions[connection.name][:, :, 0]
                 springs = _springs(vehicle, connection)
-                z = _dynamic_stiffness(connection, f, mount_stiffness[springs])
+                z = _dynamic_stiffness(connection, f, mount_stiffness[..., springs])
                 forces[:, slots.moved[connection.name], 0] = z * along
-                ground[:, springs, 0] = along[:, : len(mount_stiffness[springs])]
+                ground[:, springs, 0] = along[:, : springs.stop - springs.start]
     return Excitation(forces, ground)
 
 
@@ -146,7 +147,7 @@ def generalised_forces(system: System, load: Load, frequency_hz: Floats, speed: 
 
     Forces on its coordinates, then motions given to its rigid joints. Arguments as of `excitation`.
     """
-    stiffness = mount_stiffness(system.vehicle)
+    stiffness = spring_law(system.vehicle).stiffness(system.mount_stiffness, frequency_hz)
     inputs = excitation(system.vehicle, load, frequency_hz, speed, stiffness)
     return input_directions(system).T @ inputs.forces
 
@@ -254,7 +255,7 @@ def _dynamic_stiffness(
     One along an axis in which it is rigid, for there the motion itself is what it does.
     """
     k, c, g = (part[:3] for part in connection_coefficients(connection))
-    stiffness = mount_stiffness if len(mount_stiffness) else k * (1 + 1j * g)
+    stiffness = mount_stiffness if mount_stiffness.size else k * (1 + 1j * g)
     is_rigid = np.isin(MOTIONS[:3], connection.rigid)
     return np.where(is_rigid, 1.0, stiffness + 2j * np.pi * frequency_hz[:, None] * c)
 

@@ -15,6 +15,7 @@ import numpy as np
 from modeviz.errors import VehicleError, unknown
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats, frozen, frozen_places
+from modeviz.vehicle.dynamic_rates import DynamicRates
 from modeviz.vehicle.progressive import ForceCurve
 
 GROUND = "ground"
@@ -341,6 +342,8 @@ class MountGroup:
     curves: Mapping[str, ForceCurve] = field(default_factory=dict)
     """By direction, where a mount is progressive; each is scaled so that unloaded it has the group's
     rate by its static ratio."""
+    dynamic: DynamicRates | None = None
+    """How the rates along the axes of each depend on frequency; None: not at all."""
 
     def __post_init__(self) -> None:
         for name in SHARED:

@@ -8,6 +8,7 @@ from small_systems import resonant_rate, two_masses
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.dynamics.reanalysis import BLOCK, Receptances, prepare_receptances
+from modeviz.dynamics.spring_law import constant_law
 from modeviz.errors import SolveError
 
 F = np.array([0.3, 2.7, 8.0, 11.9, 40.0])
@@ -154,6 +155,7 @@ def test_a_response_takes_little_memory_beside_the_receptances():
         rng.normal(size=(n_freqs, n_springs, n_springs)) + 100j * np.eye(n_springs),
         *(rng.normal(size=(n_freqs, n_springs, 2)) + 0j for _ in range(2)),
         rng.normal(size=(n_freqs, 2, 2)) + 0j,
+        constant_law(n_springs),
     )
     tracemalloc.start()
     large.response(np.full(n_springs, 2 + 0j))

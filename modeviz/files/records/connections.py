@@ -7,7 +7,8 @@ import msgspec
 import numpy as np
 from msgspec import Meta
 
-from modeviz.errors import VehicleError, at_key, check_unique
+from modeviz.errors import Fault, FaultsError, VehicleError, at_key, check_unique
+from modeviz.files.records.dynamic import DynamicRecord
 from modeviz.files.records.fields import (
     Damping,
     DampingRate,
@@ -110,7 +111,10 @@ class MountGroupRecord(Record, kw_only=True):
     label: str = ""
     """The name, if not given."""
     rates: GroupRatesRecord
-    loss_factor: Ratio
+    loss_factor: Ratio | None = None
+    """That of `dynamic` at its reference, if not given."""
+    dynamic: DynamicRecord | None = None
+    """How rates depend on frequency."""
     softest: RatesRecord | None = None
     stiffest: RatesRecord | None = None
     ratio_limits: RatioLimits | None = None
@@ -126,12 +130,13 @@ class MountGroupRecord(Record, kw_only=True):
     mount: list[MountRecord]
 
     @classmethod
-    def of(cls, group: MountGroup) -> Self:
+    def of(cls, group: MountGroup, rate_file: str) -> Self:
         return cls(
             name=group.name,
             label=group.label,
             rates=GroupRatesRecord.of(group.rates),
             loss_factor=group.loss_factor,
+            dynamic=group.dynamic and DynamicRecord.of(group.dynamic, rate_file),
             softest=RatesRecord.of(group.bounds[0]),
             stiffest=RatesRecord.of(group.bounds[1]),
             ratio_limits=group.ratio_limits,
@@ -146,12 +151,19 @@ class MountGroupRecord(Record, kw_only=True):
         curves = self._curves(source)
         with at_key("rates"):
             rates = self.rates.build(curves, self.static_ratio)
+        dynamic = None
+        if self.dynamic is not None:
+            with at_key("dynamic"):
+                dynamic = self.dynamic.build(source)
+        loss_factor = dynamic.loss_factor if dynamic and self.loss_factor is None else self.loss_factor
+        if loss_factor is None:
+            raise FaultsError(Fault("loss_factor", "missing"))
         softest, stiffest = usual_bounds(rates)
         return MountGroup(
             self.name,
             self.label or self.name,
             rates,
-            self.loss_factor,
+            loss_factor,
             (
                 self.softest.build() if self.softest else softest,
                 self.stiffest.build() if self.stiffest else stiffest,
@@ -161,6 +173,7 @@ class MountGroupRecord(Record, kw_only=True):
             static_ratio=self.static_ratio,
             travel=self.travel.build() if self.travel else {},
             curves=curves,
+            dynamic=dynamic,
             **{name: np.array(getattr(self, name)) for name in SHARED},
         )
 

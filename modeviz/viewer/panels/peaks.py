@@ -38,7 +38,7 @@ class _Contributor:
     @property
     def group(self) -> str | None:
         """The mount group that holds most of its strain energy, if there is any."""
-        shares = self.results.strain_shares(self.results.modes.shapes[:, self.mode])
+        shares = self.results.strain_shares_of_mode(self.mode)
         groups = [group.name for group in self.results.vehicle.mount_groups]
         return max(groups, key=lambda name: shares[name], default=None)
 

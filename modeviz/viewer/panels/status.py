@@ -8,6 +8,7 @@ import viser
 from modeviz.analysis.results import Results
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.report.components import believed, change_words, is_doubtful
+from modeviz.report.tables import own_frequencies
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, span, title
@@ -64,7 +65,8 @@ def _found(now: Results) -> str:
         return span(f"{band}, {trust.n_missed} not found", "bad")
     moves = modes.frequency_hz > RESOLVED_HZ
     worst = float(trust.frequency_error_hz[moves].max(initial=0.0))
-    return f"{band}, none missed, each within {_rounded(worst)} Hz for the model as given"
+    exact = f"{band}, none missed, each within {_rounded(worst)} Hz for the model as given"
+    return "<br>".join([exact, *map(escape, own_frequencies(now.vehicle))])
 
 
 def _believed(rest: Findings) -> list[str]:

@@ -59,7 +59,7 @@ class Solved:
     @cached_property
     def strain(self) -> Mapping[str, float]:
         """Each flexible body's and connection group's share of the shown mode's strain energy."""
-        return self.now.strain_shares(self.followed.shape)
+        return self.now.strain_shares_of_mode(self.followed.mode)
 
     @cached_property
     def purity(self) -> Purity:

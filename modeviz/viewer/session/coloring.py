@@ -68,7 +68,7 @@ def strain_shares(solved: Solved) -> Shares:
     """The strain energy of what moves: each flexible body's and connection group's share."""
     if solved.movement.shape is solved.followed.shape:
         return solved.strain
-    return solved.now.strain_shares(solved.movement.shape)
+    return solved.now.strain_shares(solved.movement.shape, solved.movement.frequency_hz)
 
 
 def largest_share(shares: Shares) -> float:

@@ -72,8 +72,11 @@ class RateRow:
         base = self._rate_in(compared)
         is_locked = (self._group.name, self._field) in state.design.locked
         in_unit = written(base, factor(state.unit, "stiffness"))
+        dynamic = self._group.dynamic
+        at = f" at {dynamic.reference_hz:g} Hz, which scales those at all others" if dynamic else ""
         about = (
-            f"{self._group.title}, {self._direction} rate, {state.unit}. {state.against}: {in_unit:g}."
+            f"{self._group.title}, {self._direction} rate{at}, {state.unit}. "
+            f"{state.against}: {in_unit:g}."
         )
         locked = " Locked: loading a set is all that moves it." if is_locked else ""
         assign(
