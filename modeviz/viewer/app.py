@@ -204,12 +204,14 @@ class App:
                 self._modes = ModesPanel(gui, session)
             with tabs.add_tab("Energy", viser.Icon.CHART_BAR):
                 self._energy = EnergyPanel(gui, session)
-        with right.add_tab("Figures", viser.Icon.TABLE):
-            self._table = TablePanel(gui)
+        self._of_ride: list[TablePanel | ExcitationPanel] = []
+        if session.state.charts.curves:
+            with right.add_tab("Figures", viser.Icon.TABLE):
+                self._of_ride.append(TablePanel(gui))
+            with right.add_tab("Road", viser.Icon.ROAD):
+                self._of_ride.append(ExcitationPanel(gui, session))
         with right.add_tab("Rigid", viser.Icon.AXIS_X):
             self._rigid = RigidPanel(gui, session)
-        with right.add_tab("Road", viser.Icon.ROAD):
-            self._excitation = ExcitationPanel(gui, session)
         right.dock_right()
 
         card = gui.add_panel()
@@ -251,8 +253,8 @@ class App:
             self._mounts.show(solved)
             if solved.is_detailed:
                 self._history.show(solved.state)
-                self._table.show(solved)
-                self._excitation.show(solved)
+                for panel in self._of_ride:
+                    panel.show(solved)
                 self._variants.show(solved)
                 self._optimise.show(solved)
                 self._trade_off.follow()

@@ -71,9 +71,24 @@ def test_the_page_shows_everything_but_responses(vehicle, tmp_path):
         assert app.session.answer.findings.check.is_complete
         assert app.session.answer.findings.check.error < 1e-6
         assert "[[response_point]]" in app._response._figures._content.content
-        assert "[[response_point]]" in app._table._content.content
         assert np.isfinite(app.session.answer.findings.sensitivity.frequency_hz).all()
         app.report([])
     finally:
         app.close()
     assert not failures
+
+
+def test_what_has_nothing_to_say_is_not_on_the_page(vehicle):
+    """Neither the figures nor the road, nor what a rate would do to accelerations."""
+    vehicle, conditions = RoadOptions().shown(vehicle)
+    server = open_server(port=0, token="open-sesame-open")
+    app = App(vehicle, vehicle.rates, conditions, server)
+    try:
+        app.start()
+        app.session.wait(60)
+        assert app._of_ride == []
+        table = app._mounts._folders[0]._details._table
+        assert ("RMS" in table.content) == bool(vehicle.response_points)
+        assert "+10 %" in table.content
+    finally:
+        app.close()

@@ -13,6 +13,7 @@ from modeviz.formats.surface import COLOR, POINT, display_mesh
 from modeviz.shapes.carriers import carried_by_nodes
 from modeviz.shapes.motion import vertex_shapes
 from modeviz.shapes.points import octahedra
+from modeviz.shapes.stand_in import drawn_mesh
 from modeviz.shapes.surface import Surface, surface
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody, Material, Mesh, MeshPart
@@ -142,7 +143,7 @@ def _about_component(component: Component, units: UnitSystem | None) -> Iterator
 
 def subject_of_body(body: Body) -> Subject:
     """Return a body of a vehicle as it is looked at; a rigid one has no modes."""
-    drawn = surface(body.mesh or _nodes_mesh(body))
+    drawn = surface(drawn_mesh(body) or _nodes_mesh(body))
     if not isinstance(body, FlexibleBody):
         still = np.zeros((0, len(drawn.vertices), 3), np.float32)
         about = (_weight(body), *_coarser(body.mesh))

@@ -59,9 +59,6 @@ class TablePanel:
 
     def show(self, solved: Solved) -> None:
         """Lists the figures of an answer."""
-        if not solved.state.charts.curves:
-            assign(self._content, content=block(span(NOTHING_FELT, "dim")))
-            return
         responses = Responses(solved)
         content = [_all_points(solved, responses)]
         if responses.quantity is PSD:

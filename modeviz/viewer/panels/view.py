@@ -5,6 +5,7 @@ from typing import Any, get_args
 
 import viser
 
+from modeviz.shapes.stand_in import drawn_mesh
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.bodies import Body
 from modeviz.viewer.page.binding import Binding, Read, Write, show_all
@@ -67,7 +68,7 @@ class ViewPanel:
                 "How far the paper's equation, on the original modes alone, is off; said at the foot",
             ),
         ]
-        drawn = [body for body in session.vehicle.bodies if body.mesh]
+        drawn = [body for body in session.vehicle.bodies if drawn_mesh(body)]
         with gui.add_folder("Bodies", expand_by_default=False):
             self._bindings += [self._body(body) for body in drawn]
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from modeviz.shapes.gltf import glb
 from modeviz.shapes.motion import displacement, vertex_shapes
+from modeviz.shapes.stand_in import drawn_mesh
 from modeviz.shapes.surface import Surface, outlines, surface, vertex_areas
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body, RigidBody
@@ -64,8 +65,9 @@ class DrawnBody:
     @classmethod
     def of(cls, driver: ShapeDriver, body: Body, theme: Theme) -> Self:
         """Return a body of a vehicle, drawn at rest."""
-        drawn = surface(body.mesh)
-        is_rigid, is_sheet = isinstance(body, RigidBody), body.role in SHEET_ROLES
+        drawn = surface(drawn_mesh(body))
+        is_rigid = isinstance(body, RigidBody)
+        is_sheet = body.role in SHEET_ROLES or not body.mesh
         return cls(
             driver,
             body.name,

@@ -8,6 +8,7 @@ import viser
 from modeviz.dynamics.assembly import System
 from modeviz.errors import ModevizError
 from modeviz.shapes.motion import default_amplitude
+from modeviz.shapes.stand_in import drawn_mesh
 from modeviz.text.wording import within_sentence
 from modeviz.vehicle.arrays import Array
 from modeviz.vehicle.vehicle import Vehicle
@@ -53,7 +54,8 @@ class Scene:
         self._server = server
         self._stage = Stage(server.scene, self._box, theme)
         self.driver: ShapeDriver = ShapeDriver(server.scene)
-        self._bodies = [DrawnBody.of(self.driver, body, theme) for body in vehicle.bodies if body.mesh]
+        drawn = filter(drawn_mesh, vehicle.bodies)
+        self._bodies = [DrawnBody.of(self.driver, body, theme) for body in drawn]
         self._axes = RigidAxesMarks(server.scene, vehicle, self._box.length)
         self._markers = Markers(
             server.scene, vehicle, theme, self._box.length, on_select, self._axes.label_names
@@ -108,7 +110,8 @@ class Scene:
     def _framed(self, solved: Solved) -> Box:
         """Return the box to look at: the body that moves alone, what is followed, or the vehicle."""
         state, alone = solved.state, solved.movement.bodies
-        drawn = [b for b in self._vehicle.bodies if b.mesh and alone is not None and b.name in alone]
+        those = [] if alone is None else [b for b in self._vehicle.bodies if b.name in alone]
+        drawn = [*filter(drawn_mesh, those)]
         if drawn:
             return bodies_box(drawn)
         groups = {group.name: group for group in self._vehicle.mount_groups}

@@ -7,6 +7,7 @@ import numpy as np
 import viser
 
 from modeviz.shapes.colors import Color
+from modeviz.shapes.stand_in import drawn_mesh
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
@@ -128,8 +129,8 @@ def bodies_box(bodies: Iterable[Body]) -> Box:
 
 
 def _drawn(body: Body) -> Floats:
-    """The vertices of a body's mesh that its faces name, (n, 3), m."""
-    parts = (part.vertices[np.unique(part.faces)] for part in body.mesh)
+    """The vertices of what is drawn of a body that its faces name, (n, 3), m."""
+    parts = (part.vertices[np.unique(part.faces)] for part in drawn_mesh(body))
     return np.concatenate([np.zeros((0, 3)), *parts])
 
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from small_vehicles import tyre, wheel
@@ -65,7 +67,7 @@ def test_box_holds_meshes_connections_and_the_ground():
         "p", np.array([[0, 0, 1.0], [5, 0, 1], [0, 2, 2]]), [[0, 1, 2]], Material((0, 0, 0))
     )
     body = RigidBody("body", "cabin", "body", 1.0, np.zeros(3), np.eye(3), (part,))
-    axle = wheel("axle", x=-1.0, y=-0.5)
+    axle = replace(wheel("axle", x=-1.0, y=-0.5), mesh=(part,))
     found = box(Vehicle("v", (body, axle), (tyre(axle),)))
     assert (found.low, found.high) == ((-1.0, -0.5, 0.0), (5.0, 2.0, 2.0))
     assert found.length == 6.0

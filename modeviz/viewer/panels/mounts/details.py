@@ -35,6 +35,8 @@ BACK = (
 )
 
 
+FELT = "RMS acceleration of the first response point"
+
 LOCK, RESET, RESET_GROUP = range(0, 3), range(3, 6), 6
 """The hidden buttons of the three directions, and the one of them all."""
 
@@ -56,6 +58,7 @@ class Details:
             buttons: `N_BUTTONS`, which act on the selected group.
         """
         self._session, self._group, self._buttons = session, group, buttons
+        self._is_felt = bool(session.vehicle.response_points)
         self._part = gui.add_folder(None, visible=False)
         with self._part:
             self._table = gui.add_html("")
@@ -116,14 +119,8 @@ class Details:
         reset = ""
         if state.design.rates[self._group.name] != base:
             reset = self._sign(RESET_GROUP, BACK, f"Group back to {state.against}")
-        return (
-            "+10 %",
-            named(mode, f"Frequency of {mode}"),
-            '<div title="RMS acceleration of the first response point">lat. RMS</div>',
-            '<div title="RMS acceleration of the first response point">vert. RMS</div>',
-            "",
-            reset,
-        )
+        felt = [f'<div title="{FELT}">{word} RMS</div>' for word in ("lat.", "vert.") if self._is_felt]
+        return ("+10 %", named(mode, f"Frequency of {mode}"), *felt, "", reset)
 
     def _rows(self, state: State, base: MountRates, effects: Effects) -> list[str]:
         rates = state.design.rates[self._group.name]
@@ -131,7 +128,8 @@ class Details:
         for i, (field, direction) in enumerate(zip(RATE_FIELDS, DIRECTIONS, strict=True)):
             key = self._group.name, field
             is_changed = getattr(rates, field) != getattr(base, field)
-            cells = (direction, *_cells(effects.get(key)), self._lock(i, key in state.design.locked))
+            shown = _cells(effects.get(key))[: 3 if self._is_felt else 1]
+            cells = (direction, *shown, self._lock(i, key in state.design.locked))
             rows.append(row([*cells, self._reset(i, state.against) if is_changed else ""]))
         return rows
 
