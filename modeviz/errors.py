@@ -14,8 +14,8 @@ MOST_COMPARED = 5000
 MOST_FAULTS = 5
 """Of what is wrong in one place with many tables, so much is said at once."""
 
-LONGEST_NAME, LONGEST = 80, 2000
-"""Letters of what is quoted, and of a whole text: what is longer is cut in its midst."""
+LONGEST_NAME, LONGEST_REASON, LONGEST = 80, 200, 2000
+"""Letters of what is quoted, of a library's words and of a whole text: what is longer is cut."""
 
 
 class ModevizError(Exception):
@@ -116,9 +116,9 @@ def check_unique(kind: str, names: Iterable[str]) -> None:
 
 
 def reason(error: BaseException) -> str:
-    """The first line of the words of an error of the system or a library, never none."""
+    """The first line of the words of an error of the system or a library, not all if it is long."""
     said = getattr(error, "strerror", None) or str(error).strip()
-    return next(iter(said.splitlines()), type(error).__name__)
+    return cut(next(iter(said.splitlines()), type(error).__name__), LONGEST_REASON)
 
 
 def placed(where: str, text: str) -> str:

@@ -167,7 +167,8 @@ def test_a_reason_is_never_empty():
     assert reason(ValueError("bad magic")) == "bad magic"
 
 
-def test_a_reason_is_one_line():
+def test_a_reason_is_one_line_and_not_long():
+    assert len(reason(ValueError("x" * 900))) == 200
     assert reason(ValueError("no workbook.\nSee the exception for more.")) == "no workbook."
     assert reason(ValueError("\n")) == "ValueError"
 

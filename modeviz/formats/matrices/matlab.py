@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from modeviz.errors import VehicleError, cut, listed, located, reason
+from modeviz.errors import VehicleError, listed, located, reason
 from modeviz.files.disk import opened, read_bytes
 from modeviz.files.limits import check_size
 from modeviz.formats.limits import LARGEST_FILE
@@ -47,7 +47,7 @@ def read_matlab(path: Path) -> list[NamedMatrix]:
         except VehicleError:
             raise
         except Exception as error:  # damaged files make h5py raise almost anything
-            raise VehicleError(f"no whole .mat file ({cut(reason(error), 200)})") from None
+            raise VehicleError(f"no whole .mat file ({reason(error)})") from None
         if not found:
             raise VehicleError(
                 "has no square matrix among its variables, expected those called K and M"
