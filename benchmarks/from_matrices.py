@@ -115,10 +115,20 @@ def _sheet(n: int) -> tuple[Floats, sp.csc_array, sp.csc_array, int]:
 
 def _block(box: Box) -> tuple[Floats, sp.csc_array, sp.csc_array, int]:
     """Nodes, mass, stiffness and directions of a block of solids, cubes of eight nodes."""
-    corners = box.corners() - 1
-    dofs = (3 * corners[:, :, None] + np.arange(3)).reshape(len(corners), -1)
-    mass, stiffness = (_assembled(dofs, A, 3 * box.n_nodes) for A in _cube())
+    mass, stiffness = block(box.corners() - 1, box.n_nodes)
     return box.places(), mass, stiffness, 123
+
+
+def block(corners: Array, n_nodes: int) -> tuple[sp.csc_array, sp.csc_array]:
+    """Mass and stiffness of cubes of steel with eight nodes each, (3 n_nodes, 3 n_nodes), in mm and t.
+
+    Args:
+        corners: (n_cubes, 8), nodes as `Box.corners` orders them.
+        n_nodes: of them all.
+    """
+    dofs = (3 * corners[:, :, None] + np.arange(3)).reshape(len(corners), -1)
+    mass, stiffness = (_assembled(dofs, A, 3 * n_nodes) for A in _cube())
+    return mass, stiffness
 
 
 def _assembled(dofs: Array, A: Floats, n: int) -> sp.csc_array:

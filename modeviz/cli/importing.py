@@ -37,7 +37,8 @@ from modeviz.report.tables import table
 from modeviz.report.truncation import import_notes
 from modeviz.units import factor
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.residuals import estimated_residual_compliance, modal_compliance
+from modeviz.vehicle.residual_estimate import estimate_residuals
+from modeviz.vehicle.residuals import modal_compliance
 
 UNKNOWN = "unknown"
 
@@ -234,7 +235,7 @@ def summary(body: FlexibleBody, attachments: tuple[Found, ...], folder: Path) ->
         f"moments of inertia {_listed(np.diag(inertia))} kg m²",
         f"first elastic modes {', '.join(f'{f:.4g}' for f in elastic) or 'none'} Hz",
     ]
-    modal, missing = modal_compliance(body), estimated_residual_compliance(body)
+    modal, missing = modal_compliance(body), estimate_residuals(body).compliance
     what = "its modes and residual vectors are" if body.n_residuals else "its modes are"
     for found, attachment, own, more in zip(attachments, body.attachments, modal, missing, strict=True):
         far = f", {1000 * found.distance:.3g} mm from where it was asked for" if found.distance else ""

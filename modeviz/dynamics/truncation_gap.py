@@ -1,30 +1,56 @@
 """How much too stiff truncation makes a vehicle's components, by an estimate of what is left out."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.dynamics.assembly import assemble, connection_coefficients
-from modeviz.dynamics.modes import RESOLVED_HZ, solve_modes
-from modeviz.errors import ModevizError
+from modeviz.dynamics.assembly import connection_coefficients
+from modeviz.dynamics.truncation_check import (
+    believed_hz,
+    misforetold,
+    rises,
+    softened,
+    unevenness,
+)
+from modeviz.errors import ModevizError, SolveError
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
 from modeviz.vehicle.connections import GROUND, MOTIONS, Connection, Spring
-from modeviz.vehicle.residuals import (
-    FEW,
-    as_estimated,
-    estimated_residual_compliance,
-    modal_compliance,
-)
+from modeviz.vehicle.residual_estimate import ResidualEstimate, estimate_residuals
+from modeviz.vehicle.residuals import modal_compliance
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 
 STIFF = 0.1
 """A connection stiffer than this part of what it holds on to feels that the body is too stiff there."""
 
-BELIEVED = 0.5
-"""Up to this part of its highest frequency a body's modes are taken to describe it."""
+ROUGH = 10.0
+"""How many times as much or as little a gap may be of which no more is known."""
+
+AT_LEAST = 6.0
+"""A rough one is hardly ever less than its estimate over this."""
+
+
+@dataclass(frozen=True)
+class Known:
+    """What must be so that a gap is known within a factor: nearly all are that meet it."""
+
+    within: float
+    """How many times as much or as little it may be."""
+    n_elastic: int
+    """Modes that each body has at least."""
+    ends: float
+    """How many times as much it is at the upper ends of the estimates as at the lower ones."""
+    unevenness: float
+    """Of each body, see `unevenness`."""
+    misforetold: float
+    """See `misforetold`."""
+
+
+SURE, FAIR = Known(2.0, 25, 6.7, 0.7, 0.4), Known(4.0, 12, 11.3, 1.1, 1.0)
+"""From the bodies of `benchmarks.truncation`."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +65,13 @@ class TruncationGap:
     """The frequency of which that is; zero if there is none."""
     below_hz: float
     """Frequencies up to this one are looked at."""
-    is_rough: bool
-    """Whether a body has so few modes that it is an order of magnitude, else mostly a factor of two."""
+    within: float
+    """How many times as much or as little it may be: 2, 4 or, of an order of magnitude, 10."""
+
+    @property
+    def at_least(self) -> float:
+        """What it is hardly ever less than."""
+        return self.change / min(self.within, AT_LEAST)
 
 
 @dataclass(frozen=True)
@@ -61,35 +92,59 @@ class StiffConnection:
 def truncation_gap(vehicle: Vehicle) -> TruncationGap | None:
     """Return the estimate for a vehicle; None if no body lacks residual compliance where it is held.
 
-    Its frequencies are compared with those of the same vehicle whose bodies have
-    `estimated_residual_compliance`, up to half of what the modes of such a body reach.
+    Its frequencies are compared with those of the same vehicle whose bodies have the compliance of
+    `estimate_residuals`, up to half of what the modes of such a body reach. How well it is known is
+    told from the modes: how far the ends of the estimates part, how evenly the modes fill the bodies,
+    and how well the first modes foretell the gap that the others close.
 
     Raises:
         SolveError: as `solve_modes`.
         VehicleError: nothing can move.
     """
-    lacking = [b for b in _flexible(vehicle) if estimated_residual_compliance(b).any()]
+    expected = {b.name: estimate_residuals(b) for b in _flexible(vehicle)}
+    lacking = [b for b in _flexible(vehicle) if expected[b.name].compliance.any()]
     if not lacking or not vehicle.all_connections:
         return None
-    below_hz = BELIEVED * min(float(b.natural_frequency_hz[b.n_normal - 1]) for b in lacking)
-    names = tuple(b.name for b in lacking)
-    found = solve_modes(assemble(vehicle), below_hz=below_hz).frequency_hz
-    softer = replace(
-        vehicle,
-        bodies=tuple(as_estimated(b) if isinstance(b, FlexibleBody) else b for b in vehicle.bodies),
-    )
-    truer = solve_modes(assemble(softer), n_modes=max(len(found), 1)).frequency_hz
-    n = min(len(found), len(truer))
-    vibrates = truer[:n] > RESOLVED_HZ
-    changes = np.where(vibrates, found[:n] / np.where(vibrates, truer[:n], 1.0) - 1, 0.0)
-    worst = int(changes.argmax()) if n else 0
+    below_hz = believed_hz(lacking)
+    truer = softened(vehicle, {name: estimate.compliance for name, estimate in expected.items()})
+    found, change = rises(vehicle, truer, below_hz)
+    worst = int(change.argmax()) if len(change) else 0
     return TruncationGap(
-        names,
-        float(changes.max(initial=0.0)),
-        float(found[worst]) if n else 0.0,
+        tuple(b.name for b in lacking),
+        float(change.max(initial=0.0)),
+        float(found[worst]) if len(found) else 0.0,
         below_hz,
-        any(b.n_normal - b.n_rigid < FEW for b in lacking),
+        _known_within(vehicle, lacking, _ends(vehicle, expected, below_hz)),
     )
+
+
+def _ends(vehicle: Vehicle, expected: Mapping[str, ResidualEstimate], below_hz: float) -> float:
+    """How many times as much the gap is at the upper ends of the estimates as at the lower ones."""
+    ends = (
+        {name: estimate.least for name, estimate in expected.items()},
+        {name: estimate.most for name, estimate in expected.items()},
+    )
+    try:
+        least, most = (rises(vehicle, softened(vehicle, e), below_hz)[1].max(initial=0) for e in ends)
+    except SolveError:  # what gives way so much beside stiff mounts drowns the slow modes in rounding
+        return math.inf
+    return float(most / least) if least > 0 else math.inf
+
+
+def _known_within(vehicle: Vehicle, lacking: Sequence[FlexibleBody], ends: float) -> float:
+    """How many times as much or as little the estimate may be whose ends have some ratio."""
+    n_elastic = min(b.n_normal - b.n_rigid for b in lacking)
+    if n_elastic < FAIR.n_elastic or ends > FAIR.ends:
+        return ROUGH
+    uneven = max(map(unevenness, lacking))
+    if uneven > FAIR.unevenness:
+        return ROUGH
+    off = misforetold(vehicle, lacking)
+    for known in (SURE, FAIR):
+        is_met = n_elastic >= known.n_elastic and ends <= known.ends
+        if is_met and uneven <= known.unevenness and off <= known.misforetold:
+            return known.within
+    return ROUGH
 
 
 def gap_if_solved(vehicle: Vehicle) -> TruncationGap | None:
@@ -114,7 +169,7 @@ def on_trial_mounts(body: FlexibleBody) -> Vehicle:
 
     That is in its softest direction there: rubber has about the same rates in all.
     """
-    compliance = modal_compliance(body) + estimated_residual_compliance(body)
+    compliance = modal_compliance(body) + estimate_residuals(body).compliance
     softest = compliance.max(axis=1, initial=0.0)
     stiffness = STIFF * np.divide(1.0, softest, out=np.zeros_like(softest), where=softest > 0)
     springs = tuple(
@@ -133,7 +188,7 @@ def on_trial_mounts(body: FlexibleBody) -> Vehicle:
 def _stiff(connection: Connection, body: FlexibleBody) -> Iterator[StiffConnection]:
     """The directions in which a connection is stiff beside one of its bodies."""
     at = body.nearest_attachment(connection.points[connection.bodies.index(body.name)])
-    estimate = estimated_residual_compliance(body)[body.attachments.index(at)]
+    estimate = estimate_residuals(body).compliance[body.attachments.index(at)]
     lacks = connection.axes**2 @ estimate
     compliance = _compliance_along(connection, body, at) + lacks
     stiffness = connection_coefficients(connection)[0][:3]

@@ -8,6 +8,8 @@ from typing import Any
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.component_trust import component_trust
 from modeviz.dynamics.truncation_gap import (
+    FAIR,
+    SURE,
     TruncationGap,
     gap_if_solved,
     on_trial_mounts,
@@ -17,7 +19,7 @@ from modeviz.errors import listed, quoted
 from modeviz.report.components import change_words
 from modeviz.report.stiff_connections import stiff_words
 from modeviz.vehicle.bodies import Body, FlexibleBody
-from modeviz.vehicle.residuals import estimated_residual_compliance
+from modeviz.vehicle.residual_estimate import estimate_residuals
 from modeviz.vehicle.vehicle import Vehicle
 
 SMALL = 0.005
@@ -74,7 +76,7 @@ def import_notes(body: FlexibleBody) -> Iterator[str]:
     gap = gap_if_solved(vehicle) if body.attachments else None
     if gap is None:
         return
-    missing = estimated_residual_compliance(body)
+    missing = estimate_residuals(body).compliance
     names = [quoted(a.name) for a, r in zip(body.attachments, missing, strict=True) if r.any()]
     yield (
         f"body {quoted(body.name)} {_lack(body)}, so it is too stiff at {listed(names)}: on mounts a "
@@ -99,9 +101,19 @@ def _lack(body: Body) -> str:
 
 def _too_high(gap: TruncationGap) -> str:
     """By how much, and how well that is known."""
-    sure = (
-        "so few modes tell no more than the order of magnitude"
-        if gap.is_rough
-        else ("an estimate, mostly within a factor of two")
-    )
-    return f"too high by up to about {100 * gap.change:.2g} % (at {gap.at_hz:.3g} Hz; {sure})"
+    return f"too high by up to about {_percent(gap.change)} (at {gap.at_hz:.3g} Hz; {_sure(gap)})"
+
+
+def _sure(gap: TruncationGap) -> str:
+    """How well it is known."""
+    if gap.within <= SURE.within:
+        return "an estimate within a factor of two"
+    if gap.within <= FAIR.within:
+        least, most = _percent(gap.change / gap.within), _percent(gap.change * gap.within)
+        return f"an estimate, between {least} and {most}"
+    least = _percent(gap.at_least)
+    return f"these modes tell no more than the order of magnitude, and at least {least}"
+
+
+def _percent(part: float) -> str:
+    return f"{100 * part:.2g} %"

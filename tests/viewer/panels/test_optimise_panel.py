@@ -128,7 +128,7 @@ def test_what_the_full_model_says_is_bad_where_it_does_not_agree(optimum):
 
 def test_what_truncation_does_at_the_rates_found_is_told_where_it_matters(optimum):
     def said(change):
-        gap = TruncationGap(("cab",), change, 9.5, 30.0, False)
+        gap = TruncationGap(("cab",), change, 9.5, 30.0, 2.0)
         return truncation(found(optimum, verification=replace(optimum.verification, gap=gap)))
 
     assert said(0.1).startswith(

@@ -36,7 +36,7 @@ def test_the_largest_difference_is_told():
 
 
 def test_the_design_whose_frequencies_are_most_too_high_is_told():
-    gaps = [TruncationGap(("cab",), change, 9.5, 30.0, False) for change in (0.02, 0.1, 0.05)]
+    gaps = [TruncationGap(("cab",), change, 9.5, 30.0, 2.0) for change in (0.02, 0.1, 0.05)]
     said = where(Job("what was asked", "ended", found=tuple(design(1e-14, gap=g) for g in gaps)))
     assert "At the rates of design 2 frequencies below 30 Hz are too high by up to about 10 %" in said
     assert "as there are no or too few residual vectors of &#x27;cab&#x27;; ask the solver" in said
