@@ -12,7 +12,16 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from modeviz.errors import Fault, FaultsError, ModevizError, VehicleError, located, unknown
+from modeviz.errors import (
+    LONGEST_NAME,
+    Fault,
+    FaultsError,
+    ModevizError,
+    VehicleError,
+    cut,
+    located,
+    unknown,
+)
 from modeviz.files.limits import check_size
 from modeviz.files.schema.decoding import LARGEST
 
@@ -44,7 +53,7 @@ class Row:
 
     def where(self, column: str) -> str:
         """The place of a cell, for errors."""
-        return f"line {self.line}, column {column}"
+        return f"line {self.line}, column {cut(column, LONGEST_NAME)}"
 
     def number(self, column: str, at_least: float = -math.inf) -> float:
         """The number in a cell.

@@ -86,6 +86,14 @@ def test_complex_modes_in_either_form(read, form, second):
     np.testing.assert_allclose(component.modes.damping_ratio, 3 / 5)
 
 
+def test_what_a_run_for_responses_punches_is_told_apart(tmp_path):
+    response = ["$TITLE   =", "$ACCELERATION", "$MAGNITUDE-PHASE OUTPUT", "$POINT ID =        7012"]
+    rows = lines(np.arange(12.0), "    2.000000E+01 G")
+    (tmp_path / "a.pch").write_text(punched([*response, *rows]))
+    with pytest.raises(VehicleError, match=r"a\.pch: has neither modes \(\$EIGENVECTOR\) nor matrices"):
+        read_component([tmp_path / "a.pch"])
+
+
 def test_motions_without_end_are_refused_without_a_warning(read):
     points = [(i, "G", [np.inf, 1, 2, 3, 4, 5, *np.zeros(6)]) for i in (1, 2, 3)]
     for form in ("REAL-IMAGINARY OUTPUT", "MAGNITUDE-PHASE OUTPUT"):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from modeviz.errors import located
+from modeviz.errors import VehicleError, located
 from modeviz.formats.component import Component
 from modeviz.formats.named_matrices import NamedMatrix
 from modeviz.formats.nastran.bulk import cards
@@ -14,6 +14,7 @@ from modeviz.formats.nastran.dmig import NAMES as MATRICES
 from modeviz.formats.nastran.dmig import MatrixCards
 from modeviz.formats.nastran.geometry import without_modes
 from modeviz.formats.nastran.model import basic_geometry
+from modeviz.formats.nastran.punch_modes import PUNCH
 from modeviz.vehicle.arrays import Array
 
 
@@ -52,10 +53,15 @@ def read_input(path: Path) -> InputFile:
     """Return what an input file has.
 
     Raises:
-        VehicleError: a file is missing or a card is wrong.
+        VehicleError: a file is missing, a card is wrong, or what was punched is something else.
     """
     geometry, matrices = GeometryCards(), MatrixCards()
     with located(path):
         for card in cards(path, GEOMETRY | MATRICES):
             (matrices if card.name in MATRICES else geometry).add(card)
+        if path.suffix.lower() == PUNCH and not (geometry.grids or matrices.found or matrices.external):
+            raise VehicleError(
+                "has neither modes ($EIGENVECTOR) nor matrices on DMIG cards nor GRIDs; punch modes by "
+                "DISPLACEMENT(PUNCH)=ALL or VECTOR(PUNCH)=ALL in a run for modes"
+            )
     return InputFile(path, geometry, matrices)
