@@ -18,6 +18,9 @@ SMALL_FRACTION = 0.02
 FURTHEST = 2.0
 """How many times as far as the rest something small may move: more would distort it."""
 
+N_STEPS = 256
+"""Of displacements, so that thousands of vertices need not be sorted."""
+
 
 def vertex_shapes(body: Body, vertices: Floats) -> NDArray[np.float32]:
     """The displacement of every vertex in every coordinate of its body, (n_coordinates, n_vertices, 3).
@@ -80,12 +83,30 @@ def default_amplitude(shapes: Sequence[Array], areas: Sequence[Floats], length: 
     largest = float(moved.max(initial=0.0))
     if largest == 0:
         return 0.0
-    least = largest / FURTHEST
-    far = moved > least  # only these are worth the sorting
-    order = np.flatnonzero(far)[np.argsort(-moved[far])]
-    exceeded = area[order].cumsum() > SMALL_FRACTION * area.sum()
-    large = float(moved[order][exceeded.argmax()]) if exceeded.any() else least
+    large = _exceeded(moved, area, SMALL_FRACTION * float(area.sum()), largest / FURTHEST)
     return DRAWN_FRACTION * length / large
+
+
+def _exceeded(moved: Floats, area: Floats, limit: float, least: float) -> float:
+    """The largest displacement that as much area or more than a limit reaches, `least` at least.
+
+    Vertices are counted in `N_STEPS` steps, and only those of one step are sorted.
+    """
+    far = np.flatnonzero(moved > least)
+    if not len(far):
+        return least
+    moved, area = moved[far], area[far]
+    largest = moved.max()
+    step = np.minimum((largest - moved) * (N_STEPS / (largest - least)), N_STEPS - 1).astype(np.int64)
+    reached = np.bincount(step, area, N_STEPS).cumsum()
+    last = int(np.searchsorted(reached, limit, side="right"))
+    if last == N_STEPS:
+        return least
+    inside = np.flatnonzero(step == last)
+    inside = inside[np.argsort(-moved[inside])]
+    before = reached[last - 1] if last else 0.0
+    exceeds = before + area[inside].cumsum() > limit
+    return float(moved[inside[exceeds.argmax() if exceeds.any() else -1]])
 
 
 def _dot(u: Array, v: Array) -> Array:

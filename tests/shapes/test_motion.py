@@ -2,6 +2,9 @@ import numpy as np
 import pytest
 
 from modeviz.shapes.motion import (
+    DRAWN_FRACTION,
+    FURTHEST,
+    SMALL_FRACTION,
     default_amplitude,
     displacement,
     mean_square,
@@ -119,6 +122,20 @@ def test_where_only_something_small_moves_it_is_drawn_twice_as_far():
     shapes, areas = [np.zeros((99, 3)), np.array([[1j, 0, 0]])], [np.ones(99), np.array([1.0])]
     assert default_amplitude(shapes, areas, 5.2) == pytest.approx(2 * 5.2 / 40)
     assert default_amplitude([np.ones((1, 3))], [np.zeros(1)], 5.2) > 0
+
+
+@pytest.mark.parametrize("n_vertices", [1, 2, 30, 5000])
+@pytest.mark.parametrize("power", [0.2, 1.0, 4.0])
+@pytest.mark.parametrize("decimals", [1, 9])
+def test_amplitude_goes_by_what_sorting_all_vertices_would_find(n_vertices, power, decimals):
+    moved = np.round(RNG.exponential(1.0, n_vertices) ** power + 0.1, decimals)
+    area = RNG.exponential(1.0, n_vertices)
+    order = np.argsort(-moved)
+    exceeded = area[order].cumsum() > SMALL_FRACTION * area.sum()
+    large = max(moved[order][exceeded.argmax()], moved.max() / FURTHEST)
+    shape = np.column_stack([moved, np.zeros((n_vertices, 2))])
+    amplitude = default_amplitude([shape], [area], 4.0)
+    assert amplitude * large == pytest.approx(DRAWN_FRACTION * 4.0, rel=1e-9)
 
 
 def test_shapes_that_do_not_move_are_drawn_undeformed():
