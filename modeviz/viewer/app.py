@@ -38,6 +38,7 @@ from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.rigid.panel import RigidPanel
 from modeviz.viewer.panels.scatter import ScatterPanel
 from modeviz.viewer.panels.shape import ShapePanel
+from modeviz.viewer.panels.statics import StaticPanel
 from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.trade_off import TradeOffPanel
 from modeviz.viewer.panels.variants import VariantsPanel
@@ -212,6 +213,8 @@ class App:
                 self._of_ride.append(ExcitationPanel(gui, session))
         with right.add_tab("Rigid", viser.Icon.AXIS_X):
             self._rigid = RigidPanel(gui, session)
+        with right.add_tab("Static", viser.Icon.ARROW_BAR_TO_DOWN):
+            self._static = StaticPanel(gui, session)
         right.dock_right()
 
         card = gui.add_panel()
@@ -263,8 +266,10 @@ class App:
                 self._modes.show(solved)
                 self._energy.show(solved)
                 self._rigid.show(solved)
+                self._static.show(solved)
         self.server.flush()
         self._scene.show(solved)
+        self._static.tell_scale(solved, self._scene.exaggeration)
 
     def _solved(self) -> Solved:
         if self.session.answer is None:
@@ -275,7 +280,7 @@ class App:
         """The report with a picture of the scene as it is."""
         solved = self._solved()
         moving, variant = solved.movement, variant_name(self.session.vehicle, solved.state.design)
-        caption = f"{moving.title}, {moving.frequency_hz:.2f} Hz, {variant}"
+        caption = f"{moving.heading}, {variant}"
         return self.report([Picture(caption, png)])
 
     def _tell_failure(self, error: Exception) -> None:

@@ -68,7 +68,7 @@ def offline_page(
 def _content(solved: Solved, name: str) -> str:
     vehicle, moving = solved.now.prepared.vehicle, solved.movement
     return block(
-        f"<h1>{title(moving.title)}  {moving.frequency_hz:.2f} Hz</h1>",
+        f"<h1>{title(moving.heading)}</h1>",
         f'<p class="dim">{escape(vehicle.name)}, {escape(name)}; {escape(moving.about)}</p>',
         color_scale_text(color_scale(solved)),
         MOTION,

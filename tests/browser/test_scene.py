@@ -26,6 +26,7 @@ from modeviz.viewer.session.followed_mode import FollowedMode
 from modeviz.viewer.session.movement import Movement
 from modeviz.viewer.session.named_results import Named
 from modeviz.viewer.session.state import Motion, State
+from modeviz.viewer.session.static_answers import SolvedStatics, StaticAnswer
 
 HALF = 2.0**-11  # relative rounding of half precision
 QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -123,6 +124,9 @@ def page(server, scene, open_page):
     return open_page(server, viewport=(900, 400))  # the control panel leaves the middle free
 
 
+NOT_SOLVED = StaticAnswer(None, "not solved")
+
+
 def solved(modal, mode=6, **fields):
     first = State(Design({"C": RATES}), Conditions("none", 20.0), Motion(""), group="C")
     state = altered(first, **fields)
@@ -136,6 +140,7 @@ def solved(modal, mode=6, **fields):
         followed=FollowedMode(modal, modal, mode, mode, name, shape, None, (), is_detailed=True),
         movement=Movement(name.name, name.name, f, "", shape, None),
         wheels={},
+        static=SolvedStatics(NOT_SOLVED, NOT_SOLVED),
         seconds=0.0,
         classic_error=None,
         findings=None,

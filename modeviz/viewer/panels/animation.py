@@ -44,6 +44,11 @@ class Moving(Protocol):
         """Why this is not what was asked for; "" if it is."""
         ...
 
+    @property
+    def is_still(self) -> bool:
+        """Whether it is no motion but a place."""
+        ...
+
 
 class AnimationCard:
     """Name and frequency of the shown mode, amplitude, speed, phase, play, previous and next."""
@@ -93,6 +98,7 @@ class AnimationCard:
         self._transport.on_click(lambda event: self._press(self._transport.value, event.client))
         driver.drive(frequency_hz=START_SPEED_HZ, running=True)
         self._is_running = True
+        self._ran_before_still: bool | None = None
 
     def show(self, moving: Moving, scale: ColorScale | None) -> None:
         """Names what moves, and says what the colours of bodies mean, if they do."""
@@ -101,6 +107,18 @@ class AnimationCard:
         problem = f'<div class="bad">{_said(moving.problem)}</div>' if moving.problem else ""
         content = block(heading(name, escape(moving.about)), color_scale_text(scale), problem)
         assign(self._head, content=content)
+        self._stand(moving.is_still)
+
+    def _stand(self, is_still: bool) -> None:
+        """Stands at the whole of a place while there is one, and then goes on as before."""
+        if is_still and self._ran_before_still is None:
+            self._ran_before_still = self._is_running
+            self._run(False)
+            assign(self._phase, value=0.0)
+            self._driver.seek(0.0)
+        elif not is_still and self._ran_before_still is not None:
+            self._run(self._ran_before_still)
+            self._ran_before_still = None
 
     def toggle(self, client: viser.ClientHandle | None) -> None:
         """Stops the motion for all pages where it is in one of them, or lets it go on."""

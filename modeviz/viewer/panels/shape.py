@@ -29,6 +29,7 @@ MOTIONS: dict[str, MotionKind] = {
     "Mode with damping": "damped mode",
     "Shape at a frequency": "operating shape",
     "One body alone": "component",
+    "Sag under a load": "sag",
 }
 HZ_STEP = 0.05
 N_PEAKS, N_SHARES = 4, 4
@@ -45,7 +46,7 @@ class ShapePanel:
             tuple(MOTIONS),
             initial_value=_motion_label(session.state.motion.kind),
             hint="A mode without or with its damping, the shape in which road or wheel load move "
-            "everything at one frequency, or one body without all others",
+            "everything at one frequency, one body without all others, or how it stands under a load",
         )
         write_back = WriteBack()
         self._frequency = gui.add_slider(
@@ -184,6 +185,8 @@ ABOUT: dict[MotionKind, str] = {
     "damped mode": "Damping lets some points lag behind others: the motion travels.",
     "operating shape": "",
     "component": "",
+    "sag": "Nothing moves: this is where the vehicle stands in the load case that the Static tab says, "
+    "exaggerated. Outlines at rest are where it is unloaded.",
 }
 
 

@@ -61,6 +61,8 @@ class Scene:
             server.scene, vehicle, theme, self._box.length, on_select, self._axes.label_names
         )
         self._cameras = Cameras(server, self._box)
+        self.exaggeration: float = 1.0
+        """How many times as large as it is the shape is drawn at the driver's amplitude of one."""
 
     def show(self, solved: Solved) -> None:
         """Draws the answer of a session: what moves in it, and how it wants to be seen."""
@@ -155,6 +157,7 @@ class Scene:
             points |= body.points(drawn[body.name], scale * shape[dofs], beside)
         largest = max((float(np.abs(p).max(initial=0.0)) for p in points.values()), default=0.0)
         sent = min(1.0, LARGEST / largest) if largest else 1.0
+        self.exaggeration = sent * scale
         self.driver.show(points if sent == 1 else {path: sent * p for path, p in points.items()})
         return drawn if sent == 1 else {name: sent * moved for name, moved in drawn.items()}
 

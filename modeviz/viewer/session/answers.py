@@ -18,6 +18,7 @@ from modeviz.viewer.session.followed_mode import FollowedMode, ModeFollower
 from modeviz.viewer.session.movement import Movement, asks, movement
 from modeviz.viewer.session.named_results import Named, NamedResults
 from modeviz.viewer.session.state import State
+from modeviz.viewer.session.static_answers import SolvedStatics, StaticSolver
 from modeviz.viewer.session.wheel_responses import WheelResponses
 
 
@@ -39,6 +40,8 @@ class Solved:
     wheels: Mapping[str, WheelResults]
     """While a wheel load is chosen: the response to all of them with the sets that are drawn, by name,
     and with the present rates under ""."""
+    static: SolvedStatics
+    """The load cases; of the last rates with which what is for reading was drawn, or sag is."""
     seconds: float
     """What the solve took."""
     classic_error: ClassicError | None
@@ -91,6 +94,7 @@ class Answers:
         self._named: NamedResults
         self._follower: ModeFollower
         self._wheels = WheelResponses()
+        self._static: StaticSolver
         self._last: Solved | None = None
 
     def prepare(self, state: State, progress: Callable[[float], None] | None = None) -> None:
@@ -106,6 +110,7 @@ class Answers:
         self.prepared = prepare(self._vehicle, progress=progress)
         self._drive = drive(self.prepared, state.conditions)
         self._named, self._follower = NamedResults(self._drive), ModeFollower(self.prepared)
+        self._static = StaticSolver(self.prepared.system)
         self._named.solve(state)
 
     def rebase(self, state: State) -> Prepared:
@@ -129,6 +134,7 @@ class Answers:
         state = named.answerable(asked)
         now, base = self._solve(state), named.results[state.against]
         followed = self._follower.follow(state, base, now)
+        static = self._in_load_cases(state, followed)
         seconds = self._seconds(now, begin)
         self._last = Solved(
             state=state,
@@ -136,8 +142,9 @@ class Answers:
             named=named,
             now=now,
             followed=followed,
-            movement=self._movement(state, followed),
+            movement=self._movement(state, followed, static),
             wheels=self._wheels.solve(state, named.results, now),
+            static=static,
             seconds=seconds,
             classic_error=classic_error(now) if state.classic else None,
             findings=findings(now),
@@ -153,15 +160,21 @@ class Answers:
             self._drive = excitation = drive(excitation.prepared, state.conditions)
         return solve_on(excitation, state.design.rates)
 
-    def _movement(self, state: State, followed: FollowedMode) -> Movement:
+    def _in_load_cases(self, state: State, followed: FollowedMode) -> SolvedStatics:
+        """Return the load cases, which nobody sees while rates move but for the sag that is drawn."""
+        if self._last and not followed.is_detailed and state.motion.kind != "sag":
+            return self._last.static
+        return self._static.solve(followed.now.rates, followed.base.rates)
+
+    def _movement(self, state: State, followed: FollowedMode, static: SolvedStatics) -> Movement:
         """Return the motion that is asked for; if that cannot be, the one before, and why."""
         last = self._last
         if last is None:
-            return movement(state, followed)
+            return movement(state, followed, static)
         if followed.is_as(last.followed) and asks(last.state) == asks(state):
             return last.movement
         try:
-            return movement(state, followed)
+            return movement(state, followed, static)
         except ModevizError as error:
             return replace(last.movement, problem=str(error))
 

@@ -19,6 +19,7 @@ from modeviz.text.wording import sentence_case
 from modeviz.vehicle.arrays import Array, Complexes
 from modeviz.viewer.session.followed_mode import FollowedMode
 from modeviz.viewer.session.state import ResponseCurve, State
+from modeviz.viewer.session.static_answers import SolvedStatics
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,14 +45,26 @@ class Movement:
     """What these have of the mode that is followed, the largest first."""
     problem: str = ""
     """Why this is not what was asked for, but what moved before; "" if it is."""
+    is_still: bool = False
+    """Whether it is no motion but a place, with no frequency."""
+
+    @property
+    def heading(self) -> str:
+        """What it is called, with its frequency if it has one."""
+        return self.title if self.is_still else f"{self.title}, {self.frequency_hz:.2f} Hz"
 
 
-def movement(state: State, shown: FollowedMode) -> Movement:
+def movement(state: State, shown: FollowedMode, static: SolvedStatics | None = None) -> Movement:
     """Return the motion in the answer to a state.
+
+    Args:
+        state: what is asked for.
+        shown: the mode that is followed.
+        static: the load cases; None where nothing asks for them.
 
     Raises:
         SolveError: there is no such shape, because the mode does not vibrate, the frequency is that of
-            an undamped resonance or the reference does not move.
+            an undamped resonance, the reference does not move or nothing holds the vehicle.
     """
     match state.motion.kind:
         case "mode":
@@ -62,6 +75,9 @@ def movement(state: State, shown: FollowedMode) -> Movement:
             return _operating(state, shown)
         case "component":
             return _component(state, shown)
+        case "sag":
+            assert static is not None
+            return _sag(state, static)
 
 
 def asks(state: State) -> tuple[object, ...]:
@@ -131,6 +147,21 @@ def _component(state: State, shown: FollowedMode) -> Movement:
         frozenset({state.motion.component}),
         modes,
         component_shares(system, shown.shape, state.motion.component),
+    )
+
+
+def _sag(state: State, static: SolvedStatics) -> Movement:
+    """The shape in which the vehicle stands in a load case, from where it is unloaded."""
+    case = static.now.case(state.motion.load_case)
+    other = static.base.case(case.name).motion if state.look.ghost == "compared" else None
+    return Movement(
+        f"Sag: {case.name}",
+        f"sag {case.name}",
+        0.0,
+        "still, from where nothing is loaded",
+        case.motion,
+        other,
+        is_still=True,
     )
 
 

@@ -6,6 +6,7 @@ from typing import Literal
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
 from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
+from modeviz.vehicle.load_cases import usual_if_none
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.design import ORIGINAL, Design, rate_sets
 from modeviz.viewer.session.planning.plan import first_plan
@@ -17,9 +18,9 @@ Coloring = Literal["bodies", "displacement", "kinetic energy", "strain energy"]
 Ghost = Literal["none", "rest", "compared"]
 """Whose outlines are drawn beside: those at rest, or moving in the shape that is compared with."""
 
-MotionKind = Literal["mode", "damped mode", "operating shape", "component"]
+MotionKind = Literal["mode", "damped mode", "operating shape", "component", "sag"]
 """What moves: an undamped mode, the same with its damping, the shape at a frequency of excitation, or
-one component alone."""
+one component alone; or nothing: the sag under a load that stays."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,8 @@ class Motion:
     """The body that is shown alone."""
     component_mode: int = 6
     """Which of its free modes."""
+    load_case: str = ""
+    """The name of the load case that is looked at."""
 
 
 @dataclass(frozen=True)
@@ -127,10 +130,11 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
     cabin = unit_of_role(vehicle, "cabin")
     every = vehicle.all_rates(rates)
     mode = f"{cabin.word} yaw" if cabin else ""
+    cases = usual_if_none(vehicle.load_cases)
     return State(
         Design(every, plan=first_plan(vehicle), decoupling=vehicle.decoupling),
         conditions,
-        Motion(mode, every, component=vehicle.bodies[0].name),
+        Motion(mode, every, component=vehicle.bodies[0].name, load_case=cases[0].name),
         Charts() if vehicle.response_points else Charts(curves=()),
         rigid=first_look(vehicle),
         group=group,

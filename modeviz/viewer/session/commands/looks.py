@@ -48,6 +48,7 @@ class ChangeMotion(Command):
     operating_hz: float | None = None
     component: str | None = None
     component_mode: int | None = None
+    load_case: str | None = None
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         return replace(state, motion=_changed(state.motion, self))
