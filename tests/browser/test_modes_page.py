@@ -159,6 +159,28 @@ def test_the_operating_shape_follows_rates_and_frequency(app, page):
     assert np.abs(drawn(page, "cab")[1] - softer).max() > 0.01
 
 
+def test_sag_stands_still_as_large_as_is_said_and_follows_rates(app, page):
+    app._animation._run(True)
+    open_tab(page, "Static")
+    page.get_by_label("Draw sag").check()
+    wait_for(page, "document.querySelector('.mv .title').textContent === 'Sag: standing'")
+    wait_for(page, f"{FREQUENCY} === 0 && {PHASE} === 0")
+    shown(app, page)
+    (words,) = page.get_by_text("times as large as it is").all_text_contents()
+    said = float(re.search(r"Drawn ([\d.]+) times", words)[1])
+    position, shape = drawn(page, "cab")
+    is_large = expected(app, "cab", position)
+    assert np.abs(shape).max() / np.abs(is_large).max() == pytest.approx(said, rel=0.06)
+    app.session.do(SetRate("A", "vertical", 1e5))
+    assert app.session.wait(SOLVE_S)
+    shown(app, page)
+    force = app.session.answer.static.now.case("standing").connections["A 0.5"].force[2]
+    wait_for(page, "document.body.innerText.includes(a.force)", force=f"{force:.0f}")
+    page.get_by_label("Draw sag").uncheck()
+    wait_for(page, f"{FREQUENCY} > 0")
+    app._animation._run(False)
+
+
 def test_a_peak_is_one_click_away(app, page):
     open_tab(page, "What moves")
     app.session.do(Alter(kind="operating shape", operating_hz=20.0))

@@ -57,9 +57,9 @@ class StaticPanel:
             "vehicle.toml, or the usual ones",
         )
         self._drawn = gui.add_checkbox(
-            "Draw in the scene",
+            "Draw sag",
             session.state.motion.kind == "sag",
-            hint="Stands still as it sags, larger than it is; the mode moves again without the tick",
+            hint="The scene stands still as it sags, larger than it is; without the tick modes move",
         )
         self._bindings = (
             Binding(
@@ -87,9 +87,9 @@ class StaticPanel:
 
     def tell_scale(self, solved: Solved, scale: float) -> None:
         """Says how many times as large as it is what is drawn stands there, if that is sag."""
-        is_drawn = solved.movement.is_still
+        is_drawn = solved.movement.is_still and scale > 0
         if is_drawn:
-            words = f"Drawn {significant_factor(scale)} times as large as it is, at an amplitude of 1."
+            words = f"Drawn {two_figures(scale)} times as large as it is, at an amplitude of 1."
             assign(self._scale, content=block(span(words, "dim")))
         assign(self._scale, visible=is_drawn)
 
@@ -114,7 +114,7 @@ class StaticPanel:
         rows = [self._body(name, motion, decimals) for name, motion in case.bodies.items()]
         yield table(("", "x mm", "y mm", "z mm", "rx °", "ry °", "rz °"), rows, "statics")
         if grounded := _on_the_ground(case):
-            yield heading("On the ground", "what holds the vehicle, along its axes")
+            yield heading("Others on the ground", "along the vehicle's axes")
             yield table(("", "x N", "y N", "z N"), grounded, "statics")
 
     def _mounts_of(self, statics: Statics, case: StaticCase, state: State) -> Iterator[str]:
@@ -143,7 +143,7 @@ class StaticPanel:
         return row([named(sentence_case(self._labels[name])), *millimetres, *degrees])
 
 
-def significant_factor(scale: float) -> str:
+def two_figures(scale: float) -> str:
     """Return a factor as one says it: 0.25, 3.2, 18, 1400."""
     return f"{float(f'{scale:.2g}'):g}"
 
