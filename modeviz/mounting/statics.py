@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -20,6 +21,7 @@ class Carried:
     """What a connection does in a load case, along and about its local axes: x, y, z, rx, ry, rz."""
 
     connection: Connection
+    """With the vehicle's own rates."""
     deflection: Floats
     """(6,), m and rad: how far its first body has gone from the second."""
     force: Floats
@@ -51,10 +53,16 @@ class StaticCase:
 class Statics:
     """A vehicle in its load cases."""
 
-    vehicle: Vehicle
-    """With the rates that it has there."""
+    prepared: PreparedStatics
+    rates: Rates
+    """Of the groups that differ from the prepared vehicle's own."""
     cases: tuple[StaticCase, ...]
     refused: tuple[RefusedCase, ...]
+
+    @cached_property
+    def vehicle(self) -> Vehicle:
+        """With the rates that it has there."""
+        return self.prepared.vehicle.with_rates(self.rates)
 
     def case(self, name: str) -> StaticCase:
         """Return the case of that name.
@@ -91,16 +99,13 @@ def solve_statics(prepared: PreparedStatics, rates: Rates) -> Statics:
         SolveError: with these rates nothing holds what a mount held, or progressive mounts do not
             settle.
     """
-    vehicle = prepared.vehicle.with_rates(rates)
     settling = prepared.settling(rates)
     x = prepared.sag + prepared.compliance @ _missing(prepared, settling)
     stretched = prepared.system.mount_motions @ x
     of_mounts = [settling.laws.force(settling.stiffness, d) for d in stretched.T]
     forces = _forces(prepared, x, np.array(of_mounts).T)
-    cases = (
-        _case(prepared, vehicle, held, x[:, i], forces[:, i]) for i, held in enumerate(prepared.cases)
-    )
-    return Statics(vehicle, tuple(cases), prepared.refused)
+    cases = (_case(prepared, held, x[:, i], forces[:, i]) for i, held in enumerate(prepared.cases))
+    return Statics(prepared, rates, tuple(cases), prepared.refused)
 
 
 def _missing(prepared: PreparedStatics, settling: Settling) -> Floats:
@@ -136,12 +141,10 @@ def _forces(prepared: PreparedStatics, x: Floats, of_mounts: Floats) -> Floats:
     return -resisting
 
 
-def _case(
-    prepared: PreparedStatics, vehicle: Vehicle, held: HeldCase, x: Floats, forces: Floats
-) -> StaticCase:
+def _case(prepared: PreparedStatics, held: HeldCase, x: Floats, forces: Floats) -> StaticCase:
     """The answer to a case from its motion, (n_dofs,), and the forces on first bodies, (n_rows,)."""
     deflections = (prepared.system.connection_motions @ x).reshape(-1, 6)
-    every = zip(vehicle.all_connections, deflections, forces.reshape(-1, 6), strict=True)
+    every = zip(prepared.vehicle.all_connections, deflections, forces.reshape(-1, 6), strict=True)
     return StaticCase(
         held.case.name,
         held.notes,

@@ -31,7 +31,7 @@ class Travel:
 
 def travels(statics: Statics, case: StaticCase) -> Iterator[Travel]:
     """Yield the travel of every mount in the directions in which its group limits it."""
-    for group in statics.vehicle.mount_groups:
+    for group in statics.prepared.vehicle.mount_groups:
         for mount in group.mounts:
             deflection = case.connections[mount.name].deflection
             for direction, (least, most) in group.travel.items():

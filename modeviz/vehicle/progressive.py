@@ -53,23 +53,24 @@ class ForceCurve:
     @property
     def rate(self) -> float:
         """Its slope at no deflection, N/m, the mean of both sides where it has a corner there."""
-        return float(self._slopes[self._part([-1e-12 * self._span, 1e-12 * self._span])].mean())
+        return float(self.slopes[self._part([-1e-12 * self._span, 1e-12 * self._span])].mean())
 
     def at(self, deflection: Floats) -> Floats:
         """Return the force at deflections of any shape, N."""
         part = self._part(deflection)
-        return self.force[part] + self._slopes[part] * (deflection - self.deflection[part])
+        return self.force[part] + self.slopes[part] * (deflection - self.deflection[part])
 
     def slope(self, deflection: Floats) -> Floats:
         """Return the tangent at deflections of any shape, N/m."""
-        return self._slopes[self._part(deflection)]
+        return self.slopes[self._part(deflection)]
 
     @property
     def _span(self) -> float:
         return float(np.ptp(self.deflection))
 
     @property
-    def _slopes(self) -> Floats:
+    def slopes(self) -> Floats:
+        """Of its straight parts, (n_points - 1,), N/m."""
         return np.diff(self.force) / np.diff(self.deflection)
 
     def _part(self, deflection: ArrayLike) -> NDArray[np.intp]:
