@@ -31,6 +31,7 @@ QuantityName = Literal[
     "unbalance",
     "speed",
     "roughness",
+    "angle",
 ]
 """As the `units` tables of files have them."""
 
@@ -89,6 +90,7 @@ UNITS: dict[QuantityName, dict[str, float]] = {
     "acceleration": {"m/s²": 1.0, "m/s^2": 1.0, "mm/s²": 1e-3, "mm/s^2": 1e-3, "g": STANDARD_GRAVITY},
     "unbalance": {"kg m": 1.0, "g m": 1e-3, "g mm": 1e-6, "oz in": POUND / 16 * INCH},
     "speed": {"m/s": 1.0, "km/h": 1 / 3.6, "mph": 0.44704},
+    "angle": {"deg": math.pi / 180, "rad": 1.0},
     "roughness": {"m³": 1.0, "m^3": 1.0, "cm³": 1e-6, "cm^3": 1e-6, "mm³": 1e-9, "mm^3": 1e-9},
 }
 """For each quantity, what one of the unit is in SI."""

@@ -6,15 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
-import numpy as np
-
 from modeviz.errors import VehicleError, located, quoted
 from modeviz.units import UNITS, QuantityName, spoken
 
-ANGLES = {"deg": np.pi / 180, "rad": 1.0}
 RATIOS = {"": 1.0, "%": 0.01, "-": 1.0, "1": 1.0}
 
-Kind = QuantityName | Literal["text", "ratio", "number", "angle"]
+Kind = QuantityName | Literal["text", "ratio", "number"]
 """Of what a column's numbers are, or that it has none."""
 
 UNIT = re.compile(r"(.*?)\s*(?:[\[(](.*)[\])]|\s/\s*(.*)|,\s*(.*)|\sin\s+(\S+/\S+|mm|m))\s*")
@@ -70,8 +67,6 @@ def column_factor(column: Column, units: Mapping[QuantityName, float]) -> float 
             return 1.0
         if kind == "ratio":
             return _one_of(column.unit, RATIOS, "loss factor")
-        if kind == "angle":
-            return _one_of(column.unit, ANGLES, "angle") if column.unit else None
         if column.unit:
             return _one_of(column.unit, UNITS[kind], spoken(kind))
         return units.get(kind)

@@ -64,7 +64,7 @@ class TableLine:
         value = self.row.number(column.header, at_least)
         factor = self.factor(column)
         if factor is None:
-            usual = next((u for kind, u in WRITTEN_UNITS.items() if kind == column.kind), "deg")
+            usual = next(u for kind, u in WRITTEN_UNITS.items() if kind == column.kind)
             raise VehicleError(
                 f"{self.where(name)}: found {self.text(name)} without a unit; write it in the header, "
                 f"'{column.header} [{usual}]'{self.otherwise}"

@@ -10,6 +10,8 @@ from msgspec import Meta
 from modeviz.errors import Fault, FaultsError, VehicleError, at_key, check_unique
 from modeviz.files.records.dynamic import DynamicRecord
 from modeviz.files.records.fields import (
+    AngleOrder,
+    Angles,
     Damping,
     DampingRate,
     Ends,
@@ -32,6 +34,7 @@ from modeviz.files.records.fields import (
 from modeviz.files.records.progressive import CurveRecord, GroupRatesRecord
 from modeviz.files.records.rates import RatesRecord
 from modeviz.files.records.record import Record, built, said, tuples
+from modeviz.files.schema.axes import whole_frame
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
 from modeviz.vehicle.arrays import Floats
@@ -48,9 +51,11 @@ from modeviz.vehicle.connections import (
     Travel,
     usual_bounds,
 )
+from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
 from modeviz.vehicle.progressive import ForceCurve
 
 NO_RATES = (0.0, 0.0, 0.0)
+OF_ANGLES = ("angles", "angle_order")
 VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
@@ -64,20 +69,43 @@ class MountRecord(Record, kw_only=True):
     damping: Damping = NO_RATES
     rotational_damping: RotationalDamping = NO_RATES
     axes: Frame = VEHICLE_AXES
+    angles: Angles | None = None
+    """About x, y and z, by which the local axes are turned out of the file's, instead of these."""
+    angle_order: AngleOrder = ""
+    """As `TurnOrder` reads it; where only one angle is not zero it does not matter."""
     elastic_center: Annotated[float, UNITLESS] = 0.5
     """Where between its ends it acts: 0 at the first, 1 at the second."""
 
     @classmethod
     def of(cls, connection: Connection) -> Self:
         first, second = map(tuples, connection.points)
-        keys = (f for f in cls.__struct_fields__ if f != "at")
+        keys = (f for f in cls.__struct_fields__ if f not in ("at", *OF_ANGLES))
         fields = {key: tuples(getattr(connection, key)) for key in keys}
         return cls(at=first if first == second else (first, second), **said(cls, fields))
 
     def arguments(self) -> dict[str, Any]:
         """The constructor's arguments of a connection."""
-        fields = {f: getattr(self, f) for f in self.__struct_fields__ if f != "at"}
-        return {"points": self._ends(), **fields}
+        keys = (f for f in self.__struct_fields__ if f not in ("at", "axes", *OF_ANGLES))
+        fields = {f: getattr(self, f) for f in keys}
+        return {"points": self._ends(), "axes": self._frame(), **fields}
+
+    def _frame(self) -> Floats:
+        """The local axes as rows, (3, 3).
+
+        Raises:
+            FaultsError: they are said twice, or the order of angles isn't where it matters.
+        """
+        if self.angles is None:
+            with at_key("axes"):
+                return whole_frame(self.axes)
+        if self.axes != VEHICLE_AXES:
+            raise FaultsError(Fault("angles", "found beside axes, expected one of them"))
+        if not self.angle_order and np.count_nonzero(self.angles) > 1:
+            words = 'missing, expected the order of the angles, such as "xyz fixed" or "zyx turned"'
+            raise FaultsError(Fault("angle_order", words))
+        with at_key("angle_order"):
+            order = TurnOrder.of(self.angle_order) if self.angle_order else TurnOrder()
+            return axes_of_angles(np.array(self.angles), order)
 
     def _ends(self) -> Floats:
         ends = self.at if len(self.at) == 2 else (self.at, self.at)

@@ -11,6 +11,7 @@ from modeviz.files.schema.axes import (
     turn_frame,
     turn_inertia,
     turn_motions,
+    turn_order,
     turn_range,
     turn_rates,
     turn_vectors,
@@ -79,7 +80,10 @@ Direction = Annotated[
     Literal["vertical", "lateral", "fore-aft"] | Vector, UNITLESS, Turns(turn_direction)
 ]
 """One of `DIRECTIONS`, or a vector along which something points, of any length."""
-Frame = Annotated[tuple[Vector, Vector, Vector], UNITLESS, Turns(turn_frame)]
-"""Local axes as rows."""
+Frame = Annotated[tuple[Vector, ...], Meta(min_length=2, max_length=3), UNITLESS, Turns(turn_frame)]
+"""Local axes as rows: all three, or x and y."""
+Angles = Annotated[Vector, Quantity("angle"), Turns(turn_vectors)]
+"""About x, y and z."""
+AngleOrder = Annotated[str, Turns(turn_order)]
 Motions = Annotated[bool | tuple[str, ...], Turns(turn_motions)]
 """Some of `MOTIONS`, or whether all."""

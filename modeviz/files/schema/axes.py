@@ -6,15 +6,16 @@ that a turn only exchanges and reverses axes; the origin stays where it is.
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from modeviz.errors import VehicleError, unknown
+from modeviz.errors import VehicleError, at_key, unknown
 from modeviz.files.schema.hints import each_annotated
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
+from modeviz.vehicle.local_axes import TurnOrder, axes_of_vectors
 
 _WAYS = {
     "rearward": (0, 1),
@@ -66,10 +67,17 @@ def axes_of(text: str) -> Floats:
 
 
 def turned(data: Any, kind: type, T: Floats) -> Any:
-    """The content of a file of that kind, with everything that depends on the axes in others."""
+    """The content of a file of that kind, with everything that depends on the axes in others.
 
-    def change(value: Any, turns: Turns, _table: Mapping[str, Any], _where: str) -> Any:
-        return None if value is None else turns.turn(value, T)
+    Raises:
+        FaultsError: local axes that are none.
+    """
+
+    def change(value: Any, turns: Turns, _table: Mapping[str, Any], where: str) -> Any:
+        if value is None:
+            return None
+        with at_key(where):
+            return turns.turn(value, T)
 
     return each_annotated(data, kind, Turns, change)
 
@@ -99,7 +107,23 @@ def turn_range(axis: int, value: Any, T: Floats) -> Any:
 
 def turn_frame(value: Any, T: Floats) -> Any:
     """Local axes as rows; the one along the file's x becomes the one along our axis there."""
-    return (T @ np.array(value, float) @ T.T + 0.0).tolist()
+    return (T @ whole_frame(value) @ T.T + 0.0).tolist()
+
+
+def whole_frame(value: Any) -> Floats:
+    """Return local axes as rows, (3, 3), of all three, or of x and y of any length."""
+    if len(value) == 3:
+        return np.array(value, float)
+    return axes_of_vectors(dict(zip("xy", np.array(value, float), strict=True)))
+
+
+def turn_order(value: Any, T: Floats) -> Any:
+    """The order of angles about x, y and z, which are then about others."""
+    if not value:
+        return value
+    order = TurnOrder.of(value)
+    letters = ("xyz"[int(np.abs(T[:, "xyz".index(letter)]).argmax())] for letter in order.letters)
+    return str(replace(order, letters="".join(letters)))
 
 
 def turn_motions(value: Any, T: Floats) -> Any:

@@ -22,6 +22,7 @@ WRITTEN_UNITS: Mapping[QuantityName, str] = {
     "unbalance": "g m",
     "speed": "km/h",
     "roughness": "cm³",
+    "angle": "deg",
 }
 """The units of the files we write."""
 

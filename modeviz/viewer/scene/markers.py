@@ -31,6 +31,9 @@ WASHER_Z = 0.53 * HEIGHT
 SIZE_STEP = 0.05
 """Of a marker's size, 2 mm on a pickup: no eye sees it, and a drag changes few markers at a time."""
 
+TRIAD = 0.045
+"""Length of the local axes of a selected mount, x red, y green, z blue, likewise."""
+
 RING_RADIUS = 0.024
 """Of the ring around a mount, as a part of the vehicle's length."""
 
@@ -55,7 +58,7 @@ Marks = list[tuple[viser.SceneNodeHandle, str]]
 
 
 class MountMarker:
-    """A mount: rubber between two washers, along its own axes, with its name."""
+    """A mount: rubber between two washers, along its own axes, with its name; selected, with these."""
 
     def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup, length: float) -> None:
         """Draws a mount at rest and not selected; the length of its vehicle, m, gives its size."""
@@ -65,7 +68,15 @@ class MountMarker:
         axes = SO3.from_matrix(mount.axes.T).wxyz
         path = f"/mounts/{mount.name.replace('/', '-')}"
         self._bodies = mount.bodies
-        self._frame = scene.add_frame(path, show_axes=False, wxyz=axes, position=mount.center)
+        self._frame = scene.add_frame(
+            path,
+            show_axes=False,
+            axes_length=TRIAD * length,
+            axes_radius=TRIAD * length / 18,
+            origin_radius=TRIAD * length / 15,
+            wxyz=axes,
+            position=mount.center,
+        )
         self._rubber = scene.add_cylinder(
             f"{path}/rubber", RADIUS * length, HEIGHT * length, color=RUBBER, cast_shadow=False
         )
@@ -125,6 +136,7 @@ class MountMarker:
             assign(washer, scale=size)
             washer.position = (0.0, 0.0, z * size * self._length)
         assign(self._ring, visible=selected)
+        assign(self._frame, show_axes=selected)
         assign(self._label, visible=not carded)
 
 

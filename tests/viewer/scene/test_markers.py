@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from small_vehicles import tyre, wheel
+from viser.transforms import SO3
 
 from modeviz.vehicle.connections import Mount, MountGroup, MountRates
 from modeviz.vehicle.loads import ResponsePoint
@@ -105,3 +106,14 @@ def test_a_mount_is_marked_where_it_acts(server):
     mount = Mount("C1 left", "", ("cab", "frame"), ends, elastic_center=0.25)
     marker = MountMarker(server.scene, mount, group("C1 left"), 5.4)
     assert marker._frame.position == pytest.approx((0.0, 0.0, 0.9))
+
+
+def test_a_selected_mount_shows_its_own_axes(server):
+    axes = np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0.0]])
+    mount = Mount("C1 left", "", ("cab", "frame"), np.zeros((2, 3)), axes=axes)
+    marker = MountMarker(server.scene, mount, group("C1 left"), 5.4)
+    marker.show(0.5, selected=True, carded=True)
+    assert marker._frame.show_axes
+    assert SO3(np.array(marker._frame.wxyz)).as_matrix() == pytest.approx(axes.T)
+    marker.show(0.5, selected=False, carded=False)
+    assert not marker._frame.show_axes
