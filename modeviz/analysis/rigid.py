@@ -8,13 +8,13 @@ import numpy as np
 from modeviz.analysis.modal_results import ModalResults
 from modeviz.mounting.axes import ElasticAxes, Line, elastic_axes, torque_roll_axis
 from modeviz.mounting.focus import Focus, focus
-from modeviz.mounting.frames import Axes, crank_direction, frame
+from modeviz.mounting.frames import crank_direction, frame
 from modeviz.mounting.purity import Purity, direction_energy, sorted_modes
 from modeviz.mounting.rigid_part import RigidPart, rigid_parts
 from modeviz.mounting.stiffness import held_bodies, mounted_bodies
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
-from modeviz.vehicle.decoupling import Decoupling
+from modeviz.vehicle.decoupling import Axes, Decoupling
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -123,6 +123,15 @@ def rigid_figures(
         for i, part in enumerate(parts)
         if not wanted or part.body.name in wanted
     )
+
+
+def usual_body(vehicle: Vehicle) -> str:
+    """Return the name of the body to look at first: the powertrain, what is on mounts, or any."""
+    on_mounts = {name for mount in vehicle.mounts for name in mount.bodies}
+    main = main_bodies(vehicle)
+    engines = [body.name for body in vehicle.bodies if body.role == "powertrain"]
+    mounted = [name for name in main if name in on_mounts]
+    return (*engines, *mounted, *main)[0]
 
 
 def main_bodies(vehicle: Vehicle) -> tuple[str, ...]:

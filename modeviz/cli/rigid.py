@@ -12,8 +12,8 @@ from modeviz.cli.command import Command
 from modeviz.cli.options import JsonOptions, VehicleOptions, add_json, add_vehicle
 from modeviz.cli.results import check_printable, print_result
 from modeviz.errors import ModevizError
-from modeviz.mounting.frames import Axes
 from modeviz.report.rigid import rigid_record, rigid_table
+from modeviz.vehicle.decoupling import Axes
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,16 +1,11 @@
 """The axes along and about which a body's motion is told: the vehicle's, its own, or its crank's."""
 
-from typing import Literal
-
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from modeviz.mounting.rigid_part import RigidPart
 from modeviz.vehicle.arrays import Floats
-
-Axes = Literal["vehicle", "principal", "crank"]
-"""vehicle: x rearward, y right, z up. principal: those of the body's inertia. crank: the vehicle's,
-turned by the least angle that lays the one nearest to the crank along it."""
+from modeviz.vehicle.decoupling import Axes
 
 EQUAL = 1e-6
 """Principal values that differ by no more than this part of the largest have no axes of their own."""

@@ -9,6 +9,7 @@ import numpy as np
 from modeviz.analysis.results import AXIS, Conditions
 from modeviz.analysis.sensitivity import rate_variables
 from modeviz.errors import VehicleError
+from modeviz.optimise.decoupling import prepare_decoupling
 from modeviz.optimise.integral import BandCase, Integral, prepare_integral
 from modeviz.optimise.objective import LoadCase, Objective, prepare_objective
 from modeviz.optimise.peak import PeakGoal, prepare_peak
@@ -85,6 +86,8 @@ def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) 
     vehicle.check_problem(problem)
     if problem.goal == "change":
         return LeastChange(vehicle, base)
+    if problem.goal in ("purity", "decoupling"):
+        return prepare_decoupling(vehicle, problem)
     cases = load_cases(vehicle, problem, speed)
     objective = _objective(vehicle, problem, cases)
     weights = np.array([case.weight for case in cases])

@@ -16,7 +16,7 @@ from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.wording import percent_change, scientific, significant
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, Rates
-from modeviz.vehicle.problem import GoalKind, Problem
+from modeviz.vehicle.problem import UNFELT, GoalKind, Problem
 
 SMALL: dict[GoalKind, str] = {
     "accelerations": "squared accelerations",
@@ -24,6 +24,8 @@ SMALL: dict[GoalKind, str] = {
     "rms": "mean squares on the road",
     "rating": "combined mean square at the driver's point",
     "iso 2631": "square of the ISO 2631-1 total at the driver's point",
+    "purity": "largest impurity of a mode",
+    "decoupling": "what is missing to purity, band and gaps",
     "change": "mean square of ln(k/k₀)",
 }
 """What becomes small, in people's words."""
@@ -88,7 +90,7 @@ def optimum_doubts(search: Search, optimum: Optimum) -> list[str]:
 def objective_words(problem: Problem) -> str:
     """Words for what becomes small and how it is added up, so that nobody has to guess the sum."""
     what = SMALL[problem.goal]
-    if problem.goal == "change":
+    if problem.goal in UNFELT:
         return what
     how = "each load case relative to the original" if problem.is_normalised else "plain sum"
     return f"{what}, {how}"

@@ -9,14 +9,13 @@ from modeviz.analysis.modal_results import ModalResults
 from modeviz.analysis.rigid import BodyAxes, RigidBodyFigures
 from modeviz.mounting.axes import ElasticAxes
 from modeviz.mounting.focus import Focus
-from modeviz.mounting.frames import Axes
 from modeviz.mounting.purity import Gap, Purity
 from modeviz.report.records import Record, rates_record
 from modeviz.report.tables import table
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
-from modeviz.vehicle.decoupling import Decoupling
+from modeviz.vehicle.decoupling import Axes, Decoupling
 
 LISTED = 0.02
 """A mode in which a body has less than this part of the kinetic energy is not listed with it."""

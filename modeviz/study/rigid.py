@@ -9,7 +9,6 @@ import numpy as np
 from modeviz.analysis.modal_results import ModalResults
 from modeviz.analysis.rigid import RigidBodyFigures
 from modeviz.mounting.axes import ElasticAxes
-from modeviz.mounting.frames import Axes
 from modeviz.mounting.purity import Purity
 from modeviz.report.records import Record
 from modeviz.report.rigid import listed_modes, percent, rigid_record, rigid_table, verdict_lines
@@ -19,6 +18,7 @@ from modeviz.study.notebook import block, paragraphs
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
+from modeviz.vehicle.decoupling import Axes
 
 
 @dataclass(frozen=True, eq=False)

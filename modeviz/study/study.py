@@ -15,7 +15,6 @@ from modeviz.compute.threads import one_thread
 from modeviz.dynamics.band import Method
 from modeviz.errors import ModevizError, unknown
 from modeviz.files import builtin_vehicle, read_vehicle
-from modeviz.mounting.frames import Axes
 from modeviz.mounting.paths import By
 from modeviz.mounting.statics import solve_statics
 from modeviz.optimise.run import BUDGET
@@ -42,6 +41,7 @@ from modeviz.study.telling import Tell, cancelled_by_ctrl_c, say_nothing
 from modeviz.study.trade_off import FrontResult
 from modeviz.study.tuned_vehicle import TunedVehicle
 from modeviz.study.wheels import WheelRide
+from modeviz.vehicle.decoupling import Axes
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

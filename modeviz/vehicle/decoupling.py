@@ -1,10 +1,16 @@
 """What the rigid modes of a body on its mounts are held against."""
 
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 import numpy as np
 
-from modeviz.errors import Fault, FaultsError
+from modeviz.errors import Fault, FaultsError, VehicleError, unknown
+from modeviz.vehicle.connections import MOTIONS
+
+Axes = Literal["vehicle", "principal", "crank"]
+"""vehicle: x rearward, y right, z up. principal: those of the body's inertia. crank: the vehicle's,
+turned by the least angle that lays the one nearest to the crank along it."""
 
 
 @dataclass(frozen=True)
@@ -40,3 +46,27 @@ class Decoupling:
 
 USUAL = Decoupling()
 """What holds where a vehicle says nothing."""
+
+
+@dataclass(frozen=True)
+class DecoupledBody:
+    """A body whose modes are to be decoupled."""
+
+    body: str
+    motions: tuple[str, ...] = MOTIONS
+    """Of `MOTIONS`: whose modes are to be pure."""
+    axes: Axes = "vehicle"
+    """Along which purity is told."""
+
+    def __post_init__(self) -> None:
+        where = f"decoupling of {self.body!r}"
+        for motion in self.motions:
+            if motion not in MOTIONS:
+                raise VehicleError(f"{where}: motions: " + unknown("motion", motion, MOTIONS))
+        if not self.motions or len(set(self.motions)) < len(self.motions):
+            raise VehicleError(
+                f"{where}: motions: found {list(self.motions)}, expected some of {', '.join(MOTIONS)}, "
+                "each once"
+            )
+        if self.axes not in get_args(Axes):
+            raise VehicleError(f"{where}: " + unknown("axes", self.axes, get_args(Axes)))

@@ -10,7 +10,7 @@ from modeviz.vehicle.loads import Road
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
-NAME = "ride"
+NAME, DECOUPLED = "ride", "decoupled"
 
 ROAD_HZ = np.linspace(6, 14, 25)
 WHEEL_HZ = np.array([11.0, 13.25, 15.75])
@@ -36,13 +36,16 @@ def default_problem(vehicle: Vehicle) -> Problem:
 
     Where the vehicle has neither, but tyres, for the usual road of ISO 8608.
 
-    At the paper's frequencies, as far as the road's table holds them at the vehicle's speed.
+    At the paper's frequencies, as far as the road's table holds them at the vehicle's speed. A vehicle
+    that nothing shakes and where nobody feels anything is to be decoupled.
 
     Raises:
         VehicleError: the vehicle lacks what such a problem is made of.
     """
     groups = tuple(filter(None, map(_design_group, vehicle.mount_groups)))
     performance = _performance(vehicle)
+    if groups and not vehicle.response_points and not performance:
+        return Problem(DECOUPLED, groups, goal="decoupling", reference=_reference(vehicle))
     lacking = {
         "a [[mount_group]] with rates above zero": groups,
         "a [[response_point]]": vehicle.response_points,

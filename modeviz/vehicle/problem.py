@@ -8,19 +8,27 @@ import numpy as np
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS, MountRates, check_bounds
+from modeviz.vehicle.decoupling import DecoupledBody
 
-GoalKind = Literal["accelerations", "peak", "rms", "rating", "iso 2631", "change"]
+GoalKind = Literal[
+    "accelerations", "peak", "rms", "rating", "iso 2631", "purity", "decoupling", "change"
+]
 """What is to become small.
 
 accelerations: the performance variables. peak: the largest of them, and of all between the first and
 the last frequency of each. rms: the mean squares, on the
 road, at the points and along the directions of these. rating: the combined RMS that the mean personal
-rating falls with, at the driver's point. iso 2631: the vibration total value there. change: the mean
+rating falls with, at the driver's point. iso 2631: the vibration total value there. purity: of
+modes of bodies on their mounts the largest part that is not in its own direction. decoupling: what
+is missing of these to the purity, the band and the gaps that the vehicle asks. change: the mean
 square of ln(k/k₀) of the rates that may change.
 """
 
 VARIABLES: tuple[GoalKind, ...] = ("accelerations", "peak")
 """Goals that are made of performance variables."""
+
+UNFELT: tuple[GoalKind, ...] = ("purity", "decoupling", "change")
+"""Goals that need nobody to feel anything."""
 
 UNLIMITED = (0.0, np.inf)
 """Ratio limits that hold nothing."""
@@ -150,6 +158,8 @@ class Problem:
     windows: tuple[FrequencyWindow, ...] = ()
     reference: str = ""
     """A set of rates of the vehicle that designs are compared with, or none."""
+    decoupling: tuple[DecoupledBody, ...] = ()
+    """Of the goals purity and decoupling; none: all motions of the vehicle's main body on mounts."""
 
     def __post_init__(self) -> None:
         where = f"problem {self.name!r}"
@@ -158,6 +168,7 @@ class Problem:
         if not self.groups:
             raise VehicleError(f"{where}: has no groups, so nothing may change; expected one or more")
         check_unique(f"{where}: design group", (g.group for g in self.groups))
+        check_unique(f"{where}: decoupling of", (d.body for d in self.decoupling))
         if self.goal in VARIABLES and not any(p.weight for p in self.performance):
             raise VehicleError(
                 f"{where}: performance: found none with a weight above zero, expected one or more"

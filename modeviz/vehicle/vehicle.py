@@ -36,7 +36,7 @@ from modeviz.vehicle.loads import (
     WheelLoad,
 )
 from modeviz.vehicle.mode_damping import ModeDamping
-from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.problem import UNFELT, Problem
 
 REACH = 0.10
 """m: how far from an attachment of a flexible body a connection may hold on to it."""
@@ -250,7 +250,7 @@ class Vehicle:
         for group in problem.groups:
             self.mount_group(group.group)
         points = [point.name for point in self.response_points]
-        if problem.goal != "change" and not points:
+        if problem.goal not in UNFELT and not points:
             raise VehicleError(f"goal {problem.goal!r} needs a [[response_point]]")
         for performance in problem.performance:
             for road in performance.roads:
@@ -264,6 +264,8 @@ class Vehicle:
             for point in performance.points:
                 if point not in points:
                     raise VehicleError(unknown("response point", point, points))
+        for decoupled in problem.decoupling:
+            self.body(decoupled.body)
         if problem.reference and problem.reference not in self.rate_sets:
             raise VehicleError(unknown("set of rates", problem.reference, self.rate_sets))
 

@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from four_cylinder import engine, four_cylinder
+from four_cylinder import engine, four_cylinder, on_subframe
 from oracles import Beam
 
 import modeviz as mv
 from modeviz.errors import VehicleError
-from modeviz.vehicle.decoupling import USUAL, Decoupling
+from modeviz.vehicle.decoupling import USUAL, DecoupledBody, Decoupling
+from modeviz.vehicle.problem import DesignGroup, Problem
 
 
 @pytest.fixture
@@ -87,4 +88,25 @@ def test_a_crank_without_length_is_refused(rewritten):
     with pytest.raises(VehicleError, match="crank_axis"):
         rewritten(
             four_cylinder(), ('label = "engine"', 'label = "engine"\ncrank_axis = [0.0, 0.0, 0.0]')
+        )
+
+
+def test_bodies_of_a_problem_come_back_from_a_folder(rewritten):
+    bodies = DecoupledBody("engine", ("z", "ry"), "crank"), DecoupledBody("subframe")
+    vehicle = on_subframe()
+    groups = (DesignGroup("M1"),)
+    problem = Problem("pure", groups, goal="purity", decoupling=bodies)
+    assert rewritten(replace(vehicle, problems=(problem,))).problems[0].decoupling == bodies
+
+
+def test_a_body_that_a_problem_names_must_be_there(rewritten):
+    problem = Problem("pure", (DesignGroup("M1"),), goal="purity", decoupling=(DecoupledBody("engin"),))
+    with pytest.raises(VehicleError, match="engine"):
+        replace(four_cylinder(), problems=(problem,))
+    with pytest.raises(VehicleError, match=r"problem 'pure'.*'engine'"):
+        Problem(
+            "pure",
+            (DesignGroup("M1"),),
+            goal="purity",
+            decoupling=(DecoupledBody("engine"), DecoupledBody("engine")),
         )

@@ -12,7 +12,8 @@ from modeviz.files.records.rates import RatesRecord
 from modeviz.files.records.record import Record, built
 from modeviz.files.schema.quantities import UNITLESS, FixedUnit
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
+from modeviz.vehicle.connections import DIRECTIONS, MOTIONS, RIDE_DIRECTIONS
+from modeviz.vehicle.decoupling import Axes, DecoupledBody
 from modeviz.vehicle.problem import (
     UNLIMITED,
     DesignGroup,
@@ -141,6 +142,21 @@ class WindowRecord(Record, kw_only=True):
         return FrequencyWindow(self.mode, self.low_hz, high, self.inside)
 
 
+class DecoupledBodyRecord(Record, kw_only=True):
+    """[[problem.decoupling]]."""
+
+    body: Name
+    motions: tuple[str, ...] = MOTIONS
+    axes: Axes = "vehicle"
+
+    @classmethod
+    def of(cls, decoupled: DecoupledBody) -> Self:
+        return cls(body=decoupled.body, motions=decoupled.motions, axes=decoupled.axes)
+
+    def build(self) -> DecoupledBody:
+        return DecoupledBody(self.body, self.motions, self.axes)
+
+
 class ProblemRecord(Record, kw_only=True):
     """[[problem]]."""
 
@@ -151,6 +167,7 @@ class ProblemRecord(Record, kw_only=True):
     group: list[DesignGroupRecord]
     performance: list[PerformanceRecord] = field(default_factory=list)
     window: list[WindowRecord] = field(default_factory=list)
+    decoupling: list[DecoupledBodyRecord] = field(default_factory=list)
 
     @classmethod
     def of(cls, problem: Problem) -> Self:
@@ -162,6 +179,7 @@ class ProblemRecord(Record, kw_only=True):
             group=[DesignGroupRecord.of(group) for group in problem.groups],
             performance=[PerformanceRecord.of(p) for p in problem.performance],
             window=[WindowRecord.of(window) for window in problem.windows],
+            decoupling=[DecoupledBodyRecord.of(body) for body in problem.decoupling],
         )
 
     def build(self) -> Problem:
@@ -173,4 +191,5 @@ class ProblemRecord(Record, kw_only=True):
             self.normalised,
             built(self.window, "window", WindowRecord.build),
             self.reference,
+            built(self.decoupling, "decoupling", DecoupledBodyRecord.build),
         )

@@ -32,10 +32,11 @@ class ScatterPanel:
     """A button that scatters the mounts at the present rates, and what came of it."""
 
     def __init__(self, gui: viser.GuiApi, session: Session, scatterer: ScatterTask) -> None:
-        """Builds the controls; nothing for a vehicle without anything to optimise for."""
+        """Builds the controls; nothing where there is nothing to optimise for, or nobody to feel it."""
         self._session, self._scatterer = session, scatterer
         self._lock = threading.Lock()
-        self._is_built = session.state.design.plan is not None
+        has_points = bool(session.vehicle.response_points)
+        self._is_built = session.state.design.plan is not None and has_points
         if not self._is_built:
             return
         with gui.add_folder("Scatter of parts"):

@@ -5,9 +5,9 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from modeviz.analysis.rigid import main_bodies
-from modeviz.mounting.frames import Axes
+from modeviz.analysis.rigid import usual_body
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.decoupling import Axes
 from modeviz.vehicle.vehicle import Vehicle
 
 Crank = Literal["own", "x", "y", "z"]
@@ -39,9 +39,5 @@ class RigidLook:
 
 
 def first_look(vehicle: Vehicle) -> RigidLook:
-    """Return what a session opens with: the powertrain, else what is on mounts, else any body."""
-    on_mounts = {name for mount in vehicle.mounts for name in mount.bodies}
-    main = main_bodies(vehicle)
-    engines = [body.name for body in vehicle.bodies if body.role == "powertrain"]
-    mounted = [name for name in main if name in on_mounts]
-    return RigidLook((*engines, *mounted, *main)[0])
+    """Return what a session opens with."""
+    return RigidLook(usual_body(vehicle))

@@ -11,7 +11,7 @@ from modeviz.scatter.monte_carlo import Scatter
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Rates
-from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.problem import UNFELT, Problem
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import ResponseCurve, State
@@ -84,7 +84,7 @@ class ScatterTask:
         state = self._session.state
         assert state.design.plan is not None
         problem = planned(self._session.vehicle, state.design.plan)
-        if problem.goal == "change":  # which no part scatters
+        if problem.goal in UNFELT:  # which no part scatters
             problem = replace(problem, goal="accelerations")
         points = tuple(point.name for point in self._session.vehicle.response_points)
         options = ScatterOptions(n_samples, Tolerance(), points=points)

@@ -14,6 +14,7 @@ from modeviz.report.optimum import compared_outside
 from modeviz.scatter.searching import SearchOptions, find_best
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
@@ -37,6 +38,8 @@ class Sought:
     locked: frozenset[tuple[str, str]]
     """Rates, (group, field of `MountRates`), that may not change."""
     options: SearchOptions
+    decoupling: Decoupling = USUAL
+    """What modes of bodies on their mounts are held against."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,6 +167,7 @@ class SearchTask:
             state.conditions.speed,
             state.design.locked,
             options,
+            state.design.decoupling,
         )
         self._task.start(SearchStatus(sought))
 
@@ -195,7 +199,8 @@ class SearchTask:
 
     def _find(self, job: SearchStatus, token: CancelToken, tell: Tell) -> Optimum:
         """The best that is found; the session goes back to the rates before if there is none."""
-        sought, vehicle = job.asked, self._session.vehicle
+        sought = job.asked
+        vehicle = replace(self._session.vehicle, decoupling=sought.decoupling)
         self._followed = sought.before
 
         def begin(search: Search, is_robust: bool) -> None:

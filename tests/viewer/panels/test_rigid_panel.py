@@ -1,7 +1,9 @@
 """What the page says and draws of a body on its mounts."""
 
 import re
+import time
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.session.commands.decisions import ChangeTargets, SetRate, TakeRates
+from modeviz.viewer.session.commands.decisions import ChangePlan, ChangeTargets, SetRate, TakeRates
 from modeviz.viewer.session.commands.looks import LookAtRigid
 
 SOON = 60
@@ -152,3 +154,24 @@ def test_a_click_on_a_mode_shows_it(opened):
 
 def test_the_powertrain_is_looked_at_first(opened):
     assert opened(on_subframe()).session.state.rigid.body == "engine"
+
+
+def test_a_search_on_the_page_decouples_to_the_targets_that_are_there(opened):
+    app = opened(four_cylinder())
+    assert app.session.state.design.plan.goal == "decoupling"
+    assert "missing to purity, band and gaps" in text(app._optimise._editor._summary)
+    done(app, ChangeTargets({"purity": 0.9}), ChangePlan(lambda _, plan: replace(plan, n_starts=3)))
+    assert not app.session.answer.purity.passes
+    app.search_task.start()
+    assert wait_until(lambda: app.search_task.job.found)
+    assert app.search_task.job.found.value < 1e-9
+    solved = app.session.wait_for_answer(SOON)
+    least = [solved.purity.purity(m) for m in ("x", "y", "z", "rx", "ry", "rz")]
+    assert min(least) > 0.9 - 1e-6
+
+
+def wait_until(reached):
+    end = time.monotonic() + SOON
+    while not reached() and time.monotonic() < end:
+        time.sleep(0.05)
+    return reached()

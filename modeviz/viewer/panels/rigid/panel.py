@@ -5,9 +5,9 @@ from typing import Any, get_args
 
 import viser
 
-from modeviz.mounting.frames import Axes
 from modeviz.report.rigid import listed_modes
 from modeviz.text.wording import sentence_case, told_apart
+from modeviz.vehicle.decoupling import Axes
 from modeviz.viewer.page.binding import Binding, Read, Write, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block

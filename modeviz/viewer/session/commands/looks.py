@@ -4,8 +4,8 @@ from dataclasses import dataclass, fields, replace
 from typing import TypeVar
 
 from modeviz.analysis.results import Conditions
-from modeviz.mounting.frames import Axes
 from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.decoupling import Axes
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import rate_sets
