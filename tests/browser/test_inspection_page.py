@@ -105,6 +105,16 @@ def drop(page, files):
     assert page.evaluate(DROP, [[*files], contents]) == [True, True]  # or the browser would open them
 
 
+def choose(page, dropdown, option):
+    page.get_by_role("combobox", name=dropdown, exact=True).click()
+    page.get_by_role("option", name=option, exact=True).click()
+
+
+def field(page, label):
+    """The field of that label, the last of the page."""
+    return page.get_by_text(label, exact=True).last.locator("xpath=ancestor::*[.//input][1]//input")
+
+
 @pytest.fixture
 def new_vehicle(tmp_path, open_page):
     """An empty folder's page."""
@@ -128,12 +138,9 @@ def test_dropped_files_become_a_body_of_the_vehicle(new_vehicle):
     page.get_by_text("the file doesn't say its units").wait_for()
     assert not any(folder.iterdir())
 
-    page.get_by_role("combobox", name="Units").click()
-    page.get_by_role("option", name="mm-t-s").click()
+    choose(page, "Units", "mm-t-s")
     page.get_by_text("Units: mm-t-s.").wait_for(state="attached")
-    page.get_by_text("Attachments", exact=True).last.locator(
-        "xpath=ancestor::*[.//input][1]//input"
-    ).fill("left=11; right=12")
+    field(page, "Attachments").fill("left=11; right=12")
     page.wait_for_timeout(1000)
     page.get_by_role("button", name="Put it into the vehicle").click()
     page.get_by_text("Body shape: in the vehicle").wait_for()
@@ -141,6 +148,32 @@ def test_dropped_files_become_a_body_of_the_vehicle(new_vehicle):
     assert [attachment.name for attachment in body.attachments] == ["left", "right"]
     assert body.mass == pytest.approx(MASSES.sum() * 1000)
     assert page.get_by_text("Nothing holds its bodies together").is_visible()
+
+
+def test_response_points_are_added_to_the_vehicle_on_the_page(new_vehicle):
+    folder, page = new_vehicle
+    drop(page, {"shape.unv": network_unv()})
+    page.get_by_text("shape.unv", exact=True).wait_for()
+    assert not page.get_by_role("button", name="Add the response point").is_visible()
+    choose(page, "Units", "mm-t-s")
+    page.get_by_text("Units: mm-t-s.").wait_for(state="attached")
+    field(page, "Attachments").fill("left=11; right=12")
+    page.wait_for_timeout(1000)
+    page.get_by_role("button", name="Put it into the vehicle").click()
+    page.get_by_text("Body shape: in the vehicle").wait_for()
+
+    add = page.get_by_role("button", name="Add the response point")
+    add.click()
+    page.locator(".bad").get_by_text("found no name").wait_for()
+    choose(page, "At", "right")
+    field(page, "Name").fill("seat")
+    page.wait_for_timeout(1000)
+    add.click()
+    page.get_by_text("Response point seat: in the vehicle.").wait_for()
+    vehicle = read_vehicle(folder)
+    (point,) = vehicle.response_points
+    np.testing.assert_array_equal(point.position, vehicle.body("shape").attachment("right").position)
+    page.get_by_text("Nobody feels it").wait_for(state="detached")
 
 
 def test_files_that_make_no_body_say_why_on_the_page(new_vehicle):

@@ -13,6 +13,7 @@ from modeviz.formats.component import UNIT_SYSTEMS, Component
 from modeviz.formats.solving import Wanted, solved
 from modeviz.viewer.inspection.import_panel import TAB, ImportPanel
 from modeviz.viewer.inspection.panels import LookPanel, MissingPanel, ModesPanel
+from modeviz.viewer.inspection.point_panel import PointPanel
 from modeviz.viewer.inspection.scene import InspectionScene
 from modeviz.viewer.inspection.sources import Source
 from modeviz.viewer.inspection.state import Content, Inspection, State
@@ -107,6 +108,7 @@ class InspectionApp:
             )
         with tabs.add_tab(TAB, viser.Icon.PACKAGE_IMPORT):
             self._import = ImportPanel(self.server, folder, self._look_at, self._added)
+            self._points = self._point_panel(folder) if folder else None
         self._missing = MissingPanel(gui)
         card = gui.add_panel()
         with card.add_tab("Motion", viser.Icon.PLAYER_PLAY):
@@ -116,6 +118,10 @@ class InspectionApp:
         self._hotkeys.add("Play or pause", "space", lambda event: self._animation.toggle(event.client))
         self._hotkeys.add("Next mode", "N", lambda _: inspection.step(1))
         self._hotkeys.add("Mode before", "P", lambda _: inspection.step(-1))
+
+    def _point_panel(self, folder: Path) -> PointPanel:
+        lock = self._import.lock
+        return PointPanel(self.server.gui, folder, lock, lambda: self._added(""))
 
     def _look_at(self, component: Component, name: str, units: str | None) -> None:
         """Shows a component that is not in the vehicle beside what is."""
@@ -148,6 +154,8 @@ class InspectionApp:
             self._modes.show(state)
             self._look.show()
             self._missing.show(state.content.missing)
+            if self._points:
+                self._points.show(self._content.subjects)
             self._animation.show(_named(state), _scale_of(state))
         self.scene.show(state)
 

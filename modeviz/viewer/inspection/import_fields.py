@@ -56,14 +56,14 @@ class ImportFields:
 
     def asked(self, usual_name: str) -> Asked:
         """Return what they say; a name that is the usual one has been given by nobody."""
-        name = _printed(self.name.value)
+        name = printed(self.name.value)
         return Asked(
             name=None if name == usual_name else name or None,
             usual_name=usual_name or "body",
             units=self.chosen_units,
             attach=_parts(self.attach.value),
             residual=_parts(self.residual.value),
-            pose=_printed(self.pose.value) or None,
+            pose=printed(self.pose.value) or None,
             replace=self.replaces.value,
         )
 
@@ -77,9 +77,9 @@ class ImportFields:
 
 def _parts(text: str) -> tuple[str, ...]:
     """What stands between semicolons."""
-    return tuple(filter(None, map(_printed, text.split(";"))))
+    return tuple(filter(None, map(printed, text.split(";"))))
 
 
-def _printed(text: str) -> str:
-    """Text without what is no letter, such as half of one, and without blanks around it."""
+def printed(text: str) -> str:
+    """Return text without what is no letter, such as half of one, and without blanks around it."""
     return "".join(filter(str.isprintable, text)).strip()

@@ -62,7 +62,8 @@ class ImportPanel:
         self._server, self._folder = server, folder
         self._look_at, self._added = look_at, added
         self._received = Received()
-        self._lock = threading.Lock()
+        self.lock: threading.Lock = threading.Lock()
+        """Held while something is put into the folder."""
         self._named = ""
         self._upload = self._upload_button()
         self._content = gui.add_html("")
@@ -111,7 +112,7 @@ class ImportPanel:
     def _take(self, event: viser.GuiEvent) -> None:
         """Keeps a file that has come, and shows what there is now."""
         file = self._upload.value
-        with self._lock:
+        with self.lock:
             try:
                 self._received.add(file.name, file.content)
                 self._name_after(self._received.names[0])
@@ -127,7 +128,7 @@ class ImportPanel:
 
     def _redraw(self, event: viser.GuiEvent) -> None:
         if event.client is not None and self._received.names:
-            with self._lock:
+            with self.lock:
                 try:
                     self._show()
                 except ModevizError as error:
@@ -145,7 +146,7 @@ class ImportPanel:
         client = event.client
         if client is None:
             return
-        with self._lock:
+        with self.lock:
             try:
                 done = self._put(client)
             except ModevizError as error:
@@ -177,7 +178,7 @@ class ImportPanel:
             event.client.add_notification("Not read", str(error), color="red")
 
     def _forget(self) -> None:
-        with self._lock:
+        with self.lock:
             self._clear()
             self._say(span(f"Drop files here: {', '.join(TAKEN)}", "dim"))
 
