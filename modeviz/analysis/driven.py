@@ -30,6 +30,9 @@ class Driven:
     latest: Latest[Receptances] = field(default_factory=Latest, init=False)
     """The same between these, for the next rates that want the same lines."""
 
+    latest_whole: Latest[Receptances] = field(default_factory=Latest, init=False)
+    """The same with all springs, whichever change."""
+
     @property
     def frequency_hz(self) -> Floats:
         """(n_freqs,): the lines of the band, as far as the excitation is known."""
@@ -64,6 +67,20 @@ class Driven:
         between = self._between(lines[~kept], changed)
         H[kept], H[~kept] = on_band[place[kept]], between.response(stiffness[changed])
         return H
+
+    def stretches(self, stiffness: Complexes, lines: Floats) -> Complexes:
+        """Stretch of every mount spring per unit of each load, (n_lines, n_springs, n_loads).
+
+        Less what the ground moves; arguments and errors as `response`.
+        """
+        kept, place = self._on_band(lines)
+        on_band = self.receptances.stretches(stiffness)
+        if kept.all():
+            return on_band
+        joined = np.empty((len(lines), *on_band.shape[1:]), complex)
+        between = self.latest_whole.get(lines.tobytes(), lambda: self._interpolated(lines[~kept], None))
+        joined[kept], joined[~kept] = on_band[place[kept]], between.stretches(stiffness)
+        return joined
 
     def response_gradient(
         self, stiffness: Complexes, lines: Floats

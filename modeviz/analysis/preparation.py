@@ -146,7 +146,7 @@ class Prepared(PreparedModes):
             VehicleError: a group that the vehicle does not have.
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
-        stiffness = self.mount_stiffness(_soft(self.all_rates(rates)))
+        stiffness = self.mount_stiffness(softened(self.all_rates(rates)))
         if not self.is_graded:
             return replace(self, receptances=self.receptances.modified(stiffness))
         between = modified_between(
@@ -216,7 +216,7 @@ def _with_responses(
 ) -> Prepared:
     """Return what is ready for modes made ready for responses; arguments and errors as `prepare`."""
     vehicle = modal.vehicle
-    softest = modal.system_at(_soft({g.name: g.bounds[0] for g in vehicle.mount_groups}))
+    softest = modal.system_at(softened({g.name: g.bounds[0] for g in vehicle.mount_groups}))
     inputs = input_directions(softest)
     points = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
     outputs = np.vstack([np.zeros((0, softest.n_dofs)), *points])
@@ -239,7 +239,7 @@ def _with_responses(
     )
 
 
-def _soft(rates: Rates) -> dict[str, MountRates]:
+def softened(rates: Rates) -> dict[str, MountRates]:
     """Return the same rates, but none above `STIFFEST_BASE`."""
     return {
         group: MountRates(

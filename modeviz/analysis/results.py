@@ -9,6 +9,7 @@ import numpy as np
 from modeviz.analysis.driven import Driven, driven, load_lines
 from modeviz.analysis.latest import Latest
 from modeviz.analysis.modal_results import ModalResults, modes_of
+from modeviz.analysis.mount_forces import MountForces, mount_forces
 from modeviz.analysis.preparation import Prepared
 from modeviz.dynamics.band import Method, modes_above
 from modeviz.dynamics.basis import REACH
@@ -17,14 +18,15 @@ from modeviz.dynamics.modes import Modes
 from modeviz.dynamics.resonances import Resonances
 from modeviz.dynamics.response import modal_coordinates
 from modeviz.errors import ModevizError
+from modeviz.mounting.levels import InputSpectra, input_spectra
 from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.excitation import Load, excitation, input_spectrum
 from modeviz.ride.participation import Peak, participation, participation_above, peak_lines, peaks
 from modeviz.ride.psd import acceleration_psd, averaged_acceleration_psd, rms
 from modeviz.ride.rating import Rating, rate
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
-from modeviz.vehicle.loads import RandomLoad
+from modeviz.vehicle.loads import HarmonicLoad, RandomLoad
 
 AXIS: dict[str, int] = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
 """Where a direction is among x, y, z."""
@@ -97,6 +99,9 @@ class Results(ModalResults):
     averaged_psd: Floats
     """The same around each line, of which RMS values are made: see `averaged_spectrum`."""
 
+    latest_forces: Latest[MountForces] = field(default_factory=Latest, init=False)
+    """Under the load that was asked for last."""
+
     @property
     def conditions(self) -> Conditions:
         return self.drive.conditions
@@ -115,6 +120,25 @@ class Results(ModalResults):
     def rating(self) -> Rating:
         """Of the first response point, the driver's."""
         return rate(self.frequency_hz, self.averaged_psd[:, 0], self.drive.is_known_from_start)
+
+    def mount_forces(self, load: HarmonicLoad | None = None) -> MountForces:
+        """Return the forces of mounts under a harmonic load of the vehicle; None: on the road.
+
+        Raises:
+            SolveError: with these rates an undamped resonance lies on a line.
+        """
+        return self.latest_forces.get(load, lambda: self._mount_forces(load))
+
+    def _mount_forces(self, load: HarmonicLoad | None) -> MountForces:
+        stiffness = self.prepared.mount_stiffness(self.rates)
+        if load is None:
+            f, drive = self.frequency_hz, self.drive
+            spectra = InputSpectra(f, drive.spectrum_at(f), drive.spectrum_around(f))
+            return mount_forces(drive, stiffness, f, spectra, True)
+        under = driven(self.prepared, [load], self.conditions.speed)
+        f = under.lines(self.resonances)
+        spectra = input_spectra(load, f, self.conditions.speed)
+        return mount_forces(under, stiffness, f, spectra, False)
 
     def response(self, point: int, direction: str) -> Floats:
         """Acceleration PSD of a response point along one of `DIRECTIONS`, (n_freqs,), g²/Hz."""
@@ -137,20 +161,26 @@ class Results(ModalResults):
         """
         at = np.asarray(self.peak_lines(point, direction) if lines is None else lines, int)
         f = self.frequency_hz[at]
-        output = 3 * point + AXIS[direction]
-        parts = self.participation(output, self.drive.load, f, self.drive.spectrum_at(f))
+        row = self.prepared.outputs[3 * point + AXIS[direction]]
+        parts = self.participation(row, self.drive.load, f, self.drive.spectrum_at(f))
         return peaks(f, self.response(point, direction)[at], parts, count)
 
     def participation(
-        self, output: int, load: Load, frequency_hz: Floats, input_psd: Complexes
+        self,
+        row: Array,
+        load: Load,
+        frequency_hz: Floats,
+        input_psd: Complexes,
+        given: Complexes | float = 0.0,
     ) -> Floats:
         """Return the parts of the band's modes, of those above, and of the rest, (n_freqs, n_parts).
 
         Args:
-            output: which row of the prepared outputs.
+            row: (n_dofs,), reads the response.
             load: what shakes.
             frequency_hz: (n_freqs,).
             input_psd: of its inputs, (n_freqs, n_inputs, n_inputs).
+            given: (n_freqs, n_inputs), what it reads besides, whatever moves: part of the rest.
         """
         band, above, prepared = self.band, self.above, self.prepared
         forces, moved = self._forces(load, frequency_hz)
@@ -162,7 +192,6 @@ class Results(ModalResults):
             frequency_hz,
             shapes.T @ forces,
         )
-        row = prepared.outputs[output]
         return np.hstack(
             [
                 participation(row @ shapes, q, input_psd),
@@ -171,7 +200,7 @@ class Results(ModalResults):
                     self._n_above,
                     row @ prepared.basis.vectors @ above.shapes,
                     above.shapes.T @ (prepared.basis.vectors.T @ forces),
-                    row @ moved,
+                    row @ moved + given,
                     frequency_hz,
                     input_psd,
                 ),

@@ -38,5 +38,6 @@ def wheel_peaks(
     at = np.asarray(found, int)
     f, shaken = wheels.frequency_hz[at], results.prepared.vehicle.harmonic_loads[load]
     one = np.ones((len(at), 1, 1), complex)
-    parts = results.participation(3 * point + AXIS[direction], shaken, f, one)
+    row = results.prepared.outputs[3 * point + AXIS[direction]]
+    parts = results.participation(row, shaken, f, one)
     return peaks(f, wheels.acceleration_g[at, load, point, AXIS[direction]], parts, count)

@@ -121,6 +121,15 @@ class Receptances:
         changed, forces = self._forces(self.change(stiffness), self.inputs)
         return self.direct - _transposed(self.outputs[:, changed]) @ forces
 
+    def stretches(self, stiffness: Complexes) -> Complexes:
+        """Stretch of each spring per unit of input at other rates, (n_freqs, n_springs, n_inputs).
+
+        Less what the ground moves; arguments and errors as `response`.
+        """
+        stretches = self.inputs.copy()
+        self._add_forces(stretches, *self._forces(self.change(stiffness), stretches))
+        return stretches
+
     def responses(self, stiffness: Complexes) -> Complexes:
         """The responses at many sets of mount rates: `response` of each, but for rounding.
 

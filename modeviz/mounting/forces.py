@@ -115,7 +115,7 @@ def solve_forces(
     """
     f, ground = np.asarray(frequency_hz, float), ground_rows(system, load, frequency_hz, speed)
     acting = acting_motions(system)
-    pushed, amplitudes = _pushes(system, load, f, speed)
+    pushed, amplitudes = pushes(system, load, f, speed)
     rows = directions(system, opened(system)[acting], system.mode_dampers, pushed)
     n_acting, n_damped = np.count_nonzero(acting), len(system.mode_damping)
     n_read = n_acting + n_damped
@@ -135,7 +135,7 @@ def solve_forces(
     )
 
 
-def _pushes(system: System, load: Load, frequency_hz: Floats, speed: float) -> tuple[Floats, Complexes]:
+def pushes(system: System, load: Load, frequency_hz: Floats, speed: float) -> tuple[Floats, Complexes]:
     """Directions (n, n_dofs) in which a load pushes bodies, and how much, (n_freqs, n, n_inputs).
 
     A load that moves the ground does not.

@@ -1,0 +1,95 @@
+"""The forces of mounts at any rates, from receptances: quick enough to follow a drag."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from modeviz.analysis.driven import Driven
+from modeviz.dynamics.assembly import System
+from modeviz.dynamics.mount_rates import turning_axes
+from modeviz.mounting.forces import N_MOTIONS
+from modeviz.mounting.levels import InputSpectra
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.connections import MOTIONS
+from modeviz.vehicle.vehicle import Vehicle
+
+
+@dataclass(frozen=True, eq=False)
+class MountForces:
+    """The force that every mount puts on the body that carries it, under one load."""
+
+    vehicle: Vehicle
+    spectra: InputSpectra
+    is_random: bool
+    force: Complexes
+    """(n_freqs, n_mounts, 6, n_inputs), along and about local axes, N and N m, per unit of input.
+
+    Moments are those of mounts' rotational stiffness and what damps beside it."""
+
+    @property
+    def frequency_hz(self) -> Floats:
+        """(n_freqs,)."""
+        return self.spectra.frequency_hz
+
+    @cached_property
+    def in_vehicle_axes(self) -> Complexes:
+        """The same along and about the vehicle's axes."""
+        turn = np.array([np.kron(np.eye(2), m.axes) for m in self.vehicle.mounts]).reshape(-1, 6, 6)
+        return np.einsum("mij,fmik->fmjk", turn, self.force)
+
+    @cached_property
+    def rms(self) -> Floats:
+        """(n_mounts, 6): over all lines, along local axes."""
+        return self._rms(self.force)
+
+    @cached_property
+    def vehicle_rms(self) -> Floats:
+        """(n_mounts, 6): over all lines, along the vehicle's axes."""
+        return self._rms(self.in_vehicle_axes)
+
+    def level(self, mount: int, motion: str, in_vehicle_axes: bool = False) -> Floats:
+        """PSD of a force, N²/Hz, or its amplitude under a harmonic load, N, (n_freqs,)."""
+        every = self.in_vehicle_axes if in_vehicle_axes else self.force
+        power = self.spectra.psd(every[:, mount, MOTIONS.index(motion)][:, None])[:, 0]
+        return power if self.is_random else np.sqrt(power)
+
+    def _rms(self, force: Complexes) -> Floats:
+        n_freqs, n_mounts, _, n_inputs = force.shape
+        flat = self.spectra.rms(force.reshape(n_freqs, -1, n_inputs))
+        return flat.reshape(n_mounts, N_MOTIONS)
+
+
+def mount_forces(
+    drive: Driven, stiffness: Complexes, lines: Floats, spectra: InputSpectra, is_random: bool
+) -> MountForces:
+    """The forces of mounts under one load.
+
+    Args:
+        drive: under that load.
+        stiffness: (n_springs,), complex rates at the reference, N/m.
+        lines: (n_lines,), Hz.
+        spectra: of its inputs there.
+        is_random: whether the load has a spectrum.
+
+    Raises:
+        SolveError: with these rates an undamped resonance lies on a line.
+    """
+    system = drive.prepared.system
+    stretch = drive.stretches(stiffness, lines)
+    there = drive.receptances.law.stiffness(stiffness, lines)
+    z = there + 2j * np.pi * lines[:, None] * spring_damping(system)
+    by_spring = z[:, :, None] * stretch
+    turns = turning_axes(system.vehicle)
+    force = np.zeros((len(lines), len(turns), N_MOTIONS, stretch.shape[2]), complex)
+    force[:, :, :3] = by_spring[:, : 3 * len(turns)].reshape(len(lines), -1, 3, stretch.shape[2])
+    force[:, :, 3:][:, turns] = by_spring[:, 3 * len(turns) :]
+    return MountForces(system.vehicle, spectra, is_random, force)
+
+
+def spring_damping(system: System) -> Floats:
+    """What damps beside each mount spring, (n_springs,), N s/m and N m s/rad."""
+    mounts = system.vehicle.mounts
+    along = np.array([m.damping for m in mounts]).reshape(-1)
+    about = np.array([m.rotational_damping for m in mounts]).reshape(-1, 3)
+    return np.concatenate([along, about[turning_axes(system.vehicle)]])
