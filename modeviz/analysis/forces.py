@@ -132,7 +132,7 @@ def solve_loaded(
         SolveError: with these rates an undamped resonance lies on a frequency.
     """
     lines = force_lines(prepared, rates, load, speed) if frequency_hz is None else frequency_hz
-    forces = solve_forces(prepared.system.with_rates(rates), load, lines, speed, progress)
+    forces = solve_forces(prepared.system_at(rates), load, lines, speed, progress)
     return LoadedForces(load, speed, forces, input_spectra(load, lines, speed))
 
 

@@ -96,6 +96,14 @@ class ModalResults:
         modes, own = self.modes, self.band.springs
         return dissipated_energy(self.prepared.system, modes.shapes, modes.frequency_hz, own)
 
+    def dissipated_shares(self, mode: int) -> dict[str, float]:
+        """Share of each flexible body and connection group in what a cycle of one mode loses."""
+        modes, springs, own = self.modes, self.band.springs, slice(mode, mode + 1)
+        there = springs[own] if len(springs) > 1 else springs
+        shape, f = modes.shapes[:, own], modes.frequency_hz[own]
+        shares = dissipated_energy(self.prepared.system, shape, f, there)
+        return {name: float(share[0]) for name, share in shares.items()}
+
     def strain_shares(self, shape: Array, frequency_hz: float) -> dict[str, float]:
         """The strain energy of a shape: share of each flexible body and connection group.
 

@@ -87,6 +87,38 @@ def mount_forces(
     return MountForces(system.vehicle, spectra, is_random, force)
 
 
+def force_weights(
+    system: System,
+    stiffness: Complexes,
+    frequency_hz: float,
+    mount: int,
+    motion: str,
+    in_vehicle_axes: bool = False,
+) -> Complexes:
+    """What each mount spring's stretch counts in a force of a mount, (n_springs,), N/m.
+
+    Args:
+        system: what vibrates.
+        stiffness: (n_springs,), complex rates, N/m.
+        frequency_hz: at which.
+        mount: its number.
+        motion: one of `MOTIONS`.
+        in_vehicle_axes: whether along or about the vehicle's axes, else the mount's own.
+    """
+    turns = turning_axes(system.vehicle)
+    numbers = np.full((len(turns), N_MOTIONS), -1)
+    numbers[:, :3] = np.arange(3 * len(turns)).reshape(-1, 3)
+    numbers[:, 3:][turns] = np.arange(3 * len(turns), len(stiffness))
+    start, axis = 3 * (motion in MOTIONS[3:]), MOTIONS.index(motion) % 3
+    along = system.vehicle.mounts[mount].axes[:, axis] if in_vehicle_axes else np.eye(3)[axis]
+    z = stiffness + 2j * np.pi * frequency_hz * spring_damping(system)
+    row = np.zeros(len(stiffness), complex)
+    for number, part in zip(numbers[mount, start : start + 3], along, strict=True):
+        if number >= 0:
+            row[number] = part * z[number]
+    return row
+
+
 def spring_damping(system: System) -> Floats:
     """What damps beside each mount spring, (n_springs,), N s/m and N m s/rad."""
     mounts = system.vehicle.mounts

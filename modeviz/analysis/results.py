@@ -15,7 +15,7 @@ from modeviz.dynamics.band import Method, modes_above
 from modeviz.dynamics.basis import REACH
 from modeviz.dynamics.inputs import forces_on_rest, led
 from modeviz.dynamics.modes import Modes
-from modeviz.dynamics.resonances import Resonances
+from modeviz.dynamics.resonances import Resonances, resonances_at
 from modeviz.dynamics.response import modal_coordinates
 from modeviz.errors import ModevizError
 from modeviz.mounting.levels import InputSpectra, input_spectra
@@ -136,7 +136,7 @@ class Results(ModalResults):
             spectra = InputSpectra(f, drive.spectrum_at(f), drive.spectrum_around(f))
             return mount_forces(drive, stiffness, f, spectra, True)
         under = driven(self.prepared, [load], self.conditions.speed)
-        f = under.lines(self.resonances)
+        f = under.lines(resonances_at(self.prepared.basis, stiffness))
         spectra = input_spectra(load, f, self.conditions.speed)
         return mount_forces(under, stiffness, f, spectra, False)
 

@@ -9,7 +9,7 @@ elastic centre.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -268,7 +268,10 @@ def connection_coefficients(connection: Connection) -> tuple[Floats, Floats, Flo
     return k, c, np.full(6, connection.loss_factor)
 
 
+@lru_cache(maxsize=8)
 def all_coefficients(vehicle: Vehicle) -> Floats:
-    """The same of `vehicle.all_connections`, (3, 6 n_connections)."""
+    """The same of `vehicle.all_connections`, (3, 6 n_connections); kept for who asks again."""
     every = (np.array(connection_coefficients(c)) for c in vehicle.all_connections)
-    return np.hstack([np.zeros((3, 0)), *every])
+    coefficients = np.hstack([np.zeros((3, 0)), *every])
+    coefficients.flags.writeable = False
+    return coefficients

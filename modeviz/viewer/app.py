@@ -27,12 +27,14 @@ from modeviz.viewer.panels.data_files import DataPanel
 from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.excitation import ExcitationPanel
 from modeviz.viewer.panels.figures import TablePanel
+from modeviz.viewer.panels.forces import ForcesPanel
 from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import ModesPanel, StepMode, listed
 from modeviz.viewer.panels.mounts.history_row import HistoryRow
 from modeviz.viewer.panels.mounts.opener import FolderOpener
 from modeviz.viewer.panels.mounts.panel import MountsPanel
 from modeviz.viewer.panels.optimise.panel import OptimisePanel
+from modeviz.viewer.panels.paths import PathsPanel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.rigid.panel import RigidPanel
@@ -49,6 +51,7 @@ from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import color_scale
 from modeviz.viewer.session.commands.decisions import Swap
 from modeviz.viewer.session.commands.looks import SelectGroup
+from modeviz.viewer.session.cursor import is_shaken
 from modeviz.viewer.session.design import variant_name
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification
 from modeviz.viewer.session.session import Session
@@ -166,6 +169,8 @@ class App:
         self.server.stop()
 
     def _lay_out(self, dark: bool) -> None:
+        self._forces: ForcesPanel | None = None
+        self._paths: PathsPanel | None = None
         gui, session = self._gui, self.session
         gui.main_panel.dock_left()
         self._history = HistoryRow(gui, session, self._hotkeys)
@@ -205,10 +210,17 @@ class App:
                 self._modes = ModesPanel(gui, session)
             with tabs.add_tab("Energy", viser.Icon.CHART_BAR):
                 self._energy = EnergyPanel(gui, session)
+            if is_shaken(session.vehicle) and session.vehicle.mounts:
+                with tabs.add_tab("Forces", viser.Icon.ARROWS_VERTICAL):
+                    self._forces = ForcesPanel(gui, session)
+            if is_shaken(session.vehicle) and session.vehicle.response_points:
+                with tabs.add_tab("Paths", viser.Icon.ROUTE):
+                    self._paths = PathsPanel(gui, session)
         self._of_ride: list[TablePanel | ExcitationPanel] = []
         if session.state.charts.curves:
             with right.add_tab("Figures", viser.Icon.TABLE):
                 self._of_ride.append(TablePanel(gui))
+        if session.state.charts.curves or is_shaken(session.vehicle):
             with right.add_tab("Road", viser.Icon.ROAD):
                 self._of_ride.append(ExcitationPanel(gui, session))
         with right.add_tab("Rigid", viser.Icon.AXIS_X):
@@ -267,6 +279,10 @@ class App:
                 self._energy.show(solved)
                 self._rigid.show(solved)
                 self._static.show(solved)
+                if self._forces:
+                    self._forces.show(solved)
+                if self._paths:
+                    self._paths.show(solved)
         self.server.flush()
         self._scene.show(solved)
         self._static.tell_scale(solved, self._scene.exaggeration)

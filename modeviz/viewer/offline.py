@@ -28,7 +28,7 @@ from modeviz.viewer.scene.driver import DRIVER
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import color_scale
 from modeviz.viewer.session.responses import Responses, curve_label
-from modeviz.viewer.session.state import ResponseCurve
+from modeviz.viewer.session.state import ChartCurve, ForceCurve
 from modeviz.viewer.session.wheel_responses import NOW
 
 
@@ -98,10 +98,10 @@ def _charts(solved: Solved) -> str:
     return legend(lines, solved) + "".join(charts)
 
 
-def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response: ResponseCurve) -> str:
+def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response: ChartCurve) -> str:
     state, vehicle = solved.state, solved.now.prepared.vehicle
     shown = shown_hz(vehicle.highest_frequency)
-    scale = Scale(responses.quantity, state.charts.decibels, state.charts.log_frequency)
+    scale = Scale(responses.quantity_of(response), state.charts.decibels, state.charts.log_frequency)
     names = [state.against, *responses.overlaid, NOW]
     every = [(responses.lines(name), responses.of(name, response)) for name in names]
     decibels = [scale.quantity.decibels(level) for _, level in every]
@@ -116,7 +116,7 @@ def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response
         curves,
         Axis("Frequency, Hz", *shown, state.charts.log_frequency),
         level_axis(scale, *level_range(np.concatenate(inside))),
-        f"Acceleration, {label}",
+        label if isinstance(response, ForceCurve) else f"Acceleration, {label}",
         width=420,
         height=190,
     )

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from dynamic_mounts import MAXWELL, on_mounts
 from mounted_machine import mounted_machine
 
 from modeviz.analysis.driven import driven, load_lines
 from modeviz.analysis.forces import solve_loaded
+from modeviz.analysis.line_forces import prepare_line
 from modeviz.analysis.mount_forces import mount_forces
 from modeviz.analysis.preparation import prepare
 from modeviz.dynamics.resonances import resonances_at
@@ -43,3 +45,22 @@ def test_forces_of_mounts_are_those_of_the_vehicle_solved_anew(name, near):
         found.level(foot, "z"), anew.spectra.psd(anew.force(2, "z"))[:, 0] ** (1 if is_random else 0.5),
         rtol=1e-6,
     )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["random", "shaker", "floor"])
+def test_rates_that_depend_on_frequency_are_those_that_mounts_have_there(name):
+    vehicle, rates = on_mounts(MAXWELL), {"E": MountRates(4e5, 1e5, 2e5)}
+    prepared = prepare(vehicle)
+    is_random = name == "random"
+    load = vehicle.random_load(name) if is_random else vehicle.harmonic_load(name)
+    under, stiffness = driven(prepared, [load], vehicle.speed), prepared.mount_stiffness(rates)
+    lines = under.lines(resonances_at(prepared.basis, stiffness))
+    spectra = input_spectra(load, lines, vehicle.speed)
+    found = mount_forces(under, stiffness, lines, spectra, is_random)
+    anew = solve_loaded(prepared, rates, load, vehicle.speed, lines)
+    expected = anew.forces.force[:, : 6 * len(vehicle.mounts)].reshape(found.force.shape)
+    largest = np.abs(expected).max(axis=(1, 2, 3), keepdims=True)
+    assert (np.abs(found.force - expected) <= 1e-6 * largest).all()
+    at = float(lines[90])
+    line = prepare_line(prepared, {}, load, at, vehicle.speed).forces(stiffness)
+    assert np.abs(line.force[0] - anew.forces.force[90]).max() <= 1e-8 * largest[90]

@@ -203,3 +203,58 @@ def test_a_click_on_a_contributor_shows_its_mode_and_selects_its_mounts(app, pag
     solved = app.session.answer
     largest = max(("A", "B"), key=lambda group: solved.strain[group])
     assert solved.state.group == largest
+
+
+def place(page, chart, frequency_hz):
+    """Where a frequency is on the screen, in the middle of a chart."""
+    return page.evaluate(
+        f"""([i, f]) => {{
+            const {{ chart }} = {CHARTS}[i];
+            const box = chart.over.getBoundingClientRect();
+            return [box.left + chart.valToPos(f, "x"), box.top + box.height / 2];
+        }}""",
+        [chart, frequency_hz],
+    )
+
+
+def drawn_cursors(page):
+    """The frequencies at which the charts have their line, Hz."""
+    return page.evaluate(
+        f"""() => {CHARTS}.map(({{ chart }}) =>
+            chart.posToVal(parseFloat(chart.over.querySelector(".mv-cursor").style.left), "x"))"""
+    )
+
+
+def test_a_click_in_a_chart_puts_the_cursor_there_and_a_drag_takes_it_along(app, page):
+    app.session.do(Alter(cursor_hz=9.0))
+    app.session.wait(SOLVE_S)
+    wait_for(page, "document.querySelectorAll('.mv-cursor').length === 2")
+    page.mouse.click(*place(page, 1, 17.0))
+    wait_until(page, lambda: abs(app.session.state.charts.cursor_hz - 17.0) < 0.2)
+    draw_on(page)
+    np.testing.assert_allclose(drawn_cursors(page), app.session.state.charts.cursor_hz, atol=0.05)
+    x, y = place(page, 0, app.session.state.charts.cursor_hz)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for f in (15.0, 13.0, 12.0):
+        page.mouse.move(*place(page, 0, f))
+    page.mouse.up()
+    wait_until(page, lambda: abs(app.session.state.charts.cursor_hz - 12.0) < 0.2)
+    shown = page.evaluate(f"() => {CHARTS}.map(({{ chart: {{ scales }} }}) => scales.x.max)")
+    assert shown == [HIGH, HIGH]  # nothing was zoomed
+
+
+def test_the_forces_of_mounts_follow_a_drag_on_the_page(app, page):
+    page.get_by_role("tab", name="Forces").click()
+    before = app._forces._content.content
+    app.session.do(SetRate("A", "vertical", 2e6))
+    assert app.session.wait(SOLVE_S)
+    assert app._forces._content.content != before
+    rms = app.session.answer.now.mount_forces().rms[0, 2]
+    wait_for(page, "document.body.innerText.includes(a.text)", text=f"{float(f'{rms:.3g}'):g}")
+
+
+def test_a_click_on_a_path_selects_its_mounts(app, page):
+    page.get_by_role("tab", name="Paths").click()
+    page.locator(".mv label", has_text="B -0.5").last.click()
+    wait_until(page, lambda: app.session.state.group == "B")

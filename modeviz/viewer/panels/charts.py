@@ -6,11 +6,12 @@ from html import escape
 import numpy as np
 import viser
 
+from modeviz.dynamics.mount_rates import turning_axes
 from modeviz.ride.psd import FLOOR
 from modeviz.text.axes import shown_hz
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.connections import DIRECTIONS, MOTIONS
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
@@ -21,7 +22,7 @@ from modeviz.viewer.session.commands.looks import ChooseCurve
 from modeviz.viewer.session.design import set_numbers
 from modeviz.viewer.session.responses import Responses, curve_label
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import ResponseCurve, State
+from modeviz.viewer.session.state import ChartCurve, ForceCurve, ResponseCurve, State
 from modeviz.viewer.session.wheel_responses import NOW
 
 
@@ -47,7 +48,7 @@ class ChartsPanel:
         solved: Solved,
         responses: Responses,
         peaks: list[list[int]],
-        band: Callable[[ResponseCurve], tuple[Floats, Floats] | None],
+        band: Callable[[ChartCurve], tuple[Floats, Floats] | None],
     ) -> None:
         """Draws an answer.
 
@@ -59,8 +60,6 @@ class ChartsPanel:
                 known.
         """
         state = solved.state
-        scale = Scale(responses.quantity, state.charts.decibels, state.charts.log_frequency)
-        unit = scale.quantity.unit_text(state.charts.decibels)
         lines = chart_lines(solved, responses, *self._ends)
         names = [state.against, *responses.overlaid, NOW]
         show_all(self._bindings)
@@ -68,7 +67,9 @@ class ChartsPanel:
         for curve, choice, plot, marked in zip(
             state.charts.curves, self._choices, self._plots, peaks, strict=True
         ):
-            assign(choice, label=unit)
+            quantity = responses.quantity_of(curve)
+            scale = Scale(quantity, state.charts.decibels, state.charts.log_frequency)
+            assign(choice, label=quantity.unit_text(state.charts.decibels))
             f = np.unique(np.concatenate([responses.lines(name) for name in names]))
             levels = [drawn_at(f, responses.lines(name), responses.of(name, curve)) for name in names]
             shaded = band(curve)
@@ -77,13 +78,18 @@ class ChartsPanel:
             subject = curve, state.charts.load, state.conditions
             plot.show(subject, scale, lines, f, np.stack(levels), peaks_at.tolist(), between)
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """By which pages know the charts, top down."""
+        return tuple(plot.name for plot in self._plots)
+
     def _add_chart(self, gui: viser.GuiApi, i: int, dark: bool) -> None:
         choice = gui.add_dropdown(
             "dB",
             tuple(self._curves),
             initial_value=curve_label(self._session.vehicle, self._session.state.charts.curves[i]),
-            hint="Which point's acceleration is drawn, and in which direction; drag in the chart to "
-            "look closer, double-click to see all",
+            hint="Which point's acceleration is drawn, or which mount's force, and in which direction; "
+            "drag in the chart to look closer, double-click to see all, click to put the cursor there",
         )
 
         def read(state: State) -> str:
@@ -120,9 +126,21 @@ def chart_lines(solved: Solved, responses: Responses, base: str, now: str) -> li
     return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
 
 
-def _curve_labels(vehicle: Vehicle) -> dict[str, ResponseCurve]:
-    """All responses there are, by what they are called."""
-    curves = [ResponseCurve(i, d) for i in range(len(vehicle.response_points)) for d in DIRECTIONS]
+def _curve_labels(vehicle: Vehicle) -> dict[str, ChartCurve]:
+    """All responses there are, by what they are called: accelerations of points, then forces of mounts.
+
+    Along the vehicle's axes too where a mount's own are others.
+    """
+    curves: list[ChartCurve] = [
+        ResponseCurve(i, d) for i in range(len(vehicle.response_points)) for d in DIRECTIONS
+    ]
+    turns = turning_axes(vehicle)
+    for mount, about in zip(vehicle.mounts, turns, strict=True):
+        own = [*MOTIONS[:3], *(m for m, does in zip(MOTIONS[3:], about, strict=True) if does)]
+        curves += [ForceCurve(mount.name, motion) for motion in own]
+        if not np.array_equal(mount.axes, np.eye(3)):
+            every = MOTIONS if about.any() else MOTIONS[:3]
+            curves += [ForceCurve(mount.name, motion, in_vehicle_axes=True) for motion in every]
     return {curve_label(vehicle, curve): curve for curve in curves}
 
 

@@ -14,6 +14,7 @@ from modeviz.viewer.page.html import (
     block,
     clamped,
     heading,
+    hinted,
     legend,
     named,
     row,
@@ -36,7 +37,7 @@ Shares = Mapping[str, float]
 
 
 class EnergyPanel:
-    """Kinetic energy of the shown mode by body, strain energy by mount group and the rest."""
+    """Energy of the shown mode: kinetic by body, strain and loss by mount group and the rest."""
 
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Makes room; `show` fills it."""
@@ -59,6 +60,7 @@ class EnergyPanel:
             self._kinetic(kinetic, _shares(solved.base.kinetic_energy, before)),
             heading("Strain energy", "click a mount group to see its rates" if self._groups else ""),
             self._strain(solved, _shares(solved.base.strain_energy, before)),
+            *self._dissipated(solved, before),
         )
         assign(self._content, content=content)
 
@@ -85,10 +87,28 @@ class EnergyPanel:
         rows += [row(_cells(self._other(n), n, now, base, largest)) for n in others]
         return table((), rows, "energy") if largest > 0 else span(MOVES_FREELY, "dim")
 
+    def _dissipated(self, solved: Solved, before: int | None) -> list[str]:
+        """What of the mode's loss in a cycle is where, the most first; nothing if it loses none."""
+        now, base = solved.dissipated, _shares(solved.base.dissipated_energy, before)
+        if not any(now.values()):
+            return []
+        names, largest = sorted(_worth_listing(now, base), key=lambda n: -now[n]), _largest(now, base)
+        rows = [row(_cells(self._place(name), name, now, base, largest)) for name in names]
+        told = hinted("Dissipated in a cycle", "By mounts, dampers and bending bodies")
+        return [heading(told), table((), rows, "energy")]
+
+    def _place(self, name: str) -> str:
+        """Return the name of a mount group, or of what else loses energy."""
+        return self._named(name) if name in self._groups else self._other(name)
+
     def _group(self, i: int, name: str) -> str:
+        return self._buttons.label(i, self._named(name))
+
+    def _named(self, name: str) -> str:
+        """Return a mount group's name and what it means."""
         meaning = self._groups[name]
         content = f"{escape(cut(name, TWO_LINES))} {span(escape(meaning), 'dim')}"
-        return self._buttons.label(i, clamped(content, f"{name} {meaning}".rstrip()))
+        return clamped(content, f"{name} {meaning}".rstrip())
 
     def _other(self, name: str) -> str:
         """Return the name of what is strained but no mount group: a body that bends, or connections."""

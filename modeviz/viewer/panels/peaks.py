@@ -6,6 +6,7 @@ from html import escape
 import viser
 
 from modeviz.analysis.results import Results
+from modeviz.errors import ModevizError
 from modeviz.ride.participation import Peak
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.page.handles import assign
@@ -14,7 +15,7 @@ from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ShowMode
 from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import ResponseCurve
+from modeviz.viewer.session.state import ChartCurve, ResponseCurve
 
 PEAK_BAND = (5.0, 25.0)
 """Hz: below it mounts do nothing (Duncan, "The requirement")."""
@@ -26,6 +27,8 @@ N_PEAKS = 2
 N_CONTRIBUTORS = 3
 SHORT = {"lateral": "Lat.", "vertical": "Vert.", "fore-aft": "Fore-aft"}
 HINT = "click: mode and its mounts"
+MARK = '<i class="cursor"></i>'
+"""Before what is told of the cursor's frequency."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,7 @@ class PeaksPanel:
         """Makes room; `show` fills it."""
         self._session = session
         self._contributors: list[_Contributor] = []
-        n_buttons = len(session.state.charts.curves) * N_PEAKS * N_CONTRIBUTORS
+        n_buttons = len(session.state.charts.curves) * (N_PEAKS + 1) * N_CONTRIBUTORS
         self._buttons = HiddenButtons(gui, n_buttons, self._select)
         self._content = gui.add_html("")
 
@@ -58,18 +61,24 @@ class PeaksPanel:
         """Lists the peaks of an answer; for each chart the numbers of their frequencies."""
         lines = [strongest(responses, curve, solved) for curve in solved.state.charts.curves]
         contributors: list[_Contributor] = []
-        rows = []
+        rows, at_cursor = [], []
+        cursor = solved.state.charts.cursor_hz
         for curve, label, its_lines in zip(
             solved.state.charts.curves, _labels(solved.state.charts.curves), lines, strict=True
         ):
-            for peak in responses.peaks(curve, N_CONTRIBUTORS, its_lines):
+            told = _told(responses, curve, its_lines, cursor)
+            for peak in told[: len(its_lines)]:
                 rows.append(
                     self._row(f"{label} {peak.frequency_hz:.1f} Hz", peak, solved, contributors)
                 )
+            for there in told[len(its_lines) :]:
+                words = f"{MARK}{label} {cursor:.1f} Hz"
+                at_cursor.append(self._row(words, there, solved, contributors))
         self._contributors = contributors
         none = span("No peak between 5 and 25 Hz: look at another point or direction.", "dim")
         listing = "".join(rows) or none
-        assign(self._content, content=block(heading("Peaks and their modes", HINT), listing))
+        peaks = heading("Peaks and their modes", HINT) + listing
+        assign(self._content, content=block(peaks, *at_cursor))
         return lines
 
     def _row(self, label: str, peak: Peak, solved: Solved, contributors: list[_Contributor]) -> str:
@@ -94,7 +103,17 @@ class PeaksPanel:
                 self._session.do(ShowMode(name, results.rates, chosen.group))
 
 
-def strongest(responses: Responses, curve: ResponseCurve, solved: Solved) -> list[int]:
+def _told(
+    responses: Responses, curve: ChartCurve, lines: list[int], cursor_hz: float
+) -> tuple[Peak, ...]:
+    """The modes in a response at peaks and, if the load is known there, where the cursor is."""
+    try:
+        return responses.peaks(curve, N_CONTRIBUTORS, lines, (cursor_hz,))
+    except ModevizError:
+        return responses.peaks(curve, N_CONTRIBUTORS, lines)
+
+
+def strongest(responses: Responses, curve: ChartCurve, solved: Solved) -> list[int]:
     """The lines of the `N_PEAKS` highest peaks within `PEAK_BAND` that stand apart, rising."""
     f, levels = responses.lines(""), responses.of("", curve)
     lines = [i for i in responses.peak_lines(curve) if PEAK_BAND[0] <= f[i] <= PEAK_BAND[1]]
@@ -105,8 +124,9 @@ def strongest(responses: Responses, curve: ResponseCurve, solved: Solved) -> lis
     return sorted(chosen[:N_PEAKS])
 
 
-def _labels(curves: tuple[ResponseCurve, ...]) -> list[str]:
+def _labels(curves: tuple[ChartCurve, ...]) -> list[str]:
     """Return the names of charts beside their peaks: the direction, if that tells them apart."""
-    if len({curve.direction for curve in curves}) == len(curves):
-        return [SHORT[curve.direction] for curve in curves]
+    directions = [curve.direction for curve in curves if isinstance(curve, ResponseCurve)]
+    if len(set(directions)) == len(curves):
+        return [SHORT[direction] for direction in directions]
     return [f"Chart {i}," for i in range(1, len(curves) + 1)]

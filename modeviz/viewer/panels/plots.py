@@ -9,7 +9,7 @@ import viser
 
 from modeviz.text.axes import DECIBELS, USUAL_SHOWN_HZ, Axis
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page.handles import send_together
+from modeviz.viewer.page.handles import name_of, send_together
 from modeviz.viewer.session.responses import LevelUnit
 
 SHOWN_HZ = USUAL_SHOWN_HZ
@@ -85,6 +85,11 @@ class ResponsePlot:
             padding=(6, 18, 0, 0),
             height=height,
         )
+
+    @property
+    def name(self) -> str:
+        """By which pages know the chart."""
+        return name_of(self._chart)
 
     def show(
         self,

@@ -5,6 +5,7 @@ from functools import partial
 import viser
 
 from modeviz.viewer.panels.charts import ChartsPanel
+from modeviz.viewer.panels.cursor import CursorSlider
 from modeviz.viewer.panels.figures import FiguresPanel
 from modeviz.viewer.panels.peaks import PeaksPanel
 from modeviz.viewer.session.answers import Solved
@@ -14,13 +15,14 @@ from modeviz.viewer.tasks.scatter_task import ScatterTask
 
 
 class ResponsePanel:
-    """Four figures, two charts, and the modes in their peaks."""
+    """Four figures, two charts with a cursor, and the modes in their peaks and there."""
 
     def __init__(self, gui: viser.GuiApi, session: Session, scatterer: ScatterTask, dark: bool) -> None:
         """Builds the parts; `show` fills them."""
         self._scatterer = scatterer
         self._figures = FiguresPanel(gui)
         self._charts = ChartsPanel(gui, session, dark)
+        self._cursor = CursorSlider(gui, session, self._charts.names)
         self._peaks = PeaksPanel(gui, session)
         self._marked: list[list[int]] = [[] for _ in session.state.charts.curves]
 
@@ -31,6 +33,7 @@ class ResponsePanel:
             self._figures.show(solved, responses)
         if not solved.state.charts.curves:
             return
+        self._cursor.show()
         if solved.is_detailed:
             self._marked = self._peaks.show(solved, responses)
         shaded = partial(self._scatterer.shaded, solved.state)

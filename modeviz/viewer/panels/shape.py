@@ -2,10 +2,8 @@
 
 from html import escape
 
-import numpy as np
 import viser
 
-from modeviz.analysis.results import AXIS
 from modeviz.dynamics.components import ComponentModes, ComponentShare
 from modeviz.ride.participation import peak_lines
 from modeviz.text.axes import shown_hz
@@ -21,8 +19,10 @@ from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import color_scale
 from modeviz.viewer.session.commands.looks import ChangeMotion
+from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import MotionKind, State
+from modeviz.viewer.session.wheel_responses import NOW
 
 MOTIONS: dict[str, MotionKind] = {
     "Mode": "mode",
@@ -218,9 +218,5 @@ def _peaks(solved: Solved) -> dict[str, float]:
 
 def _first_response(solved: Solved) -> tuple[Floats, Floats]:
     """Frequencies and the power of the response in the first chart there, (n_freqs,) both."""
-    state, curve = solved.state, solved.state.charts.curves[0]
-    if not state.charts.load:
-        return solved.now.frequency_hz, solved.now.response(curve.point, curve.direction)
-    load = [load.name for load in solved.now.vehicle.harmonic_loads].index(state.charts.load)
-    wheels, axis = solved.wheels[""], AXIS[curve.direction]
-    return wheels.frequency_hz, np.square(wheels.acceleration_g[:, load, curve.point, axis])
+    responses, curve = Responses(solved), solved.state.charts.curves[0]
+    return responses.lines(NOW), responses.power(NOW, curve)

@@ -13,6 +13,7 @@ from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
 from modeviz.mounting.purity import Purity
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.session.cursor import CursorForces
 from modeviz.viewer.session.findings import Findings
 from modeviz.viewer.session.followed_mode import FollowedMode, ModeFollower
 from modeviz.viewer.session.movement import Movement, asks, movement
@@ -48,6 +49,8 @@ class Solved:
     """How far the classic method is off, if that is asked for."""
     findings: Findings
     """What is known by now beyond the answer."""
+    cursor: CursorForces
+    """Solves all forces where the cursor is."""
 
     @property
     def base(self) -> Results:
@@ -80,6 +83,11 @@ class Solved:
         names = [body.name for body in self.now.prepared.vehicle.bodies]
         return names.index(self.state.rigid.body)
 
+    @cached_property
+    def dissipated(self) -> Mapping[str, float]:
+        """Each flexible body's and connection group's share of what the shown mode loses."""
+        return self.now.dissipated_shares(self.followed.mode)
+
 
 class Answers:
     """Answers one state after the other, in one thread; `rebase` may be called in another."""
@@ -95,6 +103,7 @@ class Answers:
         self._follower: ModeFollower
         self._wheels = WheelResponses()
         self._static: StaticSolver
+        self._cursor = CursorForces()
         self._last: Solved | None = None
 
     def prepare(self, state: State, progress: Callable[[float], None] | None = None) -> None:
@@ -148,6 +157,7 @@ class Answers:
             seconds=seconds,
             classic_error=classic_error(now) if state.classic else None,
             findings=findings(now),
+            cursor=self._cursor,
         )
         return self._last
 

@@ -83,7 +83,7 @@ def movement(state: State, shown: FollowedMode, static: SolvedStatics | None = N
 def asks(state: State) -> tuple[object, ...]:
     """All of a state that decides what moves beyond the shown mode."""
     charts = state.charts
-    return state.motion, charts.load, charts.curves[:1], state.look.ghost == "compared"
+    return state.motion, charts.load, charts.reference, state.look.ghost == "compared"
 
 
 def _undamped(state: State, shown: FollowedMode) -> Movement:
@@ -127,9 +127,10 @@ def _excited(state: State, results: Results) -> Complexes:
 
 def _reference(state: State) -> ResponseCurve:
     """The response in whose phase a vehicle is seen on its road."""
-    if not state.charts.curves:
+    reference = state.charts.reference
+    if reference is None:
         raise SolveError("an operating shape on a road needs a [[road]] and a [[response_point]]")
-    return state.charts.curves[0]
+    return reference
 
 
 def _component(state: State, shown: FollowedMode) -> Movement:

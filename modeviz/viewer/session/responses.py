@@ -3,21 +3,28 @@
 With every set that is drawn.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from modeviz.analysis.force_peaks import force_participation
+from modeviz.analysis.mount_forces import MountForces
 from modeviz.analysis.results import AXIS, Results
-from modeviz.analysis.wheel_peaks import wheel_peak_lines, wheel_peaks
+from modeviz.analysis.wheel_peaks import wheel_peak_lines
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import cut
 from modeviz.report.tables import wheel_band
-from modeviz.ride.participation import Peak
+from modeviz.ride.excitation import Load, input_spectrum
+from modeviz.ride.participation import Peak, peak_lines, peaks
 from modeviz.ride.psd import amplitude_decibels, power_decibels
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import MOTIONS
+from modeviz.vehicle.loads import HarmonicLoad
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.state import ResponseCurve
+from modeviz.viewer.session.state import ChartCurve, ForceCurve, ResponseCurve
 from modeviz.viewer.session.wheel_responses import NOW
 
 LONGEST_POINT = 26
@@ -39,6 +46,9 @@ class LevelUnit:
 
 PSD = LevelUnit("g²/Hz", power_decibels, 1)
 PEAK_ACCELERATION = LevelUnit("g", amplitude_decibels, 2)
+FORCE_PSD, PEAK_FORCE = LevelUnit("N²/Hz", power_decibels, 1), LevelUnit("N", amplitude_decibels, 2)
+MOMENT_PSD = LevelUnit("N²m²/Hz", power_decibels, 1)
+PEAK_MOMENT = LevelUnit("N m", amplitude_decibels, 2)
 
 
 class Responses:
@@ -49,6 +59,7 @@ class Responses:
         self._solved = solved
         self._load = load_number(solved.now.prepared.vehicle, solved.state.charts.load)
         self.quantity: LevelUnit = PSD if self._load is None else PEAK_ACCELERATION
+        """Of accelerations."""
 
     @property
     def overlaid(self) -> list[str]:
@@ -58,15 +69,41 @@ class Responses:
             n for n in self._solved.named.results if n in state.charts.overlaid and n != state.against
         ]
 
-    def of(self, name: str, curve: ResponseCurve) -> Floats:
-        """The response with a set's rates, or `NOW`, (n_freqs,), in the unit of `quantity`."""
+    @property
+    def harmonic_load(self) -> HarmonicLoad | None:
+        """The load whose response is drawn; None: the road's."""
+        vehicle = self._solved.now.prepared.vehicle
+        return None if self._load is None else vehicle.harmonic_loads[self._load]
+
+    def quantity_of(self, curve: ChartCurve) -> LevelUnit:
+        """The unit of a curve."""
+        if isinstance(curve, ResponseCurve):
+            return self.quantity
+        if curve.motion in MOTIONS[:3]:
+            return FORCE_PSD if self._load is None else PEAK_FORCE
+        return MOMENT_PSD if self._load is None else PEAK_MOMENT
+
+    def of(self, name: str, curve: ChartCurve) -> Floats:
+        """The response with a set's rates, or `NOW`, (n_freqs,), in the unit of `quantity_of`."""
+        if isinstance(curve, ForceCurve):
+            mount = mount_number(self._solved.now.prepared.vehicle, curve.mount)
+            return self.mount_forces(name).level(mount, curve.motion, curve.in_vehicle_axes)
         if self._load is None:
             return self._results(name).response(curve.point, curve.direction)
         g = self._solved.wheels[name].acceleration_g
         return g[:, self._load, curve.point, AXIS[curve.direction]]
 
+    def power(self, name: str, curve: ChartCurve) -> Floats:
+        """The same as a PSD, or squared where it is an amplitude."""
+        level = self.of(name, curve)
+        return level if self._load is None else np.square(level)
+
+    def mount_forces(self, name: str) -> MountForces:
+        """The forces of mounts with a set's rates, or `NOW`, under what excites the vehicle."""
+        return self._results(name).mount_forces(self.harmonic_load)
+
     def lines(self, name: str) -> Floats:
-        """The frequencies of that, (n_freqs,)."""
+        """The frequencies of all that, (n_freqs,)."""
         if self._load is None:
             return self._results(name).frequency_hz
         return self._solved.wheels[name].frequency_hz
@@ -79,18 +116,46 @@ class Responses:
         band = wheel_band(self._solved.now.prepared.vehicle)
         return float(self._solved.wheels[name].mean(band)[self._load][at])
 
-    def peak_lines(self, curve: ResponseCurve) -> list[int]:
+    def peak_lines(self, curve: ChartCurve) -> list[int]:
         """Return the lines at which the present response has its peaks, numbers of frequencies."""
+        if isinstance(curve, ForceCurve):
+            return peak_lines(self.power(NOW, curve))
         if self._load is None:
             return self._solved.now.peak_lines(curve.point, curve.direction)
         return wheel_peak_lines(self._wheels, self._load, curve.point, curve.direction)
 
-    def peaks(self, curve: ResponseCurve, count: int, lines: list[int]) -> tuple[Peak, ...]:
-        """Those peaks of the present response with the `count` modes that make most of each."""
-        now = self._solved.now
-        if self._load is None:
-            return now.peaks(curve.point, curve.direction, count, lines)
-        return wheel_peaks(now, self._wheels, self._load, curve.point, curve.direction, count, lines)
+    def peaks(
+        self, curve: ChartCurve, count: int, lines: list[int], others_hz: Sequence[float] = ()
+    ) -> tuple[Peak, ...]:
+        """Those peaks of the present response with the `count` modes that make most of each.
+
+        Args:
+            curve: the response.
+            count: how many modes to name.
+            lines: numbers of frequencies.
+            others_hz: other frequencies that are told of likewise, after them.
+
+        Raises:
+            ModevizError: what excites the vehicle is not known at one of these.
+        """
+        every = self.lines(NOW)
+        f = np.concatenate([every[lines], np.asarray(others_hz, float)])
+        level = np.interp(f, every, self.of(NOW, curve))
+        return peaks(f, level, self._participations(curve, f), count)
+
+    def _participations(self, curve: ChartCurve, frequency_hz: Floats) -> Floats:
+        """The parts of modes in the present response, (n_freqs, n_parts)."""
+        now, load = self._solved.now, self._shaking
+        if isinstance(curve, ResponseCurve):
+            S = input_spectrum(load, frequency_hz, now.conditions.speed)
+            row = now.prepared.outputs[3 * curve.point + AXIS[curve.direction]]
+            return now.participation(row, load, frequency_hz, S)
+        mount = mount_number(now.prepared.vehicle, curve.mount)
+        return force_participation(now, load, frequency_hz, mount, curve.motion, curve.in_vehicle_axes)
+
+    @property
+    def _shaking(self) -> Load:
+        return self.harmonic_load or self._solved.now.drive.load
 
     @property
     def _wheels(self) -> WheelResults:
@@ -105,12 +170,26 @@ def load_number(vehicle: Vehicle, name: str) -> int | None:
     return next((i for i, load in enumerate(vehicle.harmonic_loads) if load.name == name), None)
 
 
-def curve_label(vehicle: Vehicle, curve: ResponseCurve) -> str:
-    """A response as people call it: "Seat track left, lateral".
+def mount_number(vehicle: Vehicle, name: str) -> int:
+    """The number of the mount of that name."""
+    return [mount.name for mount in vehicle.mounts].index(name)
+
+
+def curve_label(vehicle: Vehicle, curve: ChartCurve) -> str:
+    """A response as people call it: "Seat track left, lateral", "C1 left, force, local z".
 
     Long names of points are cut in their midst, if they still differ.
     """
-    names = [point.name for point in vehicle.response_points]
-    short = [cut(name, LONGEST_POINT) for name in names]
-    name = short[curve.point] if len(set(short)) == len(short) else names[curve.point]
+    if isinstance(curve, ForceCurve):
+        axes = "vehicle" if curve.in_vehicle_axes else "local"
+        what = "force" if curve.motion in MOTIONS[:3] else "moment"
+        name = _short([mount.name for mount in vehicle.mounts])[mount_number(vehicle, curve.mount)]
+        return f"{sentence_case(name)}, {what}, {axes} {curve.motion}"
+    name = _short([point.name for point in vehicle.response_points])[curve.point]
     return f"{sentence_case(name)}, {curve.direction}"
+
+
+def _short(names: list[str]) -> list[str]:
+    """Names that leave their box room, if they still differ."""
+    short = [cut(name, LONGEST_POINT) for name in names]
+    return short if len(set(short)) == len(short) else names

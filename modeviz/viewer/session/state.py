@@ -5,8 +5,10 @@ from typing import Literal
 
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
+from modeviz.mounting.paths import By
 from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.load_cases import usual_if_none
+from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.design import ORIGINAL, Design, rate_sets
 from modeviz.viewer.session.planning.plan import first_plan
@@ -34,6 +36,20 @@ class ResponseCurve:
 
 
 @dataclass(frozen=True)
+class ForceCurve:
+    """The force of a mount that is drawn, on the body that carries it."""
+
+    mount: str
+    motion: str
+    """One of `vehicle.connections.MOTIONS`."""
+    in_vehicle_axes: bool = False
+    """Whether along or about the vehicle's axes, else the mount's own."""
+
+
+ChartCurve = ResponseCurve | ForceCurve
+
+
+@dataclass(frozen=True)
 class Motion:
     """The motion in the scene, and the mode that is followed whatever moves."""
 
@@ -58,12 +74,25 @@ class Charts:
 
     load: str = ""
     """The wheel load whose response is drawn, or the road: ""."""
-    curves: tuple[ResponseCurve, ...] = tuple(ResponseCurve(0, d) for d in RIDE_DIRECTIONS)
+    curves: tuple[ChartCurve, ...] = tuple(ResponseCurve(0, d) for d in RIDE_DIRECTIONS)
     """What is drawn, top down; nothing where there is no response point."""
     overlaid: frozenset[str] = frozenset()
     """Names of the sets that are drawn beside the one compared with."""
     decibels: bool = True
     log_frequency: bool = False
+    cursor_hz: float = 11.0
+    """The frequency at which modes, forces and paths are told, besides peaks."""
+    path_curve: ResponseCurve = field(default_factory=lambda: ResponseCurve(0, RIDE_DIRECTIONS[0]))
+    """The response whose paths are told."""
+    paths_by: By = "mount"
+    in_vehicle_axes: bool = False
+    """Whether forces are told along the vehicle's axes, else the mounts' own."""
+
+    @property
+    def reference(self) -> ResponseCurve | None:
+        """The first acceleration that is drawn, or could be; None where there is no response point."""
+        drawn = (curve for curve in self.curves if isinstance(curve, ResponseCurve))
+        return next(drawn, self.path_curve) if self.curves else None
 
 
 @dataclass(frozen=True)
@@ -130,15 +159,26 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
     cabin = unit_of_role(vehicle, "cabin")
     every = vehicle.all_rates(rates)
     mode = f"{cabin.word} yaw" if cabin else ""
+    charts = Charts(
+        load=_first_load(vehicle, conditions),
+        cursor_hz=min(Charts.cursor_hz, vehicle.highest_frequency / 2),
+    )
     cases = usual_if_none(vehicle.load_cases)
     return State(
         Design(every, plan=first_plan(vehicle), decoupling=vehicle.decoupling),
         conditions,
         Motion(mode, every, component=vehicle.bodies[0].name, load_case=cases[0].name),
-        Charts() if vehicle.response_points else Charts(curves=()),
+        charts if vehicle.response_points else replace(charts, curves=()),
         rigid=first_look(vehicle),
         group=group,
     )
+
+
+def _first_load(vehicle: Vehicle, conditions: Conditions) -> str:
+    """The harmonic load that a session opens with: on an even road the first, else the road, ""."""
+    road = vehicle.random_load(conditions.road)
+    is_even = isinstance(road, Road) and not road.spectrum.any()
+    return next((load.name for load in vehicle.harmonic_loads if is_even), "")
 
 
 def compared_rates(vehicle: Vehicle, state: State) -> Rates:

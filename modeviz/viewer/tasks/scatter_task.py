@@ -14,7 +14,7 @@ from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.problem import UNFELT, Problem
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import ResponseCurve, State
+from modeviz.viewer.session.state import ChartCurve, ResponseCurve, State
 from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Tell
 
 PERCENT = (5.0, 95.0)
@@ -94,15 +94,17 @@ class ScatterTask:
         """Ends what is running; nothing of it is kept."""
         self._task.cancel()
 
-    def band(self, state: State, curve: ResponseCurve) -> Floats | None:
+    def band(self, state: State, curve: ChartCurve) -> Floats | None:
         """Return between what a curve scatters, (2, n_freqs), g²/Hz, if that is known for a state."""
         shaded = self.shaded(state, curve)
         return None if shaded is None else shaded[1]
 
-    def shaded(self, state: State, curve: ResponseCurve) -> tuple[Floats, Floats] | None:
+    def shaded(self, state: State, curve: ChartCurve) -> tuple[Floats, Floats] | None:
         """Return the frequencies of that band, (n_freqs,), and the band."""
         job = self.job
         if job is None or job.found is None or state.charts.load or not job.asked.is_of(state):
+            return None
+        if not isinstance(curve, ResponseCurve):
             return None
         axis = AXIS[curve.direction]
         return job.found.scatter.frequency_hz, job.found.percentiles[:, :, curve.point, axis]

@@ -46,7 +46,15 @@ DECISIONS = [
 LOOKS = [
     looks.ShowMode("cab roll"),
     looks.ChangeMotion(kind="component", component="cab", component_mode=7, operating_hz=12.0),
-    looks.ChangeCharts(load="front left radial force", decibels=False, log_frequency=True),
+    looks.ChangeCharts(
+        load="front left radial force",
+        decibels=False,
+        log_frequency=True,
+        cursor_hz=9.3,
+        path_curve=FORE_AFT,
+        paths_by="body",
+        in_vehicle_axes=True,
+    ),
     looks.ChangeLook(coloring="displacement", see_through=False, follow=True),
     looks.LookAtRigid(body="cab", axes="crank", crank="z", support="mounted", drawn=True),
     looks.ShowGhost("none"),

@@ -4,6 +4,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TypeVar
 
 from modeviz.analysis.results import Conditions
+from modeviz.mounting.paths import By
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.decoupling import Axes
 from modeviz.vehicle.vehicle import Vehicle
@@ -11,6 +12,7 @@ from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import rate_sets
 from modeviz.viewer.session.rigid_look import Crank, RigidLook, Support
 from modeviz.viewer.session.state import (
+    ChartCurve,
     Charts,
     Coloring,
     Ghost,
@@ -61,6 +63,10 @@ class ChangeCharts(Command):
     load: str | None = None
     decibels: bool | None = None
     log_frequency: bool | None = None
+    cursor_hz: float | None = None
+    path_curve: ResponseCurve | None = None
+    paths_by: By | None = None
+    in_vehicle_axes: bool | None = None
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         return replace(state, charts=_changed(state.charts, self))
@@ -136,7 +142,7 @@ class ChooseCurve(Command):
 
     chart: int
     """Counted from the top."""
-    curve: ResponseCurve
+    curve: ChartCurve
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         before = state.charts.curves
