@@ -5,13 +5,16 @@ from functools import cached_property
 
 import numpy as np
 
-from modeviz.analysis.driven import Driven
+from modeviz.analysis.driven import Driven, driven
+from modeviz.analysis.preparation import Prepared
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.mount_rates import turning_axes
+from modeviz.dynamics.resonances import resonances_at
 from modeviz.mounting.forces import N_MOTIONS
-from modeviz.mounting.levels import InputSpectra
+from modeviz.mounting.levels import InputSpectra, input_spectra
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import MOTIONS
+from modeviz.vehicle.connections import MOTIONS, Rates
+from modeviz.vehicle.loads import HarmonicLoad
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -38,6 +41,17 @@ class MountForces:
         turn = np.array([np.kron(np.eye(2), m.axes) for m in self.vehicle.mounts]).reshape(-1, 6, 6)
         return np.einsum("mij,fmik->fmjk", turn, self.force)
 
+    @property
+    def figures(self) -> Floats:
+        """(n_mounts, 6), along local axes: RMS, or the largest amplitudes under a harmonic load."""
+        return self.rms if self.is_random else np.abs(self.force[..., 0]).max(axis=0)
+
+    @property
+    def vehicle_figures(self) -> Floats:
+        """The same along the vehicle's axes."""
+        every = self.in_vehicle_axes
+        return self.vehicle_rms if self.is_random else np.abs(every[..., 0]).max(axis=0)
+
     @cached_property
     def rms(self) -> Floats:
         """(n_mounts, 6): over all lines, along local axes."""
@@ -58,6 +72,27 @@ class MountForces:
         n_freqs, n_mounts, _, n_inputs = force.shape
         flat = self.spectra.rms(force.reshape(n_freqs, -1, n_inputs))
         return flat.reshape(n_mounts, N_MOTIONS)
+
+
+def harmonic_mount_forces(
+    prepared: Prepared, rates: Rates, load: HarmonicLoad, speed: float
+) -> MountForces:
+    """The forces of mounts under a harmonic load of a vehicle.
+
+    Args:
+        prepared: see `prepare`.
+        rates: of the groups that differ from the vehicle's own.
+        load: one of the vehicle's.
+        speed: on a road, m/s.
+
+    Raises:
+        VehicleError: a group that the vehicle does not have.
+        SolveError: with these rates an undamped resonance lies on a line.
+    """
+    stiffness = prepared.mount_stiffness(rates)
+    under = driven(prepared, [load], speed)
+    f = under.lines(resonances_at(prepared.basis, stiffness))
+    return mount_forces(under, stiffness, f, input_spectra(load, f, speed), False)
 
 
 def mount_forces(

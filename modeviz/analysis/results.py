@@ -9,16 +9,16 @@ import numpy as np
 from modeviz.analysis.driven import Driven, driven, load_lines
 from modeviz.analysis.latest import Latest
 from modeviz.analysis.modal_results import ModalResults, modes_of
-from modeviz.analysis.mount_forces import MountForces, mount_forces
+from modeviz.analysis.mount_forces import MountForces, harmonic_mount_forces, mount_forces
 from modeviz.analysis.preparation import Prepared
 from modeviz.dynamics.band import Method, modes_above
 from modeviz.dynamics.basis import REACH
 from modeviz.dynamics.inputs import forces_on_rest, led
 from modeviz.dynamics.modes import Modes
-from modeviz.dynamics.resonances import Resonances, resonances_at
+from modeviz.dynamics.resonances import Resonances
 from modeviz.dynamics.response import modal_coordinates
 from modeviz.errors import ModevizError
-from modeviz.mounting.levels import InputSpectra, input_spectra
+from modeviz.mounting.levels import InputSpectra
 from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.excitation import Load, excitation, input_spectrum
 from modeviz.ride.participation import Peak, participation, participation_above, peak_lines, peaks
@@ -130,15 +130,11 @@ class Results(ModalResults):
         return self.latest_forces.get(load, lambda: self._mount_forces(load))
 
     def _mount_forces(self, load: HarmonicLoad | None) -> MountForces:
-        stiffness = self.prepared.mount_stiffness(self.rates)
-        if load is None:
-            f, drive = self.frequency_hz, self.drive
-            spectra = InputSpectra(f, drive.spectrum_at(f), drive.spectrum_around(f))
-            return mount_forces(drive, stiffness, f, spectra, True)
-        under = driven(self.prepared, [load], self.conditions.speed)
-        f = under.lines(resonances_at(self.prepared.basis, stiffness))
-        spectra = input_spectra(load, f, self.conditions.speed)
-        return mount_forces(under, stiffness, f, spectra, False)
+        if load is not None:
+            return harmonic_mount_forces(self.prepared, self.rates, load, self.conditions.speed)
+        f, drive = self.frequency_hz, self.drive
+        spectra = InputSpectra(f, drive.spectrum_at(f), drive.spectrum_around(f))
+        return mount_forces(drive, self.prepared.mount_stiffness(self.rates), f, spectra, True)
 
     def response(self, point: int, direction: str) -> Floats:
         """Acceleration PSD of a response point along one of `DIRECTIONS`, (n_freqs,), g²/Hz."""

@@ -12,6 +12,7 @@ from modeviz.analysis.exact_check import Check
 from modeviz.analysis.results import AXIS
 from modeviz.report.comparison import Comparison
 from modeviz.report.html.exactness import exactness
+from modeviz.report.html.forces import forces, paths
 from modeviz.report.html.modes import frequencies, objective, participation, rates
 from modeviz.report.html.ride import levels, spectra
 from modeviz.report.html.rigid import rigid
@@ -54,6 +55,8 @@ def report(
             objective(comparison),
             frequencies(comparison),
             rigid(comparison),
+            forces(comparison),
+            paths(comparison),
             spectra(comparison),
             levels(comparison),
             participation(comparison),

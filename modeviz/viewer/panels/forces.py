@@ -64,14 +64,8 @@ class ForcesPanel:
         """A table of RMS under a random load, of the largest amplitudes under a harmonic one."""
         responses = Responses(solved)
         axes = solved.state.charts.in_vehicle_axes
-        values = []
-        for name in (NOW, solved.state.against):
-            forces = responses.mount_forces(name)
-            if forces.is_random:
-                values.append(forces.vehicle_rms if axes else forces.rms)
-            else:
-                every = forces.in_vehicle_axes if axes else forces.force
-                values.append(np.abs(every[..., 0]).max(axis=0))
+        found = [responses.mount_forces(name) for name in (NOW, solved.state.against)]
+        values = [each.vehicle_figures if axes else each.figures for each in found]
         what = "RMS" if responses.harmonic_load is None else "Largest peak"
         shaking = title(solved.state.charts.load or solved.now.conditions.road)
         tables = []
