@@ -21,6 +21,9 @@ LINE = re.compile(r"[^\r\n\v\f]+")
 
 BEGINS_INPUT = re.compile(r"\s*[$A-Za-z]")
 
+NAME = re.compile(r"\s*([^,\s*]{0,8})")
+"""Of a card, at the beginning of its line."""
+
 DEEPEST, MOST_FILES = 20, 1000
 """Of files that include others."""
 
@@ -164,7 +167,8 @@ def _begins_card(line: str) -> bool:
 
 
 def _name(line: str) -> str:
-    return re.split(r"[,\s*]", line.lstrip()[:9], maxsplit=1)[0][:8].upper()
+    found = NAME.match(line)
+    return found[1].upper() if found else ""
 
 
 def _fields(lines: list[str]) -> list[str]:
@@ -202,8 +206,9 @@ def _bulk(path: Path) -> tuple[list[str], Iterator[str]]:
     """
     lines = list(_lines(path, (), [0], path.parent))
     texts = ["" if isinstance(line, VehicleError) else line for line in lines]
-    others = [i for i, text in enumerate(texts) if BEGIN_OTHER.match(text)]
-    begins = [i for i, text in enumerate(texts) if BEGIN.match(text) and i not in others]
+    parts = [i for i, text in enumerate(texts) if BEGIN.match(text)]
+    others = [i for i in parts if BEGIN_OTHER.match(texts[i])]
+    begins = [i for i in parts if i not in others]
     begin = begins[0] + 1 if begins else 0
     end = next((i for i in others if i >= begin), None)
     told = [
