@@ -68,4 +68,5 @@ from modeviz.vehicle.problem import DesignGroup as DesignGroup
 from modeviz.vehicle.problem import FrequencyWindow as FrequencyWindow
 from modeviz.vehicle.problem import Performance as Performance
 from modeviz.vehicle.problem import Problem as Problem
+from modeviz.vehicle.progressive import ForceCurve as ForceCurve
 from modeviz.vehicle.vehicle import Vehicle as Vehicle

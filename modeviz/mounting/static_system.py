@@ -34,7 +34,7 @@ from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.connections import MOTIONS, Rates
-from modeviz.vehicle.load_cases import LoadCase, StaticLoad, usual_if_none
+from modeviz.vehicle.load_cases import LoadCase, StaticLoad
 from modeviz.vehicle.vehicle import Vehicle
 
 FREE_HZ = 10.0
@@ -154,8 +154,7 @@ def prepare_statics(system: System, cases: Sequence[LoadCase] | None = None) -> 
     k0 = np.where(own > 0, own, stiffest) / static_ratios(vehicle)
     standing = system.with_springs((k0 - own).astype(complex))
     free = free_motions_of(standing)
-    every = usual_if_none(vehicle.load_cases) if cases is None else cases
-    held, refused = _held(free, every)
+    held, refused = _held(free, vehicle.static_cases if cases is None else cases)
     if not held:
         raise SolveError(f"load case {refused[0].name!r}: {refused[0].reason}")
     forces = np.stack([one.force for one in held], axis=1)

@@ -58,7 +58,7 @@ class DecoupledModes:
 
     def exactly_at(self, rates: Rates) -> list[OwnModes]:
         """Return the same from the full eigenproblem."""
-        system = self.prepared.system.with_rates(rates)
+        system = self.prepared.system_at(rates)
         k = self.prepared.mount_stiffness(rates).real.astype(np.float64)
         found = solve_modes(system, below_hz=REACH * self.prepared.basis.top_hz)
         stretch = system.mount_motions @ found.shapes

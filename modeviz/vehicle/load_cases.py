@@ -1,12 +1,13 @@
 """Load cases: what presses on a vehicle that stands still, in which its mounts sag and travel."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats, frozen, frozen_places
+from modeviz.vehicle.bodies import Body
 
 WEIGHT = (0.0, 0.0, -1.0)
 """In g: what everything weighs at rest."""
@@ -63,6 +64,18 @@ USUAL_CASES = (
 """Of a vehicle that says none: the loads in g that suspension and mount designers begin with."""
 
 
-def usual_if_none(cases: Sequence[LoadCase]) -> tuple[LoadCase, ...]:
-    """Return the load cases of a vehicle, or the usual ones if it says none."""
-    return tuple(cases) or USUAL_CASES
+USUAL_TORQUE = 1000.0
+"""N m: about a crank, forward and back; forces in mounts rise with it."""
+
+
+def usual_cases(bodies: Iterable[Body]) -> tuple[LoadCase, ...]:
+    """Return the load cases of a vehicle that says none: `USUAL_CASES`, and torques about cranks."""
+    return (*USUAL_CASES, *(case for body in bodies for case in _torques(body)))
+
+
+def _torques(body: Body) -> Iterator[LoadCase]:
+    """A torque about the body's crank one way and the other, if it says where that lies."""
+    if body.crank_axis is not None:
+        for sign, word in ((1, "+"), (-1, "-")):
+            torque = StaticLoad(body.name, torque=sign * USUAL_TORQUE * body.crank_axis)
+            yield LoadCase(f"{body.name} torque {word}{USUAL_TORQUE:g} N m", loads=(torque,))

@@ -24,7 +24,7 @@ from modeviz.vehicle.connections import (
 )
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.iso_8608 import CLASSES, USUAL_ROAD, named_road
-from modeviz.vehicle.load_cases import LoadCase
+from modeviz.vehicle.load_cases import LoadCase, usual_cases
 from modeviz.vehicle.loads import (
     BaseMotion,
     Force,
@@ -88,7 +88,7 @@ class Vehicle:
     decoupling: Decoupling = USUAL
     """What the rigid modes of its bodies are held against."""
     load_cases: tuple[LoadCase, ...] = ()
-    """Those in which it is looked at standing still; none are the usual ones, see `usual_if_none`."""
+    """Those in which it is looked at standing still; none are the usual ones, see `static_cases`."""
     notes: tuple[str, ...] = ()
     """What reading it had to say: what was taken otherwise than it stands, or is likely wrong.
 
@@ -187,6 +187,11 @@ class Vehicle:
     def is_shaken_by(self, load: RandomLoad) -> bool:
         """Whether a load gets into the vehicle: a road does through tyres with rates along their z."""
         return self.has_driven_tyres or not isinstance(load, Road)
+
+    @cached_property
+    def static_cases(self) -> tuple[LoadCase, ...]:
+        """Its load cases, or the usual ones if it says none."""
+        return self.load_cases or usual_cases(self.bodies)
 
     @property
     def has_driven_tyres(self) -> bool:

@@ -270,3 +270,17 @@ def test_turned_mounts_are_told_along_their_axes_and_the_vehicles():
     assert carried.force[:3] == pytest.approx([0, 0, -weight])
     assert carried.deflection[2] == pytest.approx(weight / 1e4)
     assert carried.vehicle_force[:3] == pytest.approx([0, 0, weight])
+
+
+def test_a_crank_is_turned_both_ways_where_nothing_else_is_said():
+    engine = replace(ENGINE, crank_axis=np.array([0.0, 2.0, 0.0]))
+    statics = statics_of(replace(engine_on_mounts(), bodies=(engine,)))
+    forward, back = (statics.case(f"engine torque {sign}1000 N m") for sign in "+-")
+    still = statics.case("standing").motion
+    assert forward.motion - still == pytest.approx(still - back.motion)
+    moment = (
+        forces_on(statics.vehicle, forward, "engine")[3:]
+        - forces_on(statics.vehicle, statics.case("standing"), "engine")[3:]
+    )
+    assert moment == pytest.approx([0, -1000, 0], abs=1e-6)
+    assert len(statics_of(engine_on_mounts()).cases) == len(statics.cases) - 2

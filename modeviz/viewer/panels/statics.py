@@ -11,7 +11,6 @@ from modeviz.mounting.travel import Travel, travels
 from modeviz.text.wording import number, sentence_case
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import GROUND, Connection, Mount
-from modeviz.vehicle.load_cases import usual_if_none
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import (
@@ -47,7 +46,7 @@ class StaticPanel:
         """Builds the controls; `show` fills in the answer."""
         vehicle = session.vehicle
         self._labels = {body.name: body.label for body in vehicle.bodies}
-        names = [case.name for case in usual_if_none(vehicle.load_cases)]
+        names = [case.name for case in vehicle.static_cases]
         self._mounts = {mount.name: mount.group for mount in vehicle.mounts}
         self._case = gui.add_dropdown(
             "Load case",

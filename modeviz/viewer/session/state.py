@@ -7,7 +7,6 @@ from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
 from modeviz.mounting.paths import By
 from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
-from modeviz.vehicle.load_cases import usual_if_none
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.design import ORIGINAL, Design, rate_sets
@@ -163,11 +162,10 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
         load=_first_load(vehicle, conditions),
         cursor_hz=min(Charts.cursor_hz, vehicle.highest_frequency / 2),
     )
-    cases = usual_if_none(vehicle.load_cases)
     return State(
         Design(every, plan=first_plan(vehicle), decoupling=vehicle.decoupling),
         conditions,
-        Motion(mode, every, component=vehicle.bodies[0].name, load_case=cases[0].name),
+        Motion(mode, every, component=vehicle.bodies[0].name, load_case=vehicle.static_cases[0].name),
         charts if vehicle.response_points else replace(charts, curves=()),
         rigid=first_look(vehicle),
         group=group,
