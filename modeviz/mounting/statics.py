@@ -1,6 +1,6 @@
 """How a vehicle sags under loads that stay, and what its mounts and other connections then carry."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -39,7 +39,7 @@ class StaticCase:
 
     name: str
     notes: tuple[str, ...]
-    """Sentences on what nothing holds."""
+    """Sentences on what nothing holds, and on mounts beyond their curves."""
     motion: Floats
     """(n_dofs,), in the generalised coordinates."""
     bodies: Mapping[str, Floats]
@@ -147,8 +147,25 @@ def _case(prepared: PreparedStatics, held: HeldCase, x: Floats, forces: Floats) 
     every = zip(prepared.vehicle.all_connections, deflections, forces.reshape(-1, 6), strict=True)
     return StaticCase(
         held.case.name,
-        held.notes,
+        (*held.notes, *_beyond(prepared, deflections)),
         x,
         {body: rows @ x for body, rows in prepared.body_rows.items()},
         {connection.name: Carried(connection, d, f) for connection, d, f in every},
     )
+
+
+def _beyond(prepared: PreparedStatics, deflections: Floats) -> Iterator[str]:
+    """Sentences on progressive mounts that are where their curves say nothing.
+
+    Args:
+        prepared: of the vehicle.
+        deflections: (n_connections, 6).
+    """
+    rows = rows_of_springs(prepared.vehicle)
+    for spring, curve in prepared.laws.curves.items():
+        d = float(deflections.reshape(-1)[rows[spring]])
+        if not curve.deflection[0] <= d <= curve.deflection[-1]:
+            yield (
+                f"{prepared.spring_names[spring]} is at {1e3 * d:.3g} mm, beyond the last point of its "
+                "curve, which is taken to go on straight"
+            )

@@ -196,3 +196,12 @@ def test_a_curve_from_zero_holds_both_ways():
 def test_the_rate_of_a_corner_at_zero_is_the_mean_of_both_sides():
     curve = ForceCurve(np.array([-0.01, 0.0, 0.01]), np.array([-1000.0, 0.0, 3000.0]))
     assert curve.rate == pytest.approx(200e3)
+
+
+def test_a_mount_beyond_the_last_point_of_its_curve_is_noted():
+    statics = statics_of(progressive_block(), scaled(0.3))
+    assert statics.case("standing").notes == (
+        "mount 'm' along z is at -14.2 mm, beyond the last point of its curve, which is taken to go on "
+        "straight",
+    )
+    assert statics_of(progressive_block(), {}).case("standing").notes == ()

@@ -16,6 +16,7 @@ from modeviz.report.html.forces import forces, paths
 from modeviz.report.html.modes import frequencies, objective, participation, rates
 from modeviz.report.html.ride import levels, spectra
 from modeviz.report.html.rigid import rigid
+from modeviz.report.html.statics import statics
 from modeviz.report.html.wheels import wheels
 from modeviz.text.markup import change, named_small, section, span
 from modeviz.text.wording import number, signed
@@ -57,6 +58,7 @@ def report(
             rigid(comparison),
             forces(comparison),
             paths(comparison),
+            statics(comparison),
             spectra(comparison),
             levels(comparison),
             participation(comparison),
