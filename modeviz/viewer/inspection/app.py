@@ -45,6 +45,7 @@ class Named:
     frequency_hz: float
     about: str
     problem: str = ""
+    is_still: bool = False
 
 
 class InspectionApp:
