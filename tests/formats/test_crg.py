@@ -388,6 +388,10 @@ BAD = {
         crg(heights(300, 3), 0.1, [-1, 0, 1], modifiers={"SCALE_Z_GRID": 1e300}),
         "beyond 100000 m",
     ),
+    "a width beyond measure": (
+        crg(heights(300, 3), 0.1, [-1, 0, 1], modifiers={"SCALE_WIDTH": 1e308}),
+        "has long sections beyond 100000 m",
+    ),
     "a length beyond measure": (
         crg(heights(300, 3), 0.1, [-1, 0, 1], modifiers={"SCALE_LENGTH": 1e300}),
         "has heights every 1e+299 m",

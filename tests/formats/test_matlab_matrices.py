@@ -184,6 +184,13 @@ def test_words_may_be_in_either_order(read, order):
     np.testing.assert_allclose(component.matrices.stiffness.toarray(), K, rtol=1e-14)
 
 
+def test_packed_variables_that_are_far_more_together_are_refused(read, monkeypatch):
+    monkeypatch.setattr("modeviz.formats.matrices.mat_variables.LEAST_IN_ALL", 20_000_000)
+    zeros = {f"A{i}": np.zeros((1000, 1000)) for i in range(9)}
+    with pytest.raises(VehicleError, match=r"found 24,000,\d+ bytes in packed variables, expected at"):
+        read(saved(zeros, do_compression=True))
+
+
 def test_a_packed_variable_that_unpacks_to_far_more_is_refused(read, monkeypatch):
     monkeypatch.setattr("modeviz.formats.matrices.mat_variables.LEAST_BYTES", 1_000_000)
     content = saved({"K": np.zeros((3000, 3000)), "M": M}, do_compression=True)

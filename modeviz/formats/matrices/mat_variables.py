@@ -40,6 +40,9 @@ HEADER = 128
 LEAST_BYTES, MOST_TIMES_PACKED = 500_000_000, 100
 """Unpacked, so many are read of any element, and more of one that is no smaller than this part."""
 
+LEAST_IN_ALL, MOST_TIMES_IN_ALL = 1_000_000_000, 10
+"""The same of all elements, and of the file."""
+
 
 @dataclass(frozen=True)
 class Elements:
@@ -76,10 +79,13 @@ def variables(content: bytes) -> Iterator[tuple[str, sp.csc_array | Array]]:
     if order is None:
         yield from _of_version_4(content)
         return
+    n_unpacked, most = 0, max(LEAST_IN_ALL, MOST_TIMES_IN_ALL * len(content))
     for number, (kind, element) in enumerate(Elements(content[HEADER:], order), 1):
         check_size("variables", number, MOST_VARIABLES)
         if kind == PACKED:
             kind, element = next(iter(Elements(_unpacked(element), order)), (0, b""))
+            n_unpacked += len(element)
+            check_size("bytes in packed variables", n_unpacked, most)
         if kind == MATRIX:
             yield from _matrix(Elements(element, order))
 

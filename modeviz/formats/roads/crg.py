@@ -15,7 +15,7 @@ from modeviz.vehicle.arrays import Floats
 MOST_HEIGHTS = 50_000_000
 
 HIGHEST = 1e5
-"""m: of no road."""
+"""m: of no road, nor is any so wide."""
 
 FINEST, COARSEST = 1e-6, 1e3
 """m, between heights along a road."""
@@ -46,6 +46,8 @@ class Surface:
             raise VehicleError(
                 f"has heights every {self.increment:g} m, expected every {FINEST:g} to {COARSEST:g} m"
             )
+        if not (np.abs(self.v) <= HIGHEST).all():
+            raise VehicleError(f"has long sections beyond {HIGHEST:g} m of its reference line")
         if len(self.v) > 1 and not (np.diff(self.v) > 0).all():
             raise VehicleError("two long sections are at the same v")
 
