@@ -64,6 +64,7 @@ from modeviz.vehicle.loads import Spectrum as Spectrum
 from modeviz.vehicle.loads import WheelLoad as WheelLoad
 from modeviz.vehicle.mode_damping import ModeDamping as ModeDamping
 from modeviz.vehicle.pose import Pose as Pose
+from modeviz.vehicle.problem import DeflectionLimit as DeflectionLimit
 from modeviz.vehicle.problem import DesignGroup as DesignGroup
 from modeviz.vehicle.problem import FrequencyWindow as FrequencyWindow
 from modeviz.vehicle.problem import Performance as Performance

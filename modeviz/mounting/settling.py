@@ -83,6 +83,18 @@ class Settling:
             "that curve more points where it bends"
         )
 
+    def by_stiffness(self, deflections: Floats) -> Floats:
+        """Return derivatives of settled deflections to unloaded rates, (n_springs, n_springs).
+
+        (K + Rᵀ k c' R) ∂x/∂k_s = -R_sᵀ c_s, for F = K x + Rᵀ f; at a corner of a curve of one side.
+
+        Args:
+            deflections: d, (n_springs,), where springs have settled.
+        """
+        change = self.stiffness * self.laws.tangent(deflections) - self.base
+        compliance = self.between @ self._solved(change[:, None], np.eye(len(change)))
+        return -compliance * self.laws.force(np.ones_like(deflections), deflections)
+
     def _off(self, q: Floats, d: Floats) -> Floats:
         """What springs are off their curves, N: zero where they settle."""
         return q + self.laws.force(self.stiffness, d) - self.base * d

@@ -68,9 +68,9 @@ def _met(search: Search, x: Floats) -> tuple[list[str], list[Floats]]:
     on = np.flatnonzero(space.rows @ x - space.values > -ACTIVE)
     names = [space.limits[i].spoken for i in on]
     rows = list(space.rows[on])
-    if search.windows is not None:
+    if search.kept:
         margins, slopes = search.margins(x)
         ends = np.flatnonzero(margins < ACTIVE)
-        names += [search.windows.spoken[i] for i in ends]
+        names += [search.kept_words[i] for i in ends]
         rows += list(-slopes[ends])
     return names, rows

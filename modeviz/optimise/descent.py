@@ -62,9 +62,9 @@ def _past_windows(search: Search, evaluator: Evaluator, start: Floats) -> Optimi
     On the way to a design that keeps to them modes may cross and change their names, where a window
     jumps and would stop the solver.
     """
-    if search.windows is None:
+    if not search.kept:
         return _restarted(search, evaluator, start)
-    free = _restarted(replace(search, windows=None), evaluator, start)
+    free = _restarted(replace(search, windows=None, deflections=None), evaluator, start)
     if evaluator.allows(free.x[: search.space.n_variables]):
         return free
     return _restarted(search, evaluator, start if evaluator.x is None else evaluator.x)
@@ -132,7 +132,7 @@ def _constraints(search: Search, evaluator: Evaluator) -> list[dict[str, Any]]:
     constraints = []
     if len(rows):
         constraints.append({"type": "ineq", "fun": lambda x: values - rows @ x, "jac": lambda _: -rows})
-    if search.windows is not None:
+    if search.kept:
         margins = evaluator.margins
         constraints.append(
             {"type": "ineq", "fun": lambda x: margins(x)[0], "jac": lambda x: margins(x)[1]}

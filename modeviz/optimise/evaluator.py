@@ -149,7 +149,7 @@ class Evaluator:
 
     def _allows(self, design: Floats, asked: Floats) -> bool:
         """Return whether a design keeps to the windows, which what is asked for is near to."""
-        if self._search.windows is None:
+        if not self._search.kept:
             return True
         # What only rounding puts within the limits is the design that the solver asks for.
         is_asked = np.allclose(design, asked, rtol=0, atol=ROUNDING)

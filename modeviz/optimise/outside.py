@@ -40,15 +40,21 @@ def outside_space(space: DesignSpace, rates: Rates) -> tuple[str, ...]:
 
 
 def outside_search(search: Search, rates: Rates) -> tuple[str, ...]:
-    """Return the same as `outside_space`, and which mode is where its window does not let it be."""
-    found = outside_space(search.space, rates)
-    if search.windows is None:
-        return found
-    at = zip(search.windows.windows, search.windows.exact_frequencies(rates).tolist(), strict=True)
-    return (
-        *found,
-        *(f"{w.mode} is at {f:.2f} Hz, where it may not be" for w, f in at if not w.allows(f)),
-    )
+    """Return the same as `outside_space`, and modes and mounts that are where they may not be."""
+    found = list(outside_space(search.space, rates))
+    if search.windows is not None:
+        at = zip(search.windows.windows, search.windows.exact_frequencies(rates).tolist(), strict=True)
+        found += [f"{w.mode} is at {f:.2f} Hz, where it may not be" for w, f in at if not w.allows(f)]
+    if search.deflections is not None:
+        limits = search.deflections.limits
+        gives = zip(limits, search.deflections.exact(rates).tolist(), strict=True)
+        found += [
+            f"{limit.mount} gives {1e3 * abs(d):.3g} mm ({limit.direction}, {limit.load_case}), may "
+            f"give {1e3 * limit.most:.3g} mm"
+            for limit, d in gives
+            if not limit.allows(d)
+        ]
+    return tuple(found)
 
 
 def _moved(space: DesignSpace, every: Rates) -> list[str]:

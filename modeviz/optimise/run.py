@@ -205,8 +205,8 @@ def best_of(
     """
     best = min(descents, key=lambda d: d.value)
     if best.x is None:
-        windows = "; ".join(search.windows.spoken) if search.windows else ""
-        kept = f"no design was found that keeps the frequency windows ({windows})"
+        what = "frequency windows" if search.windows else "limits of deflections"
+        kept = f"no design was found that keeps the {what} ({'; '.join(search.kept_words)})"
         if reason == CANCELLED:
             raise SolveError(f"cancelled: {kept}")
         raise SolveError(f"{kept}: widen them, free more rates or take more starts")

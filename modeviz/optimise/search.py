@@ -9,6 +9,7 @@ import numpy as np
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.sensitivity import rate_variables
 from modeviz.errors import SolveError, located
+from modeviz.optimise.deflections import Deflections, prepare_deflections
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import Goal, prepare_goal
 from modeviz.optimise.min_max import MinMax
@@ -26,6 +27,17 @@ class Search:
     space: DesignSpace
     goal: Goal
     windows: Windows | None = None
+    deflections: Deflections | None = None
+
+    @property
+    def kept(self) -> tuple[Windows | Deflections, ...]:
+        """What designs have to keep to beside bounds and ratio limits."""
+        return tuple(each for each in (self.windows, self.deflections) if each is not None)
+
+    @property
+    def kept_words(self) -> list[str]:
+        """What a person calls each of `margins`."""
+        return [words for each in self.kept for words in each.spoken]
 
     def evaluate(self, x: Floats) -> tuple[float, Floats]:
         """The goal of a design, and its derivatives, (n_variables,).
@@ -62,12 +74,15 @@ class Search:
         return parts, gradients
 
     def margins(self, x: Floats) -> tuple[Floats, Floats]:
-        """Return what is left to ends of windows, (n_ends,), and derivatives, (n_ends, n_variables)."""
-        if self.windows is None:
+        """Return what is left to ends of windows and to limits of deflections, and derivatives.
+
+        (n_ends,) and (n_ends, n_variables).
+        """
+        if not self.kept:
             return np.zeros(0), np.zeros((0, self.space.n_variables))
         rates = self.space.rates(x)
-        values, by_rate = self.windows.margins(rates)
-        return values, self._by_x(rates, by_rate)
+        values, by_rate = zip(*(each.margins(rates) for each in self.kept), strict=True)
+        return np.concatenate(values), self._by_x(rates, np.vstack(by_rate))
 
     @contextmanager
     def _naming(self, x: Floats) -> Iterator[None]:
@@ -114,4 +129,6 @@ def prepare_search(
     goal = prepare_goal(vehicle, problem, rates, speed)
     with located(f"problem {problem.name!r}"):
         windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None
-    return Search(space, goal, windows)
+        limits = problem.deflections
+        deflections = prepare_deflections(vehicle, limits) if limits else None
+    return Search(space, goal, windows, deflections)

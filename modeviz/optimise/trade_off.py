@@ -138,7 +138,8 @@ def prepare_trade_off(
         for side in sides
     )
     names = sides[0].name, sides[1].name
-    return TradeOff(names, (first, replace(second, space=first.space, windows=first.windows)))
+    kept = {"windows": first.windows, "deflections": first.deflections}
+    return TradeOff(names, (first, replace(second, space=first.space, **kept)))
 
 
 def _restricted(vehicle: Vehicle, problem: Problem, side: Side) -> Problem:

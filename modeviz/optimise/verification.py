@@ -1,7 +1,7 @@
 """The found design held against the full model as given before it is called a result."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -22,12 +22,14 @@ class Verification:
     frequency_hz: Floats
     """(n_windows,): where its eigenproblem has the mode of each window."""
     are_kept: bool
-    """Whether all of these are where the windows want them."""
+    """Whether all of these are where the windows want them, and mounts give no more than they may."""
     impossible: str = ""
     """Why its equations cannot be solved exactly enough, if they cannot."""
     gap: TruncationGap | None = None
     """How much too high frequencies are with its rates, as bodies lack residual compliance; None if
     none lacks it. Of this the model as given knows nothing."""
+    deflection: Floats = field(default_factory=lambda: np.zeros(0))
+    """(n_limits,), m: of the mounts whose deflections are limited."""
 
 
 def verify(searches: Sequence[Search], x: Floats, values: Sequence[float]) -> Verification:
@@ -45,14 +47,21 @@ def verify(searches: Sequence[Search], x: Floats, values: Sequence[float]) -> Ve
         frequency_hz = search.windows.exact_frequencies(rates)
         pairs = zip(search.windows.windows, frequency_hz.tolist(), strict=True)
         are_kept = all(window.allows(f) for window, f in pairs)
+    deflection = np.zeros(0)
+    if search.deflections is not None:
+        deflection = search.deflections.exact(rates)
+        gives = zip(search.deflections.limits, deflection.tolist(), strict=True)
+        are_kept = all(limit.allows(d) for limit, d in gives) and are_kept
     gap = gap_if_solved(search.space.vehicle.with_rates(rates))
     try:
         exact = [search.goal.exact_value(rates) for search in searches]
     except SolveError as error:
-        return Verification(np.nan, np.nan, frequency_hz, are_kept, str(error), gap)
+        return Verification(np.nan, np.nan, frequency_hz, are_kept, str(error), gap, deflection)
     differences = [_relative(value, own) for value, own in zip(values, exact, strict=True)]
     worst = int(np.argmax(differences))
-    return Verification(exact[worst], differences[worst], frequency_hz, are_kept, gap=gap)
+    return Verification(
+        exact[worst], differences[worst], frequency_hz, are_kept, gap=gap, deflection=deflection
+    )
 
 
 def _relative(found: float, exact: float) -> float:

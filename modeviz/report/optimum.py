@@ -177,6 +177,13 @@ def _exactness(search: Search, optimum: Optimum) -> str:
             + ("" if window.allows(f) else ", where it may not be")
             for window, f in pairs
         ]
+    if search.deflections is not None:
+        gives = zip(search.deflections.limits, check.deflection.tolist(), strict=True)
+        lines += [
+            f"{limit.mount} gives {1e3 * abs(d):.3f} mm ({limit.direction}, {limit.load_case})"
+            + ("" if limit.allows(d) else ", more than it may")
+            for limit, d in gives
+        ]
     return "\n".join(lines)
 
 

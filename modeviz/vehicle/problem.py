@@ -9,6 +9,7 @@ from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS, MountRates, check_bounds
 from modeviz.vehicle.decoupling import DecoupledBody
+from modeviz.vehicle.load_cases import STANDING
 
 GoalKind = Literal[
     "accelerations", "peak", "rms", "rating", "iso 2631", "purity", "decoupling", "change"
@@ -145,6 +146,31 @@ class FrequencyWindow:
 
 
 @dataclass(frozen=True, eq=False)
+class DeflectionLimit:
+    """How far a mount may give under a load that stays."""
+
+    mount: str
+    """Its name."""
+    direction: str
+    """One of `DIRECTIONS`, along the mount's own axis."""
+    most: float
+    """m, to either side."""
+    load_case: str = STANDING.name
+    """Its name."""
+
+    def __post_init__(self) -> None:
+        where = f"deflection of {self.mount!r}"
+        if self.direction not in DIRECTIONS:
+            raise VehicleError(f"{where}: " + unknown("direction", self.direction, DIRECTIONS))
+        if not (np.isfinite(self.most) and self.most > 0):
+            raise VehicleError(f"{where}: most: found {self.most:g} m, expected more than zero")
+
+    def allows(self, deflection: float) -> bool:
+        """Whether the mount may give so much, m."""
+        return abs(deflection) <= self.most
+
+
+@dataclass(frozen=True, eq=False)
 class Problem:
     """A mount optimisation."""
 
@@ -160,6 +186,8 @@ class Problem:
     """A set of rates of the vehicle that designs are compared with, or none."""
     decoupling: tuple[DecoupledBody, ...] = ()
     """Of the goals purity and decoupling; none: all motions of the vehicle's main body on mounts."""
+    deflections: tuple[DeflectionLimit, ...] = ()
+    """Of mounts under loads that stay."""
 
     def __post_init__(self) -> None:
         where = f"problem {self.name!r}"

@@ -271,6 +271,12 @@ class Vehicle:
                     raise VehicleError(unknown("response point", point, points))
         for decoupled in problem.decoupling:
             self.body(decoupled.body)
+        mounts, cases = ([x.name for x in every] for every in (self.mounts, self.static_cases))
+        for limit in problem.deflections:
+            if limit.mount not in mounts:
+                raise VehicleError(unknown("mount", limit.mount, mounts))
+            if limit.load_case not in cases:
+                raise VehicleError(unknown("load case", limit.load_case, cases))
         if problem.reference and problem.reference not in self.rate_sets:
             raise VehicleError(unknown("set of rates", problem.reference, self.rate_sets))
 

@@ -10,12 +10,14 @@ from modeviz.errors import VehicleError
 from modeviz.files.records.fields import Frequency, LowestFrequency, Name, Ratio, RatioLimits
 from modeviz.files.records.rates import RatesRecord
 from modeviz.files.records.record import Record, built
-from modeviz.files.schema.quantities import UNITLESS, FixedUnit
+from modeviz.files.schema.quantities import UNITLESS, FixedUnit, Quantity
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, MOTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.decoupling import Axes, DecoupledBody
+from modeviz.vehicle.load_cases import STANDING
 from modeviz.vehicle.problem import (
     UNLIMITED,
+    DeflectionLimit,
     DesignGroup,
     FrequencyWindow,
     GoalKind,
@@ -157,6 +159,24 @@ class DecoupledBodyRecord(Record, kw_only=True):
         return DecoupledBody(self.body, self.motions, self.axes)
 
 
+class DeflectionRecord(Record, kw_only=True):
+    """[[problem.deflection]]."""
+
+    mount: Name
+    direction: str
+    most: Annotated[float, Meta(gt=0), Quantity("length")]
+    load_case: Name = STANDING.name
+
+    @classmethod
+    def of(cls, limit: DeflectionLimit) -> Self:
+        return cls(
+            mount=limit.mount, direction=limit.direction, most=limit.most, load_case=limit.load_case
+        )
+
+    def build(self) -> DeflectionLimit:
+        return DeflectionLimit(self.mount, self.direction, self.most, self.load_case)
+
+
 class ProblemRecord(Record, kw_only=True):
     """[[problem]]."""
 
@@ -168,6 +188,7 @@ class ProblemRecord(Record, kw_only=True):
     performance: list[PerformanceRecord] = field(default_factory=list)
     window: list[WindowRecord] = field(default_factory=list)
     decoupling: list[DecoupledBodyRecord] = field(default_factory=list)
+    deflection: list[DeflectionRecord] = field(default_factory=list)
 
     @classmethod
     def of(cls, problem: Problem) -> Self:
@@ -180,6 +201,7 @@ class ProblemRecord(Record, kw_only=True):
             performance=[PerformanceRecord.of(p) for p in problem.performance],
             window=[WindowRecord.of(window) for window in problem.windows],
             decoupling=[DecoupledBodyRecord.of(body) for body in problem.decoupling],
+            deflection=[DeflectionRecord.of(limit) for limit in problem.deflections],
         )
 
     def build(self) -> Problem:
@@ -192,4 +214,5 @@ class ProblemRecord(Record, kw_only=True):
             built(self.window, "window", WindowRecord.build),
             self.reference,
             built(self.decoupling, "decoupling", DecoupledBodyRecord.build),
+            built(self.deflection, "deflection", DeflectionRecord.build),
         )

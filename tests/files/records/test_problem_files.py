@@ -12,7 +12,7 @@ from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.records.problems import MOST_FREQUENCIES, ProblemRecord, SpacedRecord
 from modeviz.vehicle.connections import MountRates
-from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance, Problem
+from modeviz.vehicle.problem import DeflectionLimit, DesignGroup, FrequencyWindow, Performance, Problem
 
 THIRDS = np.linspace(6.0, 14.0, 25)
 LISTED = np.array([11.0, 13.25, 47 / 3])
@@ -35,6 +35,7 @@ EVERYTHING = Problem(
         FrequencyWindow("cab roll", 5.0, 7.0, is_inside=False),
     ),
     reference="soft",
+    deflections=(DeflectionLimit("A 0.5", "lateral", 0.01 / 3, "bump 3 g"),),
 )
 PLAIN = Problem("plain", (DesignGroup("A"),), goal="change")
 

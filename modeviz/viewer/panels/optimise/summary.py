@@ -11,7 +11,7 @@ from modeviz.report.space import ratio_words
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.markup import title
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.problem import VARIABLES, FrequencyWindow, Performance, Problem
+from modeviz.vehicle.problem import VARIABLES, DeflectionLimit, FrequencyWindow, Performance, Problem
 
 FEW = 4
 """So many frequencies are written out, unless what counts is all between the first and the last."""
@@ -27,6 +27,7 @@ def summary(problem: Problem, space: DesignSpace, is_robust: bool) -> str:
         rows += [("On" if i == 0 else "", title(text)) for i, text in enumerate(loads)]
     rows.append(("Free", _free(space)))
     rows += [("Held", _held(window)) for window in problem.windows]
+    rows += [("Held", _gives(limit)) for limit in problem.deflections]
     lines = "".join(f'<span class="dim">{key}</span><span>{text}</span>' for key, text in rows)
     return f'<div class="glance">{lines}</div>'
 
@@ -58,6 +59,11 @@ def _free(space: DesignSpace) -> str:
     n, ratios = space.n_variables, ratio_words(space)
     text = f"{n} number{'s' if n > 1 else ''} to choose, within bounds and ratio limits"
     return escape(f"{text}; ratios stay as they are now: {ratios}" if ratios else text)
+
+
+def _gives(limit: DeflectionLimit) -> str:
+    most = f"{1e3 * limit.most:g} mm in {escape(limit.load_case)}"
+    return f"{escape(limit.mount)} {limit.direction} at most {most}"
 
 
 def _held(window: FrequencyWindow) -> str:
