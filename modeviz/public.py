@@ -18,6 +18,7 @@ from modeviz.mounting.travel import Travel as Travel
 from modeviz.optimise.active_limits import ActiveConstraint as ActiveConstraint
 from modeviz.ride.rating import Rating as Rating
 from modeviz.scatter.tolerance import Tolerance as Tolerance
+from modeviz.study.engine import EngineRide as EngineRide
 from modeviz.study.forces import MountForces as MountForces
 from modeviz.study.modes import Mode as Mode
 from modeviz.study.modes import ModesTable as ModesTable
@@ -52,6 +53,12 @@ from modeviz.vehicle.connections import Rod as Rod
 from modeviz.vehicle.connections import Spring as Spring
 from modeviz.vehicle.connections import Tyre as Tyre
 from modeviz.vehicle.decoupling import Decoupling as Decoupling
+from modeviz.vehicle.dynamic_rates import HydraulicRates as HydraulicRates
+from modeviz.vehicle.dynamic_rates import RateTable as RateTable
+from modeviz.vehicle.dynamic_rates import ThreeParameterRates as ThreeParameterRates
+from modeviz.vehicle.engine import Engine as Engine
+from modeviz.vehicle.engine import EngineOrder as EngineOrder
+from modeviz.vehicle.engine import InlineEngine as InlineEngine
 from modeviz.vehicle.iso_8608 import rough_road as rough_road
 from modeviz.vehicle.load_cases import LoadCase as LoadCase
 from modeviz.vehicle.load_cases import StaticLoad as StaticLoad

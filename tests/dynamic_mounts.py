@@ -12,6 +12,7 @@ from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Spectrum
 from modeviz.vehicle.vehicle import Vehicle
 
 RATES = MountRates(260e3, 180e3, 150e3)
+OTHER_RATES = MountRates(190e3, 240e3, 110e3)
 MAXWELL = ThreeParameterRates(reference_hz=5.0, stiffening=np.array([0.4, 0.5, 0.8]), corner_hz=9.0)
 HYDRAULIC = HydraulicRates(
     reference_hz=3.0,

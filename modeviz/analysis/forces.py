@@ -21,7 +21,7 @@ from modeviz.ride.excitation import Load
 from modeviz.ride.resolution import resolving_lines
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MOTIONS, Rates
-from modeviz.vehicle.loads import Force, RandomLoad, ResponsePoint, Road, Spectrum, WheelLoad
+from modeviz.vehicle.loads import Force, RandomLoad, ResponsePoint, Road, Spectrum, spectrum_of
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -148,6 +148,4 @@ def force_lines(prepared: PreparedModes, rates: Rates, load: Load, speed: float)
 
 def is_random(load: Load) -> TypeGuard[RandomLoad]:
     """Whether a load has a spectrum."""
-    if isinstance(load, WheelLoad):
-        return False
-    return isinstance(load, Road) or isinstance(load.amplitude, Spectrum)
+    return isinstance(load, Road) or spectrum_of(load) is not None

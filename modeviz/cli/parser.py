@@ -11,6 +11,7 @@ from pathlib import Path
 
 from modeviz.cli.check import CHECK
 from modeviz.cli.command import Command
+from modeviz.cli.engine import ENGINE
 from modeviz.cli.export import EXPORT
 from modeviz.cli.forces import FORCES
 from modeviz.cli.importing import IMPORT
@@ -35,6 +36,7 @@ COMMANDS = (
     RIGID,
     PSD,
     WHEELS,
+    ENGINE,
     FORCES,
     PATHS,
     STATIC,

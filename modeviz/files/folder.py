@@ -16,6 +16,7 @@ import msgspec
 
 from modeviz.errors import ModevizError, VehicleError, at_key, located
 from modeviz.files.disk import file_stems, read_text, replace_folder, write_text
+from modeviz.files.engine_tables import write_orders
 from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
 from modeviz.files.own_tables import with_tables
@@ -29,6 +30,7 @@ from modeviz.files.records.connections import (
     TyreRecord,
 )
 from modeviz.files.records.decoupling import DecouplingRecord
+from modeviz.files.records.engines import EngineRecord
 from modeviz.files.records.load_cases import LoadCaseRecord
 from modeviz.files.records.loads import (
     BaseMotionRecord,
@@ -56,6 +58,7 @@ from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.connections import Bolt, Damper, MountGroup, Rod, Spring
 from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.dynamic_rates import RateTable
+from modeviz.vehicle.engine import Engine
 from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.orientation import orientation_doubts
@@ -63,7 +66,7 @@ from modeviz.vehicle.size_doubts import size_doubts
 from modeviz.vehicle.vehicle import Vehicle
 
 VEHICLE_FILE = "vehicle.toml"
-CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra", "rates"}
+CONTENT = {VEHICLE_FILE, "bodies", "meshes", "roads", "spectra", "rates", "engines"}
 """What a vehicle folder holds."""
 
 
@@ -216,6 +219,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         mode_damping=[ModeDampingRecord.of(damping) for damping in vehicle.mode_damping],
         problem=[ProblemRecord.of(problem) for problem in vehicle.problems],
         decoupling=DecouplingRecord.of(vehicle.decoupling),
+        engine=_engine_records(vehicle.engines, folder),
         load_case=[LoadCaseRecord.of(case) for case in vehicle.load_cases],
     )
 
@@ -264,6 +268,17 @@ def _group_records(groups: tuple[MountGroup, ...], folder: Path) -> list[MountGr
     for name, rates in tables.items():
         write_rate_table(folder / files[name], rates)
     return [MountGroupRecord.of(group, files[group.name]) for group in groups]
+
+
+def _engine_records(engines: tuple[Engine, ...], folder: Path) -> list[EngineRecord]:
+    """The records of engines, now that the tables of their orders are written."""
+    files = {n: f"engines/{stem}.csv" for n, stem in file_stems(e.name for e in engines).items()}
+    if engines:
+        (folder / "engines").mkdir()
+    for engine in engines:
+        orders = {o.order: (o.frequency_hz / o.order, o.loads) for o in engine.orders}
+        write_orders(folder / files[engine.name], orders)
+    return [EngineRecord.of(engine, files[engine.name]) for engine in engines]
 
 
 def _spectrum_files(vehicle: Vehicle, folder: Path) -> dict[str, str]:

@@ -123,6 +123,8 @@ def load_cases(
     """The load cases of a goal that is made of accelerations; raises as `prepare_goal`."""
     if problem.goal in VARIABLES:
         return [case for p in problem.performance for case in _cases(vehicle, p, speed)]
+    if problem.goal == "idle":
+        return _idle_cases(vehicle)
     return [
         BandCase(
             Conditions(road, speed),
@@ -161,6 +163,22 @@ def _cases(vehicle: Vehicle, performance: Performance, speed: float) -> list[Loa
     return [
         LoadCase(load, f, performance.weight, pattern, performance.target) for load in [*roads, *wheels]
     ]
+
+
+def _idle_cases(vehicle: Vehicle) -> list[LoadCase]:
+    """Each order of the engines at idle, if that is in the band: half its squares are the mean's."""
+    pattern = np.zeros((1, len(vehicle.response_points), 3))
+    pattern[0, DRIVER] = 0.5
+    at_idle = [(order, order.order * e.idle_hz) for e in vehicle.engines for order in e.orders]
+    band = vehicle.frequency_hz[[0, -1]]
+    cases = [LoadCase(o, (f,), pattern=pattern) for o, f in at_idle if band[0] <= f <= band[1]]
+    if not cases:
+        lowest = min((f for _, f in at_idle), default=0.0)
+        raise VehicleError(
+            f"goal 'idle': found the lowest order at {lowest:.3g} Hz, expected one within the band, "
+            f"{band[0]:g} to {band[1]:g} Hz: see highest_frequency"
+        )
+    return cases
 
 
 def _selected(

@@ -24,6 +24,7 @@ SMALL: dict[GoalKind, str] = {
     "rms": "mean squares on the road",
     "rating": "combined mean square at the driver's point",
     "iso 2631": "square of the ISO 2631-1 total at the driver's point",
+    "idle": "mean square at the driver's point while engines idle",
     "purity": "largest impurity of a mode",
     "decoupling": "what is missing to purity, band and gaps",
     "change": "mean square of ln(k/k₀)",

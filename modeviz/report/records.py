@@ -15,6 +15,7 @@ from modeviz.ride.psd import amplitude_decibels
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import RATE_FIELDS, MountGroup
+from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import BaseMotion, Force, HarmonicLoad, WheelLoad
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -119,7 +120,8 @@ def wheels_record(vehicle: Vehicle, results: WheelResults) -> Record:
 
     `{"vehicle", "rates", "frequency_hz": [...], "loads": [{"load", "kind", "tyre" or null, "amplitude",
     "responses": [{"point", "direction", "acceleration_g": [...peak], "acceleration_db": [...re 1 g]}]
-    }]}`; the amplitude is in N, of an unbalance in kg m, of a base motion in m or m/s².
+    }]}`; the amplitude is in N, of an unbalance in kg m, of a base motion in m or m/s²; that of an
+    engine's order depends on its speed: null.
     """
     loads = [
         {**_load_record(load), "responses": _wheel_responses(vehicle, results, i)}
@@ -141,6 +143,8 @@ def _load_record(load: HarmonicLoad) -> Record:
             kind, tyre = "force", None
         case BaseMotion():
             kind, tyre = f"base {load.quantity}", None
+        case EngineOrder():
+            return {"load": load.name, "kind": "engine order", "tyre": None, "amplitude": None}
     return {"load": load.name, "kind": kind, "tyre": tyre, "amplitude": load.amplitude}
 
 

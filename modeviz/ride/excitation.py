@@ -26,7 +26,17 @@ from modeviz.ride.roads import (
 from modeviz.ride.wheels import wheel_amplitudes, wheel_directions
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MOTIONS, Connection
-from modeviz.vehicle.loads import BaseMotion, Force, HarmonicLoad, RandomLoad, Road, Spectrum, WheelLoad
+from modeviz.vehicle.engine import EngineOrder
+from modeviz.vehicle.loads import (
+    BaseMotion,
+    Force,
+    HarmonicLoad,
+    RandomLoad,
+    Road,
+    Spectrum,
+    WheelLoad,
+    spectrum_of,
+)
 from modeviz.vehicle.vehicle import Vehicle
 
 Load = RandomLoad | HarmonicLoad
@@ -49,19 +59,21 @@ class Excitation:
 def input_directions(system: System) -> Floats:
     """Rows (n_directions, n_dofs + n_rigid) along which loads act.
 
-    `tyre_directions` and `wheel_directions`, then one for each force, then the three local axes of each
-    connection whose ground end some base motion moves; those in which it is rigid are motions given to
-    it.
+    `tyre_directions` and `wheel_directions`, then one for each force, then along and about x, y, z
+    where each engine shakes its body, then the three local axes of each connection whose ground end
+    some base motion moves; those in which it is rigid are motions given to it.
 
     Raises:
         VehicleError: a base motion does not move all rigid connections that hold one motion.
     """
     vehicle = system.vehicle
     forces = [f.direction @ system.motion(f.body, f.position)[None, :3] for f in vehicle.forces]
+    engines = [system.motion(e.body, e.position) for e in vehicle.engines]
     moved = [_moved_directions(system, c) for c in _moved(vehicle)]
     for motion in vehicle.base_motions:
         _check_led(system, motion)
-    return directions(system, tyre_directions(system), wheel_directions(system), *forces, *moved)
+    wheels = tyre_directions(system), wheel_directions(system)
+    return directions(system, *wheels, *forces, *engines, *moved)
 
 
 def excitation(
@@ -96,6 +108,8 @@ def excitation(
             forces[:, slots.wheels] = wheel_amplitudes(vehicle, [load], f)
         case Force():
             forces[:, slots.forces[load.name]] = _peak(load)
+        case EngineOrder():
+            forces[:, slots.engines[load.engine], 0] = load.at(f)
         case BaseMotion():
             motions = ground_motions(vehicle, load, f, speed)
             for connection in vehicle.moved_connections(load):
@@ -162,9 +176,10 @@ def input_spectrum(load: Load, frequency_hz: Floats, speed: float) -> Complexes:
     """
     if isinstance(load, Road):
         return road_spectrum(load, frequency_hz, speed)
+    spectrum = spectrum_of(load)
     power = np.ones(len(frequency_hz))
-    if not isinstance(load, WheelLoad) and isinstance(load.amplitude, Spectrum):
-        power = interpolated_power(load.name, load.amplitude, frequency_hz)
+    if spectrum:
+        power = interpolated_power(load.name, spectrum, frequency_hz)
     return power.reshape(-1, 1, 1).astype(complex)
 
 
@@ -185,9 +200,8 @@ def table_hz(load: Load, speed: float) -> Floats:
     """The frequencies at which the spectrum of a load is given, Hz, rising; none of a harmonic load."""
     if isinstance(load, Road):
         return load.frequency_hz * (speed / load.speed)
-    if not isinstance(load, WheelLoad) and isinstance(load.amplitude, Spectrum):
-        return load.amplitude.frequency_hz
-    return np.zeros(0)
+    spectrum = spectrum_of(load)
+    return spectrum.frequency_hz if spectrum else np.zeros(0)
 
 
 class _Slots:
@@ -197,7 +211,10 @@ class _Slots:
         n = 3 * len(vehicle.tyres)
         self.tyres, self.wheels = slice(0, n), slice(n, 2 * n)
         self.forces = {force.name: 2 * n + i for i, force in enumerate(vehicle.forces)}
-        start = 2 * n + len(vehicle.forces)
+        first = 2 * n + len(vehicle.forces)
+        starts = {engine.name: first + 6 * i for i, engine in enumerate(vehicle.engines)}
+        self.engines = {name: slice(at, at + 6) for name, at in starts.items()}
+        start = first + 6 * len(vehicle.engines)
         moved = _moved(vehicle)
         self.moved = {c.name: slice(start + 3 * i, start + 3 * i + 3) for i, c in enumerate(moved)}
         self.n_directions = start + 3 * len(moved)

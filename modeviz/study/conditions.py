@@ -63,10 +63,11 @@ def chosen_load(vehicle: Vehicle, name: str | None) -> Load:
     Raises:
         ModevizError: there is no such load, or it does not get into the vehicle.
     """
-    harmonic = {load.name: load for load in vehicle.harmonic_loads}
+    every = (*vehicle.harmonic_loads, *vehicle.engine_orders)
+    harmonic = {load.name: load for load in every}
     if name in harmonic:
         return harmonic[name]
-    usual = vehicle.usual_load or next(iter(vehicle.harmonic_loads), None)
+    usual = vehicle.usual_load or next(iter(every), None)
     if name is None and usual is not None:
         return usual
     if name is None:
@@ -78,7 +79,7 @@ def chosen_load(vehicle: Vehicle, name: str | None) -> Load:
     try:
         load = vehicle.random_load(name)
     except VehicleError:
-        offered = [each.name for each in (*vehicle.offered_loads, *vehicle.harmonic_loads)]
+        offered = [each.name for each in (*vehicle.offered_loads, *every)]
         raise VehicleError(unknown("load", name, offered)) from None
     check_shaken(vehicle, load)
     return load

@@ -5,6 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import get_args
 
+from modeviz.analysis.engine_results import solve_engine
 from modeviz.analysis.forces import LoadedForces
 from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.mode_tracking import solve_followed
@@ -24,6 +25,7 @@ from modeviz.scatter.driving import ScatterOptions, drive_many
 from modeviz.scatter.searching import FRONT_STARTS, SearchOptions, find_best
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.study.conditions import has_ride, need, road_conditions
+from modeviz.study.engine import EngineRide
 from modeviz.study.forces import MountForces, loaded_forces
 from modeviz.study.modes import ModesTable
 from modeviz.study.notebook import block, paragraphs
@@ -171,6 +173,23 @@ class Study(StudyOutput):
         results = solve_wheels(self._tuned.prepared(), self.rates.by_group)
         ride = self._tuned.ride(None) if has_ride(vehicle) else None
         return WheelRide(vehicle.with_rates(self.rates.by_group), results, ride)
+
+    @one_thread()
+    def engine(self, name: str | None = None) -> EngineRide:
+        """Return the response to the orders of an engine at idle and at its other speeds.
+
+        Args:
+            name: of the engine; None: the first.
+
+        Raises:
+            ModevizError: the vehicle has no such engine, or nothing to feel it with.
+        """
+        vehicle = self.vehicle
+        need(vehicle, "engine", vehicle.engines)
+        need(vehicle, "response point", vehicle.response_points)
+        engine = vehicle.engines[0] if name is None else vehicle.engine(name)
+        results = solve_engine(self._tuned.prepared(), self.rates.by_group, engine)
+        return EngineRide(vehicle.with_rates(self.rates.by_group), results)
 
     @one_thread()
     def static(self) -> StaticResults:

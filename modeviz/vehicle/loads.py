@@ -7,6 +7,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Complexes, Floats, frozen, frozen_places
+from modeviz.vehicle.engine import EngineOrder
 
 WheelLoadKind = Literal["unbalance", "radial force", "lateral force"]
 
@@ -191,8 +192,14 @@ def _check_load(load: Force | BaseMotion, where: str) -> None:
 RandomLoad = Road | Force | BaseMotion
 """What has a spectrum."""
 
-HarmonicLoad = WheelLoad | Force | BaseMotion
+HarmonicLoad = WheelLoad | Force | BaseMotion | EngineOrder
 """What has one frequency at a time, and a peak amplitude."""
+
+
+def spectrum_of(load: RandomLoad | HarmonicLoad) -> Spectrum | None:
+    """The spectrum that a force or a motion of the ground has; None of all other loads."""
+    amplitude = load.amplitude if isinstance(load, Force | BaseMotion) else None
+    return amplitude if isinstance(amplitude, Spectrum) else None
 
 
 @dataclass(frozen=True, eq=False)

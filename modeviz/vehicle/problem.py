@@ -12,14 +12,15 @@ from modeviz.vehicle.decoupling import DecoupledBody
 from modeviz.vehicle.load_cases import STANDING
 
 GoalKind = Literal[
-    "accelerations", "peak", "rms", "rating", "iso 2631", "purity", "decoupling", "change"
+    "accelerations", "peak", "rms", "rating", "iso 2631", "idle", "purity", "decoupling", "change"
 ]
 """What is to become small.
 
 accelerations: the performance variables. peak: the largest of them, and of all between the first and
 the last frequency of each. rms: the mean squares, on the
 road, at the points and along the directions of these. rating: the combined RMS that the mean personal
-rating falls with, at the driver's point. iso 2631: the vibration total value there. purity: of
+rating falls with, at the driver's point. iso 2631: the vibration total value there. idle: the mean
+square there over time, along all axes, while its engines idle. purity: of
 modes of bodies on their mounts the largest part that is not in its own direction. decoupling: what
 is missing of these to the purity, the band and the gaps that the vehicle asks. change: the mean
 square of ln(k/k₀) of the rates that may change.

@@ -23,6 +23,7 @@ from modeviz.vehicle.connections import (
     Tyre,
 )
 from modeviz.vehicle.decoupling import USUAL, Decoupling
+from modeviz.vehicle.engine import Engine, EngineOrder
 from modeviz.vehicle.iso_8608 import CLASSES, USUAL_ROAD, named_road
 from modeviz.vehicle.load_cases import LoadCase, usual_cases
 from modeviz.vehicle.loads import (
@@ -87,6 +88,7 @@ class Vehicle:
     """Damping ratios of modes of the vehicle with its own rates, where they are known."""
     decoupling: Decoupling = USUAL
     """What the rigid modes of its bodies are held against."""
+    engines: tuple[Engine, ...] = ()
     load_cases: tuple[LoadCase, ...] = ()
     """Those in which it is looked at standing still; none are the usual ones, see `static_cases`."""
     notes: tuple[str, ...] = ()
@@ -112,6 +114,7 @@ class Vehicle:
             ("added mass", self.added_masses),
             ("response point", self.response_points),
             ("force", self.forces),
+            ("engine", self.engines),
         ):
             for thing in things:
                 with of_part(kind, thing.name):
@@ -184,6 +187,11 @@ class Vehicle:
             *(load for load in others if not isinstance(load.amplitude, Spectrum)),
         )
 
+    @cached_property
+    def engine_orders(self) -> tuple[EngineOrder, ...]:
+        """The orders of its engines, engine by engine: harmonic loads that depend on speed."""
+        return tuple(order for engine in self.engines for order in engine.orders)
+
     def is_shaken_by(self, load: RandomLoad) -> bool:
         """Whether a load gets into the vehicle: a road does through tyres with rates along their z."""
         return self.has_driven_tyres or not isinstance(load, Road)
@@ -223,8 +231,12 @@ class Vehicle:
         return found or _named("random load", name, self.offered_loads)
 
     def harmonic_load(self, name: str) -> HarmonicLoad:
-        """The wheel load or other harmonic load of that name; raises VehicleError as `body` does."""
-        return _named("harmonic load", name, self.harmonic_loads)
+        """The harmonic load or engine's order of that name; raises VehicleError as `body` does."""
+        return _named("harmonic load", name, (*self.harmonic_loads, *self.engine_orders))
+
+    def engine(self, name: str) -> Engine:
+        """The engine of that name; raises VehicleError as `body` does."""
+        return _named("engine", name, self.engines)
 
     def moved_connections(self, motion: BaseMotion) -> tuple[Connection, ...]:
         """The connections whose ground ends a base motion moves, in the order of `all_connections`."""
@@ -257,6 +269,8 @@ class Vehicle:
         points = [point.name for point in self.response_points]
         if problem.goal not in UNFELT and not points:
             raise VehicleError(f"goal {problem.goal!r} needs a [[response_point]]")
+        if problem.goal == "idle" and not self.engines:
+            raise VehicleError("goal 'idle' needs an [[engine]]")
         for performance in problem.performance:
             for road in performance.roads:
                 if not self.is_shaken_by(self.random_load(road)):
@@ -307,7 +321,8 @@ class Vehicle:
             ("added mass", self.added_masses),
             ("response point", self.response_points),
             ("random load", self.random_loads),
-            ("harmonic load", self.harmonic_loads),
+            ("engine", self.engines),
+            ("harmonic load", (*self.harmonic_loads, *self.engine_orders)),
             ("problem", self.problems),
             ("load case", self.load_cases),
         ):

@@ -52,6 +52,7 @@ Damping = Annotated[Vector, Quantity("damping"), Turns(turn_rates)]
 RotationalDamping = Annotated[Vector, Quantity("rotational_damping"), Turns(turn_rates)]
 
 ForceVector = Annotated[Vector, Quantity("force"), Turns(turn_vectors)]
+Torque = Annotated[float, Meta(ge=0), Quantity("torque")]
 TorqueVector = Annotated[Vector, Quantity("torque"), Turns(turn_vectors)]
 LoadInG = Annotated[Vector, FixedUnit("g"), Turns(turn_vectors)]
 

@@ -17,6 +17,7 @@ from modeviz.files.records.connections import (
     TyreRecord,
 )
 from modeviz.files.records.decoupling import DecouplingRecord
+from modeviz.files.records.engines import EngineRecord
 from modeviz.files.records.fields import (
     Frequency,
     Name,
@@ -129,6 +130,7 @@ class VehicleRecord(FileRecord, kw_only=True):
     wheel_load: list[WheelLoadRecord] = msgspec.field(default_factory=list)
     force: list[ForceRecord] = msgspec.field(default_factory=list)
     base_motion: list[BaseMotionRecord] = msgspec.field(default_factory=list)
+    engine: list[EngineRecord] = msgspec.field(default_factory=list)
     mode_damping: list[ModeDampingRecord] = msgspec.field(default_factory=list)
     rates: dict[str, dict[str, RateSetRecord]] = msgspec.field(default_factory=dict)
     """[rates.SET.GROUP]."""
@@ -155,6 +157,8 @@ class VehicleRecord(FileRecord, kw_only=True):
         roads = built(self.road, "road", lambda r: r.build(source, track_width(tyres)))
         forces = built(self.force, "force", lambda r: r.build(source))
         base_motions = built(self.base_motion, "base_motion", lambda r: r.build(source))
+        by_name = {body.name: body for body in (*flexible, *rigid, *source.stand_ins)}
+        engines = built(self.engine, "engine", lambda r: r.build(source, by_name))
         source.check_lines()
         return Vehicle(
             name=self.name,
@@ -177,6 +181,7 @@ class VehicleRecord(FileRecord, kw_only=True):
             frequency_step=self.frequency_step,
             mode_damping=built(self.mode_damping, "mode_damping", ModeDampingRecord.build),
             decoupling=self._decoupling(),
+            engines=engines,
             load_cases=built(self.load_case, "load_case", LoadCaseRecord.build),
         )
 

@@ -31,6 +31,7 @@ WORDS: dict[GoalKind, str] = {
     "rms": "RMS on the road",
     "rating": "Ride rating",
     "iso 2631": "ISO 2631",
+    "idle": "Idle quality",
     "change": "Least change",
 }
 GOALS = {WORDS.get(goal) or sentence_case(goal): goal for goal in get_args(GoalKind)}

@@ -1,0 +1,92 @@
+"""What a running engine does to a study's vehicle."""
+
+from dataclasses import dataclass
+
+from modeviz.analysis.engine_results import EngineResults
+from modeviz.analysis.results import AXIS
+from modeviz.errors import VehicleError, unknown
+from modeviz.report.engine import engine_record, engine_table, order_rows, speed_rows
+from modeviz.report.records import Record
+from modeviz.study.displayed import Displayed
+from modeviz.study.names import axis_of, point_number
+from modeviz.study.notebook import block
+from modeviz.text.markup import table, title
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.vehicle import Vehicle
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class EngineRide(Displayed):
+    """Accelerations while an engine runs at one speed after the other.
+
+    engine = study.engine()
+    engine.idle_rms("seat track left", "vertical")
+    engine.speed_rpm, engine.acceleration(2, "seat track left", "vertical")
+    """
+
+    vehicle: Vehicle
+    """With the present rates."""
+    results: EngineResults
+    """As the functions of `analysis` take it."""
+
+    @property
+    def speed_rpm(self) -> Floats:
+        """(n_speeds,), rising."""
+        return 60 * self.results.speed_hz
+
+    @property
+    def orders(self) -> tuple[float, ...]:
+        """The engine's orders, rising."""
+        return tuple(order.order for order in self.results.engine.orders)
+
+    def acceleration(self, order: float, point: str, direction: str) -> Floats:
+        """Return the peak acceleration at each speed, (n_speeds,), g; nan beyond the vehicle's band.
+
+        Args:
+            order: one of `orders`.
+            point: name of a response point.
+            direction: "vertical", "lateral" or "fore-aft".
+
+        Raises:
+            VehicleError: there is no such order, point or direction.
+        """
+        if order not in self.orders:
+            raise VehicleError(unknown("order", f"{order:g}", [f"{o:g}" for o in self.orders]))
+        place = point_number(self.vehicle, point), axis_of(direction)
+        return self.results.acceleration_g[:, self.orders.index(order), *place]
+
+    def rms(self, point: str, direction: str) -> Floats:
+        """Return the RMS over time of all orders in the band at each speed, (n_speeds,), g.
+
+        Args:
+            point: as of `acceleration`, as are the direction and what is raised.
+            direction: likewise.
+
+        Raises:
+            VehicleError: as `acceleration`.
+        """
+        return self.results.rms[:, point_number(self.vehicle, point), axis_of(direction)]
+
+    def idle_rms(self, point: str, direction: str) -> float:
+        """Return `rms` at idle, g; raises as it does."""
+        return float(self.rms(point, direction)[self.results.idle])
+
+    def table(self) -> str:
+        """Return peaks of the orders at idle and the RMS over speed."""
+        return engine_table(self.vehicle, self.results)
+
+    def to_dict(self) -> Record:
+        """Return what `modeviz engine --json` prints, see `report.engine.engine_record`."""
+        return engine_record(self.vehicle, self.results)
+
+    def _repr_html_(self) -> str:
+        results, places = (
+            self.results,
+            [f"{p.name} {d}" for p in self.vehicle.response_points for d in AXIS],
+        )
+        idle = f"Idle, {60 * results.speed_hz[results.idle]:.4g} rpm: peak, 0.001 g"
+        return block(
+            f"{self.vehicle.name} while {results.engine.name} runs",
+            table([idle, "Hz", *map(title, places)], order_rows(results)),
+            table(["rpm: RMS of all orders, 0.001 g", *map(title, places)], speed_rows(results)),
+        )
