@@ -28,6 +28,9 @@ N_RIGID = 6
 SMALL = 4
 """With so many degrees of freedom for each mode, all modes are found at once."""
 
+FIRST_GUESS, LARGEST_COUNT = 30, 2**31
+"""SuperLU begins with room for so many times the numbers of a matrix, and counts up to that."""
+
 MASSLESS = 1e-15
 """Part of the largest flexibility, (ω² + s)⁻¹, below which there is no mass."""
 
@@ -271,7 +274,7 @@ def factorised(A: sp.csc_array, order: str = "MMD_AT_PLUS_A") -> spl.SuperLU:
     """Sparse factors of a symmetric definite matrix, without pivoting, in an order of SuperLU.
 
     Raises:
-        SolveError: it is singular, or its factors take more memory than there is.
+        SolveError: it is singular, or takes more memory than there is or more than SuperLU counts.
     """
     try:
         return spl.splu(
@@ -282,9 +285,11 @@ def factorised(A: sp.csc_array, order: str = "MMD_AT_PLUS_A") -> spl.SuperLU:
             "something moves without strain and without mass, such as a node that a rod alone holds"
         ) from None
     except MemoryError:
+        is_counted = A.nnz * FIRST_GUESS < LARGEST_COUNT
+        reason = "memory than there is" if is_counted else "numbers than SuperLU can count"
         raise SolveError(
-            f"{A.diagonal().size:,} degrees of freedom take more memory than there is: reduce the "
-            "model in the program that it is from, to a superelement or a substructure"
+            f"{A.diagonal().size:,} degrees of freedom take more {reason}: reduce the model in the "
+            "program that it is from, to a superelement or a substructure"
         ) from None
 
 

@@ -163,3 +163,13 @@ def test_a_body_too_large_for_memory_is_refused(body, monkeypatch):
     monkeypatch.setattr("scipy.sparse.linalg.splu", exhausted)
     with pytest.raises(SolveError, match="294 degrees of freedom take more memory"):
         free_modes(body, 12)
+
+
+def test_a_body_of_more_numbers_than_superlu_counts_is_refused_as_such(body, monkeypatch):
+    def exhausted(*arguments, **options):
+        raise MemoryError
+
+    monkeypatch.setattr("scipy.sparse.linalg.splu", exhausted)
+    monkeypatch.setattr("modeviz.fem.free.LARGEST_COUNT", 30 * body.stiffness.nnz)
+    with pytest.raises(SolveError, match="294 degrees of freedom take more numbers than SuperLU can"):
+        free_modes(body, 12)
