@@ -68,7 +68,7 @@ def body_purity(
         modes.frequency_hz,
         energy,
         results.kinetic_energy[part.body.name],
-        sorted_modes(energy, held.strain(modes, results.mount_rates)),
+        sorted_modes(energy, held.strain(modes, results.band.springs.real.astype(np.float64))),
         targets,
         MOTIONS[3 + int(np.argmax(np.abs(turned @ direction)))],
     )

@@ -14,7 +14,7 @@ from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.spring_law import constant_law
 from modeviz.errors import SolveError
 from modeviz.mounting.rigid_part import RigidPart, rigid_parts
-from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body, Role
 from modeviz.vehicle.connections import GROUND, MOTIONS, Connection, MountRates
 from modeviz.vehicle.vehicle import Vehicle
@@ -69,10 +69,12 @@ class HeldBody:
 
         Args:
             modes: of the vehicle.
-            mount_rates: as of `stiffness`.
+            mount_rates: real, (n_modes or 1, n_springs), those of each mode, N/m and N m/rad.
         """
-        k = np.concatenate([mount_rates[self.springs], self.other_rates])
-        twice = k @ np.square(self.relative @ modes.shapes)
+        stretch = np.square(self.relative @ modes.shapes)
+        n_own = len(self.springs)
+        twice = np.sum(mount_rates[:, self.springs].T * stretch[:n_own], axis=0)
+        twice = twice + self.other_rates @ stretch[n_own:]
         squares = modes.omega_n_squared
         return np.where(squares > FREE, twice / np.maximum(squares, FREE), 0.0)
 
@@ -171,28 +173,37 @@ def mounted_bodies(system: System) -> MountedBodies:
         SolveError: as `solve_modes`.
     """
     firm = system.with_rates(_firm(system.vehicle))
-    modes = solve_modes(firm)
-    held = modes.omega_n_squared > FREE
-    phi = modes.shapes[:, held] / np.sqrt(modes.omega_n_squared[held])
-    parts = rigid_parts(system)
-    motions = [part.rows @ phi[part.own] for part in parts]
-    stretch, motion = system.mount_motions @ phi, np.vstack(motions)
-
-    def between(one: Floats, other: Floats) -> Complexes:
-        return (one @ other.T)[None].astype(complex)
-
-    to_bodies = between(stretch, motion)
+    motions = np.zeros((6 * len(system.dofs), system.n_dofs))
+    for i, part in enumerate(rigid_parts(system)):
+        motions[6 * i : 6 * i + 6, part.own] = part.rows
+    n_springs = len(system.mount_motions)
+    G = _static_receptances(firm, np.vstack([system.mount_motions, motions]))[None].astype(complex)
+    to_bodies = G[:, :n_springs, n_springs:]
     return MountedBodies(
         Receptances(
             np.zeros(1),
             mount_stiffness(firm.vehicle).real.astype(complex),
-            between(stretch, stretch),
+            G[:, :n_springs, :n_springs],
             to_bodies,
             to_bodies,
-            between(motion, motion),
-            constant_law(len(stretch)),
+            G[:, n_springs:, n_springs:],
+            constant_law(n_springs),
         )
     )
+
+
+def _static_receptances(system: System, rows: Floats) -> Floats:
+    """The motion along rows per force along others at rest, (n_rows, n_rows), free motions left out."""
+    K, M = system.condensed(system.stiffness), system.condensed(system.mass)
+    R = system.condensed_rows(rows)
+    try:
+        scipy.linalg.cholesky(K - FREE * M, check_finite=False)  # there is one if nothing is free
+        return R @ scipy.linalg.cho_solve(scipy.linalg.cho_factor(K), R.T)
+    except scipy.linalg.LinAlgError:
+        modes = solve_modes(system)
+        held = modes.omega_n_squared > FREE
+        motion = rows @ modes.shapes[:, held] / np.sqrt(modes.omega_n_squared[held])
+        return motion @ motion.T
 
 
 def _firm(vehicle: Vehicle) -> dict[str, MountRates]:

@@ -153,9 +153,15 @@ def prepare_decoupling(vehicle: Vehicle, problem: Problem) -> Impurity | Shortfa
     """Return the goal purity or decoupling of a problem.
 
     Raises:
-        VehicleError: nothing is on mounts.
+        VehicleError: nothing is on mounts, or rates of mounts depend on frequency.
         SolveError: the vehicle has no meaningful modes.
     """
+    for group in vehicle.mount_groups:
+        if group.dynamic is not None:
+            raise VehicleError(
+                f"problem {problem.name!r}: goal {problem.goal!r} needs mounts whose rates do not "
+                f"depend on frequency; those of {group.name!r} do"
+            )
     asked = problem.decoupling or (DecoupledBody(_main_body(vehicle, problem)),)
     top_hz = max(vehicle.highest_frequency, vehicle.decoupling.highest_frequency)
     prepared = prepare_modes(vehicle, top_hz)

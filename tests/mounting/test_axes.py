@@ -1,5 +1,7 @@
 """Axes and centres against closed forms, brute force and statics."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -217,3 +219,18 @@ def test_an_engine_s_crank_lies_along_the_smaller_of_both_moments():
         body = RigidBody("engine", "powertrain", "engine", 100.0, np.zeros(3), inertia)
         part = rigid_parts(assemble(Vehicle("engine", (body,), ())))[0]
         assert crank_direction(part).tolist() == expected
+
+
+@pytest.mark.parametrize("vehicle", [four_cylinder(), on_subframe()], ids=["ground", "subframe"])
+def test_rates_of_zero_leave_a_body_without_elastic_axes(vehicle):
+    """Which come back with the rates."""
+    slack = {g.name: replace(g.rates, lateral=0.0) for g in vehicle.mount_groups}
+    axes = body_axes(solve_modal(prepare_modes(vehicle), slack), 0)
+    assert axes.held is None
+    assert axes.mounted is None
+    born_slack = prepare_modes(vehicle.with_rates(slack))
+    own = {g.name: g.rates for g in vehicle.mount_groups}
+    back = body_axes(solve_modal(born_slack, own), 0)
+    expected = figures(vehicle).axes
+    assert back.held.center == pytest.approx(expected.held.center)
+    assert back.mounted.center == pytest.approx(expected.mounted.center, rel=1e-6)

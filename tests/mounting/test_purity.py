@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from dynamic_mounts import MAXWELL, frozen_at, on_mounts
 from four_cylinder import engine, four_cylinder, on_subframe
 from oracles import Beam
 
@@ -143,3 +144,18 @@ def test_crank_axes_are_the_vehicle_s_but_for_the_crank_s_tilt():
     assert axes @ axes.T == pytest.approx(np.eye(3))
     assert np.linalg.det(axes) == pytest.approx(1.0)
     assert axes[1] == pytest.approx(-tilted)
+
+
+def test_rubber_that_depends_on_frequency_has_the_energies_of_each_mode():
+    """Of a mode at its own frequency they are those of plain springs with the rates there."""
+    vehicle = on_mounts(MAXWELL)
+    results = solve_modal(prepare_modes(vehicle), {})
+    found = body_purity(results, 0, "vehicle", Decoupling())
+    assert found.energy.sum(axis=1) == pytest.approx(results.kinetic_energy["engine"])
+    for mode in (0, 4):
+        f = float(results.modes.frequency_hz[mode])
+        frozen = assemble(frozen_at(vehicle, vehicle.rates["E"], f))
+        modes = solve_modes(frozen)
+        same = int(np.argmin(np.abs(modes.frequency_hz - f)))
+        plain = direction_energy(rigid_parts(frozen)[0], modes.shapes[:, [same]], np.eye(3))
+        assert found.energy[mode] == pytest.approx(plain[0], abs=1e-5)

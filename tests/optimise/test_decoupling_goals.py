@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from differences import central_difference, rate_derivatives, relative_to_largest
+from dynamic_mounts import MAXWELL, on_mounts
 from four_cylinder import four_cylinder, on_subframe
 from mounted_cabin import mounted_cabin
 
@@ -228,3 +229,9 @@ def test_a_body_that_is_not_there_or_on_no_mounts_is_named():
 def test_a_body_to_decouple_is_checked(fields, words):
     with pytest.raises(VehicleError, match=words):
         DecoupledBody("engine", **fields)
+
+
+def test_mounts_that_depend_on_frequency_are_refused():
+    """Their modes have other rates each, which these derivatives do not know."""
+    with pytest.raises(VehicleError, match="goal 'purity' needs mounts whose rates do not depend"):
+        goal_of(on_mounts(MAXWELL), "purity")
