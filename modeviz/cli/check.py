@@ -14,6 +14,7 @@ from modeviz.files.folder import check_is_folder
 from modeviz.files.survey import Problem, Survey, survey
 from modeviz.report.check import summarised, summary_record
 from modeviz.report.check_text import summary_text
+from modeviz.report.static_doubts import static_doubts
 from modeviz.report.stiff_connections import stiff_record, stiff_table
 from modeviz.report.truncation import truncation_doubts
 from modeviz.vehicle.doubts import road_doubts
@@ -39,7 +40,7 @@ def check(options: CheckOptions) -> None:
     check_is_folder(folder)
     found = survey(folder)
     if whole := _whole(found):
-        more = (*road_doubts(whole), *truncation_doubts(whole))
+        more = (*road_doubts(whole), *truncation_doubts(whole), *static_doubts(whole))
         found = replace(found, doubts=(*found.doubts, *more))
     if options.json:
         print_result(_record(folder, found))

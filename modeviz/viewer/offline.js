@@ -1,6 +1,6 @@
 // The controls of a page without a server: amplitude, speed, phase and a pause, as on the live card.
 // They write where driver.js reads: into the pose of its hidden node.
-(driverName) => {
+(driverName, isStill) => {
   const form = document.querySelector("form.motion");
   const { amplitude, speed, phase, play } = form.elements;
   let running = true;
@@ -37,7 +37,7 @@
   function start() {
     if (!pose() || !(window.__modeviz?.nShown >= 0)) return setTimeout(start, 50);
     [amplitude.value, , sought] = pose().position;
-    run(true);
+    run(!isStill);
     frame();
   }
   start();

@@ -59,7 +59,8 @@ def offline_page(
     )
     beside = (
         f"<style>{style_sheet()}{_file('offline.css')}</style><aside>{_content(solved, name)}</aside>"
-        f"<script>({_file('offline.js').rstrip().rstrip(';')})({json.dumps(DRIVER)});</script>"
+        f"<script>({_file('offline.js').rstrip().rstrip(';')})({json.dumps(DRIVER)},"
+        f"{json.dumps(solved.movement.is_still)});</script>"
     )
     before, end, after = page.rpartition(b"</body>")
     return before + beside.encode() + end + after

@@ -1,11 +1,15 @@
 """`modeviz static`: load cases by name, limits of travel, and what has no answer."""
 
+from dataclasses import replace
+
 import pytest
 from engine_on_mounts import engine_on_mounts, limited_engine
+from progressive_block import progressive_block
 from small_systems import block
 
 from modeviz.cli import main
 from modeviz.files import write_vehicle
+from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -71,3 +75,24 @@ def test_a_vehicle_that_nothing_holds_is_refused_in_its_file(tmp_path, capsys):
     assert main(["static", str(tmp_path / "free")]) == 2
     error = capsys.readouterr().err
     assert "free/vehicle.toml: load case 'standing': nothing holds 'block' along z" in error
+
+
+def test_check_doubts_mounts_that_stand_beyond_their_travel(engine, printed_json):
+    (doubt,) = [words for words in printed_json("check", engine)["doubts"] if "travel" in words]
+    assert doubt == (
+        "mount 'M3': stands -1.59 mm off (vertical) under the vehicle's weight, beyond its travel of "
+        "-1 to 1 mm"
+    )
+
+
+def test_check_doubts_mounts_beyond_their_curves_or_held_by_nothing(tmp_path, printed_json):
+    soft = progressive_block().with_rates({"m": MountRates(3e4, 1e6, 1e6)})
+    write_vehicle(soft, tmp_path / "soft")
+    doubts = printed_json("check", str(tmp_path / "soft"))["doubts"]
+    assert any("beyond the last point of its curve" in words for words in doubts)
+    group = progressive_block().mount_groups[0]
+    mount = replace(group.mounts[0], bodies=("block", "other"))
+    free = Vehicle("free", (block("block"), block("other")), (), (replace(group, mounts=(mount,)),))
+    write_vehicle(free, tmp_path / "free")
+    doubts = printed_json("check", str(tmp_path / "free"))["doubts"]
+    assert any("cannot be told: load case 'standing': nothing holds" in words for words in doubts)
