@@ -143,8 +143,8 @@ class Answers:
         state = named.answerable(asked)
         now, base = self._solve(state), named.results[state.against]
         followed = self._follower.follow(state, base, now)
-        static = self._in_load_cases(state, followed)
         seconds = self._seconds(now, begin)
+        static = self._in_load_cases(state, followed)
         self._last = Solved(
             state=state,
             missing="" if asked.against == state.against else asked.against,

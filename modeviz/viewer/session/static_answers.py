@@ -39,12 +39,15 @@ class SolvedStatics:
 
 
 class StaticSolver:
-    """Solves the load cases of a vehicle, which is made ready when they are first asked for."""
+    """Solves the load cases of a vehicle."""
 
     def __init__(self, system: System) -> None:
-        """Prepares nothing yet."""
-        self._system = system
-        self._prepared: PreparedStatics | ModevizError | None = None
+        """Makes the vehicle ready, or remembers why it cannot be."""
+        self._prepared: PreparedStatics | ModevizError
+        try:
+            self._prepared = prepare_statics(system)
+        except ModevizError as error:
+            self._prepared = error
         self._last: dict[str, tuple[Rates, StaticAnswer]] = {}
 
     def solve(self, now: Rates, base: Rates) -> SolvedStatics:
@@ -58,18 +61,9 @@ class StaticSolver:
         return self._last[whose][1]
 
     def _answer(self, rates: Rates) -> StaticAnswer:
+        if isinstance(self._prepared, ModevizError):
+            return StaticAnswer(None, str(self._prepared))
         try:
-            return StaticAnswer(solve_statics(self._ready(), rates))
+            return StaticAnswer(solve_statics(self._prepared, rates))
         except ModevizError as error:
             return StaticAnswer(None, str(error))
-
-    def _ready(self) -> PreparedStatics:
-        """The vehicle made ready; raises as `prepare_statics`, each time alike."""
-        if self._prepared is None:
-            try:
-                self._prepared = prepare_statics(self._system)
-            except ModevizError as error:
-                self._prepared = error
-        if isinstance(self._prepared, ModevizError):
-            raise self._prepared
-        return self._prepared
