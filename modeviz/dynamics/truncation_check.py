@@ -7,7 +7,7 @@ import numpy as np
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import RESOLVED_HZ, solve_modes
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.residual_estimate import estimate_residuals
 from modeviz.vehicle.residuals import with_residual_compliance
@@ -64,6 +64,11 @@ def rises(vehicle: Vehicle, truer: Vehicle, below_hz: float) -> tuple[Floats, Fl
     return found[:n], changes
 
 
+def is_block(body: FlexibleBody) -> bool:
+    """Return whether a body is of solids: its nodes do not turn."""
+    return bool(len(body.nodes)) and not _sampled(body)[:, 3:].any()
+
+
 def unevenness(body: FlexibleBody) -> float:
     """Return how differently the upper modes of a body flex its nodes than the lower ones move them.
 
@@ -71,8 +76,7 @@ def unevenness(body: FlexibleBody) -> float:
     lower ones, which would be in one ratio everywhere if all places were alike.
     """
     n_elastic = body.n_normal - body.n_rigid
-    step = max(1, len(body.nodes) // N_NODES)
-    phi = body.shapes[::step, :3, body.n_rigid : body.n_normal].astype(float) ** 2
+    phi = _sampled(body)[:, :3].astype(float) ** 2
     compliance = phi / body.omega_n_squared[body.n_rigid : body.n_normal]
     whole = compliance.sum(axis=2)
     soft = (whole > SOFT * whole.max(axis=1, initial=0.0, keepdims=True)) & (whole > 0)
@@ -82,6 +86,12 @@ def unevenness(body: FlexibleBody) -> float:
         if 3 <= n <= n_elastic - 2 and lower.size:
             spreads.append(np.log2(np.maximum(upper, 1e-4 * whole[soft]) / (lower + 1e-300)).std())
     return float(np.mean(spreads)) if spreads else np.inf
+
+
+def _sampled(body: FlexibleBody) -> Array:
+    """Elastic modes of some of its nodes, (n_some, 6, n_elastic)."""
+    step = max(1, len(body.nodes) // N_NODES)
+    return body.shapes[::step, :, body.n_rigid : body.n_normal]
 
 
 def misforetold(vehicle: Vehicle, lacking: Sequence[FlexibleBody]) -> float:

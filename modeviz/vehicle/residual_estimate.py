@@ -6,7 +6,7 @@ import numpy as np
 
 from modeviz.vehicle.arrays import Array, Floats, frozen
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
-from modeviz.vehicle.held_nodes import held_nodes
+from modeviz.vehicle.held_nodes import HeldNodes, held_nodes
 
 COVERED = 0.02
 """Residual vectors that add this part of what is estimated, which may be many times too much, are taken
@@ -15,11 +15,22 @@ to add all there is: by so little do those of other directions move a place."""
 SHEET, SOLID = 1, 3
 """Powers of frequency with which the modes below it are more: plates that bend, and blocks."""
 
-PART = {SHEET: 1.0, SOLID: 0.5}
-"""Of the mass of a mean node what one has at the surface, where things are held."""
+SURFACE = 0.5
+"""Of the mass of a mean node of a block what one has at its surface, where things are held."""
+
+N_OF_SURFACE = 12
+"""A block has n²/(n + so many) modes of its volume among n; the others are of its surface."""
+
+OF_FACE = 13
+"""Neighbours of a node in the middle of a face of cubes, along their sides and diagonals."""
+
+OCTAVE = 2.0
+"""So many times further than the motion of nodes their turning goes on."""
 
 MOST_OF_NODE, MOST_OF_MEAN = 0.5, 0.9
 """More of what all modes together move a place, the modes that are there are not taken to do."""
+
+TINY = np.finfo(float).tiny
 
 DOUBTFUL = 1.2
 """Powers of two: directions of which less is known than this have no upper end of their own."""
@@ -52,7 +63,8 @@ def estimate_residuals(body: FlexibleBody) -> ResidualEstimate:
     ω_max, where the mesh ends, as all modes are complete. So ∫ ω⁻² dS from ω_c to ω_max is left,
     S/ω_c² p/(2 - p) (1 - (ω_max/ω_c)^(p - 2)). Bodies whose nodes do not turn are blocks; the mass is
     that of the nodes that carry the attachment, each its equal part of the body's, or half of it at
-    the surface of a block. What turning adds at the end of an arm has one power of frequency more.
+    the surface of a block. What turning adds at the end of an arm has one power of frequency more, and
+    goes on for an octave more.
 
     An estimate is trusted the more, the nearer Σ φ² is to what all places move in the mean, and the
     more evenly both halves of the modes make it up; arms are trusted little. `benchmarks.truncation`
@@ -77,20 +89,38 @@ def _along(body: FlexibleBody, attachment: Attachment) -> tuple[Floats, Floats]:
     elastic = slice(body.n_rigid, body.n_normal)
     n_elastic = body.n_normal - body.n_rigid
     held = held_nodes(body, attachment)
-    phi = attachment.shapes[:3, elastic]
-    on_nodes = body.shapes[held.nodes][:, :, elastic]
-    own = phi if held.is_mean or not len(held.nodes) else on_nodes[:, :3].astype(float).mean(axis=0)
-    growth = SHEET if on_nodes[:, 3:].any() or not len(held.nodes) else SOLID
+    phi, on_nodes = attachment.shapes[:3, elastic], body.shapes[held.nodes][:, :, elastic]
+    is_solid = bool(on_nodes.size) and not on_nodes[:, 3:].any()
+    own = phi if held.is_mean or not on_nodes.size else on_nodes[:, :3].astype(float).mean(axis=0)
     moved, by_arm, total = (np.sum(part**2, axis=1) for part in (own, phi - own, phi))
-    mass = body.mass * len(held.nodes) / max(len(body.nodes), 1) * PART[growth]
-    most = MOST_OF_MEAN if held.is_mean else MOST_OF_NODE
-    reach = np.clip(moved * mass, 1e-6, most) ** (-1 / growth)
+    growth = SOLID if is_solid else SHEET
+    reach = _filled(body, held, moved, is_solid) ** (-1 / growth)
     end = body.omega_n_squared[body.n_normal - 1] * (1 + 0.5 / n_elastic) ** 2
-    arm = by_arm * _beyond(growth + 1, reach.min())
-    estimate = (moved * _beyond(growth, reach) + arm) / end
-    upper = np.sum(phi[:, n_elastic // 2 :] ** 2, axis=1) / np.maximum(total, np.finfo(float).tiny)
-    share = arm / end / np.maximum(estimate, np.finfo(float).tiny)
-    return estimate, _doubt(total * body.mass / n_elastic, upper) + share
+    end *= 1 + is_solid * N_OF_SURFACE / n_elastic
+    arm = by_arm * _beyond(growth + 1, OCTAVE * reach.min()) / end
+    estimate = moved * _beyond(growth, reach) / end + arm
+    upper = np.sum(phi[:, n_elastic // 2 :] ** 2, axis=1)
+    arms = arm / np.maximum(estimate, TINY)
+    doubt = _doubt(total * body.mass / n_elastic, upper / np.maximum(total, TINY))
+    sticks_out = _sticks_out(body, held) if is_solid else 0.0
+    return estimate, doubt + arms + sticks_out
+
+
+def _filled(body: FlexibleBody, held: HeldNodes, moved: Floats, is_solid: bool) -> Floats:
+    """Which part of what all modes of the mesh move a place, Σ φ² = 1/m, those that are there do."""
+    mass = body.mass * len(held.nodes) / max(len(body.nodes), 1)
+    if is_solid and not held.is_mean:
+        mass *= SURFACE
+    return np.clip(moved * mass, 1e-6, MOST_OF_MEAN if held.is_mean else MOST_OF_NODE)
+
+
+def _sticks_out(body: FlexibleBody, held: HeldNodes) -> float:
+    """By how many powers of two a node has fewer neighbours than one in the middle of a face."""
+    if held.is_mean or len(held.nodes) > 1:
+        return 0.0
+    away = np.sort(np.linalg.norm(body.nodes - body.nodes[held.nodes[0]], axis=1))[1:]
+    n_near = int((away < 1.5 * away.min(initial=np.inf)).sum())
+    return max(0.0, float(np.log2(OF_FACE / max(n_near, 1))))
 
 
 def _beyond(growth: int, reach: Floats) -> Floats:

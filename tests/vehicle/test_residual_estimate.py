@@ -122,3 +122,13 @@ def test_a_body_without_elastic_modes_or_attachments_has_no_estimate():
 def test_a_place_of_a_plate_that_no_node_carries_still_has_an_estimate():
     body = replace(sheet().truncated(30), nodes=np.zeros((0, 3)), shapes=np.zeros((0, 6, 30)))
     assert np.isfinite(estimate_residuals(body).compliance).all()
+
+
+def test_a_corner_of_a_block_is_doubted_more_than_its_faces():
+    """Two nodes in faces, and a corner: there fewer cubes hold it, and a force dents it further."""
+    body = solid()
+    corner = replace(body.attachments[0], name="corner", position=body.nodes[0])
+    moved = replace(corner, shapes=body.shapes[0].astype(float))
+    estimate = estimate_residuals(replace(body, attachments=(*body.attachments, moved)).truncated(46))
+    spread = (estimate.compliance / estimate.least).max(axis=1)
+    assert spread[2] > 1.2 * spread[:2].max()
