@@ -11,6 +11,7 @@ from modeviz.analysis.sensitivity import rate_variables
 from modeviz.errors import VehicleError
 from modeviz.optimise.decoupling import prepare_decoupling
 from modeviz.optimise.integral import BandCase, Integral, prepare_integral
+from modeviz.optimise.mount_goals import MountGoal, prepare_mount_goal
 from modeviz.optimise.objective import LoadCase, Objective, prepare_objective
 from modeviz.optimise.peak import PeakGoal, prepare_peak
 from modeviz.ride.psd import RIDE_BAND
@@ -18,7 +19,7 @@ from modeviz.ride.rating import COMFORT_FACTORS
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
-from modeviz.vehicle.problem import VARIABLES, Performance, Problem
+from modeviz.vehicle.problem import MOUNTED, VARIABLES, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 DRIVER = 0
@@ -88,6 +89,8 @@ def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) 
         return LeastChange(vehicle, base)
     if problem.goal in ("purity", "decoupling"):
         return prepare_decoupling(vehicle, problem)
+    if problem.goal in MOUNTED:
+        return _normalised(prepare_mount_goal(vehicle, problem, speed), problem)
     cases = load_cases(vehicle, problem, speed)
     objective = _objective(vehicle, problem, cases)
     weights = np.array([case.weight for case in cases])
@@ -96,6 +99,15 @@ def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) 
         weights = weights / (objective.join(weights) or 1.0)
         weights = np.divide(weights, own, out=weights.copy(), where=own > 0)
     return objective.scaled(weights)
+
+
+def _normalised(goal: MountGoal, problem: Problem) -> MountGoal:
+    """The goal as the mean of its cases, each by what it is with the vehicle's own rates, if asked."""
+    if not problem.is_normalised:
+        return goal
+    weights, own = np.array([case.weight for case in goal.cases]), goal.values({})
+    shares = weights / weights.sum()
+    return goal.scaled(np.divide(shares, own, out=shares.copy(), where=own > 0))
 
 
 def exact_goal(goal: ResponseGoal, stiffness: Complexes) -> float:

@@ -16,7 +16,7 @@ from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.wording import percent_change, scientific, significant
 from modeviz.units import factor
 from modeviz.vehicle.connections import DIRECTIONS, Rates
-from modeviz.vehicle.problem import UNFELT, GoalKind, Problem
+from modeviz.vehicle.problem import UNSHAKEN, GoalKind, Problem
 
 SMALL: dict[GoalKind, str] = {
     "accelerations": "squared accelerations",
@@ -25,6 +25,8 @@ SMALL: dict[GoalKind, str] = {
     "rating": "combined mean square at the driver's point",
     "iso 2631": "square of the ISO 2631-1 total at the driver's point",
     "idle": "mean square at the driver's point while engines idle",
+    "forces": "mean squares of mounts' forces",
+    "transmissibility": "squared transmissibilities of mounts",
     "purity": "largest impurity of a mode",
     "decoupling": "what is missing to purity, band and gaps",
     "change": "mean square of ln(k/k₀)",
@@ -91,7 +93,7 @@ def optimum_doubts(search: Search, optimum: Optimum) -> list[str]:
 def objective_words(problem: Problem) -> str:
     """Words for what becomes small and how it is added up, so that nobody has to guess the sum."""
     what = SMALL[problem.goal]
-    if problem.goal in UNFELT:
+    if problem.goal in UNSHAKEN:
         return what
     how = "each load case relative to the original" if problem.is_normalised else "plain sum"
     return f"{what}, {how}"

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from modeviz.analysis.results import Conditions
-from modeviz.errors import ModevizError, VehicleError, unknown
+from modeviz.errors import ModevizError
 from modeviz.ride.excitation import Load, known_part
 from modeviz.vehicle.loads import RandomLoad, Road
 from modeviz.vehicle.vehicle import Vehicle
@@ -64,9 +64,6 @@ def chosen_load(vehicle: Vehicle, name: str | None) -> Load:
         ModevizError: there is no such load, or it does not get into the vehicle.
     """
     every = (*vehicle.harmonic_loads, *vehicle.engine_orders)
-    harmonic = {load.name: load for load in every}
-    if name in harmonic:
-        return harmonic[name]
     usual = vehicle.usual_load or next(iter(every), None)
     if name is None and usual is not None:
         return usual
@@ -76,12 +73,9 @@ def chosen_load(vehicle: Vehicle, name: str | None) -> Load:
             "[[base_motion]] or a [[tyre]] with stiffness along z, which can be driven over roads of "
             "ISO 8608"
         )
-    try:
-        load = vehicle.random_load(name)
-    except VehicleError:
-        offered = [each.name for each in (*vehicle.offered_loads, *every)]
-        raise VehicleError(unknown("load", name, offered)) from None
-    check_shaken(vehicle, load)
+    load = vehicle.load(name)
+    if isinstance(load, Road):
+        check_shaken(vehicle, load)
     return load
 
 

@@ -291,6 +291,18 @@ def check_bounds(where: str, bounds: tuple[MountRates, MountRates], may_be_same:
             )
 
 
+def check_directions(where: str, directions: tuple[str, ...]) -> None:
+    """Raises VehicleError unless these are some of `DIRECTIONS`, each once."""
+    for direction in directions:
+        if direction not in DIRECTIONS:
+            raise VehicleError(f"{where}: " + unknown("direction", direction, DIRECTIONS))
+    if not directions or len(set(directions)) < len(directions):
+        raise VehicleError(
+            f"{where}: directions: found {list(directions)}, expected some of "
+            f"{', '.join(DIRECTIONS)}, each once"
+        )
+
+
 def usual_bounds(rates: MountRates) -> tuple[MountRates, MountRates]:
     """The softest and the stiffest of a mount of which only the rates are known.
 

@@ -7,12 +7,29 @@ import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
-from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS, MountRates, check_bounds
+from modeviz.vehicle.connections import (
+    DIRECTIONS,
+    RIDE_DIRECTIONS,
+    MountRates,
+    check_bounds,
+    check_directions,
+)
 from modeviz.vehicle.decoupling import DecoupledBody
 from modeviz.vehicle.load_cases import STANDING
+from modeviz.vehicle.mount_target import MountTarget
 
 GoalKind = Literal[
-    "accelerations", "peak", "rms", "rating", "iso 2631", "idle", "purity", "decoupling", "change"
+    "accelerations",
+    "peak",
+    "rms",
+    "rating",
+    "iso 2631",
+    "idle",
+    "forces",
+    "transmissibility",
+    "purity",
+    "decoupling",
+    "change",
 ]
 """What is to become small.
 
@@ -20,16 +37,23 @@ accelerations: the performance variables. peak: the largest of them, and of all 
 the last frequency of each. rms: the mean squares, on the
 road, at the points and along the directions of these. rating: the combined RMS that the mean personal
 rating falls with, at the driver's point. iso 2631: the vibration total value there. idle: the mean
-square there over time, along all axes, while its engines idle. purity: of
-modes of bodies on their mounts the largest part that is not in its own direction. decoupling: what
-is missing of these to the purity, the band and the gaps that the vehicle asks. change: the mean
-square of ln(k/k₀) of the rates that may change.
+square there over time, along all axes, while its engines idle. forces: the mean squares of mounts'
+forces. transmissibility: of mounts, the mean squares of their carrying ends' accelerations over those
+of the carried ones. purity: of modes of bodies on their mounts the largest part that is not in its own
+direction. decoupling: what is missing of these to the purity, the band and the gaps that the vehicle
+asks. change: the mean square of ln(k/k₀) of the rates that may change.
 """
 
 VARIABLES: tuple[GoalKind, ...] = ("accelerations", "peak")
 """Goals that are made of performance variables."""
 
-UNFELT: tuple[GoalKind, ...] = ("purity", "decoupling", "change")
+UNSHAKEN: tuple[GoalKind, ...] = ("purity", "decoupling", "change")
+"""Goals that no load has a part in."""
+
+MOUNTED: tuple[GoalKind, ...] = ("forces", "transmissibility")
+"""Goals of what gets through mounts."""
+
+UNFELT: tuple[GoalKind, ...] = (*UNSHAKEN, *MOUNTED)
 """Goals that need nobody to feel anything."""
 
 UNLIMITED = (0.0, np.inf)
@@ -189,6 +213,8 @@ class Problem:
     """Of the goals purity and decoupling; none: all motions of the vehicle's main body on mounts."""
     deflections: tuple[DeflectionLimit, ...] = ()
     """Of mounts under loads that stay."""
+    mounts: tuple[MountTarget, ...] = ()
+    """Of the goals forces and transmissibility; none: all mounts under what usually shakes them."""
 
     def __post_init__(self) -> None:
         where = f"problem {self.name!r}"
@@ -211,15 +237,3 @@ class Problem:
                     f"{where}: windows of {mode!r}: found one from {low:g} Hz and one to {high:g} Hz, "
                     "which no frequency keeps"
                 )
-
-
-def check_directions(where: str, directions: tuple[str, ...]) -> None:
-    """Raises VehicleError unless these are some of `DIRECTIONS`, each once."""
-    for direction in directions:
-        if direction not in DIRECTIONS:
-            raise VehicleError(f"{where}: " + unknown("direction", direction, DIRECTIONS))
-    if not directions or len(set(directions)) < len(directions):
-        raise VehicleError(
-            f"{where}: directions: found {list(directions)}, expected some of "
-            f"{', '.join(DIRECTIONS)}, each once"
-        )

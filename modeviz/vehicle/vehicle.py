@@ -37,6 +37,7 @@ from modeviz.vehicle.loads import (
     WheelLoad,
 )
 from modeviz.vehicle.mode_damping import ModeDamping
+from modeviz.vehicle.mount_target import MountTarget
 from modeviz.vehicle.problem import UNFELT, Problem
 
 REACH = 0.10
@@ -283,6 +284,8 @@ class Vehicle:
             for point in performance.points:
                 if point not in points:
                     raise VehicleError(unknown("response point", point, points))
+        for target in problem.mounts:
+            self._check_mount_target(target)
         for decoupled in problem.decoupling:
             self.body(decoupled.body)
         mounts, cases = ([x.name for x in every] for every in (self.mounts, self.static_cases))
@@ -293,6 +296,31 @@ class Vehicle:
                 raise VehicleError(unknown("load case", limit.load_case, cases))
         if problem.reference and problem.reference not in self.rate_sets:
             raise VehicleError(unknown("set of rates", problem.reference, self.rate_sets))
+
+    def _check_mount_target(self, target: MountTarget) -> None:
+        """Raises VehicleError unless the mounts and loads are there."""
+        names = [mount.name for mount in self.mounts]
+        for mount in target.mounts:
+            if mount not in names:
+                raise VehicleError(unknown("mount", mount, names))
+        for load in target.loads:
+            self.load(load)
+
+    def load(self, name: str) -> RandomLoad | HarmonicLoad:
+        """The harmonic or random load of that name, else the road of ISO 8608 that it means.
+
+        Raises:
+            VehicleError: there is none, with the names there are.
+        """
+        every = (*self.harmonic_loads, *self.engine_orders)
+        harmonic = next((load for load in every if load.name == name), None)
+        if harmonic is not None:
+            return harmonic
+        try:
+            return self.random_load(name)
+        except VehicleError:
+            every = (*self.offered_loads, *every)
+            raise VehicleError(unknown("load", name, (load.name for load in every))) from None
 
     def _check_band(self) -> None:
         for key in ("highest_frequency", "frequency_step"):

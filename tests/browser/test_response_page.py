@@ -229,6 +229,8 @@ def test_a_click_in_a_chart_puts_the_cursor_there_and_a_drag_takes_it_along(app,
     app.session.do(Alter(cursor_hz=9.0))
     app.session.wait(SOLVE_S)
     wait_for(page, "document.querySelectorAll('.mv-cursor').length === 2")
+    everything = {"min": LOW, "max": HIGH}
+    page.evaluate(f"(x) => {CHARTS}.forEach(({{ chart }}) => chart.setScale('x', x))", everything)
     page.mouse.click(*place(page, 1, 17.0))
     wait_until(page, lambda: abs(app.session.state.charts.cursor_hz - 17.0) < 0.2)
     draw_on(page)

@@ -15,6 +15,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import DIRECTIONS, MOTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.decoupling import Axes, DecoupledBody
 from modeviz.vehicle.load_cases import STANDING
+from modeviz.vehicle.mount_target import MountTarget
 from modeviz.vehicle.problem import (
     UNLIMITED,
     DeflectionLimit,
@@ -177,6 +178,27 @@ class DeflectionRecord(Record, kw_only=True):
         return DeflectionLimit(self.mount, self.direction, self.most, self.load_case)
 
 
+class MountTargetRecord(Record, kw_only=True):
+    """[[problem.mount]]."""
+
+    mounts: tuple[str, ...] = ()
+    directions: tuple[str, ...] = DIRECTIONS
+    loads: tuple[str, ...] = ()
+    weight: Annotated[float, UNITLESS] = 1.0
+
+    @classmethod
+    def of(cls, target: MountTarget) -> Self:
+        return cls(
+            mounts=target.mounts,
+            directions=target.directions,
+            loads=target.loads,
+            weight=target.weight,
+        )
+
+    def build(self) -> MountTarget:
+        return MountTarget(self.mounts, self.directions, self.loads, self.weight)
+
+
 class ProblemRecord(Record, kw_only=True):
     """[[problem]]."""
 
@@ -189,6 +211,7 @@ class ProblemRecord(Record, kw_only=True):
     window: list[WindowRecord] = field(default_factory=list)
     decoupling: list[DecoupledBodyRecord] = field(default_factory=list)
     deflection: list[DeflectionRecord] = field(default_factory=list)
+    mount: list[MountTargetRecord] = field(default_factory=list)
 
     @classmethod
     def of(cls, problem: Problem) -> Self:
@@ -202,6 +225,7 @@ class ProblemRecord(Record, kw_only=True):
             window=[WindowRecord.of(window) for window in problem.windows],
             decoupling=[DecoupledBodyRecord.of(body) for body in problem.decoupling],
             deflection=[DeflectionRecord.of(limit) for limit in problem.deflections],
+            mount=[MountTargetRecord.of(target) for target in problem.mounts],
         )
 
     def build(self) -> Problem:
@@ -215,4 +239,5 @@ class ProblemRecord(Record, kw_only=True):
             self.reference,
             built(self.decoupling, "decoupling", DecoupledBodyRecord.build),
             built(self.deflection, "deflection", DeflectionRecord.build),
+            built(self.mount, "mount", MountTargetRecord.build),
         )

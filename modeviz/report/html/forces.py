@@ -18,6 +18,7 @@ from modeviz.text.markup import note, section, table, title
 from modeviz.text.wording import number
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.loads import Road
 
 LEAST_SHOWN = 0.01
 """Share of a response, below which a path is not listed."""
@@ -76,11 +77,15 @@ def _paths_at_peak(comparison: Comparison, load: Load, direction: str) -> str:
     (_, before), (together, after) = sides
     order = [i for i in np.argsort(-np.abs(after)) if max(abs(after[i]), abs(before[i])) >= LEAST_SHOWN]
     rows = [
-        [title(together.paths[i].connection), *(f"{number(100 * s[i], 1)} %" for s in (before, after))]
+        [title(together.paths[i].connection), *(_percent(float(s[i])) for s in (before, after))]
         for i in order
     ]
     heading = f"<h3>{direction.capitalize()}, {f:.2f} Hz</h3>"
     return heading + table(["Through", *map(escape, comparison.names)], rows)
+
+
+def _percent(share: float) -> str:
+    return f"{number(100 * share, 1)} %"
 
 
 def _shares(
@@ -122,6 +127,7 @@ def _mount_forces(results: ModalResults, load: Load) -> MountForces:
     if isinstance(results, Results):
         return results.mount_forces()
     assert isinstance(results.prepared, Prepared)
+    assert not isinstance(load, Road)
     return harmonic_mount_forces(results.prepared, results.rates, load, _speed(results))
 
 

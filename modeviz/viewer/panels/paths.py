@@ -106,7 +106,6 @@ class PathsPanel:
         key = solved.base, solved.state.charts, solved.state.conditions
         before = self._base.get(key, lambda: _paths(solved, solved.base))[1]
         order = [i for i in np.argsort(-np.abs(shares)) if abs(shares[i]) >= LEAST_SHOWN][:N_SHOWN]
-        told = list(zip(shares.tolist(), before.tolist(), strict=True))
         self._groups = [_group(now.paths[i], by, self._own) for i in order]
         largest = max([np.abs(shares).max(initial=0.0), np.abs(before).max(initial=0.0)]) or 1.0
         phasors = None if Responses(solved).harmonic_load is None else _acceleration(now)
@@ -116,9 +115,9 @@ class PathsPanel:
             label = self._buttons.label(place, name) if self._groups[place] else name
             cells = [
                 label,
-                _bars(*told[i], largest),
-                _percent(told[i][0]),
-                span(_percent(told[i][1]), "dim"),
+                _bars(float(shares[i]), float(before[i]), largest),
+                _percent(float(shares[i])),
+                span(_percent(float(before[i])), "dim"),
             ]
             if phasors is not None:
                 cells.append(span(_polar(complex(phasors[i])), "dim"))

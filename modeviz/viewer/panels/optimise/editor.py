@@ -32,6 +32,7 @@ WORDS: dict[GoalKind, str] = {
     "rating": "Ride rating",
     "iso 2631": "ISO 2631",
     "idle": "Idle quality",
+    "forces": "Forces of mounts",
     "change": "Least change",
 }
 GOALS = {WORDS.get(goal) or sentence_case(goal): goal for goal in get_args(GoalKind)}

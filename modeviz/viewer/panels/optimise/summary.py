@@ -11,7 +11,15 @@ from modeviz.report.space import ratio_words
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.markup import title
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.problem import VARIABLES, DeflectionLimit, FrequencyWindow, Performance, Problem
+from modeviz.vehicle.mount_target import MountTarget
+from modeviz.vehicle.problem import (
+    MOUNTED,
+    VARIABLES,
+    DeflectionLimit,
+    FrequencyWindow,
+    Performance,
+    Problem,
+)
 
 FEW = 4
 """So many frequencies are written out, unless what counts is all between the first and the last."""
@@ -25,6 +33,9 @@ def summary(problem: Problem, space: DesignSpace, is_robust: bool) -> str:
     if problem.goal in VARIABLES:
         loads = [_loads(p, most=1 if problem.goal == "peak" else FEW) for p in problem.performance]
         rows += [("On" if i == 0 else "", title(text)) for i, text in enumerate(loads)]
+    if problem.goal in MOUNTED:
+        targets = [_target(target) for target in problem.mounts or (MountTarget(),)]
+        rows += [("On" if i == 0 else "", title(text)) for i, text in enumerate(targets)]
     rows.append(("Free", _free(space)))
     rows += [("Held", _held(window)) for window in problem.windows]
     rows += [("Held", _gives(limit)) for limit in problem.deflections]
@@ -43,6 +54,14 @@ def _loads(performance: Performance, most: int) -> str:
         f"{' and '.join(loads)} at {frequencies}: {', '.join(points)}, "
         f"{' and '.join(performance.directions)}{target}{weight}"
     )
+
+
+def _target(target: MountTarget) -> str:
+    """As in "front and rear, vertical: road 1"."""
+    mounts = _counted(target.mounts, "mounts") or ["all mounts"]
+    loads = _counted(target.loads, "loads") or ["what usually shakes them"]
+    weight = f", weight {target.weight:g}" if target.weight != 1 else ""
+    return f"{' and '.join(mounts)}, {', '.join(target.directions)}: {' and '.join(loads)}{weight}"
 
 
 def _counted(names: Sequence[str], what: str) -> list[str]:

@@ -1,0 +1,282 @@
+"""Goals of what gets through mounts: their forces, and the accelerations of their ends."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from modeviz.analysis.driven import Driven, driven, load_lines
+from modeviz.analysis.forces import is_random
+from modeviz.analysis.mount_forces import spring_damping
+from modeviz.analysis.preparation import Prepared, prepare
+from modeviz.analysis.results import AXIS, Conditions
+from modeviz.analysis.sensitivity import spring_shares
+from modeviz.dynamics.mount_rates import rows_of_springs
+from modeviz.dynamics.resonances import resonances_at
+from modeviz.dynamics.spacing import placed_lines
+from modeviz.errors import VehicleError
+from modeviz.mounting.forces import solve_forces
+from modeviz.optimise.objective import LoadCase, Objective, objective_on
+from modeviz.ride.averaging import averaged_spectrum
+from modeviz.ride.excitation import Load
+from modeviz.ride.integration import integration_weights
+from modeviz.vehicle.arrays import Complexes, Floats
+from modeviz.vehicle.connections import GROUND, Mount, Rates
+from modeviz.vehicle.loads import HarmonicLoad, ResponsePoint, Road
+from modeviz.vehicle.mount_target import MountTarget
+from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
+
+
+@dataclass(frozen=True, eq=False)
+class MountCase:
+    """Mounts under one load."""
+
+    driven: Driven
+    """Under that load, at lines that hold what its spectrum says."""
+    selected: Floats
+    """(n_mounts, 3): one for x, y, z of the mounts that count, else zero."""
+    weight: float
+
+    @property
+    def load(self) -> Load:
+        return self.driven.loads[0]
+
+    @property
+    def shaken(self) -> Conditions | HarmonicLoad:
+        """The load as other goals have it."""
+        load = self.load
+        if is_random(load):
+            return Conditions(load.name, self.driven.speed)
+        assert not isinstance(load, Road)
+        return load
+
+    def lines(self, stiffness: Complexes) -> Floats:
+        """Lines that mount rates want, (n_lines,), Hz: closer where any mode is sharp.
+
+        Small changes of rates leave them where they are.
+        """
+        found = resonances_at(self.driven.prepared.basis, stiffness).rounded()
+        return placed_lines(self.driven.frequency_hz, found.frequency_hz, found.damping_ratio)
+
+    def spectrum(self, lines: Floats) -> Complexes:
+        """The load's spectrum for sums over lines, (n_lines, n_inputs, n_inputs)."""
+        weights = integration_weights(lines, (0.0, float(lines[-1])))
+        averaged = averaged_spectrum(self.load, lines, self.driven.speed)
+        return weights[:, None, None] * averaged
+
+
+@dataclass(frozen=True, eq=False)
+class MountForceGoal:
+    """F = Σ w ∫ Σ S_FF df over loads, mounts and their own axes, N²; S is one under a harmonic load.
+
+    With F_i = z_i x_i, z_i = r_i k_i + jωc_i and ∂x_i/∂k_s as of `Receptances.stretch_gradient`
+
+        ∂F/∂k_s = 2 r_s (m_s p_ss - Σ_i m_i z_i G_is p_si),  p_si = x_s S F_iᴴ
+    """
+
+    cases: tuple[MountCase, ...]
+
+    def values(self, rates: Rates) -> Floats:
+        """Return what each case adds, (n_cases,); raises as `solve`."""
+        return np.array([self._case(case, rates)[0] for case in self.cases])
+
+    def value(self, rates: Rates) -> float:
+        """At rates of the groups that differ from the vehicle's own; raises as `solve`."""
+        return float(self.values(rates).sum())
+
+    def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
+        """Return the goal and its derivatives to each of `rate_variables`; raises as `solve`."""
+        value, gradient = 0.0, np.zeros(1)
+        for case in self.cases:
+            own, by_spring = self._case(case, rates)
+            shares = spring_shares(case.driven.prepared, rates)
+            value, gradient = value + own, gradient + (by_spring @ shares).real
+        return value, gradient
+
+    def exact_value(self, rates: Rates) -> float:
+        """Return the goal from the forces of the vehicle solved anew; raises as `solve_forces`."""
+        return sum(self._exact(case, rates) for case in self.cases)
+
+    def scaled(self, factors: Floats) -> "MountForceGoal":
+        """Return the goal with other weights: each case's times a factor, (n_cases,)."""
+        return replace(self, cases=_scaled(self.cases, factors))
+
+    def _case(self, case: MountCase, rates: Rates) -> tuple[float, Complexes]:
+        """What a case adds, and its derivatives to the complex rates of springs, (n_springs,)."""
+        prepared = case.driven.prepared
+        stiffness = prepared.mount_stiffness(rates)
+        lines = case.lines(stiffness)
+        at = case.driven.at(lines)
+        x, G = at.stretch_gradient(stiffness)
+        ratios = at.law.ratios(lines)
+        z = stiffness * ratios + 2j * np.pi * lines[:, None] * spring_damping(prepared.system)
+        counts = case.weight * _of_springs(case, len(stiffness))
+        F = z[:, :, None] * x
+        P = case.spectrum(lines) @ F.conj().swapaxes(1, 2)
+        power = np.einsum("fsi,fis->fs", F, P).real
+        p = x @ P
+        through = np.einsum("fis,fsi->fs", G * (counts * z)[:, :, None], p)
+        own = counts * np.einsum("fss->fs", p)
+        by_spring = 2 * (ratios * (own - through)).sum(axis=0)
+        return float((power @ counts).sum()), by_spring
+
+    def _exact(self, case: MountCase, rates: Rates) -> float:
+        prepared = case.driven.prepared
+        lines = case.lines(prepared.mount_stiffness(rates))
+        system = prepared.system_at(rates)
+        forces = solve_forces(system, case.load, lines, case.driven.speed).force
+        F = forces[:, rows_of_springs(prepared.vehicle)]
+        power = ((F @ case.spectrum(lines)) * F.conj()).sum(axis=2).real
+        return float((power @ (case.weight * _of_springs(case, F.shape[1]))).sum())
+
+
+@dataclass(frozen=True, eq=False)
+class TransmissibilityGoal:
+    """Σ w ∫ Σ a₂² df / ∫ Σ a₁² df over loads: a of the carrying ends of mounts over the carried ones.
+
+    The squares of `mounting.transmission.acceleration_ratio`, of all mounts and directions of a case
+    together, at the places where the mounts hold on to both bodies.
+    """
+
+    cases: tuple[MountCase, ...]
+    """Their vehicle's response points are the carried ends of its mounts, then the carrying ones."""
+
+    def values(self, rates: Rates) -> Floats:
+        """Return what each case adds, (n_cases,); raises as `solve`."""
+        return np.array([self._ratio(case, rates, exact=False) for case in self.cases])
+
+    def value(self, rates: Rates) -> float:
+        """At rates of the groups that differ from the vehicle's own; raises as `solve`."""
+        return float(self.values(rates).sum())
+
+    def exact_value(self, rates: Rates) -> float:
+        """Return the goal from the equations of motion; raises as `Objective.exact_response`."""
+        return sum(self._ratio(case, rates, exact=True) for case in self.cases)
+
+    def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
+        """Return the goal and its derivatives to each of `rate_variables`; raises as `solve`."""
+        value, gradient = 0.0, np.zeros(1)
+        for case in self.cases:
+            carried, carrying = self._ends(case, rates)
+            (below, slope_below), (above, slope_above) = (
+                end.value_and_gradient(rates) for end in (carried, carrying)
+            )
+            value += case.weight * above / below
+            gradient = gradient + case.weight * (slope_above - above / below * slope_below) / below
+        return value, gradient
+
+    def scaled(self, factors: Floats) -> "TransmissibilityGoal":
+        """Return the goal with other weights: each case's times a factor, (n_cases,)."""
+        return replace(self, cases=_scaled(self.cases, factors))
+
+    def _ratio(self, case: MountCase, rates: Rates, exact: bool) -> float:
+        carried, carrying = (
+            end.exact_value(rates) if exact else end.value(rates) for end in self._ends(case, rates)
+        )
+        return case.weight * carrying / carried
+
+    def _ends(self, case: MountCase, rates: Rates) -> tuple[Objective, Objective]:
+        """The mean squares of the carried and of the carrying ends at the lines that rates want."""
+        prepared = case.driven.prepared
+        lines = case.lines(prepared.mount_stiffness(rates))
+        weights = integration_weights(lines, (0.0, float(lines[-1])))[:, None, None]
+        at, none = prepared.on(lines), np.zeros_like(case.selected)
+        first, second = (
+            objective_on(
+                at, [LoadCase(case.shaken, tuple(lines.tolist()), 1.0, weights * pattern, 0.0, True)]
+            )
+            for pattern in (
+                np.concatenate([case.selected, none]),
+                np.concatenate([none, case.selected]),
+            )
+        )
+        return first, second
+
+
+MountGoal = MountForceGoal | TransmissibilityGoal
+
+
+def prepare_mount_goal(vehicle: Vehicle, problem: Problem, speed: float) -> MountGoal:
+    """The goal forces or transmissibility of a problem, whose cases all weigh what they are told to.
+
+    Args:
+        vehicle: whose mounts.
+        problem: with that goal.
+        speed: on roads, m/s.
+
+    Raises:
+        VehicleError: the vehicle has no mounts or no load, or a mount to the ground, whose carrying end
+            stands still, has a transmissibility to become small.
+        SolveError: as `prepare`.
+    """
+    if not vehicle.mounts:
+        raise VehicleError(f"problem {problem.name!r}: goal {problem.goal!r} needs a [[mount_group]]")
+    targets = problem.mounts or (MountTarget(),)
+    if problem.goal == "forces":
+        return MountForceGoal(_cases(prepare(vehicle), problem, targets, speed))
+    for target in targets:
+        for mount in _chosen(vehicle, target):
+            if mount.bodies[1] == GROUND:
+                raise VehicleError(
+                    f"problem {problem.name!r}: mount {mount.name!r} stands on the ground, which has "
+                    "no acceleration to become small; name mounts between bodies in a [[problem.mount]]"
+                )
+    ends = replace(vehicle, response_points=_end_points(vehicle), problems=())
+    return TransmissibilityGoal(_cases(prepare(ends), problem, targets, speed))
+
+
+def _end_points(vehicle: Vehicle) -> tuple[ResponsePoint, ...]:
+    """The carried ends of all mounts, then the carrying ones, to the ground the carried ones again."""
+    last = [1 - (mount.bodies[1] == GROUND) for mount in vehicle.mounts]
+    ends = [(mount, 0) for mount in vehicle.mounts] + list(zip(vehicle.mounts, last, strict=True))
+    return tuple(
+        ResponsePoint(f"{i}: {mount.name}", mount.bodies[end], mount.points[end])
+        for i, (mount, end) in enumerate(ends)
+    )
+
+
+def _cases(
+    prepared: Prepared, problem: Problem, targets: Sequence[MountTarget], speed: float
+) -> tuple[MountCase, ...]:
+    vehicle = prepared.vehicle
+    cases = []
+    for target in targets:
+        selected = _selected(vehicle, target)
+        for load in _loads(vehicle, problem, target):
+            lines = load_lines(prepared, [(load, speed)]) if is_random(load) else None
+            under = driven(prepared, [load], speed, lines)
+            cases.append(MountCase(under, selected, target.weight))
+    return tuple(cases)
+
+
+def _loads(vehicle: Vehicle, problem: Problem, target: MountTarget) -> list[Load]:
+    if target.loads:
+        return [vehicle.load(name) for name in target.loads]
+    usual = vehicle.usual_load or next(iter(vehicle.harmonic_loads), None)
+    if usual is None:
+        raise VehicleError(f"problem {problem.name!r}: goal {problem.goal!r} needs a load")
+    return [usual]
+
+
+def _chosen(vehicle: Vehicle, target: MountTarget) -> list[Mount]:
+    return [m for m in vehicle.mounts if not target.mounts or m.name in target.mounts]
+
+
+def _selected(vehicle: Vehicle, target: MountTarget) -> Floats:
+    """(n_mounts, 3): one for the mounts and directions of a target."""
+    chosen = _chosen(vehicle, target)
+    selected = np.zeros((len(vehicle.mounts), 3))
+    rows = [i for i, mount in enumerate(vehicle.mounts) if mount in chosen]
+    selected[np.ix_(rows, [AXIS[direction] for direction in target.directions])] = 1.0
+    return selected
+
+
+def _of_springs(case: MountCase, n_springs: int) -> Floats:
+    """What each spring counts, (n_springs,): those about axes nothing."""
+    return np.pad(case.selected.ravel(), (0, n_springs - case.selected.size))
+
+
+def _scaled(cases: Sequence[MountCase], factors: Floats) -> tuple[MountCase, ...]:
+    pairs = zip(cases, factors.tolist(), strict=True)
+    return tuple(replace(case, weight=factor * case.weight) for case, factor in pairs)
