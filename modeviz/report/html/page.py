@@ -11,6 +11,7 @@ from importlib.resources import files
 from modeviz.analysis.exact_check import Check
 from modeviz.analysis.results import AXIS
 from modeviz.report.comparison import Comparison
+from modeviz.report.html.engines import engines
 from modeviz.report.html.exactness import exactness
 from modeviz.report.html.forces import forces, paths
 from modeviz.report.html.modes import frequencies, objective, participation, rates
@@ -63,6 +64,7 @@ def report(
             levels(comparison),
             participation(comparison),
             wheels(comparison),
+            engines(comparison),
             exactness(comparison, check),
             _notes(comparison.vehicle),
         ]
