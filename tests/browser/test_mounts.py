@@ -1,14 +1,19 @@
 """The mounts panel, used as an engineer would, on the small cabin."""
 
+import numpy as np
 import pytest
 from apps import open_app
 from mount_controls import DIRECTIONS, IS_OPEN, box, drag, open_folder, position, thumb, type_rate
 from mounted_cabin import mounted_cabin
 from pages import CLOSE_NOTICES, wait_for, wait_until
 from session_commands import Alter
+from viser.transforms import SO3
 
 from modeviz.analysis.results import Conditions
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.modes import solve_modes
 from modeviz.vehicle.connections import RATE_FIELDS
+from modeviz.vehicle.turned_mounts import with_turned_mounts
 from modeviz.viewer.session.commands.decisions import Load, SetRate
 
 SOLVE_S = 60
@@ -231,6 +236,27 @@ def test_the_loss_factor_of_a_group_is_its_own(app, page):
     assert rate(app, "B", "loss_factor") is None
     page.get_by_role("button", name="Reset group", exact=True).click()
     wait_until(page, lambda: rate(app, "A", "loss_factor") is None)
+
+
+def test_mounts_that_are_turned_give_what_a_vehicle_with_such_mounts_gives(app, page):
+    """Typed on the page; frequencies and the marker's axes are those of a fresh solve, until undone."""
+    before = app.session.answer.now.modes.frequency_hz
+    page.get_by_text("Turned", exact=True).locator("visible=true").click()
+    number = page.locator(".mantine-Slider-root + div input >> visible=true").nth(1)
+    wait_until(page, lambda: number.input_value() == "0")
+    number.fill("30")
+    wait_until(page, lambda: app.session.state.design.turn("A")[0] == pytest.approx(np.radians(30)))
+    assert app.session.wait(SOLVE_S)
+    turned = with_turned_mounts(mounted_cabin(), app.session.state.design.turns)
+    fresh = solve_modes(assemble(turned), below_hz=20.0).frequency_hz
+    found = app.session.answer.now.modes.frequency_hz[: len(fresh)]
+    assert found == pytest.approx(fresh, rel=1e-9)
+    marker, mount = app.scene._markers._mounts["A"][0], turned.mount_group("A").mounts[0]
+    wait_until(page, lambda: np.allclose(marker._frame.wxyz, SO3.from_matrix(mount.axes.T).wxyz))
+    page.get_by_role("button", name="Undo", exact=True).click()
+    wait_until(page, lambda: app.session.state.design.turns == {})
+    assert app.session.wait(SOLVE_S)
+    assert app.session.answer.now.modes.frequency_hz == pytest.approx(before, rel=1e-9)
 
 
 def test_controls_that_have_nothing_to_do_look_so(app, page):

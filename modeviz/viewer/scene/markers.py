@@ -103,6 +103,12 @@ class MountMarker:
             self.label_name, self._label_text, anchor="center-center", font_screen_scale=0.85
         )
 
+    def turn(self, axes: Floats) -> None:
+        """Draws the mount along its local axes, (3, 3) as rows."""
+        wxyz = SO3.from_matrix(axes.T).wxyz
+        if not np.array_equal(wxyz, self._frame.wxyz):
+            self._frame.wxyz = wxyz
+
     def on_click(self, callback: Callable[[], None]) -> None:
         """Calls back when the mount is clicked."""
         self._rubber.on_click(lambda _: callback())
@@ -207,6 +213,12 @@ class Markers:
                 marker.hide(bodies)
         for mark, body in self._others:
             assign(mark, visible=body not in bodies)
+
+    def turn(self, groups: Sequence[MountGroup]) -> None:
+        """Draws the mounts along the local axes that they have in some groups, which are all."""
+        for group in groups:
+            for marker, mount in zip(self._mounts[group.name], group.mounts, strict=True):
+                marker.turn(mount.axes)
 
     def are_seen(self, hidden: Collection[str]) -> bool:
         """Whether one of them is, where these bodies are not drawn."""

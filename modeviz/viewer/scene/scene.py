@@ -82,6 +82,7 @@ class Scene:
                 groups = {group: strain[group] for group in state.design.rates}
                 what = within_sentence(moving.title)
                 group = state.group if moving.bodies is None else ""  # else no mount is at work
+                self._markers.turn(solved.now.prepared.vehicle.mount_groups)
                 self._markers.show(
                     group, state.design.rates, state.unit, groups, what, share_colors(shares)
                 )

@@ -1,5 +1,6 @@
 """The answer to a state: everything that is drawn, solved and followed from one state to the next."""
 
+import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -12,6 +13,7 @@ from modeviz.analysis.rigid import BodyAxes, body_axes, body_purity
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
 from modeviz.mounting.purity import Purity
+from modeviz.vehicle.turned_mounts import Turns, with_turned_mounts
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.cursor import CursorForces
 from modeviz.viewer.session.findings import Findings
@@ -95,8 +97,12 @@ class Answers:
     def __init__(self, vehicle: Vehicle) -> None:
         """Nothing is solved before `prepare`."""
         self._vehicle = vehicle
+        self._lock = threading.Lock()
+        self._turns: Turns = {}
+        self.vehicle: Vehicle = vehicle
+        """With its mounts turned as in the newest answer."""
         self.prepared: Prepared
-        """The vehicle made ready, once `prepare` has."""
+        """That vehicle made ready, once `prepare` has."""
         self._drive: RoadExcitation
         """Near the rates of the last rest."""
         self._named: NamedResults
@@ -107,25 +113,38 @@ class Answers:
         self._last: Solved | None = None
 
     def prepare(self, state: State, progress: Callable[[float], None] | None = None) -> None:
-        """Prepares the vehicle, and solves with all sets of rates that have a name.
+        """Prepares the vehicle with its mounts turned, and solves with all sets that have a name.
+
+        Turned mounts are other springs, so that nothing is kept of answers to others.
 
         Args:
-            state: the first one.
+            state: the first one, or the first with other turns.
             progress: told the fraction of the preparation that is done.
 
         Raises:
             ModevizError: there is no answer on that road at that speed.
         """
-        self.prepared = prepare(self._vehicle, progress=progress)
-        self._drive = drive(self.prepared, state.conditions)
+        turns = state.design.turns
+        vehicle = with_turned_mounts(self._vehicle, turns)
+        prepared = prepare(vehicle, progress=progress)
+        excitation = drive(prepared, state.conditions)
+        with self._lock:
+            self.vehicle, self._turns = vehicle, turns
+            self.prepared, self._drive = prepared, excitation
         self._named, self._follower = NamedResults(self._drive), ModeFollower(self.prepared)
         self._static = StaticSolver(self.prepared.system)
+        self._wheels, self._cursor, self._last = WheelResponses(), CursorForces(), None
         self._named.solve(state)
 
     def rebase(self, state: State) -> Prepared:
         """Makes answers close to a state cheap; gives the vehicle prepared there."""
-        near = self.prepared.near(state.design.rates)
-        self._drive = drive(near, state.conditions)
+        with self._lock:
+            prepared = self.prepared
+        near = prepared.near(state.design.rates)
+        excitation = drive(near, state.conditions)
+        with self._lock:
+            if self.prepared is prepared:
+                self._drive = excitation
         return near
 
     def answer(self, asked: State, findings: Callable[[Results], Findings]) -> Solved:
@@ -139,6 +158,8 @@ class Answers:
             ModevizError: there is no answer.
         """
         begin = time.perf_counter()
+        if asked.design.turns != self._turns:
+            self.prepare(asked)
         named = self._named.solve(asked)
         state = named.answerable(asked)
         now, base = self._solve(state), named.results[state.against]
@@ -196,4 +217,8 @@ class Answers:
 
 def asks_for_the_same(one: State, other: State) -> bool:
     """Whether two states have the same answer and differ at most in what is shown of it."""
-    return one.design.rates == other.design.rates and one.conditions == other.conditions
+    return (
+        one.design.rates == other.design.rates
+        and one.design.turns == other.design.turns
+        and one.conditions == other.conditions
+    )

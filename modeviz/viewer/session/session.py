@@ -42,7 +42,6 @@ class Session:
             state: what to show first.
             notify: told of every answer and failure.
         """
-        self.vehicle = vehicle
         self._notify = notify
         self._lock = threading.Lock()
         self._history = History(state, self._settled)
@@ -53,6 +52,11 @@ class Session:
         self._answers = Answers(vehicle)
         self._worker: Worker[_Job] = Worker(self._solve, self._fail)
         self._inspector = Inspector(self._answers, self._is_current, self._answer_again, self._fail)
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """With the rates that are called the original ones, mounts turned as in the newest answer."""
+        return self._answers.vehicle
 
     @property
     def state(self) -> State:

@@ -33,6 +33,7 @@ def done(state, *commands):
 DECISIONS = [
     decisions.SetRate("B", "lateral", 1e5),
     decisions.SetLossFactor("B", 0.3),
+    decisions.TurnMounts("B", 2, 0.1),
     decisions.TakeRates({"A": RATES}),
     decisions.LinkRates("A", True),
     decisions.ToggleLock("A", "lateral"),
@@ -45,7 +46,9 @@ DECISIONS = [
 
 LOOKS = [
     looks.ShowMode("cab roll"),
-    looks.ChangeMotion(kind="component", component="cab", component_mode=7, operating_hz=12.0),
+    looks.ChangeMotion(
+        kind="component", component="cab", component_mode=7, operating_hz=12.0, load_case="braking"
+    ),
     looks.ChangeCharts(
         load="front left radial force",
         decibels=False,

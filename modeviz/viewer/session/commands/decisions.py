@@ -51,6 +51,29 @@ class SetLossFactor(Command):
 
 
 @dataclass(frozen=True)
+class TurnMounts(Command):
+    """Turns the mounts of a group about one of the vehicle's axes, and selects it."""
+
+    group: str
+    axis: int
+    """Of x, y, z."""
+    angle: float
+    """rad, out of the axes in the file."""
+
+    @property
+    def step(self) -> Hashable:
+        return "turn", self.group, self.axis
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.mount_group(self.group)
+        x, y, z = (
+            self.angle if axis == self.axis else old
+            for axis, old in enumerate(state.design.turn(self.group))
+        )
+        return replace(state, design=state.design.with_turn(self.group, (x, y, z)), group=self.group)
+
+
+@dataclass(frozen=True)
 class TakeRates(Command):
     """Takes over the rates of some groups, locked ones too."""
 
