@@ -65,7 +65,6 @@ class RigidPanel:
         ]
         self._buttons = HiddenButtons(gui, N_ROWS, self._select)
         self._energy = gui.add_html("")
-        self._axes = gui.add_html("")
         box = gui.add_checkbox(
             "Draw axes",
             session.state.rigid.drawn,
@@ -87,6 +86,7 @@ class RigidPanel:
                 "elastic, down to the ground",
             ),
         ]
+        self._axes = gui.add_html("")
         self._targets = TargetsEditor(gui, session)
 
     def show(self, solved: Solved) -> None:
