@@ -36,7 +36,10 @@ class ExcitationPanel:
         self._session = session
         self._bindings: list[Binding] = []
         vehicle = session.vehicle
-        loads = {ROAD: ""} | {sentence_case(load.name): load.name for load in vehicle.harmonic_loads}
+        # Charts draw no orders of engines, but what else is told of forces is told under them, too.
+        orders = () if session.state.charts.curves else vehicle.engine_orders
+        every = (*vehicle.harmonic_loads, *orders)
+        loads = {ROAD: ""} | {sentence_case(load.name): load.name for load in every}
         self._add_choice(
             gui,
             "Excitation",

@@ -43,7 +43,8 @@ def is_shaken(vehicle: Vehicle) -> bool:
     """Return whether anything shakes a vehicle that is shown: an even road does not."""
     roads = (road for road in vehicle.random_loads if isinstance(road, Road))
     others = len(vehicle.random_loads) > len(vehicle.roads)
-    return bool(vehicle.harmonic_loads) or others or any(r.spectrum.any() for r in roads)
+    harmonic = (*vehicle.harmonic_loads, *vehicle.engine_orders)
+    return bool(harmonic) or others or any(road.spectrum.any() for road in roads)
 
 
 def shaking(state: State, results: Results) -> Load:

@@ -72,8 +72,8 @@ class Responses:
     @property
     def harmonic_load(self) -> HarmonicLoad | None:
         """The load whose response is drawn; None: the road's."""
-        vehicle = self._solved.now.prepared.vehicle
-        return None if self._load is None else vehicle.harmonic_loads[self._load]
+        name = self._solved.state.charts.load
+        return self._solved.now.prepared.vehicle.harmonic_load(name) if name else None
 
     def quantity_of(self, curve: ChartCurve) -> LevelUnit:
         """The unit of a curve."""

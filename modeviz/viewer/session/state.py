@@ -176,7 +176,8 @@ def _first_load(vehicle: Vehicle, conditions: Conditions) -> str:
     """The harmonic load that a session opens with: on an even road the first, else the road, ""."""
     road = vehicle.random_load(conditions.road)
     is_even = isinstance(road, Road) and not road.spectrum.any()
-    return next((load.name for load in vehicle.harmonic_loads if is_even), "")
+    loads = (*vehicle.harmonic_loads, *vehicle.engine_orders) if is_even else ()
+    return next((load.name for load in loads), "")
 
 
 def compared_rates(vehicle: Vehicle, state: State) -> Rates:

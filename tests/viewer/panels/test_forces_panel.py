@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from dynamic_mounts import on_mounts
 from mounted_cabin import mounted_cabin
 from mounted_machine import mounted_machine
 from session_commands import Alter
@@ -13,6 +14,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.study.conditions import on_even_road
 from modeviz.study.study import Study
 from modeviz.text.wording import significant
+from modeviz.vehicle.engine import Engine, EngineOrder
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import SetRate
@@ -150,6 +152,25 @@ def test_tabs_that_have_nothing_to_say_are_not_there():
     try:
         assert app._forces is None
         assert app._paths is None
+    finally:
+        app.close()
+
+
+def test_forces_are_shown_under_the_orders_of_an_engine_that_nothing_else_shakes():
+    speeds = np.linspace(10.0, 30.0, 21)
+    torque = np.tile([0.0, 0, 0, 120.0, 0, 0], (len(speeds), 1))
+    orders = tuple(EngineOrder(f"order {n}", "four", n, n * speeds, torque) for n in (1.0, 2.0))
+    engine = Engine("four", "engine", np.array([0.1, 0.0, 0.95]), speeds, 12.5, orders)
+    quiet = replace(on_mounts(None), forces=(), base_motions=(), response_points=())
+    vehicle = replace(quiet, engines=(engine,))
+    app = opened(*on_even_road(vehicle))
+    try:
+        order = orders[1].name
+        assert app.session.state.charts.load == orders[0].name
+        show(app, load=order, cursor_hz=25.0)
+        phasor = Study(vehicle).forces(order, frequency_hz=25.0).phasor("E0", "z")[0]
+        (_, row) = re.findall(r"E0 (.*?) E1", text(app._forces._content))[:2]
+        assert significant(float(f"{abs(phasor):.3g}")) in row
     finally:
         app.close()
 
