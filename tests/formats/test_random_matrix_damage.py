@@ -10,6 +10,7 @@ import scipy.io
 import scipy.sparse as sp
 from free_network import CORNERS, LABELS, free_network
 from op4_files import dmig, op4_binary, op4_text
+from test_abaqus_matrices import by_labels, entries, substructure
 from test_random_damage import damaged
 
 from modeviz.errors import ModevizError
@@ -50,6 +51,8 @@ SOURCES = [
     {"a.op4": op4_text(BOTH), "s.pch": (EXTERNAL + DECK).encode()},
     {"s.pch": (EXTERNAL + DECK).encode(), "a.op4": op4_text(BOTH, "wide")},
     {"a.pch": CARDS.encode()},
+    {"a.mtx": substructure().encode(), "n.csv": TABLE},
+    {"K.mtx": entries(K, by_labels).encode(), "M.mtx": entries(M, by_labels).encode(), "n.csv": TABLE},
 ]
 """By name, of which the first is damaged."""
 

@@ -1,7 +1,6 @@
 """Files of text that may be long, line by line."""
 
 from collections.abc import Iterator
-from io import TextIOWrapper
 from typing import BinaryIO
 
 from modeviz.errors import VehicleError, quoted
@@ -16,8 +15,8 @@ def lines_of(file: BinaryIO) -> Iterator[str]:
     Raises:
         VehicleError: one is longer than any with numbers, as in a file that is no text.
     """
-    text = TextIOWrapper(file, "latin-1")
-    while line := text.readline(LONGEST_LINE + 1):
+    while content := file.readline(LONGEST_LINE + 1):
+        line = content.decode("latin-1")
         if len(line) > LONGEST_LINE:
             raise VehicleError(
                 f"found a line of more than {LONGEST_LINE:,} letters, {quoted(line)}, expected numbers"
