@@ -62,6 +62,7 @@ from modeviz.vehicle.engine import Engine
 from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.orientation import orientation_doubts
+from modeviz.vehicle.place_doubts import place_doubts
 from modeviz.vehicle.size_doubts import size_doubts
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -149,7 +150,12 @@ def vehicle_of(tables: Mapping[str, Any], source: Source) -> Vehicle:
     except ModevizError as error:
         raise whole.located(error) from None
     if not own.stand_ins:
-        of_bodies = (*doubts(vehicle), *size_doubts(vehicle), *mesh_doubts(vehicle))
+        of_bodies = (
+            *doubts(vehicle),
+            *size_doubts(vehicle),
+            *place_doubts(vehicle),
+            *mesh_doubts(vehicle),
+        )
         for doubt in (*of_bodies, *orientation_doubts(vehicle, axes)):
             own.note(doubt)
     file = str(own.folder / VEHICLE_FILE)

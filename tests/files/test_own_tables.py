@@ -13,6 +13,7 @@ from modeviz.cli import main
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.errors import VehicleError
+from modeviz.export.mount_table import mount_table
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.body_tables.columns import KINDS, NEGATIVE, spoken
 from modeviz.files.survey import survey
@@ -395,3 +396,40 @@ def test_every_column_of_a_body_table_is_on_the_page():
     page = Path(__file__).parents[2].joinpath("docs/vehicle-folder.md").read_text("utf-8")
     for name in KINDS.keys() - {*NEGATIVE}:
         assert f"`{spoken(name).split(' =')[0]}" in page, name
+
+
+@pytest.mark.parametrize("unit", ["cm", "mm"])
+def test_places_in_other_units_than_those_of_the_body_are_doubted(tmp_path, unit):
+    """Metres under a header that says cm or mm: mounts are then near the origin, far from a motor."""
+    of_unit = dict(zip(PLACE, (f"x [{unit}]", "y", "z"), strict=True))
+    mounts = [{of_unit.get(key, key): value for key, value in mount.items()} for mount in MOUNTS]
+    motor = BODY | {"Ixx [kg m^2]": 0.3, "Iyy": 0.2, "Izz": 0.3}
+    motor |= dict.fromkeys((key for key in BODY if "int" in key), 0)
+    (note,) = survey(folder(tmp_path / "engine", [motor], mounts)).doubts
+    assert "from the centre of gravity of 'engine'" in note
+    assert "in other units" in note
+
+
+def test_mounts_that_are_all_in_the_centre_of_gravity_are_doubted(tmp_path):
+    body = BODY | {"cg_x [mm]": 0, "cg_y": 0, "cg_z": 0}
+    mounts = [
+        {key.replace("[m]", "[mm]"): value for key, value in mount.items()} | {"x [mm]": 0.3}
+        for mount in MOUNTS
+    ]
+    (note,) = survey(folder(tmp_path / "engine", [body], mounts)).doubts
+    assert note.startswith("all 3 connections are within")
+
+
+def test_an_exported_table_of_mounts_is_one_of_a_folder(tmp_path):
+    """`modeviz export mounts.csv` writes the columns that are read here."""
+    turned = {
+        "angle_x [deg]": 10,
+        "angle_y [deg]": -40,
+        "angle_z [deg]": 5,
+        "angle_order": "zyx turned",
+    }
+    mounts = [MOUNTS[0] | turned, *(m | dict.fromkeys(turned, "") for m in MOUNTS[1:])]
+    vehicle = read_vehicle(folder(tmp_path / "engine", mounts=mounts))
+    (tmp_path / "engine" / "mounts.csv").write_bytes(mount_table(vehicle))
+    again = read_vehicle(tmp_path / "engine")
+    assert frequencies(again) == pytest.approx(frequencies(vehicle), rel=1e-12)
