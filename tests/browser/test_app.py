@@ -218,8 +218,9 @@ OPERATING = {"kind": "operating shape", "operating_hz": 40.0, **COMPARED}
         {"kind": "damped mode", "coloring": "displacement", **COMPARED},
         {"coloring": "strain energy", **OPERATING},
         {"coloring": "kinetic energy", "load": "front left radial force", **OPERATING},
+        {"kind": "sag", "load_case": "braking 1 g", "coloring": "displacement", **COMPARED},
     ],
-    ids=["plain", "damped", "operating", "wheel"],
+    ids=["plain", "damped", "operating", "wheel", "sag"],
 )
 def test_a_move_of_a_slider_sends_less_than_200_kb_whatever_is_drawn(
     app, server, monkeypatch, switches
