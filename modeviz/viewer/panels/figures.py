@@ -120,7 +120,7 @@ def _all_points(solved: Solved, responses: Responses) -> str:
     is_road = responses.quantity is PSD
     scale, decimals = (1, 4) if is_road else (1000, 2)
     rows = []
-    for i, point in enumerate(solved.now.vehicle.response_points):
+    for i, point in enumerate(solved.now.prepared.vehicle.response_points):
         for direction in DIRECTIONS:
             curve = ResponseCurve(i, direction)
             old, value = (responses.figure(n, curve) for n in (solved.state.against, NOW))
@@ -166,7 +166,7 @@ def _weighted(label: str, old: float, new: float) -> str:
 
 
 def _point(results: Results) -> str:
-    return sentence_case(results.vehicle.response_points[DRIVER].name)
+    return sentence_case(results.prepared.vehicle.response_points[DRIVER].name)
 
 
 def _band_text(solved: Solved) -> str:

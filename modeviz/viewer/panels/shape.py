@@ -136,9 +136,9 @@ class ShapePanel:
         self._shares = moving.shares[:N_SHARES]
         if moving.component is None:
             return block(span(ABOUT[solved.state.motion.kind], "dim"))
-        label = escape(solved.now.vehicle.body(solved.state.motion.component).label)
+        label = escape(solved.now.prepared.vehicle.body(solved.state.motion.component).label)
         total = sum(share.share for share in moving.shares)
-        own = own_mode(solved.now.vehicle, solved.state)
+        own = own_mode(solved.now.prepared.vehicle, solved.state)
         rows = [
             row(self._share(i, share, moving.component), chosen=share.mode == own)
             for i, share in enumerate(self._shares)

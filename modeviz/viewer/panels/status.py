@@ -66,7 +66,7 @@ def _found(now: Results) -> str:
     moves = modes.frequency_hz > RESOLVED_HZ
     worst = float(trust.frequency_error_hz[moves].max(initial=0.0))
     exact = f"{band}, none missed, each within {_rounded(worst)} Hz for the model as given"
-    return "<br>".join([exact, *map(escape, own_frequencies(now.vehicle))])
+    return "<br>".join([exact, *map(escape, own_frequencies(now.prepared.vehicle))])
 
 
 def _believed(rest: Findings) -> list[str]:

@@ -59,7 +59,7 @@ def energy_shares(solved: Solved) -> Shares:
         energy = kinetic_energy(solved.now.prepared.system, solved.movement.shape[:, None])
         return {body: float(share[0]) for body, share in energy.items()}
     if solved.state.look.coloring == "strain energy":
-        drawn = _strained(solved.now.vehicle)
+        drawn = _strained(solved.now.prepared.vehicle)
         return {name: share for name, share in strain_shares(solved).items() if name in drawn}
     return {}
 

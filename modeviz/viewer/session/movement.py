@@ -111,7 +111,7 @@ def _operating(state: State, shown: FollowedMode) -> Movement:
         about = state.charts.load
     else:
         curve = _reference(state)
-        point = now.vehicle.response_points[curve.point].name
+        point = now.prepared.vehicle.response_points[curve.point].name
         about = f"{now.conditions.road}, as at {point}, {curve.direction}"
     other = _excited(state, shown.base) if state.look.ghost == "compared" else None
     f, shape = state.motion.operating_hz, _excited(state, now)
