@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from dynamic_mounts import MAXWELL
 from progressive_block import CURVE, MASS, progressive_block, progressive_group
 from small_systems import block
 
@@ -90,6 +91,26 @@ def test_responses_on_progressive_mounts_are_those_of_mounts_with_their_tangents
     found = solve_wheels(prepared, rates).acceleration_g
     expected = solve_wheels(plain, scaled(3 * 1.5)).acceleration_g
     assert found == pytest.approx(expected, rel=1e-8, abs=1e-12)
+
+
+def test_rubber_that_depends_on_frequency_stiffens_with_its_tangent():
+    """Against a plain mount of three times the vertical rate with the same rubber."""
+    curved, plain = (
+        progressive_block(curves=curves, dynamic=MAXWELL) for curves in ({"vertical": CURVE}, {})
+    )
+    for found, expected in ((scaled(1.5), scaled(4.5)), ({}, scaled(3.0))):
+        frequencies = [
+            solve_modal(prepare_modes(v), r).modes.frequency_hz
+            for v, r in ((curved, found), (plain, expected))
+        ]
+        assert frequencies[0] == pytest.approx(frequencies[1], rel=1e-8)
+        responses = [solve_wheels(prepare(v), r) for v, r in ((curved, found), (plain, expected))]
+        same = np.isin(responses[0].frequency_hz, responses[1].frequency_hz)
+        assert same.sum() > 300
+        there = np.isin(responses[1].frequency_hz, responses[0].frequency_hz)
+        np.testing.assert_allclose(
+            responses[0].acceleration_g[same], responses[1].acceleration_g[there], rtol=1e-6, atol=1e-12
+        )
 
 
 def test_energies_and_exact_modes_have_the_tangents():
