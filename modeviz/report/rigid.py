@@ -57,9 +57,13 @@ def listed_modes(found: Purity) -> list[int]:
 
 
 def verdict_lines(found: Purity) -> Iterator[str]:
-    """Yield a line on each thing that is asked of a body's modes."""
+    """Yield a line on each thing that is asked of a body's modes, as far as it has any."""
     targets, pure = found.targets, [m for m in MOTIONS if found.is_pure(m)]
     missing = [m for m in MOTIONS if found.frequency(m) is None]
+    if missing:
+        yield f"  no mode of its own in the band: {', '.join(missing)}"
+    if len(missing) == len(MOTIONS):
+        return
     mixed = [_mixed(found, m) for m in MOTIONS if m not in (*pure, *missing)]
     yield _line(f"purity {percent(targets.purity)} %", mixed)
     outside = [
@@ -72,8 +76,6 @@ def verdict_lines(found: Purity) -> Iterator[str]:
         close = [gap_words(gap) for gap in gaps if not gap.passes]
         wanted = targets.gap if what == "gap" else targets.bounce_gap
         yield _line(f"{what} {wanted:g} Hz", close)
-    if missing:
-        yield f"  no mode of its own in the band: {', '.join(missing)}"
 
 
 def _mixed(found: Purity, motion: str) -> str:

@@ -119,3 +119,11 @@ def test_a_study_refuses_what_there_is_not(engine_folder):
         study.rigid(up_to_hz=0.0)
     with pytest.raises(VehicleError, match="engine"):
         study.rigid()["motor"]
+
+
+def test_a_body_without_modes_of_its_own_passes_nothing():
+    study = mv.Study(replace(four_cylinder(), mount_groups=()))
+    text = study.rigid().table()
+    assert "no mode of its own in the band: x, y, z, rx, ry, rz" in text
+    assert "pass" not in text
+    assert not study.rigid()["engine"].passes

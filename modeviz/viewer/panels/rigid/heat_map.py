@@ -99,15 +99,16 @@ def verdicts(found: Purity) -> str:
     missing = [m for m in MOTIONS if found.frequency(m) is None]
     mixed = [m for m in MOTIONS if m not in missing and not found.is_pure(m)]
     outside = [m for m in MOTIONS if m not in missing and not found.is_in_band(m)]
-    lines = [
+    lines = [_line("A mode for each direction", missing)] if missing else []
+    overall = span("holds", "good") if found.passes else span("fails", "bad")
+    if len(missing) == len(MOTIONS):
+        return heading("Decoupling", overall) + table((), lines, "verdicts")
+    lines += [
         _line(f"Purity of {100 * targets.purity:g} %", mixed),
         _line(f"{targets.lowest_frequency:g} to {targets.highest_frequency:g} Hz", outside),
         _line(f"{targets.gap:g} Hz between modes", _close(found.gaps)),
         _line(f"{targets.bounce_gap:g} Hz from bounce to crank", _close(found.bounce_gaps)),
     ]
-    if missing:
-        lines.append(_line("A mode for each direction", missing))
-    overall = span("holds", "good") if found.passes else span("fails", "bad")
     return heading("Decoupling", overall) + table((), lines, "verdicts")
 
 
