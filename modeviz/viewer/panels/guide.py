@@ -25,7 +25,8 @@ TOPICS = (
     (
         "Read",
         "Right: ride figures, spectra and their peaks. Click a mode in a peak or in the table to see "
-        "it move; Energy tells which mounts hold it.",
+        "it move; Energy tells which mounts hold it, Forces and Paths what gets through them. Click "
+        "in a spectrum to put the cursor there, at which they tell it.",
     ),
     (
         "Compare and keep",
