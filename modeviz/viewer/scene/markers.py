@@ -31,6 +31,9 @@ WASHER_Z = 0.53 * HEIGHT
 SIZE_STEP = 0.05
 """Of a marker's size, 2 mm on a pickup: no eye sees it, and a drag changes few markers at a time."""
 
+STRUT = (0.55, 2.0)
+"""Width and height of a spring with a damper, in parts of those of rubber."""
+
 TRIAD = 0.045
 """Length of the local axes of a selected mount, x red, y green, z blue, likewise."""
 
@@ -58,7 +61,10 @@ Marks = list[tuple[viser.SceneNodeHandle, str]]
 
 
 class MountMarker:
-    """A mount: rubber between two washers, along its own axes, with its name; selected, with these."""
+    """A mount along its own axes, with its name; selected, with these.
+
+    It is rubber between two washers or, with a damper, a strut between them.
+    """
 
     def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup, length: float) -> None:
         """Draws a mount at rest and not selected; the length of its vehicle, m, gives its size."""
@@ -77,8 +83,13 @@ class MountMarker:
             wxyz=axes,
             position=mount.center,
         )
+        width, self._height = STRUT if mount.damping.any() else (1.0, 1.0)
         self._rubber = scene.add_cylinder(
-            f"{path}/rubber", RADIUS * length, HEIGHT * length, color=RUBBER, cast_shadow=False
+            f"{path}/rubber",
+            width * RADIUS * length,
+            self._height * HEIGHT * length,
+            color=RUBBER,
+            cast_shadow=False,
         )
         self._washers = [
             scene.add_cylinder(
@@ -140,7 +151,7 @@ class MountMarker:
         assign(self._rubber, scale=size, color=SELECTED if selected else color)
         for washer, z in zip(self._washers, (WASHER_Z, -WASHER_Z), strict=True):
             assign(washer, scale=size)
-            washer.position = (0.0, 0.0, z * size * self._length)
+            washer.position = (0.0, 0.0, self._height * z * size * self._length)
         assign(self._ring, visible=selected)
         assign(self._frame, show_axes=selected)
         assign(self._label, visible=not carded)

@@ -117,3 +117,17 @@ def test_a_selected_mount_shows_its_own_axes(server):
     assert SO3(np.array(marker._frame.wxyz)).as_matrix() == pytest.approx(axes.T)
     marker.show(0.5, selected=False, carded=False)
     assert not marker._frame.show_axes
+
+
+def test_a_spring_with_a_damper_is_drawn_as_a_strut(server):
+    c1, at = group("C1 left"), np.zeros((2, 3))
+    rubber = MountMarker(server.scene, c1.mounts[0], c1, 5.4)
+    damped = Mount("C1 right", "", ("cab", "frame"), at, damping=np.array([0, 0, 900.0]))
+    strut = MountMarker(server.scene, damped, c1, 5.4)
+    for marker in (rubber, strut):
+        marker.show(1.0, selected=False, carded=False)
+    assert strut._rubber.height > 1.5 * rubber._rubber.height
+    assert strut._rubber.radius < rubber._rubber.radius
+    above, below = (washer.position[2] for washer in strut._washers)
+    ends = 0.5 * strut._rubber.height * strut._rubber.scale
+    assert (above, below) == pytest.approx((1.06 * ends, -1.06 * ends))
