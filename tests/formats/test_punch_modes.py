@@ -86,6 +86,21 @@ def test_complex_modes_in_either_form(read, form, second):
     np.testing.assert_allclose(component.modes.damping_ratio, 3 / 5)
 
 
+@pytest.mark.parametrize("numbers", [(1, 1), (1, 2)])
+@pytest.mark.parametrize("real_first", [True, False])
+def test_real_and_complex_modes_in_one_file_are_refused(read, numbers, real_first):
+    """Also where they are parts of one mode, each with grids of its own."""
+    first, second = ((i, "G", [*np.arange(1.0, 7.0), *np.arange(6.0)]) for i in (1, 2))
+    grids = ([first], [second]) if numbers[0] == numbers[1] else ([first, second],) * 2
+    real, imaginary = ([(i, "G", six[:6]) for i, _, six in grids[0]], grids[1])
+    modes = [
+        mode(numbers[0], "100.0", real),
+        mode(numbers[1], "( 100.0, 0.0)", imaginary, "REAL-IMAGINARY OUTPUT"),
+    ]
+    with pytest.raises(VehicleError, match=r"a\.pch: mode \d: found real and complex modes"):
+        read(punched(*(modes if real_first else modes[::-1])))
+
+
 def test_what_a_run_for_responses_punches_is_told_apart(tmp_path):
     response = ["$TITLE   =", "$ACCELERATION", "$MAGNITUDE-PHASE OUTPUT", "$POINT ID =        7012"]
     rows = lines(np.arange(12.0), "    2.000000E+01 G")

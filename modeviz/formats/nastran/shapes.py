@@ -120,8 +120,9 @@ def assembled(found: Sequence[Shape], is_basic: bool) -> Shapes:
     for column, mode in enumerate(modes):
         with located(f"mode {mode[0].mode}"):
             motions = _motions(ids, mode)
-        if column == 0:
-            array = np.empty((*motions.shape, len(modes)), motions.dtype)
+            if column == 0:
+                array = np.empty((*motions.shape, len(modes)), motions.dtype)
+            _check_one_kind(motions, array)
         array[:, :, column] = motions
     subcase = found[0].subcase
     n_again = sum(shape.subcase == subcase for shape in found) - sum(
@@ -143,6 +144,14 @@ def _is_more(shape: Shape, first: Shape) -> bool:
     return shape.subcase == first.subcase or not np.isin(shape.ids, first.ids).all()
 
 
+def _check_one_kind(motions: Array, others: Array) -> None:
+    """Raises VehicleError for real motions among complex ones, or the reverse."""
+    if np.iscomplexobj(motions) != np.iscomplexobj(others):
+        raise VehicleError(
+            "found real and complex modes, expected those of one run; is the file of several?"
+        )
+
+
 def _motions(ids: Array, parts: Sequence[Shape]) -> Array:
     """The motions of a mode along ids, (n, 6), of which each table has some; the first that has one."""
     first = parts[0].motions()
@@ -150,7 +159,9 @@ def _motions(ids: Array, parts: Sequence[Shape]) -> Array:
     is_there = np.zeros(len(ids), bool)
     for part in reversed(parts):
         rows = _rows(ids, part)
-        motions[rows] = first if part is parts[0] else part.motions()
+        own = first if part is parts[0] else part.motions()
+        _check_one_kind(own, motions)
+        motions[rows] = own
         is_there[rows] = True
     if not is_there.all():
         raise VehicleError(OTHER_GRIDS)
