@@ -19,13 +19,13 @@ SURFACE = 0.5
 """Of the mass of a mean node of a block what one has at its surface, where things are held."""
 
 N_OF_SURFACE = 12
-"""A block has n²/(n + so many) modes of its volume among n; the others are of its surface."""
+"""Fitted to blocks of known stiffness: among n modes n²/(n + so many) are of the volume."""
 
 OF_FACE = 13
 """Neighbours of a node in the middle of a face of cubes, along their sides and diagonals."""
 
 OCTAVE = 2.0
-"""So many times further than the motion of nodes their turning goes on."""
+"""Fitted likewise: so many times further than the motion of nodes their turning goes on."""
 
 MOST_OF_NODE, MOST_OF_MEAN = 0.5, 0.9
 """More of what all modes together move a place, the modes that are there are not taken to do."""
