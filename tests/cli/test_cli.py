@@ -13,6 +13,7 @@ from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
 from modeviz.cli.export import EXPORT
 from modeviz.cli.importing import IMPORT
+from modeviz.cli.new import NEW
 from modeviz.cli.parser import COMMANDS, parse
 from modeviz.cli.render import RENDER
 from modeviz.cli.scatter import ScatterCommandOptions
@@ -250,6 +251,7 @@ NEEDED = {
     RENDER.name: (["--output", "x.png"], {"output": Path("x.png")}),
     IMPORT.name: (["x.unv"], {"files": (Path("x.unv"),)}),
     EXPORT.name: (["x.csv"], {"files": (Path("x.csv"),)}),
+    NEW.name: (["cab", "x"], {"kind": "cab", "folder": Path("x")}),
 }
 """What a command cannot do without, as it is typed and as an option."""
 
