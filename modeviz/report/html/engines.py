@@ -35,7 +35,7 @@ def _engine(comparison: Comparison, prepared: Prepared, engine: Engine) -> list[
         "Largest RMS",
     ]
     base, now = map(_rows, sets)
-    seen = ~np.isnan(base).any(axis=(1, 2))
+    seen = np.ravel(~np.isnan(base).any(axis=(1, 2)))
     shown = [name for name, is_seen in zip(names, seen, strict=True) if is_seen]
     heading = f"{engine.name}, idle at {60 * engine.idle_hz:.4g} rpm"
     return [
