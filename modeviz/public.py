@@ -52,6 +52,7 @@ from modeviz.vehicle.connections import MountRates as MountRates
 from modeviz.vehicle.connections import Rod as Rod
 from modeviz.vehicle.connections import Spring as Spring
 from modeviz.vehicle.connections import Tyre as Tyre
+from modeviz.vehicle.decoupling import DecoupledBody as DecoupledBody
 from modeviz.vehicle.decoupling import Decoupling as Decoupling
 from modeviz.vehicle.dynamic_rates import HydraulicRates as HydraulicRates
 from modeviz.vehicle.dynamic_rates import RateTable as RateTable

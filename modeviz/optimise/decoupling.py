@@ -1,7 +1,8 @@
 """Goals of bodies on their mounts: pure modes, in a band, far enough from each other."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise, product
 
 import numpy as np
 
@@ -11,8 +12,8 @@ from modeviz.analysis.sensitivity import spring_shares
 from modeviz.dynamics.basis import REACH
 from modeviz.dynamics.modes import solve_modes
 from modeviz.errors import VehicleError
+from modeviz.mounting.body_modes import BasisModes, BodyModes, BodyRows, body_modes, body_rows
 from modeviz.mounting.frames import crank_direction, frame
-from modeviz.mounting.own_modes import BasisModes, BodyRows, OwnModes, body_rows, own_modes
 from modeviz.mounting.stiffness import HeldBody, held_bodies
 from modeviz.optimise.min_max import MinMax
 from modeviz.vehicle.arrays import Floats
@@ -22,6 +23,9 @@ from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 BOUNCE = MOTIONS.index("z")
+
+OFFERED = 3
+"""So many modes may be a direction's: those that miss least."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,12 +45,12 @@ class Decoupled:
 
 @dataclass(frozen=True, eq=False)
 class DecoupledModes:
-    """The own modes of some bodies at any mount rates."""
+    """The modes of some bodies at any mount rates."""
 
     prepared: PreparedModes
     bodies: tuple[Decoupled, ...]
 
-    def at(self, rates: Rates) -> list[OwnModes]:
+    def at(self, rates: Rates) -> list[BodyModes]:
         """Return those of each body; raises as `solve_modal`."""
         basis, k = self.prepared.basis, self.prepared.mount_stiffness(rates).real.astype(np.float64)
         change = k - basis.mount_stiffness.real
@@ -54,9 +58,9 @@ class DecoupledModes:
         squares, y = np.linalg.eigh(basis.stiffness + (R.T * change) @ R)
         n_known = int(np.searchsorted(squares, REACH**2 * basis.top))
         modes = BasisModes(np.maximum(squares, 0.0), y, R @ y, n_known)
-        return [own_modes(body.rows, modes, k) for body in self.bodies]
+        return [body_modes(body.rows, modes, k) for body in self.bodies]
 
-    def exactly_at(self, rates: Rates) -> list[OwnModes]:
+    def exactly_at(self, rates: Rates) -> list[BodyModes]:
         """Return the same from the full eigenproblem."""
         system = self.prepared.system_at(rates)
         k = self.prepared.mount_stiffness(rates).real.astype(np.float64)
@@ -65,7 +69,7 @@ class DecoupledModes:
         modes = BasisModes(found.omega_n_squared, found.shapes, stretch, len(found.frequency_hz))
         own = np.eye(system.n_dofs)
         rows = (body_rows(body.held, body.axes, own) for body in self.bodies)
-        return [own_modes(r, modes, k) for r in rows]
+        return [body_modes(r, modes, k) for r in rows]
 
     def by_rate(self, gradients: Floats, rates: Rates) -> Floats:
         """Return derivatives to each of `rate_variables` of what has them to every spring's rate."""
@@ -75,7 +79,11 @@ class DecoupledModes:
 
 @dataclass(frozen=True, eq=False)
 class Impurity(MinMax):
-    """1 - purity of the modes that are to be pure, of which the largest is to become small."""
+    """What of each direction that is to be pure is not, of which the largest is to become small.
+
+    1 - purity of the direction's leading mode, or of a purer one, which counts by how much of the
+    direction it has beside that: so that nothing jumps where another mode takes the lead.
+    """
 
     modes: DecoupledModes
 
@@ -87,16 +95,34 @@ class Impurity(MinMax):
 
     def parts_and_gradients(self, rates: Rates) -> tuple[Floats, Floats]:
         found = self.modes.at(rates)
-        gradients = self._pure([own.purity_gradient for own in found])
-        return self._parts(found), -self.modes.by_rate(gradients, rates)
+        gradients = [
+            _pure_gradient(own, direction)
+            for own, body in zip(found, self.modes.bodies, strict=True)
+            for direction in body.motions
+        ]
+        return self._parts(found), -self.modes.by_rate(np.array(gradients), rates)
 
-    def _parts(self, found: Sequence[OwnModes]) -> Floats:
-        return 1 - self._pure([own.purity for own in found])
+    def _parts(self, found: Sequence[BodyModes]) -> Floats:
+        pure = [
+            _counted(own)[:, list(body.motions)].max(axis=0)
+            for own, body in zip(found, self.modes.bodies, strict=True)
+        ]
+        return 1 - np.concatenate(pure)
 
-    def _pure(self, values: Sequence[Floats]) -> Floats:
-        """The values of the motions that are to be pure."""
-        pairs = zip(values, self.modes.bodies, strict=True)
-        return np.concatenate([own[list(body.motions)] for own, body in pairs])
+
+def _counted(own: BodyModes) -> Floats:
+    """Purity times how much of a direction a mode has, (n_modes, 6)."""
+    return own.purity * own.leading
+
+
+def _pure_gradient(own: BodyModes, direction: int) -> Floats:
+    """The derivatives of the largest that is counted of a direction, (n_springs,)."""
+    mode = int(_counted(own)[:, direction].argmax())
+    if not own.leading[mode, direction]:
+        return np.zeros(len(own.mount_rates))
+    return own.leading[mode, direction] * own.purity_gradient(mode, direction) + own.purity[
+        mode, direction
+    ] * own.leading_gradient(mode, direction)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,47 +132,106 @@ class Shortfall:
     Of the purity of modes, of their frequencies to both ends of the band, of the gaps between those
     that follow each other, and of that between bounce and turning about the crank. One-sided squares,
     so that derivatives are continuous where something begins to hold.
+
+    Each direction has a mode of its own, chosen so that the sum is least; one that does not lead the
+    direction misses what it has less than the one that does. So nothing jumps where modes cross or veer
+    and another takes the lead.
     """
 
     modes: DecoupledModes
     targets: Decoupling
 
     def value(self, rates: Rates) -> float:
-        return self._total(self.modes.at(rates))[0]
+        return self._value(self.modes.at(rates))
 
     def exact_value(self, rates: Rates) -> float:
-        return self._total(self.modes.exactly_at(rates))[0]
+        return self._value(self.modes.exactly_at(rates))
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
-        value, gradient = self._total(self.modes.at(rates))
+        value, gradient = 0.0, np.zeros(len(self.modes.prepared.basis.mount_stiffness))
+        for own, body in zip(self.modes.at(rates), self.modes.bodies, strict=True):
+            chosen = self._chosen(own, body)
+            values, gradients = self._missing(own, body, chosen, with_gradients=True)
+            clipped = values.clip(min=0.0)
+            value += float(clipped @ clipped)
+            gradient += 2 * clipped @ gradients
         return value, self.modes.by_rate(gradient, rates)
 
-    def _total(self, found: Sequence[OwnModes]) -> tuple[float, Floats]:
-        """The sum, and its derivatives to the rate of every spring."""
-        missing = [self._missing(own, body) for own, body in zip(found, self.modes.bodies, strict=True)]
-        values = np.concatenate([values for values, _ in missing]).clip(min=0.0)
-        gradients = np.concatenate([gradients for _, gradients in missing])
-        return float(values @ values), 2 * values @ gradients
+    def _value(self, found: Sequence[BodyModes]) -> float:
+        total = 0.0
+        for own, body in zip(found, self.modes.bodies, strict=True):
+            values, _ = self._missing(own, body, self._chosen(own, body))
+            total += float(np.sum(values.clip(min=0.0) ** 2))
+        return total
 
-    def _missing(self, own: OwnModes, body: Decoupled) -> tuple[Floats, Floats]:
-        """What is missing to all that is asked, (n,), below zero if nothing is, and derivatives."""
-        asked, pure = self.targets, list(body.motions)
-        values = [1 - own.purity[pure] / asked.purity]
-        gradients = [-own.purity_gradient[pure] / asked.purity]
-        there = np.flatnonzero(np.isfinite(own.frequency_hz))
-        there = there[np.argsort(own.frequency_hz[there], kind="stable")]
-        f, slope = own.frequency_hz[there], own.frequency_gradient[there]
+    def _chosen(self, own: BodyModes, body: Decoupled) -> tuple[int | None, ...]:
+        """The mode of each direction with which the sum is least; None where one has none."""
+        f, asked = own.frequency_hz[:, None], self.targets
+        cost = (1 - own.leading).clip(min=0.0) ** 2 + (f / asked.highest_frequency - 1).clip(min=0) ** 2
         if asked.lowest_frequency > 0:
-            values.append(1 - f / asked.lowest_frequency)
-            gradients.append(-slope / asked.lowest_frequency)
-        values.append(f / asked.highest_frequency - 1)
-        gradients.append(slope / asked.highest_frequency)
-        is_main = np.isin(there, (BOUNCE, body.crank))
-        for which, gap in ((np.full(len(there), True), asked.gap), (is_main, asked.bounce_gap)):
-            if gap > 0:
-                values.append(1 - np.diff(f[which]) / gap)
-                gradients.append(-np.diff(slope[which], axis=0) / gap)
-        return np.concatenate(values), np.concatenate(gradients)
+            cost = cost + (1 - f / asked.lowest_frequency).clip(min=0.0) ** 2
+        pure = list(body.motions)
+        cost[:, pure] += (1 - own.purity[:, pure] / asked.purity).clip(min=0.0) ** 2
+        offers: list[list[int | None]] = [
+            [i for i in np.argsort(cost[:, d])[:OFFERED].tolist() if own.leading[i, d] > 0] or [None]
+            for d in range(len(MOTIONS))
+        ]
+        best, least = tuple(offer[0] for offer in offers), np.inf
+        for modes in product(*offers):
+            taken = [mode for mode in modes if mode is not None]
+            if len(set(taken)) == len(taken):
+                values, _ = self._missing(own, body, modes)
+                total = float(np.sum(values.clip(min=0.0) ** 2))
+                if total < least:
+                    best, least = modes, total
+        return best
+
+    def _missing(
+        self,
+        own: BodyModes,
+        body: Decoupled,
+        chosen: Sequence[int | None],
+        with_gradients: bool = False,
+    ) -> tuple[Floats, Floats]:
+        """What is missing to all that is asked, (n,), below zero if nothing is, and derivatives."""
+        asked, none = self.targets, np.zeros(len(own.mount_rates))
+        values, gradients = [], []
+        there = sorted((own.frequency_hz[m], d, m) for d, m in enumerate(chosen) if m is not None)
+
+        def add(value: float, gradient: Callable[[], Floats]) -> None:
+            values.append(value)
+            if with_gradients:
+                gradients.append(gradient() if value > 0 else none)
+
+        for d in body.motions:
+            if chosen[d] is None:
+                add(1.0, lambda: none)
+        for f, d, m in there:
+            if d in body.motions:
+                add(
+                    1 - own.purity[m, d] / asked.purity,
+                    lambda m=m, d=d: -own.purity_gradient(m, d) / asked.purity,
+                )
+            add(1 - own.leading[m, d], lambda m=m, d=d: -own.leading_gradient(m, d))
+            add(
+                f / asked.highest_frequency - 1,
+                lambda m=m: own.frequency_gradient(m) / asked.highest_frequency,
+            )
+            if asked.lowest_frequency > 0:
+                add(
+                    1 - f / asked.lowest_frequency,
+                    lambda m=m: -own.frequency_gradient(m) / asked.lowest_frequency,
+                )
+        main = [own_mode for own_mode in there if own_mode[1] in (BOUNCE, body.crank)]
+        for modes, gap in ((there, asked.gap), (main, asked.bounce_gap)):
+            for (low, _, i), (high, _, j) in pairwise(modes) if gap > 0 else ():
+                add(
+                    1 - (high - low) / gap,
+                    lambda i=i, j=j, gap=gap: (
+                        (own.frequency_gradient(i) - own.frequency_gradient(j)) / gap
+                    ),
+                )
+        return np.array(values), np.array(gradients).reshape(-1, len(none))
 
 
 def prepare_decoupling(vehicle: Vehicle, problem: Problem) -> Impurity | Shortfall:
