@@ -32,6 +32,9 @@ MOST_OF_NODE, MOST_OF_MEAN = 0.5, 0.9
 
 TINY = np.finfo(float).tiny
 
+SAME_PLACE = 1e-6
+"""Of the size of a body: nodes that are nearer to each other count as one."""
+
 DOUBTFUL = 1.2
 """Powers of two: directions of which less is known than this have no upper end of their own."""
 
@@ -74,7 +77,8 @@ def estimate_residuals(body: FlexibleBody) -> ResidualEstimate:
     if not n_elastic or not body.attachments:
         none = np.zeros((len(body.attachments), 3))
         return ResidualEstimate(none, none, none)
-    rows = [_along(body, attachment) for attachment in body.attachments]
+    places = _places(body.nodes)
+    rows = [_along(body, attachment, places) for attachment in body.attachments]
     estimate, spread = (np.array(values) for values in zip(*rows, strict=True))
     factor = 2.0 ** np.minimum(spread, 3.0)
     trusted = spread < DOUBTFUL
@@ -84,17 +88,25 @@ def estimate_residuals(body: FlexibleBody) -> ResidualEstimate:
     return ResidualEstimate(estimate * lacks, estimate / factor * lacks, most * lacks)
 
 
-def _along(body: FlexibleBody, attachment: Attachment) -> tuple[Floats, Floats]:
+def _places(nodes: Floats) -> Floats:
+    """Where nodes are, (n_places, 3): those that are written twice, as attachments often are, once."""
+    step = SAME_PLACE * np.ptp(nodes, axis=0).max() if len(nodes) else 0.0
+    return np.unique(np.round(nodes / step), axis=0) * step if step else nodes[:1]
+
+
+def _along(body: FlexibleBody, attachment: Attachment, places: Floats) -> tuple[Floats, Floats]:
     """The estimate along x, y and z, (3,), and by how many powers of two it is doubted."""
     elastic = slice(body.n_rigid, body.n_normal)
     n_elastic = body.n_normal - body.n_rigid
     held = held_nodes(body, attachment)
+    n_held = len(_places(body.nodes[held.nodes]))
     phi, on_nodes = attachment.shapes[:3, elastic], body.shapes[held.nodes][:, :, elastic]
     is_solid = bool(on_nodes.size) and not on_nodes[:, 3:].any()
     own = phi if held.is_mean or not on_nodes.size else on_nodes[:, :3].astype(float).mean(axis=0)
     moved, by_arm, total = (np.sum(part**2, axis=1) for part in (own, phi - own, phi))
     growth = SOLID if is_solid else SHEET
-    reach = _filled(body, held, moved, is_solid) ** (-1 / growth)
+    mass = body.mass * n_held / max(len(places), 1)
+    reach = _filled(moved * mass, held, is_solid) ** (-1 / growth)
     end = body.omega_n_squared[body.n_normal - 1] * (1 + 0.5 / n_elastic) ** 2
     end *= 1 + is_solid * N_OF_SURFACE / n_elastic
     arm = by_arm * _beyond(growth + 1, OCTAVE * reach.min()) / end
@@ -102,23 +114,21 @@ def _along(body: FlexibleBody, attachment: Attachment) -> tuple[Floats, Floats]:
     upper = np.sum(phi[:, n_elastic // 2 :] ** 2, axis=1)
     arms = arm / np.maximum(estimate, TINY)
     doubt = _doubt(total * body.mass / n_elastic, upper / np.maximum(total, TINY))
-    sticks_out = _sticks_out(body, held) if is_solid else 0.0
+    is_alone = is_solid and n_held == 1 and not held.is_mean
+    sticks_out = _sticks_out(body.nodes[held.nodes[0]], places) if is_alone else 0.0
     return estimate, doubt + arms + sticks_out
 
 
-def _filled(body: FlexibleBody, held: HeldNodes, moved: Floats, is_solid: bool) -> Floats:
+def _filled(part: Floats, held: HeldNodes, is_solid: bool) -> Floats:
     """Which part of what all modes of the mesh move a place, Σ φ² = 1/m, those that are there do."""
-    mass = body.mass * len(held.nodes) / max(len(body.nodes), 1)
     if is_solid and not held.is_mean:
-        mass *= SURFACE
-    return np.clip(moved * mass, 1e-6, MOST_OF_MEAN if held.is_mean else MOST_OF_NODE)
+        part = part * SURFACE
+    return np.clip(part, 1e-6, MOST_OF_MEAN if held.is_mean else MOST_OF_NODE)
 
 
-def _sticks_out(body: FlexibleBody, held: HeldNodes) -> float:
+def _sticks_out(place: Floats, places: Floats) -> float:
     """By how many powers of two a node has fewer neighbours than one in the middle of a face."""
-    if held.is_mean or len(held.nodes) > 1:
-        return 0.0
-    away = np.sort(np.linalg.norm(body.nodes - body.nodes[held.nodes[0]], axis=1))[1:]
+    away = np.sort(np.linalg.norm(places - place, axis=1))[1:]
     n_near = int((away < 1.5 * away.min(initial=np.inf)).sum())
     return max(0.0, float(np.log2(OF_FACE / max(n_near, 1))))
 

@@ -132,3 +132,15 @@ def test_a_corner_of_a_block_is_doubted_more_than_its_faces():
     estimate = estimate_residuals(replace(body, attachments=(*body.attachments, moved)).truncated(46))
     spread = (estimate.compliance / estimate.least).max(axis=1)
     assert spread[2] > 1.2 * spread[:2].max()
+
+
+@pytest.mark.parametrize("body", [sheet, solid])
+def test_nodes_that_are_there_twice_change_no_estimate(body):
+    """As those of attachments are in a body's universal file, which has them before its mesh."""
+    once = body().truncated(46)
+    held = [held_nodes(once, a).nodes[0] for a in once.attachments]
+    again = np.r_[held, np.arange(len(once.nodes))]
+    twice = replace(once, nodes=once.nodes[again], shapes=once.shapes[again])
+    found, expected = estimate_residuals(twice), estimate_residuals(once)
+    for name in ("compliance", "least", "most"):
+        np.testing.assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-9)
