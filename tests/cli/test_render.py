@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from oracles import Beam
 
 from modeviz.analysis.results import Conditions, solve_on
 from modeviz.cli import main
@@ -15,7 +16,6 @@ from modeviz.errors import ModevizError, SolveError
 from modeviz.files import write_vehicle
 from modeviz.report.comparison import RateSet
 from modeviz.shapes.colors import stop_colors
-from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import DIRECTIONS, MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.pictures.pictures import ImageSettings, Pose, picture
@@ -165,10 +165,10 @@ def test_a_picture_says_what_its_colours_mean(monkeypatch):
 
 
 def test_a_vehicle_of_which_nothing_can_be_drawn_is_refused(capsys, tmp_path):
-    body = RigidBody("lump", "cabin", "lump", 9.0, np.zeros(3), np.eye(3))
-    write_vehicle(Vehicle("lump", (body,), ()), tmp_path / "lump")
-    file = tmp_path / "lump.png"
-    assert main(["render", str(tmp_path / "lump"), "--output", str(file)]) == 2
+    beam = replace(Beam(4).body("beam"), mesh=())
+    write_vehicle(Vehicle("beam", (beam,), ()), tmp_path / "beam")
+    file = tmp_path / "beam.png"
+    assert main(["render", str(tmp_path / "beam"), "--output", str(file)]) == 2
     assert "there is nothing to draw: no body that is shown has a mesh" in capsys.readouterr().err
     assert not file.exists()
 

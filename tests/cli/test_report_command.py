@@ -95,10 +95,9 @@ def test_a_vehicle_without_roads_and_loads_has_a_report_of_its_modes(folder, tmp
     write_vehicle(bare, tmp_path / "bare")
     output = tmp_path / "out.html"
     assert main(["report", "--no-pictures", str(tmp_path / "bare"), "--output", str(output)]) == 0
-    assert list(Document(output.read_text("utf-8")).tables) == [
-        "Mount rates",
-        "Natural frequencies below 25 Hz",
-    ]
+    tables = Document(output.read_text("utf-8")).tables
+    assert [*tables][:3] == ["Mount rates", "Natural frequencies below 25 Hz", "Bodies on their mounts"]
+    assert not {"Running engines", "Unbalance and tyre force variation"} & tables.keys()
 
 
 @pytest.mark.parametrize(
