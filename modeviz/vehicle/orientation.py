@@ -5,7 +5,7 @@ wheel's centre is above the ground, and what has an axle at the origin has its f
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from statistics import median
 
@@ -26,6 +26,8 @@ _BEFORE = ((0, "front", "rear"), (1, "left", "right"))
 
 _SIDES = (("behind", "before"), ("to the right of", "to the left of"))
 """Words for where the first is, by axis, not as it ought to be and as it ought to be."""
+
+_Things = Sequence[tuple[str, Floats]]
 
 _AT_ORIGIN, _BEFORE_ORIGIN = 0.1, 0.5
 """Parts of the wheelbase: an axle nearer than the first is at the origin."""
@@ -48,10 +50,17 @@ def signs(vehicle: Vehicle) -> Iterator[Sign]:
             before, after = (_named(things, word) for word in (first, second))
             if before and after:
                 a, b = (median(place[axis] for _, place in found) for found in (before, after))
-                where = _SIDES[axis][bool(a <= b)]
-                yield Sign(axis, bool(a <= b), f"{before[0][0]!r} is {where} {after[0][0]!r}")
+                is_right = bool(a <= b)
+                yield Sign(axis, is_right, _pair(before, after, axis, is_right))
                 break
     yield from _signs_of_tyres(vehicle)
+
+
+def _pair(before: _Things, after: _Things, axis: int, is_right: bool) -> str:
+    """Words for the first two things that stand to each other as most do."""
+    pairs = ((one, two) for one in before for two in after)
+    one, two = next((a, b) for a, b in pairs if bool(a[1][axis] <= b[1][axis]) is is_right)
+    return f"{one[0]!r} is {_SIDES[axis][is_right]} {two[0]!r}"
 
 
 def _signs_of_tyres(vehicle: Vehicle) -> Iterator[Sign]:

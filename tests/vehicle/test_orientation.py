@@ -82,3 +82,13 @@ def test_names_that_are_exchanged_get_no_advice():
 
 def test_the_built_in_truck_stands_the_right_way_round():
     assert orientation_doubts(builtin_truck(), OURS) == ()
+
+
+def test_the_two_that_are_named_stand_to_each_other_as_it_is_said():
+    """Here FL is to the left of FR, and RL so far out that lefts are to the right of rights."""
+    *others, rear_left, rear_right = car(SHORT).tyres
+    out = np.array([0, 4.0, 0])
+    moved = replace(rear_left, points=rear_left.points + out, wheel_center=rear_left.wheel_center + out)
+    vehicle = replace(car(SHORT), connections=(*others, moved, rear_right))
+    (doubt,) = orientation_doubts(vehicle, OURS)
+    assert doubt.startswith("'RL' is to the right of 'FR'")
