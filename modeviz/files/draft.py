@@ -36,8 +36,12 @@ TABLES: Mapping[str, tuple[str, ...]] = {
     "force": ("force",),
     "base motion": ("base_motion",),
     "problem": ("problem",),
+    "load case": ("load_case",),
 }
 """The keys of the tables in which a part of a vehicle stands, by its kind."""
+
+SUPPLIES: Mapping[str, str] = {"dynamic": "loss_factor"}
+"""Tables of a mount group, each with a key that has to be there once it is taken out."""
 
 REFERENCES = frozenset(
     ("body", "bodies", "tyre", "connections", "roads", "wheel_loads", "points", "reference", "group")
@@ -63,6 +67,7 @@ class Draft:
         self._paths: dict[int, str] = {id(table): path for path, table in each_table(tables)}
         self._lost: set[str] = set()
         self._lost_bodies: set[str] = set()
+        self._had_engines: bool = bool(tables.get("engine"))
 
     @property
     def stand_ins(self) -> tuple[RigidBody, ...]:
@@ -141,6 +146,9 @@ class Draft:
         lost = self._lost - self._names()
         if MOUNTS in self.tables and BODIES not in self.tables and lost & {*self._table_bodies}:
             yield MOUNTS
+        if self._had_engines and not self.tables.get("engine"):
+            problems = each_table(self.tables.get("problem", []), "problem")
+            yield from (path for path, table in problems if table.get("goal") == "idle")
         for path, table in each_table(self.tables):
             if not lost.isdisjoint(_references(table)):
                 yield re.sub(r"^(problem\[\d+\]).*", r"\1", path)
@@ -204,6 +212,8 @@ class Draft:
                 for each in BAND if key in BAND else (key,):
                     self._lose(container.pop(each, None))
                     self._taken.add((id(container), each))
+                    if each in SUPPLIES:
+                        container.setdefault(SUPPLIES[each], STAND_INS[SUPPLIES[each]])
                 if container is self.tables and key == BODIES:
                     self._lost_bodies |= {*self._table_bodies}
                 return item or joined(self._paths[id(container)], key)

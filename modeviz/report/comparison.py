@@ -12,7 +12,7 @@ from modeviz.errors import VehicleError
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import prepare_goal
 from modeviz.vehicle.connections import Rates
-from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.problem import UNSHAKEN, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -55,7 +55,7 @@ class Comparison:
     wheels: tuple[WheelResults, WheelResults] | None
     """The response to harmonic loads, if there are any."""
     worth: ObjectiveValues | None
-    """By the vehicle's usual problem, its first; None if it has none."""
+    """By the vehicle's usual problem, its first; None if it has none, or none of its goal."""
 
     @property
     def vehicle(self) -> Vehicle:
@@ -103,7 +103,12 @@ def _worth(vehicle: Vehicle, base: Rates, now: Rates, speed: float) -> Objective
     if not vehicle.problems:
         return None
     problem = vehicle.problems[0]
-    goal = prepare_goal(vehicle, problem, vehicle.rates, speed)
+    try:
+        goal = prepare_goal(vehicle, problem, vehicle.rates, speed)
+    except VehicleError:
+        if problem.goal in UNSHAKEN:
+            return None  # as of mounts whose rates depend on frequency: a search says why
+        raise
     reference = goal.value(vehicle.rate_sets[problem.reference]) if problem.reference else None
     values = goal.value({}), goal.value(base), goal.value(now)
     return ObjectiveValues(problem, *values, reference, _space(vehicle, problem))

@@ -11,6 +11,9 @@ from modeviz.vehicle.connections import MOTIONS, Mount
 LEAST_SHOWN = 0.005
 """Part of all that is dissipated, below which a place is not listed."""
 
+LEAST_RATIO = 1e-9
+"""Transmissibility below which an end stands still."""
+
 ALONG, ABOUT = MOTIONS[:3], MOTIONS[3:]
 
 
@@ -89,7 +92,8 @@ def forces_table(found: LoadedForces, every: bool = False) -> str:
     parts = [_forces(found, numbers, ALONG, "force", "N")]
     if any(set(found.acting(i)) & set(ABOUT) for i in numbers):
         parts.append(_forces(found, numbers, ABOUT, "moment", "N m"))
-    return "\n\n".join([*parts, _transmissibility(found, numbers), _heat(found)])
+    parts += [_transmissibility(found, numbers), _heat(found)]
+    return "\n\n".join(part for part in parts if part)
 
 
 def _forces(
@@ -143,22 +147,28 @@ def _cell(found: LoadedForces, i: int, motion: str, in_vehicle_axes: bool) -> st
 
 
 def _transmissibility(found: LoadedForces, numbers: list[int]) -> str:
-    """Accelerations of the carrying ends over those of the carried ones, and what a force passes on."""
+    """Accelerations of the carrying ends over those of the carried ones, and what a force passes on.
+
+    A carrying end that stands still, as the ground does under loads of its own, is left out.
+    """
     rows = []
     for i in numbers:
         connection = found.forces.connections[i]
         ratio, overall = found.transmissibility(i)
         told = overall if _has_band(found) else ratio[0]
+        if told.max() < LEAST_RATIO:
+            continue
         ends = " / ".join(reversed(connection.bodies))
         rows.append([connection.name, ends, *(f"{value:.3g}" for value in told)])
     what = "root mean square" if _has_band(found) else "acceleration"
-    ratios = table([f"transmissibility: {what}", "of / over", *ALONG], rows)
+    ratios = table([f"transmissibility: {what}", "of / over", *ALONG], rows) if rows else ""
     through = found.force_transmissibility
     if through is None:
         return ratios
     largest = int(through.argmax())
     words = f"{through[largest]:.3g} of the force is passed on at {found.frequency_hz[largest]:.4g} Hz"
-    return f"{ratios}\n\n{words}" + (", where that is most" if _has_band(found) else "")
+    words += ", where that is most" if _has_band(found) else ""
+    return f"{ratios}\n\n{words}" if ratios else words
 
 
 def _heat(found: LoadedForces) -> str:

@@ -16,6 +16,7 @@ from modeviz.study.notebook import block, paragraphs
 from modeviz.text.markup import NONE, table, title
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MOTIONS, Rates
+from modeviz.vehicle.engine import EngineOrder
 
 
 def loaded_forces(
@@ -42,6 +43,11 @@ def loaded_forces(
     """
     lines = None if frequency_hz is None else np.array([frequency_hz])
     chosen = chosen_load(prepared.vehicle, load)
+    if frequency_hz is not None and isinstance(chosen, EngineOrder):
+        low, high = chosen.frequency_hz[[0, -1]].tolist()
+        if not low <= frequency_hz <= high:
+            words = f"found {frequency_hz:g} Hz, expected {low:g} to {high:g} Hz, where the engine runs"
+            raise VehicleError(f"load {chosen.name!r}: {words}")
     return solve_loaded(prepared, rates, chosen, speed, lines, progress)
 
 

@@ -124,6 +124,90 @@ def test_tables_keep_their_numbers_whatever_was_taken_out_before_them(folder):
     ]
 
 
+ON_A_MOUNT = """
+name = "engine on a mount"
+
+[units]
+length = "mm"
+mass = "kg"
+inertia = "kg m²"
+stiffness = "N/mm"
+force = "N"
+torque = "N m"
+
+[[rigid_body]]
+name = "engine"
+mass = 200.0
+center_of_gravity = [0.0, 0.0, 500.0]
+inertia = [10.0, 8.0, 12.0]
+crank_axis = "lateral"
+
+[[mount_group]]
+name = "M"
+rates = { vertical = 200.0, lateral = 100.0, fore_aft = 100.0 }
+[mount_group.dynamic]
+reference_frequency = 10.0
+[mount_group.dynamic.three_parameter]
+stiffening = [0.5, 0.5, 0.5]
+corner = 15.0
+[[mount_group.curve]]
+direction = "vertical"
+deflection = [-5.0, 0.0, 5.0]
+force = [-900.0, 0.0, 900.0]
+[[mount_group.mount]]
+name = "left"
+bodies = ["engine", "ground"]
+at = [0.0, -300.0, 500.0]
+
+[[response_point]]
+name = "driver"
+body = "engine"
+at = [0.0, 0.0, 500.0]
+
+[[load_case]]
+name = "first gear"
+[[load_case.load]]
+body = "engine"
+torque = [0.0, 900.0, 0.0]
+
+[[engine]]
+name = "four"
+body = "engine"
+[engine.inline]
+cylinders = 4
+stroke = 90.0
+rod_ratio = 0.3
+reciprocating_mass = 0.6
+lowest_speed = 700
+highest_speed = 4000
+
+[[problem]]
+name = "idle"
+goal = "idle"
+[[problem.group]]
+group = "M"
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "key"),
+    [
+        ("corner = 15.0", "corner = 0.0", "mount_group[0].dynamic.three_parameter.corner"),
+        ("0.0, 900.0]", "0.0, -900.0]", "mount_group[0].curve[0].force[2]"),
+        ("cylinders = 4", "cylinders = 0", "engine[0].inline.cylinders"),
+        ('"engine"\ntorque', '"motor"\ntorque', "load_case[0]"),
+        ('name = "first gear"', 'name = "a"\n[[load_case]]\nname = "a"', "load_case[1]"),
+    ],
+)
+def test_a_mistake_in_what_mounts_and_engines_have_is_one_problem(tmp_path, right, wrong, key):
+    assert right in ON_A_MOUNT
+    (tmp_path / "vehicle.toml").write_text(ON_A_MOUNT.replace(right, wrong), "utf-8")
+    found = survey(tmp_path)
+    assert [problem.key for problem in found.problems] == [key]
+    assert found.problems[0].line
+    assert [body.name for body in found.bodies] == ["engine"]
+
+
 def test_a_folder_without_anything_to_read_is_one_problem(folder, tmp_path):
     assert [p.words for p in survey(tmp_path).problems] == [
         "found no vehicle.toml; a vehicle is a folder with a vehicle.toml, and the modes, meshes and "

@@ -4,6 +4,7 @@ from dataclasses import replace
 from datetime import date
 
 import pytest
+from dynamic_mounts import MAXWELL, OTHER_RATES, on_mounts
 from four_cylinder import FREQUENCIES, four_cylinder
 from html_documents import Document
 from small_systems import oscillator
@@ -12,6 +13,7 @@ from modeviz.analysis.preparation import prepare
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import report
 from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.problem import DesignGroup, Problem
 
 TODAY = date(2026, 11, 22)
 STIFF = RateSet("stiff", {"M1": MountRates(9e5, 1e5, 2e5)})
@@ -54,3 +56,11 @@ def test_a_vehicle_without_mounts_has_no_such_section():
     plain = RateSet("original", {})
     text = report(compare(prepare(vehicle), plain, plain, None), TODAY)
     assert "Bodies on their mounts" not in text
+
+
+def test_a_goal_that_cannot_be_told_of_rates_over_frequency_is_left_out():
+    problem = Problem("pure", (DesignGroup("E"),), goal="purity")
+    vehicle = replace(on_mounts(MAXWELL), problems=(problem,))
+    found = compare(prepare(vehicle), RateSet("drawn", {}), RateSet("stiff", {"E": OTHER_RATES}), None)
+    assert found.worth is None
+    assert "Objective" not in Document(report(found, TODAY)).tables

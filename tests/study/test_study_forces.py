@@ -15,6 +15,7 @@ from modeviz.errors import ModevizError, VehicleError
 from modeviz.files import write_vehicle
 from modeviz.study.study import Study
 from modeviz.units import STANDARD_GRAVITY
+from modeviz.vehicle.engine import Engine, EngineOrder
 from modeviz.vehicle.loads import Force
 
 STUDY = Study(mounted_machine())
@@ -81,6 +82,14 @@ def test_the_transmissibility_across_a_mount_is_the_ratio_of_its_ends_accelerati
 def test_mounts_on_ground_that_stands_still_pass_no_motion_on():
     np.testing.assert_allclose(STUDY.forces("firing").transmissibility("foot"), 0.0)
     assert STUDY.forces("floor").transmissibility("foot").min() > 0
+
+
+def test_no_transmissibility_is_printed_of_ground_that_stands_still():
+    push = Force("push", "block", np.zeros(3), UP, 25.0)
+    told = str(Study(shaken_block(push)).forces("push"))
+    assert "of / over" not in told
+    assert "of the force is passed on at" in told
+    assert "ground / " in str(STUDY.forces("floor"))
 
 
 def test_work_is_what_is_dissipated():
@@ -167,3 +176,14 @@ def test_a_vehicle_without_loads_is_told_what_to_give(tmp_path, capsys):
     write_vehicle(quiet, tmp_path / "quiet")
     assert main(["forces", str(tmp_path / "quiet")]) == 2
     assert "has no load: give its vehicle.toml a [[force]]" in capsys.readouterr().err
+
+
+def test_an_order_is_refused_where_the_engine_does_not_run():
+    speeds = np.array([10.0, 15.0])
+    order = EngineOrder("four order 2", "four", 2.0, 2 * speeds, np.full((2, 6), 5.0 + 0j))
+    block = shaken_block(Force("push", "block", np.zeros(3), UP, 25.0))
+    engine = Engine("four", "block", np.zeros(3), speeds, 10.0, (order,))
+    study = Study(replace(block, engines=(engine,)))
+    assert study.forces("four order 2", frequency_hz=20.0).found.forces.force.any()
+    with pytest.raises(VehicleError, match="found 19 Hz, expected 20 to 30 Hz, where the engine runs"):
+        study.forces("four order 2", frequency_hz=19.0)

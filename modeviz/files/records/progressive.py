@@ -24,7 +24,7 @@ UPWARD = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
 class CurveRecord(Record, kw_only=True):
     """[[mount_group.curve]]: the force over the deflection along one direction."""
 
-    depending: ClassVar[frozenset[str]] = frozenset(("file", "deflection"))
+    depending: ClassVar[frozenset[str]] = frozenset(("file", "deflection", "force"))
 
     direction: Literal["vertical", "lateral", "fore-aft"]
     file: str | None = None
