@@ -88,6 +88,16 @@ def test_modes_that_go_on_over_pages(read, n_rows):
     np.testing.assert_array_equal(component.nodes[:, 0], [1, 2, 3])
 
 
+def test_a_file_that_ends_before_its_modes_is_cut_unless_the_job_ended(read):
+    text = printed()
+    fewer = text[: text.rindex(page("").split("\n")[0])]
+    with pytest.raises(
+        VehicleError, match=r"mode 2 of its table .* no line END OF JOB: the file is cut"
+    ):
+        read(fewer)
+    assert read(fewer + page(" * * * END OF JOB * * *")).n_modes == 1
+
+
 def test_grids_without_rotations_and_scalar_points(read):
     rows = [row(1, [1, 2, 3]), row(2, [4, 5, 6]), row(3, [7, 8, 9]), row(4, [9, 9, 9], "S")]
     component = read(mode(1, 100.0, rows))

@@ -5,7 +5,7 @@ eigenvalue and its number above the rows of points; the table of eigenvalues has
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -27,6 +27,8 @@ COMPLEX = b"C O M P L E X   E I G E N V E C T O R"
 TABLE = b"R E A L   E I G E N V A L U E S"
 BUCKLING = re.compile(rb"^ *SOL +(?:105|SEBUCKL|BUCKLING)\b", re.MULTILINE | re.IGNORECASE)
 
+END = b"END OF JOB"
+
 PAGE = b"1"
 """How the first line of a page begins."""
 
@@ -46,7 +48,7 @@ def read_printed_shapes(path: Path) -> tuple[Shapes | None, Floats]:
     The table is (n, 4): number of a mode, eigenvalue, generalised mass, zero.
 
     Raises:
-        VehicleError: it is damaged, or its modes are complex.
+        VehicleError: it is damaged or cut, or its modes are complex.
     """
     with located(path):
         content = read_bytes(path, LARGEST_FILE)
@@ -55,7 +57,22 @@ def read_printed_shapes(path: Path) -> tuple[Shapes | None, Floats]:
         found = list(_shapes(content))
         if not found and COMPLEX in content:
             raise VehicleError("its modes are complex, which are read from an OP2 file only")
-        return (assembled(found, is_basic=False) if found else None), _eigenvalue_rows(content)
+        table = _eigenvalue_rows(content)
+        _check_end(content, found, table)
+        return (assembled(found, is_basic=False) if found else None), table
+
+
+def _check_end(content: bytes, found: Sequence[Shape], table: Floats) -> None:
+    """Raises VehicleError if a file ends before all modes of its table are printed.
+
+    Of one that has its end others than these may not have been asked for.
+    """
+    missing = {int(mode) for mode in table[:, 0]} - {shape.mode for shape in found}
+    if found and missing and END not in content:
+        raise VehicleError(
+            f"mode {min(missing)} of its table of eigenvalues is not there, and no line "
+            f"{END.decode()}: the file is cut"
+        )
 
 
 def _shapes(content: bytes) -> Iterator[Shape]:
