@@ -10,9 +10,11 @@ from session_commands import Alter
 from modeviz.cli import main
 from modeviz.cli.options import RoadOptions
 from modeviz.files import write_vehicle
+from modeviz.study.conditions import has_ride, on_even_road
 from modeviz.vehicle.connections import Spring, Tyre
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.session.cursor import is_shaken
 
 NO_TYRES = tuple(
     Spring(c.name, c.group, c.bodies, c.points, stiffness=c.stiffness) if isinstance(c, Tyre) else c
@@ -92,3 +94,11 @@ def test_what_has_nothing_to_say_is_not_on_the_page(vehicle):
         assert "+10 %" in table.content
     finally:
         app.close()
+
+
+def test_tyres_without_a_road_of_their_own_shake_it():
+    on_iso_8608 = replace(mounted_cabin(), roads=(), wheel_loads=())
+    assert has_ride(on_iso_8608)
+    assert is_shaken(on_iso_8608)
+    unfelt, _ = on_even_road(replace(mounted_cabin(), **LACKING["response point"]))
+    assert not is_shaken(unfelt)

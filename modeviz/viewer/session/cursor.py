@@ -40,7 +40,12 @@ class CursorForces:
 
 
 def is_shaken(vehicle: Vehicle) -> bool:
-    """Return whether anything shakes a vehicle that is shown: an even road does not."""
+    """Return whether anything shakes a vehicle that is shown: an even road does not.
+
+    One that has tyres and no road is driven over one of ISO 8608.
+    """
+    if not vehicle.roads and vehicle.has_driven_tyres:
+        return True
     roads = (road for road in vehicle.random_loads if isinstance(road, Road))
     others = len(vehicle.random_loads) > len(vehicle.roads)
     harmonic = (*vehicle.harmonic_loads, *vehicle.engine_orders)
