@@ -4,6 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from modeviz.errors import VehicleError, quoted
 from modeviz.files.disk import check_each_once
 from modeviz.files.meshes import READERS as MESHES
@@ -47,14 +49,15 @@ def read_component(paths: Sequence[Path]) -> Component:
     others = [path for path in paths if path not in matrices]
     decks = others if all(path.suffix.lower() in DECKS for path in others) else []
     punched = [path for path in matrices if path.suffix.lower() == PUNCH]
-    inputs = [read_input(path) for path in (*decks, *punched)]
-    if matrices or any(one.matrices for one in inputs) or not others:
-        files = [path for path in matrices if path not in punched]
-        component = read_matrices(files, _geometry(others, decks, inputs), inputs)
-    elif len(decks) == 1:
-        component = inputs[0].geometry(MODES_ELSEWHERE)
-    else:
-        component = _read_others(others)
+    with np.errstate(invalid="ignore"):  # what is not finite is refused in the end
+        inputs = [read_input(path) for path in (*decks, *punched)]
+        if matrices or any(one.matrices for one in inputs) or not others:
+            files = [path for path in matrices if path not in punched]
+            component = read_matrices(files, _geometry(others, decks, inputs), inputs)
+        elif len(decks) == 1:
+            component = inputs[0].geometry(MODES_ELSEWHERE)
+        else:
+            component = _read_others(others)
     return replace(component, source=", ".join(path.name for path in paths))
 
 

@@ -1,10 +1,12 @@
 """Whatever is in a file of any ending that is taken, a refusal names it once."""
 
 import random
+import warnings
 
 import pytest
 from damage import check_refusal
-from network_files import network_unv
+from network_files import network_op2, network_unv
+from op2_files import Op2
 
 from modeviz.cli import main
 from modeviz.files.meshes import READERS as MESHES
@@ -79,3 +81,15 @@ def test_a_bad_file_of_several_is_named_once(tmp_path, capsys, ending, content):
         path.write_bytes(CONTENTS[content])
     said = refused(capsys, path, body, "--output", tmp_path / "vehicle")
     assert max(said.count(path.name), said.count(body.name)) == 1
+
+
+@pytest.mark.parametrize("before", [Op2().words(11, 0), Op2().words(10 * 11 + 2, 1)])
+def test_numbers_that_signal_that_they_are_none_are_refused_without_a_warning(tmp_path, capsys, before):
+    """Of the first grid, and of a motion: widening such a number is invalid to the processor."""
+    content = network_op2(Op2())
+    at = content.index(before) + len(before)
+    path = tmp_path / "a.op2"
+    path.write_bytes(content[:at] + b"\x01\x00\x80\x7f" + content[at + 4 :])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert "not finite" in refused(capsys, path)
