@@ -19,8 +19,14 @@ from modeviz.dynamics.basis import EnrichedBasis
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Complexes, Floats
 
-N_GUESSES = 41
-"""Frequencies from zero to the top of the band between which meetings are looked for."""
+N_GUESSES = 40
+"""Steps from zero to the top of the band, at least, within which meetings are looked for."""
+
+N_FINE = 8000
+"""Frequencies at which it is seen how fast rates change there."""
+
+STEADY = 0.03
+"""By no larger part does a rate change within a step, in which a mode might come and go unseen."""
 
 MAX_STEPS = 60
 """Of an iteration that gains digits with the square of what it has, or halves where it would not."""
@@ -41,6 +47,8 @@ class Pencil:
     """R, (n_springs, n)."""
     change: Callable[[float], Floats]
     """Δ, (n_springs,), N/m, at a frequency, Hz."""
+    guesses_hz: Floats
+    """Rising from zero to the top of the band: within a step rates hardly change."""
 
     def eigenvalues(self, frequency_hz: float) -> Floats:
         """Return λ_i(ω), (n,), rising."""
@@ -68,7 +76,7 @@ def ritz_pencil(basis: EnrichedBasis, stiffness: Complexes, n: int | None = None
         n: how many vectors.
     """
     K, R = basis.stiffness[:n, :n], basis.spring_motions[:, :n]
-    return Pencil(K, None, R, partial(_change, basis, stiffness))
+    return Pencil(K, None, R, partial(_change, basis, stiffness), _guesses(basis))
 
 
 def full_pencil(basis: EnrichedBasis, stiffness: Complexes) -> Pencil:
@@ -76,7 +84,21 @@ def full_pencil(basis: EnrichedBasis, stiffness: Complexes) -> Pencil:
     system = basis.system
     K, M = system.condensed(system.stiffness), system.condensed(system.mass)
     R = system.condensed_rows(system.mount_motions)
-    return Pencil(K, M, R, partial(_change, basis, stiffness))
+    return Pencil(K, M, R, partial(_change, basis, stiffness), _guesses(basis))
+
+
+def _guesses(basis: EnrichedBasis) -> Floats:
+    """Frequencies, Hz, from zero to the top of the band, closer where rates change."""
+    if basis.law.is_constant:
+        return np.array([0.0, basis.top_hz])
+    fine = np.linspace(0.0, basis.top_hz, N_FINE + 1)
+    rates = basis.law.ratios(fine).real
+    size = np.maximum(np.abs(rates[:-1]), np.abs(rates[1:]))
+    changes = np.abs(np.diff(rates, axis=0)) / np.maximum(size, np.finfo(np.float64).tiny)
+    steps = changes.max(axis=1, initial=0.0) / STEADY + N_GUESSES / N_FINE
+    passed = np.concatenate([[0.0], np.cumsum(steps)])
+    wanted = np.linspace(0.0, passed[-1], int(np.ceil(passed[-1])) + 1)
+    return fine[np.searchsorted(passed, wanted * (1 - 1e-12))]
 
 
 def _change(basis: EnrichedBasis, stiffness: Complexes, frequency_hz: float) -> Floats:
@@ -98,7 +120,7 @@ def own_modes(pencil: Pencil, top: float) -> tuple[Floats, Floats, int]:
     Raises:
         SolveError: a mode at whose frequency the iteration does not arrive.
     """
-    guesses = np.linspace(0.0, np.sqrt(top), N_GUESSES)
+    guesses = 2 * np.pi * pencil.guesses_hz
     above = np.array([pencil.eigenvalues(omega / (2 * np.pi)) - omega**2 for omega in guesses])
     is_above = above > 0
     is_above[0] = True

@@ -21,7 +21,17 @@ from modeviz.mounting.forces import solve_forces
 from modeviz.optimise.objective import LoadCase, prepare_objective
 from modeviz.ride.excitation import generalised_forces
 from modeviz.ride.psd import harmonic_acceleration
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.connections import (
+    GROUND,
+    Mount,
+    MountGroup,
+    MountRates,
+    Spring,
+    usual_bounds,
+)
+from modeviz.vehicle.dynamic_rates import HydraulicRates
+from modeviz.vehicle.vehicle import Vehicle
 
 OTHER = MountRates(190e3, 240e3, 110e3)
 RUBBERS = [MAXWELL, HYDRAULIC, measured(MAXWELL), measured(HYDRAULIC)]
@@ -212,3 +222,41 @@ def test_an_optimiser_goes_by_the_rates_of_each_frequency():
             for x in (1 + h, 1 - h)
         )
         assert gradient[number] == pytest.approx((up - down) / (2 * h * k), rel=1e-5)
+
+
+@pytest.mark.parametrize("track_damping", [0.002, 0.01, 0.05, 0.3])
+@pytest.mark.parametrize("highest_hz", [15.0, 40.0, 120.0, 400.0])
+def test_no_mode_is_missed_however_wide_the_band(track_damping, highest_hz):
+    """A mass on a mount whose fluid swings meets its own frequency up to three times."""
+    fluid = HydraulicRates(
+        reference_hz=0.1,
+        rubber=200e3,
+        rubber_loss=0.05,
+        bulge_stiffness=100e3,
+        track_mass=0.05,
+        track_damping=track_damping,
+        area_ratio=60.0,
+    )
+    body = RigidBody("mass", "other", "mass", 100.0, np.zeros(3), 10 * np.eye(3))
+    place, rates = np.zeros((2, 3)), MountRates(200e3, 5e3, 5e3)
+    side = np.array([5e8, 5e8, 0.0])
+    held = Spring("side", "side", ("mass", GROUND), place, side, np.full(3, 5e8))
+    mount = Mount("m", "H", ("mass", GROUND), place)
+    group = MountGroup("H", "H", rates, fluid.loss_factor, usual_bounds(rates), (mount,), dynamic=fluid)
+    vehicle = Vehicle("mass", (body,), (held,), (group,), highest_frequency=highest_hz)
+    found = solve_modal(prepare_modes(vehicle), {}).modes
+
+    def misses(f):
+        reference = fluid.complex_rates(np.array([0.1]))[0, 2].real
+        k = 200e3 * fluid.complex_rates(np.atleast_1d(f))[:, 2].real / reference
+        return k - 100.0 * (2 * np.pi * np.atleast_1d(f)) ** 2
+
+    grid = np.linspace(0.02, highest_hz, 200_001)
+    values = misses(grid)
+    expected = [
+        brentq(lambda f: misses(f)[0], grid[at], grid[at + 1])
+        for at in np.flatnonzero((values[:-1] > 0) & (values[1:] <= 0))
+    ]
+    vertical = found.frequency_hz[np.abs(found.shapes[2]) > 0.05]
+    assert len(vertical) == len(expected)
+    np.testing.assert_allclose(vertical, expected, rtol=1e-9)
