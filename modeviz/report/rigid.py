@@ -11,7 +11,8 @@ from modeviz.mounting.axes import ElasticAxes
 from modeviz.mounting.focus import Focus
 from modeviz.mounting.purity import Gap, Purity
 from modeviz.report.records import Record, rates_record
-from modeviz.report.tables import table
+from modeviz.report.tables import own_frequencies, table
+from modeviz.text.wording import sentence_case
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
@@ -26,7 +27,12 @@ HELD, MOUNTED = "other ends of its mounts held still", "on all that is elastic, 
 
 def rigid_table(results: ModalResults, bodies: Sequence[RigidBodyFigures], axes: Axes) -> str:
     """Return energy in six directions by mode, what is asked of it, and axes and centres."""
-    return "\n\n\n".join(_body_table(results, figures, axes) for figures in bodies)
+    tables = "\n\n\n".join(_body_table(results, figures, axes) for figures in bodies)
+    notes = [
+        f"{sentence_case(words)}, axes and centres those at these frequencies."
+        for words in own_frequencies(results.vehicle)
+    ]
+    return "\n\n".join([tables, *notes])
 
 
 def _body_table(results: ModalResults, figures: RigidBodyFigures, axes: Axes) -> str:

@@ -112,7 +112,7 @@ def _sure(gap: TruncationGap) -> str:
         least, most = _percent(gap.change / gap.within), _percent(gap.change * gap.within)
         return f"an estimate, between {least} and {most}"
     least = _percent(gap.at_least)
-    return f"these modes tell no more than the order of magnitude, and at least {least}"
+    return f"these modes tell the order of magnitude alone; it is at least {least}"
 
 
 def _percent(part: float) -> str:

@@ -241,7 +241,7 @@ def test_residual_vectors_of_some_attachments_leave_the_others_lacking():
     [
         (2.0, "up to about 3 % (at 9.5 Hz; an estimate within a factor of two)"),
         (4.0, "up to about 3 % (at 9.5 Hz; an estimate, between 0.75 % and 12 %)"),
-        (10.0, "(at 9.5 Hz; these modes tell no more than the order of magnitude, and at least 0.5 %)"),
+        (10.0, "(at 9.5 Hz; these modes tell the order of magnitude alone; it is at least 0.5 %)"),
     ],
 )
 def test_it_is_said_how_well_a_gap_is_known(within, said):
