@@ -21,6 +21,7 @@ from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import VIEWS
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import energy_shares, largest_share
+from modeviz.viewer.session.cursor import CursorForces
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.followed_mode import FollowedMode
 from modeviz.viewer.session.movement import Movement
@@ -141,6 +142,7 @@ def solved(modal, mode=6, **fields):
         movement=Movement(name.name, name.name, f, "", shape, None),
         wheels={},
         static=SolvedStatics(NOT_SOLVED, NOT_SOLVED),
+        cursor=CursorForces(),
         seconds=0.0,
         classic_error=None,
         findings=None,

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 from bulk_data import bulk_data
+from elsewhere import bulk
 from many_mounts import many_mounts
-from pyyeti.nastran import bulk
 
 from modeviz.cli import main
 from modeviz.export.bushes import bush_deck

@@ -147,16 +147,16 @@ def test_inertia_about_another_point_is_taken_to_the_center_of_gravity(tmp_path,
 
     given = inertia(point)
     body = {"name": "block", "mass [kg]": masses.sum(), "inertia_at": at}
-    body |= dict(zip(("cg_x [m]", "cg_y [m]", "cg_z [m]"), center, strict=True))
+    body |= dict(zip(("cg_x [m]", "cg_y [m]", "cg_z [m]"), center.tolist(), strict=True))
     body |= {
-        f"I{a}{b} {'' if a == b else f'= +int {a}*{b} dm '}[kg m^2]": given[
+        f"I{a}{b} {'' if a == b else f'= +int {a}*{b} dm '}[kg m^2]": given.item(
             "xyz".index(a), "xyz".index(b)
-        ]
+        )
         * (1 if a == b else -1)
         for a, b in ("xx", "yy", "zz", "xy", "xz", "yz")
     }
     if at == "point":
-        body |= {f"point_{a} [m]": x for a, x in zip("xyz", point, strict=True)}
+        body |= {f"point_{a} [m]": x for a, x in zip("xyz", point.tolist(), strict=True)}
     mounts = [m | {"body_1": "block"} for m in MOUNTS]
     (found,) = read_vehicle(folder(tmp_path / "block", [body], mounts)).bodies
     assert isinstance(found, RigidBody)

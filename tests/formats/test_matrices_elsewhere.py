@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from elsewhere import bulk, op4
 from free_network import LABELS, free_network
 from op4_files import dmig, op4_binary, op4_text
-from pyyeti.nastran import bulk, op4
 
 from modeviz.formats.named_matrices import symmetric
 from modeviz.formats.nastran.input_file import read_input

@@ -56,14 +56,13 @@ def _mounts(comparison: Comparison, cases: Sequence[StaticCase]) -> str:
 
 
 def _bodies(comparison: Comparison, cases: Sequence[StaticCase]) -> str:
-    names = list(map(escape, comparison.names))
     rows = [
-        [title(body.label), *(c for case in cases for c in motion_cells(case.bodies[body.name]))]
+        [title(body.label) if first else "", escape(name), *motion_cells(case.bodies[body.name])]
         for body in comparison.vehicle.bodies
+        for first, name, case in zip((True, False), comparison.names, cases, strict=True)
     ]
-    groups = [("", 1), *((name, 6) for name in names)]
     header = [*(f"{axis}, mm" for axis in AXES), *(f"r{axis}, °" for axis in AXES)]
-    return table(["Body", *header * 2], rows, groups)
+    return table(["Body", "", *header], rows)
 
 
 def _travel(comparison: Comparison, sets: Sequence[Statics]) -> Iterator[str]:
