@@ -92,7 +92,7 @@ def _guesses(basis: EnrichedBasis) -> Floats:
     if basis.law.is_constant:
         return np.array([0.0, basis.top_hz])
     fine = np.linspace(0.0, basis.top_hz, N_FINE + 1)
-    rates = basis.law.ratios(fine).real
+    rates = np.real(basis.law.ratios(fine))
     size = np.maximum(np.abs(rates[:-1]), np.abs(rates[1:]))
     changes = np.abs(np.diff(rates, axis=0)) / np.maximum(size, np.finfo(np.float64).tiny)
     steps = changes.max(axis=1, initial=0.0) / STEADY + N_GUESSES / N_FINE
