@@ -213,3 +213,27 @@ def test_an_engine_from_csv_has_the_frequencies_of_a_public_study():
     known = [10.0739, 11.5762, 14.6973, 16.3353, 19.7130, 31.4272]
     assert [*engine.frequency_hz.values()] == pytest.approx(known, abs=1e-4)
     assert all(name.startswith("engine ") for name in engine.frequency_hz)
+
+
+def test_an_engine_from_csv_is_decoupled_by_other_rates_of_the_same_mounts():
+    engine = example("09_engine_from_csv")
+    assert not engine.drawn["engine"].passes
+    body = engine.decoupled["engine"]
+    assert body.passes
+    assert min(body.purity.values()) > 0.85
+    hz = sorted(body.frequency_hz.values())
+    assert hz[0] > 5
+    assert hz[-1] < 30
+    assert np.diff(hz).min() > 1.5
+
+
+def test_a_cab_on_softer_struts_bounces_slower_and_sags_further():
+    """Against one mass on springs: √(k/m), m g/k under a load that stays."""
+    cab = example("10_cab_on_struts")
+    k, m = 2 * (35e3 + 22e3), 980
+    assert cab.drawn["bounce, Hz"] == pytest.approx(np.sqrt(k / m) / (2 * np.pi), rel=0.04)
+    assert cab.drawn["sag, m"] == pytest.approx(1.3 * m * 9.80665 / k, rel=0.08)
+    assert cab.soft["bounce, Hz"] / cab.drawn["bounce, Hz"] == pytest.approx(np.sqrt(0.5), rel=0.02)
+    assert cab.soft["sag, m"] / cab.drawn["sag, m"] == pytest.approx(2, rel=0.02)
+    assert cab.soft["force of a strut, N RMS"] < 0.75 * cab.drawn["force of a strut, N RMS"]
+    assert cab.soft["seat, vertical, g RMS"] < 0.75 * cab.drawn["seat, vertical, g RMS"]
