@@ -228,6 +228,8 @@ def test_undo_takes_a_rate_back_and_leaves_what_moves(app, page):
     open_tab(page, "What moves")
     before = app.session.state.design
     app.session.do(SetRate("A", "lateral", 1e5))
+    assert app.session.wait(SOLVE_S)
+    shown(app, page)
     pick(page, "Shows", "Mode with damping")
     wait_until(page, lambda: app.session.state.motion.kind == "damped mode")
     page.get_by_role("button", name="Undo", exact=True).click()
