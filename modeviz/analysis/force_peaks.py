@@ -27,12 +27,14 @@ def force_participation(
         in_vehicle_axes: whether along or about the vehicle's axes, else the mount's own.
     """
     system, speed = results.prepared.system, results.conditions.speed
-    stiffness = results.prepared.mount_stiffness(results.rates)
+    law, stiffness = results.prepared.basis.law, results.prepared.mount_stiffness(results.rates)
+    there = law.stiffness(stiffness, frequency_hz)
     S = input_spectrum(load, frequency_hz, speed)
-    ground = excitation(system.vehicle, load, frequency_hz, speed, stiffness).ground
+    ground = excitation(system.vehicle, load, frequency_hz, speed, there).ground
     parts = []
+    every = np.broadcast_to(there, ground.shape[:2])
     for i, f in enumerate(frequency_hz):
-        weights = force_weights(system, stiffness, f, mount, motion, in_vehicle_axes)
+        weights = force_weights(system, every[i], f, mount, motion, in_vehicle_axes)
         row, given = weights @ system.mount_motions, -(weights @ ground[i])[None]
         parts.append(results.participation(row, load, frequency_hz[i : i + 1], S[i : i + 1], given)[0])
     return np.array(parts)

@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 from modeviz.analysis.batch import solve_many
 from modeviz.analysis.deflection_shapes import complex_mode, road_shape, wheel_shape
 from modeviz.analysis.driven import driven
+from modeviz.analysis.force_peaks import force_participation
 from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare, prepare_modes
 from modeviz.analysis.results import Conditions, solve
@@ -19,7 +20,7 @@ from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.mounting.forces import solve_forces
 from modeviz.optimise.objective import LoadCase, prepare_objective
-from modeviz.ride.excitation import generalised_forces
+from modeviz.ride.excitation import generalised_forces, input_spectrum
 from modeviz.ride.psd import harmonic_acceleration
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import (
@@ -260,3 +261,18 @@ def test_no_mode_is_missed_however_wide_the_band(track_damping, highest_hz):
     vertical = found.frequency_hz[np.abs(found.shapes[2]) > 0.05]
     assert len(vertical) == len(expected)
     np.testing.assert_allclose(vertical, expected, rtol=1e-9)
+
+
+def test_modes_make_a_force_by_the_rates_at_its_frequency():
+    """Along one spring it is its rate there times what they make of its stretch."""
+    vehicle, f = on_mounts(MAXWELL), np.array([4.0, 21.0])
+    results = solve(prepare(vehicle), {"E": OTHER}, Conditions("random", 20.0))
+    load = vehicle.random_load("random")
+    found = force_participation(results, load, f, 0, "z")
+    S = input_spectrum(load, f, 20.0)
+    row = results.prepared.system.mount_motions[2]
+    none = np.zeros((2, 1), complex)
+    stretch = results.participation(row, load, f, S, none)
+    reference = MAXWELL.complex_rates(np.array([MAXWELL.reference_hz]))[0, 2].real
+    k = OTHER.vertical * MAXWELL.complex_rates(f)[:, 2] / reference
+    np.testing.assert_allclose(found, np.abs(k)[:, None] * stretch, rtol=1e-9)
