@@ -12,8 +12,8 @@ from viser.transforms import SO3
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
+from modeviz.vehicle.alterations import Alterations, altered
 from modeviz.vehicle.connections import RATE_FIELDS
-from modeviz.vehicle.turned_mounts import with_turned_mounts
 from modeviz.viewer.session.commands.decisions import Load, SetRate
 
 SOLVE_S = 60
@@ -245,16 +245,22 @@ def test_mounts_that_are_turned_give_what_a_vehicle_with_such_mounts_gives(app, 
     number = page.locator(".mantine-Slider-root + div input >> visible=true").nth(1)
     wait_until(page, lambda: number.input_value() == "0")
     number.fill("30")
-    wait_until(page, lambda: app.session.state.design.turn("A")[0] == pytest.approx(np.radians(30)))
+    wait_until(
+        page,
+        lambda: (
+            app.session.state.design.alterations.placement("A").angles[0]
+            == pytest.approx(np.radians(30))
+        ),
+    )
     assert app.session.wait(SOLVE_S)
-    turned = with_turned_mounts(mounted_cabin(), app.session.state.design.turns)
+    turned = altered(mounted_cabin(), app.session.state.design.alterations)
     fresh = solve_modes(assemble(turned), below_hz=20.0).frequency_hz
     found = app.session.answer.now.modes.frequency_hz[: len(fresh)]
     assert found == pytest.approx(fresh, rel=1e-9)
     marker, mount = app.scene._markers._mounts["A"][0], turned.mount_group("A").mounts[0]
     wait_until(page, lambda: np.allclose(marker._frame.wxyz, SO3.from_matrix(mount.axes.T).wxyz))
     page.get_by_role("button", name="Undo", exact=True).click()
-    wait_until(page, lambda: app.session.state.design.turns == {})
+    wait_until(page, lambda: app.session.state.design.alterations == Alterations())
     assert app.session.wait(SOLVE_S)
     assert app.session.answer.now.modes.frequency_hz == pytest.approx(before, rel=1e-9)
 

@@ -13,7 +13,7 @@ from modeviz.analysis.rigid import BodyAxes, body_axes, body_purity
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
 from modeviz.mounting.purity import Purity
-from modeviz.vehicle.turned_mounts import Turns, with_turned_mounts
+from modeviz.vehicle.alterations import Alterations, altered
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.cursor import CursorForces
 from modeviz.viewer.session.findings import Findings
@@ -98,9 +98,9 @@ class Answers:
         """Nothing is solved before `prepare`."""
         self._vehicle = vehicle
         self._lock = threading.Lock()
-        self._turns: Turns = {}
+        self._alterations = Alterations()
         self.vehicle: Vehicle = vehicle
-        """With its mounts turned as in the newest answer."""
+        """Altered as in the newest answer."""
         self.prepared: Prepared
         """That vehicle made ready, once `prepare` has."""
         self._drive: RoadExcitation
@@ -113,23 +113,23 @@ class Answers:
         self._last: Solved | None = None
 
     def prepare(self, state: State, progress: Callable[[float], None] | None = None) -> None:
-        """Prepares the vehicle with its mounts turned, and solves with all sets that have a name.
+        """Prepares the vehicle as it is altered, and solves with all sets that have a name.
 
-        Turned mounts are other springs, so that nothing is kept of answers to others.
+        It is another vehicle then, so that nothing is kept of answers to others.
 
         Args:
-            state: the first one, or the first with other turns.
+            state: the first one, or the first with other alterations.
             progress: told the fraction of the preparation that is done.
 
         Raises:
             ModevizError: there is no answer on that road at that speed.
         """
-        turns = state.design.turns
-        vehicle = with_turned_mounts(self._vehicle, turns)
+        alterations = state.design.alterations
+        vehicle = altered(self._vehicle, alterations)
         prepared = prepare(vehicle, progress=progress)
         excitation = drive(prepared, state.conditions)
         with self._lock:
-            self.vehicle, self._turns = vehicle, turns
+            self.vehicle, self._alterations = vehicle, alterations
             self.prepared, self._drive = prepared, excitation
         self._named, self._follower = NamedResults(self._drive), ModeFollower(self.prepared)
         self._static = StaticSolver(self.prepared.system)
@@ -158,7 +158,7 @@ class Answers:
             ModevizError: there is no answer.
         """
         begin = time.perf_counter()
-        if asked.design.turns != self._turns:
+        if asked.design.alterations != self._alterations:
             self.prepare(asked)
         named = self._named.solve(asked)
         state = named.answerable(asked)
@@ -219,6 +219,6 @@ def asks_for_the_same(one: State, other: State) -> bool:
     """Whether two states have the same answer and differ at most in what is shown of it."""
     return (
         one.design.rates == other.design.rates
-        and one.design.turns == other.design.turns
+        and one.design.alterations == other.design.alterations
         and one.conditions == other.conditions
     )

@@ -5,16 +5,15 @@ from dataclasses import dataclass, field, replace
 from itertools import chain, count
 
 from modeviz.text.wording import sentence_case
+from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.decoupling import USUAL, Decoupling
-from modeviz.vehicle.turned_mounts import Turns
+from modeviz.vehicle.placement import Placement
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.plan import Plan
 
 ORIGINAL = "Original"
 """The name of the vehicle's own rates among the sets."""
-
-NOT_TURNED = (0.0, 0.0, 0.0)
 
 LINKED_DIGITS = 5
 """Of a rate that follows another: as many as a number on the page has room for."""
@@ -44,8 +43,8 @@ class Design:
     """Groups whose rates keep their ratios when one of them moves."""
     plan: Plan | None = None
     """What a search is to look for; None where there is nothing to optimise for."""
-    turns: Turns = field(default_factory=dict)
-    """How mounts are turned, of the groups that are: whatever their rates, also with those compared."""
+    alterations: Alterations = field(default_factory=Alterations)
+    """What else is other than in the vehicle's file, whatever the rates, also with those compared."""
     decoupling: Decoupling = USUAL
     """What the modes of bodies on their mounts are held against."""
 
@@ -69,14 +68,9 @@ class Design:
             scaled = {}
         return self.with_rates({group: replace(before, **{**scaled, direction: rate})})
 
-    def turn(self, group: str) -> tuple[float, float, float]:
-        """The angles about x, y, z by which mounts of a group are turned, rad."""
-        return self.turns.get(group, NOT_TURNED)
-
-    def with_turn(self, group: str, angles: tuple[float, float, float]) -> "Design":
-        """Return it with the mounts of a group turned otherwise."""
-        others = {name: turn for name, turn in self.turns.items() if name != group}
-        return replace(self, turns={**others, group: angles} if any(angles) else others)
+    def with_placement(self, group: str, placement: Placement) -> "Design":
+        """Return it with the mounts of a group moved and turned otherwise."""
+        return replace(self, alterations=self.alterations.with_placement(group, placement))
 
     def with_variant(self, name: str, rates: Rates) -> "Design":
         """Return it with a pinned set; one that takes the place of another keeps its number."""

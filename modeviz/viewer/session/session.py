@@ -55,7 +55,7 @@ class Session:
 
     @property
     def vehicle(self) -> Vehicle:
-        """With the rates that are called the original ones, mounts turned as in the newest answer."""
+        """With the rates that are called the original ones, altered as in the newest answer."""
         return self._answers.vehicle
 
     @property

@@ -15,7 +15,7 @@ from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, tab
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
 from modeviz.viewer.panels.mounts.rows import row_label
-from modeviz.viewer.session.commands.decisions import LinkRates, SetLossFactor, TurnMounts
+from modeviz.viewer.session.commands.decisions import LinkRates, PlaceMounts, SetLossFactor
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
 
@@ -115,7 +115,9 @@ class Details:
         session = self._session
 
         def angle(state: State) -> float:
-            return round(float(np.degrees(state.design.turn(name)[axis])), TURN_DECIMALS)
+            return round(
+                float(np.degrees(state.design.alterations.placement(name).angles[axis])), TURN_DECIMALS
+            )
 
         slider = gui.add_slider(
             f"About {AXES[axis]}, °",
@@ -130,7 +132,7 @@ class Details:
             slider,
             session,
             angle,
-            lambda degrees: session.do(TurnMounts(name, axis, float(np.radians(degrees)))),
+            lambda degrees: session.do(PlaceMounts(name, "angles", axis, float(np.radians(degrees)))),
             WriteBack(),
         )
 

@@ -51,26 +51,29 @@ class SetLossFactor(Command):
 
 
 @dataclass(frozen=True)
-class TurnMounts(Command):
-    """Turns the mounts of a group about one of the vehicle's axes, and selects it."""
+class PlaceMounts(Command):
+    """Moves the mounts of a group along one of the vehicle's axes, or turns them, and selects it."""
 
     group: str
+    field: str
+    """Of `Placement`."""
     axis: int
     """Of x, y, z."""
-    angle: float
-    """rad, out of the axes in the file."""
+    value: float
+    """m or rad, from how they were given."""
 
     @property
     def step(self) -> Hashable:
-        return "turn", self.group, self.axis
+        return "place", self.group, self.field, self.axis
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         vehicle.mount_group(self.group)
-        x, y, z = (
-            self.angle if axis == self.axis else old
-            for axis, old in enumerate(state.design.turn(self.group))
-        )
-        return replace(state, design=state.design.with_turn(self.group, (x, y, z)), group=self.group)
+        before = state.design.alterations.placement(self.group)
+        values = list(getattr(before, self.field))
+        values[self.axis] = self.value
+        placement = replace(before, **{self.field: tuple(values)})
+        design = state.design.with_placement(self.group, placement)
+        return replace(state, design=design, group=self.group)
 
 
 @dataclass(frozen=True)

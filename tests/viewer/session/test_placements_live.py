@@ -1,4 +1,4 @@
-"""Mounts turned in a session: every answer is that of a vehicle made with such mounts."""
+"""Mounts moved and turned in a session: every answer is that of a vehicle made with such mounts."""
 
 import numpy as np
 import pytest
@@ -7,8 +7,9 @@ from session_commands import Listener
 
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
-from modeviz.vehicle.turned_mounts import with_turned_mounts
-from modeviz.viewer.session.commands.decisions import SetRate, TurnMounts
+from modeviz.vehicle.alterations import Alterations
+from modeviz.vehicle.placement import Placement, with_placements
+from modeviz.viewer.session.commands.decisions import PlaceMounts, SetRate
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
 
@@ -26,12 +27,13 @@ def session():
     assert not heard.failures
 
 
-def test_turned_mounts_give_what_a_fresh_solve_gives(session):
-    session.do(TurnMounts("A", 0, 0.5))
-    session.do(TurnMounts("A", 2, -0.3))
+def test_placed_mounts_give_what_a_fresh_solve_gives(session):
+    session.do(PlaceMounts("A", "angles", 0, 0.5))
+    session.do(PlaceMounts("A", "angles", 2, -0.3))
+    session.do(PlaceMounts("A", "offset", 1, 0.04))
     session.do(SetRate("A", "vertical", 3e5))
     now = session.wait_for_answer(60).now
-    turned = with_turned_mounts(mounted_cabin(), {"A": (0.5, 0.0, -0.3)})
+    turned = with_placements(mounted_cabin(), {"A": Placement((0, 0.04, 0), (0.5, 0.0, -0.3))})
     fresh = solve(prepare(turned), session.state.design.rates, FLAT)
     np.testing.assert_allclose(now.modes.frequency_hz, fresh.modes.frequency_hz, rtol=1e-9)
     np.testing.assert_allclose(now.psd, fresh.psd, rtol=1e-7, atol=1e-12 * np.abs(fresh.psd).max())
@@ -44,7 +46,7 @@ def test_turned_mounts_give_what_a_fresh_solve_gives(session):
 
 def test_turning_is_undone_and_redone(session):
     before = session.wait_for_answer(60).now.modes.frequency_hz
-    session.do(TurnMounts("A", 0, 0.5))
+    session.do(PlaceMounts("A", "angles", 0, 0.5))
     turned = session.wait_for_answer(60).now.modes.frequency_hz
     assert not np.allclose(turned, before, rtol=1e-4)
     session.undo()
@@ -54,13 +56,13 @@ def test_turning_is_undone_and_redone(session):
 
 
 def test_what_is_compared_with_is_turned_too(session):
-    session.do(TurnMounts("A", 0, 0.5))
+    session.do(PlaceMounts("A", "angles", 0, 0.5))
     solved = session.wait_for_answer(60)
     assert solved.base.modes.frequency_hz == pytest.approx(solved.now.modes.frequency_hz, rel=1e-9)
 
 
 def test_a_drag_back_to_no_turn_is_no_step(session):
-    session.do(TurnMounts("A", 0, 0.5))
-    session.do(TurnMounts("A", 0, 0.0))
-    assert session.state.design.turns == {}
+    session.do(PlaceMounts("A", "angles", 0, 0.5))
+    session.do(PlaceMounts("A", "angles", 0, 0.0))
+    assert session.state.design.alterations == Alterations()
     assert not session.can_undo

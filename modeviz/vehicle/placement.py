@@ -1,0 +1,102 @@
+"""Where mounts sit and how they are turned, other than they were given, on both sides alike."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from modeviz.errors import VehicleError
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import MIDDLE, Mount, MountGroup
+from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
+from modeviz.vehicle.vehicle import Vehicle
+
+MIRRORED_OFFSET, MIRRORED_ANGLES = (1.0, -1.0, 1.0), (-1.0, 1.0, -1.0)
+"""Signs along and about x, y, z of what is seen in a mirror along the vehicle's middle."""
+
+ThreeFloats = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Placement:
+    """How far a mount is moved and turned from where it was given."""
+
+    offset: ThreeFloats = (0.0, 0.0, 0.0)
+    """Along the vehicle's x, y and z, m."""
+    angles: ThreeFloats = (0.0, 0.0, 0.0)
+    """About the vehicle's x, then y, then z, through where the mount is, rad."""
+
+    def __post_init__(self) -> None:
+        for name in ("offset", "angles"):
+            value = tuple(map(float, getattr(self, name)))
+            if len(value) != 3 or not np.isfinite(value).all():
+                raise VehicleError(f"{name}: found {value}, expected three numbers")
+            object.__setattr__(self, name, value)
+
+    @property
+    def is_as_given(self) -> bool:
+        """Whether it changes nothing."""
+        return not any((*self.offset, *self.angles))
+
+    @property
+    def mirrored(self) -> "Placement":
+        """The same on the other side of the vehicle."""
+        offset = np.multiply(self.offset, MIRRORED_OFFSET)
+        angles = np.multiply(self.angles, MIRRORED_ANGLES)
+        return Placement(tuple(offset), tuple(angles))
+
+    def apply(self, mount: Mount) -> Mount:
+        """Return a mount that is moved with both its ends; turning leaves these: axes a become R a."""
+        turned = mount.axes @ axes_of_angles(np.array(self.angles), TurnOrder())
+        return replace(mount, points=mount.points + self.offset, axes=turned)
+
+
+Placements = Mapping[str, Placement]
+"""By mount group: of its first mount and those on its side; others are placed as in a mirror."""
+
+
+def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
+    """Return a vehicle with the mounts of some groups moved and turned.
+
+    Raises:
+        VehicleError: a group that the vehicle does not have, or a place where nothing can be held.
+    """
+    asked = {name: placed for name, placed in placements.items() if not placed.is_as_given}
+    for name in asked:
+        vehicle.mount_group(name)
+    if not asked:
+        return vehicle
+    groups = tuple(
+        replace(group, mounts=placed_mounts(group, asked[group.name])) if group.name in asked else group
+        for group in vehicle.mount_groups
+    )
+    told = (note for name, placed in asked.items() for note in _notes(name, placed))
+    return replace(vehicle, mount_groups=groups, notes=(*vehicle.notes, *told))
+
+
+def placed_mounts(group: MountGroup, placement: Placement) -> tuple[Mount, ...]:
+    """Return the mounts of a group, those on the other side than the first placed as in a mirror."""
+    return tuple(
+        (placement.mirrored if is_mirrored else placement).apply(mount)
+        for mount, is_mirrored in zip(group.mounts, mirrored_mounts(group), strict=True)
+    )
+
+
+def mirrored_mounts(group: MountGroup) -> tuple[bool, ...]:
+    """Return which mounts of a group are on the other side than its first; none is on the middle's."""
+    y = [float(mount.center[1]) for mount in group.mounts]
+    return tuple(own * y[0] < 0 and min(abs(own), abs(y[0])) > MIDDLE for own in y)
+
+
+def _notes(name: str, placement: Placement) -> list[str]:
+    """Return sentences on how the mounts of a group are placed."""
+    moved, turned = _listed(1e3 * np.array(placement.offset)), _listed(np.degrees(placement.angles))
+    words = {
+        f"moved by {moved} mm along x, y and z from where the file has them": placement.offset,
+        f"turned by {turned}° about x, y and z out of the axes in the file": placement.angles,
+    }
+    return [f"mounts {name!r} are {how}" for how, values in words.items() if any(values)]
+
+
+def _listed(values: Floats) -> str:
+    return ", ".join(f"{value:g}" for value in values)
