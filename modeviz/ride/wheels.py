@@ -6,7 +6,6 @@ import numpy as np
 
 from modeviz.dynamics.assembly import System
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Tyre
 from modeviz.vehicle.loads import WheelLoad
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -24,7 +23,7 @@ def wheel_directions(system: System) -> Floats:
     rows = [np.zeros((0, system.n_dofs))]
     for tyre in system.vehicle.tyres:
         center = system.motion(tyre.bodies[0], tyre.wheel_center)
-        patch = system.motion(tyre.bodies[0], _lateral_force_point(tyre))
+        patch = system.motion(tyre.bodies[0], tyre.lateral_force_point)
         rows.append(np.stack([center[Z], center[X], patch[Y]]))
     return np.vstack(rows)
 
@@ -43,9 +42,3 @@ def wheel_amplitudes(vehicle: Vehicle, loads: Sequence[WheelLoad], frequency_hz:
         else:
             wheel[:, VERTICAL if load.kind == "radial force" else LATERAL] = load.amplitude
     return amplitudes.reshape(len(omega), 3 * len(numbers), len(loads))
-
-
-def _lateral_force_point(tyre: Tyre) -> Floats:
-    """The point on the ground, the pneumatic trail behind the wheel centre."""
-    x, y, _ = tyre.wheel_center
-    return np.array([x + tyre.trail, y, 0.0])

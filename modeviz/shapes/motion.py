@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from modeviz.shapes.carriers import carried, carried_by_nodes, coordinates_first
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body, RigidBody
+from modeviz.vehicle.carriers import carried, carried_by_nodes, coordinates_first
 
 DRAWN_FRACTION = 0.025
 """A large displacement is drawn as this fraction of the vehicle's length, 0.13 m on a pickup."""

@@ -3,7 +3,8 @@
 import math
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
+from itertools import chain, count
 from typing import Protocol
 
 MINUS = "\N{MINUS SIGN}"
@@ -90,3 +91,9 @@ def percent_change(now: float, base: float) -> str:
     if base == 0:
         return "0.0 %" if now == 0 else "–"
     return signed(100 * (now / base - 1), 1, " %")
+
+
+def free_name(name: str, taken: Container[str]) -> str:
+    """Return a name, or the first of "name 2", "name 3" ... that is free."""
+    numbered = (f"{name} {i}" for i in count(2))
+    return next(free for free in chain((name,), numbered) if free not in taken)

@@ -222,6 +222,12 @@ class Tyre(Connection):
             raise VehicleError(f"tyre {self.name!r}: track: {words}")
 
     @property
+    def lateral_force_point(self) -> Floats:
+        """(3,), m: the point on the ground, the pneumatic trail behind the wheel centre."""
+        x, y, _ = self.wheel_center
+        return np.array([x + self.trail, y, 0.0])
+
+    @property
     def is_in_the_middle(self) -> bool:
         """Whether it stands between the tracks, on neither side."""
         return abs(float(self.points[1, 1])) < MIDDLE

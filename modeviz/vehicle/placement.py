@@ -9,6 +9,7 @@ from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MIDDLE, Mount, MountGroup
 from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
+from modeviz.vehicle.moved_ends import MovedMount, bodies_that_hold, missing_compliance
 from modeviz.vehicle.vehicle import Vehicle
 
 MIRRORED_OFFSET, MIRRORED_ANGLES = (1.0, -1.0, 1.0), (-1.0, 1.0, -1.0)
@@ -59,7 +60,7 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
     """Return a vehicle with the mounts of some groups moved and turned.
 
     Raises:
-        VehicleError: a group that the vehicle does not have, or a place where nothing can be held.
+        VehicleError: a group that the vehicle does not have, or mounts are moved off a flexible body.
     """
     asked = {name: placed for name, placed in placements.items() if not placed.is_as_given}
     for name in asked:
@@ -70,8 +71,19 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
         replace(group, mounts=placed_mounts(group, asked[group.name])) if group.name in asked else group
         for group in vehicle.mount_groups
     )
-    told = (note for name, placed in asked.items() for note in _notes(name, placed))
-    return replace(vehicle, mount_groups=groups, notes=(*vehicle.notes, *told))
+    moved = {name: _moved(vehicle.mount_group(name), placed) for name, placed in asked.items()}
+    bodies = bodies_that_hold(vehicle, [mount for mounts in moved.values() for mount in mounts])
+    placed = replace(vehicle, bodies=bodies, mount_groups=groups)
+    told = [
+        note
+        for name, how in asked.items()
+        for note in (*_notes(name, how), *missing_compliance(vehicle.bodies, bodies, name, moved[name]))
+    ]
+    return replace(placed, notes=(*vehicle.notes, *told))
+
+
+def _moved(group: MountGroup, placement: Placement) -> tuple[MovedMount, ...]:
+    return tuple(map(MovedMount, group.mounts, placed_mounts(group, placement)))
 
 
 def placed_mounts(group: MountGroup, placement: Placement) -> tuple[Mount, ...]:
@@ -92,8 +104,8 @@ def _notes(name: str, placement: Placement) -> list[str]:
     """Return sentences on how the mounts of a group are placed."""
     moved, turned = _listed(1e3 * np.array(placement.offset)), _listed(np.degrees(placement.angles))
     words = {
-        f"moved by {moved} mm along x, y and z from where the file has them": placement.offset,
-        f"turned by {turned}° about x, y and z out of the axes in the file": placement.angles,
+        f"moved by {moved} mm along x, y and z": placement.offset,
+        f"turned by {turned}° about x, y and z": placement.angles,
     }
     return [f"mounts {name!r} are {how}" for how, values in words.items() if any(values)]
 

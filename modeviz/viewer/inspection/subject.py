@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from modeviz.formats.body import uncoupled_because
 from modeviz.formats.component import Component, UnitSystem
 from modeviz.formats.surface import COLOR, POINT, display_mesh
-from modeviz.shapes.carriers import carried_by_nodes
 from modeviz.shapes.motion import vertex_shapes
 from modeviz.shapes.points import octahedra
 from modeviz.shapes.stand_in import drawn_mesh
 from modeviz.shapes.surface import Surface, surface
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody, Material, Mesh, MeshPart
+from modeviz.vehicle.carriers import carried_by_nodes
 from modeviz.vehicle.mesh_doubts import coarser_words
 
 STILL_HZ = 0.1

@@ -1,8 +1,8 @@
 """What is decided in a tuning session: rates, pinned sets, what may move and what is sought."""
 
-from collections.abc import Container, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from itertools import chain, count
+from itertools import count
 
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.alterations import Alterations
@@ -111,12 +111,6 @@ def variant_name(vehicle: Vehicle, design: Design) -> str:
         if dict(rates) == dict(design.rates):
             return name
     return next_name(design)
-
-
-def free_name(name: str, taken: Container[str]) -> str:
-    """Return a name, or the first of "name 2", "name 3" ... that is free."""
-    numbered = (f"{name} {i}" for i in count(2))
-    return next(free for free in chain((name,), numbered) if free not in taken)
 
 
 def next_name(design: Design) -> str:

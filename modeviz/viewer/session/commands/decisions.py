@@ -4,10 +4,11 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from modeviz.text.wording import free_name
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
-from modeviz.viewer.session.design import free_name, known_sets, next_name, rate_sets
+from modeviz.viewer.session.design import known_sets, next_name, rate_sets
 from modeviz.viewer.session.planning.plan import Plan
 from modeviz.viewer.session.state import State, compared_rates
 

@@ -1,5 +1,7 @@
 """The motion of places on a body that are carried along by the nodes around them."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
@@ -36,19 +38,42 @@ def carried_by_nodes(nodes: Floats, motions: Array, places: Floats) -> NDArray[n
         motions: (n_nodes, 6, n_coordinates), real: of the nodes in every coordinate.
         places: (n_places, 3), m.
     """
-    nearest, weights = _carriers(nodes, places)
-    used, rows = np.unique(nearest, return_inverse=True)
-    moved = _turned(nodes, motions, used)
-    shapes = np.zeros((len(places), 3, motions.shape[2]), np.float32)
-    for row, node, weight in zip(rows.reshape(nearest.shape).T, nearest.T, weights.T, strict=True):
-        shapes += weight[:, None, None] * carried(moved[row], places - nodes[node])
-    return coordinates_first(shapes)
+    return coordinates_first(_mean_carried(nodes, motions, places, carried, 3))
+
+
+def motions_by_nodes(nodes: Floats, motions: Array, places: Floats) -> Floats:
+    """Return the six motions of such places, (n_places, 6, n_coordinates): they turn as their nodes do.
+
+    Args:
+        nodes: (n_nodes, 3), m; one or more.
+        motions: (n_nodes, 6, n_coordinates), real.
+        places: (n_places, 3), m.
+    """
+    return _mean_carried(nodes, motions, places, _all_carried, 6).astype(float)
 
 
 def carried(shapes: Array, offset: Floats) -> Array:
     """Six motions of a point carried to places `offset` away, u + θ x r: (n, 3, n_coordinates)."""
     translation, rotation = shapes[:, :3], shapes[:, 3:]
     return translation + np.cross(rotation, offset[..., None].astype(shapes.dtype), axis=1)
+
+
+def _all_carried(shapes: Array, offset: Floats) -> Array:
+    """The same with how they turn: (n, 6, n_coordinates)."""
+    return np.concatenate([carried(shapes, offset), shapes[:, 3:]], axis=1)
+
+
+def _mean_carried(
+    nodes: Floats, motions: Array, places: Floats, carry: Callable[[Array, Floats], Array], n_rows: int
+) -> NDArray[np.float32]:
+    """What the nearest nodes make of each place, weighted, (n_places, n_rows, n_coordinates)."""
+    nearest, weights = _carriers(nodes, places)
+    used, rows = np.unique(nearest, return_inverse=True)
+    moved = _turned(nodes, motions, used)
+    total = np.zeros((len(places), n_rows, motions.shape[2]), np.float32)
+    for row, node, weight in zip(rows.reshape(nearest.shape).T, nearest.T, weights.T, strict=True):
+        total += weight[:, None, None] * carry(moved[row], places - nodes[node])
+    return total
 
 
 def coordinates_first(shapes: NDArray[np.float32]) -> NDArray[np.float32]:

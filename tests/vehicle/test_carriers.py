@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeviz.shapes.carriers import carried_by_nodes
+from modeviz.vehicle.carriers import carried_by_nodes
 from modeviz.vehicle.rigid import rigid_motions
 
 RNG = np.random.default_rng(7)
