@@ -17,22 +17,13 @@ from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.scene.labels import keep_apart
+from modeviz.viewer.scene.mount_looks import HEIGHT, RADIUS, STEEL, mount_look
 from modeviz.viewer.scene.stage import Theme
 
-RUBBER, SELECTED, WASHER, BLUE = (236, 190, 96), (242, 140, 24), (60, 64, 70), (43, 124, 196)
-RADIUS, HEIGHT = 1 / 120, 1 / 63.5
-"""Of the rubber of the largest marker but for half, as parts of the vehicle's length.
-
-On a pickup that is 45 mm."""
-
-WASHER_Z = 0.53 * HEIGHT
-"""Above the middle of the rubber, as a part of the vehicle's length."""
+RUBBER, SELECTED, BLUE = (236, 190, 96), (242, 140, 24), (43, 124, 196)
 
 SIZE_STEP = 0.05
 """Of a marker's size, 2 mm on a pickup: no eye sees it, and a drag changes few markers at a time."""
-
-STRUT = (0.55, 2.0)
-"""Width and height of a spring with a damper, in parts of those of rubber."""
 
 TRIAD = 0.045
 """Length of the local axes of a selected mount, x red, y green, z blue, likewise."""
@@ -61,10 +52,7 @@ Marks = list[tuple[viser.SceneNodeHandle, str]]
 
 
 class MountMarker:
-    """A mount along its own axes, with its name; selected, with these.
-
-    It is rubber between two washers or, with a damper, a strut between them.
-    """
+    """A mount along its own axes, with its name; selected, with these; see `mount_look`."""
 
     def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup, length: float) -> None:
         """Draws a mount at rest and not selected; the length of its vehicle, m, gives its size."""
@@ -83,23 +71,17 @@ class MountMarker:
             wxyz=axes,
             position=mount.center,
         )
-        width, self._height = STRUT if mount.damping.any() else (1.0, 1.0)
-        self._rubber = scene.add_cylinder(
-            f"{path}/rubber",
-            width * RADIUS * length,
-            self._height * HEIGHT * length,
-            color=RUBBER,
-            cast_shadow=False,
-        )
-        self._washers = [
+        self._look = look = mount_look(mount)
+        self._pieces = [
             scene.add_cylinder(
-                f"{path}/{side}",
-                1.38 * RADIUS * length,
-                0.165 * HEIGHT * length,
-                color=WASHER,
+                f"{path}/{piece.name}",
+                piece.radius * RADIUS * length,
+                piece.height * HEIGHT * length,
+                color=RUBBER if i == 0 else STEEL,
                 cast_shadow=False,
+                wxyz=look.wxyz,
             )
-            for side in ("above", "below")
+            for i, piece in enumerate(look.pieces)
         ]
         self._ring = scene.add_line_segments(
             f"{path}/ring",
@@ -122,9 +104,8 @@ class MountMarker:
 
     def on_click(self, callback: Callable[[], None]) -> None:
         """Calls back when the mount is clicked."""
-        self._rubber.on_click(lambda _: callback())
-        for washer in self._washers:
-            washer.on_click(lambda _: callback())
+        for piece in self._pieces:
+            piece.on_click(lambda _: callback())
 
     def hide(self, bodies: Collection[str]) -> None:
         """Leaves the mount out while both bodies that it joins are."""
@@ -141,17 +122,19 @@ class MountMarker:
             share: 0 to 1.
             selected: whether its group is.
             carded: whether the group's card hangs on this mount and names it.
-            color: sRGB of its rubber while it is not selected.
+            color: sRGB of its rubber, or what else it is, while it is not selected.
         """
         size = SIZE_STEP * round((0.6 + 0.9 * math.sqrt(share)) / SIZE_STEP)
         looks = (size, selected, carded, color)
         if looks == self._looks:
             return
         self._looks = looks
-        assign(self._rubber, scale=size, color=SELECTED if selected else color)
-        for washer, z in zip(self._washers, (WASHER_Z, -WASHER_Z), strict=True):
-            assign(washer, scale=size)
-            washer.position = (0.0, 0.0, self._height * z * size * self._length)
+        assign(self._pieces[0], color=SELECTED if selected else color)
+        unit = HEIGHT * size * self._length
+        for drawn, piece in zip(self._pieces, self._look.pieces, strict=True):
+            assign(drawn, scale=size)
+            if piece.along:
+                drawn.position = piece.along * unit * self._look.direction
         assign(self._ring, visible=selected)
         assign(self._frame, show_axes=selected)
         assign(self._label, visible=not carded)

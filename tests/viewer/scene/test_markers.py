@@ -119,15 +119,35 @@ def test_a_selected_mount_shows_its_own_axes(server):
     assert not marker._frame.show_axes
 
 
+def damped_mount(stiffness, damping):
+    """A mount with dampers along its axes."""
+    at = np.zeros((2, 3))
+    return Mount("C1 right", "", ("cab", "frame"), at, stiffness=stiffness, damping=damping)
+
+
 def test_a_spring_with_a_damper_is_drawn_as_a_strut(server):
-    c1, at = group("C1 left"), np.zeros((2, 3))
+    c1 = group("C1 left")
     rubber = MountMarker(server.scene, c1.mounts[0], c1, 5.4)
-    damped = Mount("C1 right", "", ("cab", "frame"), at, damping=np.array([0, 0, 900.0]))
+    damped = damped_mount(np.full(3, 1e5), np.array([0, 0, 900.0]))
     strut = MountMarker(server.scene, damped, c1, 5.4)
     for marker in (rubber, strut):
         marker.show(1.0, selected=False, carded=False)
-    assert strut._rubber.height > 1.5 * rubber._rubber.height
-    assert strut._rubber.radius < rubber._rubber.radius
-    above, below = (washer.position[2] for washer in strut._washers)
-    ends = 0.5 * strut._rubber.height * strut._rubber.scale
-    assert (above, below) == pytest.approx((1.06 * ends, -1.06 * ends))
+    middle, *washers = strut._pieces
+    assert middle.height > 1.5 * rubber._pieces[0].height
+    assert middle.radius < rubber._pieces[0].radius
+    ends = 0.5 * middle.height * middle.scale
+    assert [w.position[2] for w in washers] == pytest.approx([1.06 * ends, -1.06 * ends])
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_what_only_damps_is_drawn_as_a_tube_and_a_rod_along_the_axis_that_it_damps(server, axis):
+    damping = np.full(3, 10.0)
+    damping[axis] = 900.0
+    marker = MountMarker(server.scene, damped_mount(np.zeros(3), damping), group("C1 left"), 5.4)
+    marker.show(1.0, selected=False, carded=False)
+    tube, rod, *eyes = marker._pieces
+    assert rod.radius < 0.5 * tube.radius
+    along = np.array([piece.position for piece in (eyes[1], tube, rod, eyes[0])])
+    assert (np.diff(along[:, axis]) > 0).all()
+    assert np.delete(along, axis, axis=1) == pytest.approx(0.0, abs=1e-12)
+    assert SO3(np.array(tube.wxyz)).apply(np.array([0, 0, 1.0])) == pytest.approx(np.eye(3)[axis])
