@@ -1,9 +1,11 @@
 """The errors a user can cause, and how they read."""
 
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
+from itertools import accumulate
 
 MOST_NAMES = 30
 """So many of the names that exist are listed; the rest is counted."""
@@ -14,8 +16,9 @@ MOST_COMPARED = 5000
 MOST_FAULTS = 5
 """Of what is wrong in one place with many tables, so much is said at once."""
 
-LONGEST_NAME, LONGEST_REASON, LONGEST = 80, 200, 2000
-"""Letters of what is quoted, of a library's words and of a whole text: what is longer is cut."""
+LONGEST_NAME, LONGEST_REASON, LONGEST_LIST, LONGEST = 80, 200, 800, 2000
+"""Letters of what is quoted, of a library's words, of listed names and of a whole text: what is longer
+is cut."""
 
 
 class ModevizError(Exception):
@@ -86,8 +89,10 @@ def quoted(value: object) -> str:
 def listed(names: Iterable[object]) -> str:
     """Names in a sentence, the first of many, with the number of the others."""
     every = [cut(str(name), LONGEST_NAME) for name in names]
-    more = [f"{len(every) - MOST_NAMES} more"] if len(every) > MOST_NAMES else []
-    return ", ".join([*every[:MOST_NAMES], *more]) or "none"
+    fitting = bisect_right([*accumulate(map(len, every))], LONGEST_LIST)
+    n_said = min(MOST_NAMES, max(1, fitting))
+    more = [f"{len(every) - n_said} more"] if len(every) > n_said else []
+    return ", ".join([*every[:n_said], *more]) or "none"
 
 
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:

@@ -44,6 +44,11 @@ def test_what_is_long_is_cut_in_its_midst():
     assert len(cut(LONG, 80)) == 80
 
 
+def test_of_long_names_so_many_are_listed_as_make_a_sentence():
+    text = listed(["x" * 200] * 20)
+    assert text == ", ".join([text.split(", ")[0]] * 10) + ", 10 more"
+
+
 def test_of_many_names_the_first_are_listed_and_the_others_counted():
     assert listed(["a", "b"]) == "a, b"
     assert listed([]) == "none"

@@ -505,6 +505,7 @@ def test_ply_has_its_triangles_and_the_mean_of_its_colours(read, content):
         (ply().replace(b"float z", b"float y"), "element vertex: property 'y' is there twice"),
         (ply().replace(b"float z", b"flout z"), "found the header line 'property flout z'"),
         (ply().replace(b"ascii", b"utf"), "found the format 'utf', expected one of"),
+        (ply().replace(b"ascii", b"x" * 999), "found the format '" + "x" * 52 + "…"),
         (ply().replace(b"float z", b"float w"), "found vertices without x, y and z"),
         (ply(faces="", n_faces=0), "found no triangles"),
         (b"ply", "found no header of a PLY"),

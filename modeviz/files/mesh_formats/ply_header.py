@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from modeviz.errors import VehicleError, check_unique
+from modeviz.errors import VehicleError, check_unique, listed, quoted
 
 LONGEST_HEADER = 100_000
 """Bytes."""
@@ -64,7 +64,7 @@ def read_header(content: bytes) -> tuple[str, Sequence[Element], bytes]:
     formats = [line[1] for line in words if line[0] == "format" and len(line) > 1]
     if len(formats) != 1 or formats[0] not in ORDERS:
         raise VehicleError(
-            f"found the format {' '.join(formats)!r}, expected one of {', '.join(ORDERS)}"
+            f"found the format {listed(map(quoted, formats))}, expected one of {', '.join(ORDERS)}"
         )
     order = ORDERS[formats[0]]
     line_end = content.find(b"\n", len(head))
