@@ -16,6 +16,9 @@ from modeviz.ride.resolution import resolving_lines
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.loads import RandomLoad
 
+FEW_SPRINGS = 60
+"""That are solved for, at all lines at once, sooner than the equations of motion line by line."""
+
 
 @dataclass(frozen=True, eq=False)
 class Driven:
@@ -56,12 +59,12 @@ class Driven:
             SolveError: with these rates an undamped resonance lies on a line.
         """
         prepared = self.prepared
-        if len(self.receptances.changed(stiffness)) > prepared.system.n_dofs:
+        if len(self.receptances.changed(stiffness)) > max(prepared.system.n_dofs, FEW_SPRINGS):
             return self.exact_response(stiffness, lines)
         kept, place = self._on_band(lines)
         on_band = self.receptances.response(stiffness)
         if kept.all():
-            return on_band
+            return on_band[place]
         H = np.empty((len(lines), *on_band.shape[1:]), complex)
         changed = prepared.between.known.changed(stiffness)
         between = self._between(lines[~kept], changed)
@@ -76,7 +79,7 @@ class Driven:
         kept, place = self._on_band(lines)
         on_band = self.receptances.stretches(stiffness)
         if kept.all():
-            return on_band
+            return on_band[place]
         joined = np.empty((len(lines), *on_band.shape[1:]), complex)
         between = self.latest_whole.get(lines.tobytes(), lambda: self._interpolated(lines[~kept], None))
         joined[kept], joined[~kept] = on_band[place[kept]], between.stretches(stiffness)
@@ -92,7 +95,8 @@ class Driven:
         kept, place = self._on_band(lines)
         on_band = self.receptances.response_gradient(stiffness)
         if kept.all():
-            return on_band
+            H, a, b = on_band
+            return H[place], a[place], b[place]
         H, a, b = (np.empty((len(lines), *values.shape[1:]), complex) for values in on_band)
         between = self._between(lines[~kept]).response_gradient(stiffness)
         for joined, some, others in zip((H, a, b), on_band, between, strict=True):

@@ -5,36 +5,119 @@ Orders shake at frequencies of their own, so that their powers add up: the RMS o
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
-from modeviz.analysis.driven import driven
+from modeviz.analysis.driven import Driven, driven
+from modeviz.analysis.mount_forces import along_vehicle, mount_forces
 from modeviz.analysis.preparation import Prepared
+from modeviz.mounting.forces import N_MOTIONS
+from modeviz.mounting.levels import input_spectra
 from modeviz.ride.psd import harmonic_acceleration
-from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.engine import Engine
+from modeviz.vehicle.vehicle import Vehicle
+
+MOST_SPEEDS = 400
+"""Of a run-up."""
 
 
 @dataclass(frozen=True, eq=False)
 class EngineResults:
-    """Accelerations of the response points while an engine runs at one speed after the other."""
+    """Accelerations and forces of mounts while an engine runs at one speed after the other."""
 
     engine: Engine
     speed_hz: Floats
     """(n_speeds,), revolutions of the crank per second."""
     acceleration_g: Floats
     """(n_speeds, n_orders, n_points, 3): peak x, y, z of each order, g; nan beyond the band."""
+    force: Complexes
+    """(n_speeds, n_orders, n_mounts, 6): of each order on the body that carries the mount, along and
+    about its own axes, N and N m; nan beyond the band."""
+    vehicle: Vehicle
 
     @property
     def rms(self) -> Floats:
         """(n_speeds, n_points, 3): over time, of all orders in the band, g."""
-        return np.sqrt(np.nansum(self.acceleration_g**2, axis=1) / 2)
+        return orders_rms(self.acceleration_g)
+
+    @cached_property
+    def force_in_vehicle_axes(self) -> Complexes:
+        """The same along and about the vehicle's axes."""
+        return along_vehicle(self.vehicle, self.force)
+
+    @property
+    def force_rms(self) -> Floats:
+        """(n_speeds, n_mounts, 6): over time, of all orders in the band, along and about local axes."""
+        return orders_rms(np.abs(self.force))
 
     @property
     def idle(self) -> int:
-        """Which of the speeds is idle."""
+        """Which of the speeds is idle, or closest to it."""
         return int(np.argmin(np.abs(self.speed_hz - self.engine.idle_hz)))
+
+    @property
+    def in_band(self) -> NDArray[np.bool_]:
+        """(n_speeds, n_orders): whether an order's frequency is in the vehicle's band."""
+        return ~np.isnan(self.force).any(axis=(2, 3))
+
+
+def orders_rms(peaks: Floats) -> Floats:
+    """The RMS over time of all orders, (n_speeds, ...), of peaks of each, (n_speeds, n_orders, ...)."""
+    return np.sqrt(np.nansum(peaks**2, axis=1) / 2)
+
+
+@dataclass(frozen=True, eq=False)
+class RunningEngine:
+    """An engine in a prepared vehicle at some speeds: all that does not depend on mount rates."""
+
+    prepared: Prepared
+    engine: Engine
+    speed_hz: Floats
+    """(n_speeds,), rising, revolutions of the crank per second."""
+    in_band: NDArray[np.bool_]
+    """(n_speeds, n_orders)."""
+    orders: tuple[Driven, ...]
+    """The vehicle under each of them."""
+
+    def solve(self, rates: Rates) -> EngineResults:
+        """What it does with other mount rates; arguments and errors as `solve_engine`."""
+        vehicle, stiffness = self.prepared.vehicle, self.prepared.mount_stiffness(rates)
+        n_points, n_mounts = len(vehicle.response_points), len(vehicle.mounts)
+        acceleration = np.full((*self.in_band.shape, n_points, 3), np.nan)
+        force = np.full((*self.in_band.shape, n_mounts, N_MOTIONS), np.nan, complex)
+        for number, (order, under) in enumerate(zip(self.engine.orders, self.orders, strict=True)):
+            inside = self.in_band[:, number]
+            f = order.order * self.speed_hz[inside]
+            if f.size:
+                g = harmonic_acceleration(f, under.response(stiffness, f))
+                acceleration[inside, number] = g.reshape(len(f), n_points, 3)
+                spectra = input_spectra(order, f, under.speed)
+                passed = mount_forces(under, stiffness, f, spectra, is_random=False)
+                force[inside, number] = passed.force[..., 0]
+        return EngineResults(self.engine, self.speed_hz, acceleration, force, vehicle)
+
+
+def running_engine(prepared: Prepared, engine: Engine, speed_hz: Floats | None = None) -> RunningEngine:
+    """An engine of a prepared vehicle at some speeds, for any mount rates.
+
+    Args:
+        prepared: see `prepare`; exact at any frequency of its band.
+        engine: one of the vehicle's.
+        speed_hz: (n_speeds,), rising, revolutions of the crank per second; None: `run_up`.
+    """
+    speeds = run_up(prepared, engine) if speed_hz is None else speed_hz
+    low, high = prepared.frequency_hz[[0, -1]]
+    f = np.outer(speeds, [order.order for order in engine.orders])
+    in_band = (f >= low) & (f <= high)
+    orders = [
+        driven(prepared, [order], prepared.vehicle.speed, f[inside, number])
+        for number, (order, inside) in enumerate(zip(engine.orders, in_band.T, strict=True))
+    ]
+    return RunningEngine(prepared, engine, speeds, in_band, tuple(orders))
 
 
 def solve_engine(
@@ -46,24 +129,26 @@ def solve_engine(
         prepared: see `prepare`; exact at any frequency of its band.
         rates: of the groups that differ from the vehicle's own.
         engine: one of the vehicle's.
-        speed_hz: (n_speeds,), rising, revolutions of the crank per second; None: those that its orders
-            are given at, and idle.
+        speed_hz: (n_speeds,), rising, revolutions of the crank per second; None: `run_up`.
 
     Raises:
         VehicleError: a group that the vehicle does not have.
         SolveError: with these rates an undamped resonance lies on a frequency.
     """
-    speeds = np.union1d(engine.speed_hz, engine.idle_hz) if speed_hz is None else speed_hz
-    n_points = len(prepared.vehicle.response_points)
-    found = np.full((len(speeds), len(engine.orders), n_points, 3), np.nan)
-    stiffness = prepared.mount_stiffness(rates)
-    low, high = prepared.frequency_hz[[0, -1]]
-    for number, order in enumerate(engine.orders):
-        f = order.order * speeds
-        inside = (f >= low) & (f <= high)
-        if inside.any():
-            under = driven(prepared, [order], prepared.vehicle.speed)
-            H = under.response(stiffness, f[inside])
-            g = harmonic_acceleration(f[inside], H)[:, :, 0]
-            found[inside, number] = g.reshape(-1, n_points, 3)
-    return EngineResults(engine, speeds, found)
+    return running_engine(prepared, engine, speed_hz).solve(rates)
+
+
+def run_up(prepared: Prepared, engine: Engine) -> Floats:
+    """The speeds at which an engine is looked at, (n_speeds,), rising, revolutions per second.
+
+    Those that its orders are given at and idle, and between them so many that its quickest order goes
+    over the band by steps of the vehicle's, but for `MOST_SPEEDS`: as far as there is an order in the
+    band.
+    """
+    orders = np.array([order.order for order in engine.orders])
+    low, high = engine.speed_hz[[0, -1]]
+    last = min(high, max(prepared.frequency_hz[-1] / orders.min(), low))
+    step = max(prepared.vehicle.frequency_step / orders.max(), (last - low) / MOST_SPEEDS)
+    between = np.linspace(low, last, max(2, int(np.ceil((last - low) / step)) + 1))
+    every = np.unique(np.concatenate([engine.speed_hz, between, [engine.idle_hz]]))
+    return every[(every <= last) | (every == engine.idle_hz)]

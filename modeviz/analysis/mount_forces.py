@@ -12,6 +12,7 @@ from modeviz.dynamics.mount_rates import turning_axes
 from modeviz.dynamics.resonances import resonances_at
 from modeviz.mounting.forces import N_MOTIONS
 from modeviz.mounting.levels import InputSpectra, input_spectra
+from modeviz.ride.excitation import acting_lines
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MOTIONS, Rates
 from modeviz.vehicle.loads import HarmonicLoad
@@ -38,8 +39,8 @@ class MountForces:
     @cached_property
     def in_vehicle_axes(self) -> Complexes:
         """The same along and about the vehicle's axes."""
-        turn = np.array([np.kron(np.eye(2), m.axes) for m in self.vehicle.mounts]).reshape(-1, 6, 6)
-        return np.einsum("mij,fmik->fmjk", turn, self.force)
+        by_input = np.moveaxis(self.force, -1, 0)
+        return np.moveaxis(along_vehicle(self.vehicle, by_input), 0, -1)
 
     @property
     def figures(self) -> Floats:
@@ -74,6 +75,12 @@ class MountForces:
         return flat.reshape(n_mounts, N_MOTIONS)
 
 
+def along_vehicle(vehicle: Vehicle, force: Complexes) -> Complexes:
+    """Turn forces of mounts, (..., n_mounts, 6), from their own axes into the vehicle's."""
+    turn = np.array([np.kron(np.eye(2), m.axes) for m in vehicle.mounts]).reshape(-1, 6, 6)
+    return np.einsum("mij,...mi->...mj", turn, force)
+
+
 def harmonic_mount_forces(
     prepared: Prepared, rates: Rates, load: HarmonicLoad, speed: float
 ) -> MountForces:
@@ -91,7 +98,7 @@ def harmonic_mount_forces(
     """
     stiffness = prepared.mount_stiffness(rates)
     under = driven(prepared, [load], speed)
-    f = under.lines(resonances_at(prepared.basis, stiffness))
+    f = acting_lines(load, under.lines(resonances_at(prepared.basis, stiffness)))
     return mount_forces(under, stiffness, f, input_spectra(load, f, speed), False)
 
 

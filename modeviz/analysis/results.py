@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from modeviz.analysis.driven import Driven, driven, load_lines
+from modeviz.analysis.engine_results import EngineResults, RunningEngine, running_engine
 from modeviz.analysis.latest import Latest
 from modeviz.analysis.modal_results import ModalResults, modes_of
 from modeviz.analysis.mount_forces import MountForces, harmonic_mount_forces, mount_forces
@@ -26,6 +27,7 @@ from modeviz.ride.psd import acceleration_psd, averaged_acceleration_psd, rms
 from modeviz.ride.rating import Rating, rate
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.connections import DIRECTIONS, Rates
+from modeviz.vehicle.engine import Engine
 from modeviz.vehicle.loads import HarmonicLoad, RandomLoad
 
 AXIS: dict[str, int] = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
@@ -55,6 +57,7 @@ class RoadExcitation(Driven):
     """That of the conditions."""
     latest_spectrum: Latest[Complexes] = field(default_factory=Latest, init=False)
     latest_average: Latest[Complexes] = field(default_factory=Latest, init=False)
+    latest_engine: Latest[RunningEngine] = field(default_factory=Latest, init=False)
 
     def spectrum_at(self, frequency_hz: Floats) -> Complexes:
         """Return the spectrum of the load's inputs, (n_freqs, n_inputs, n_inputs), m²/Hz of a road."""
@@ -101,6 +104,7 @@ class Results(ModalResults):
 
     latest_forces: Latest[MountForces] = field(default_factory=Latest, init=False)
     """Under the load that was asked for last."""
+    latest_engine: Latest[EngineResults] = field(default_factory=Latest, init=False)
 
     @property
     def conditions(self) -> Conditions:
@@ -128,6 +132,20 @@ class Results(ModalResults):
             SolveError: with these rates an undamped resonance lies on a line.
         """
         return self.latest_forces.get(load, lambda: self._mount_forces(load))
+
+    def running(self, engine: Engine) -> EngineResults:
+        """Return what one of the vehicle's engines does as it runs up.
+
+        Raises:
+            SolveError: with these rates an undamped resonance lies on a frequency.
+        """
+
+        def solve() -> EngineResults:
+            prepared = self.prepared
+            at_rest = self.drive.latest_engine.get(engine, lambda: running_engine(prepared, engine))
+            return at_rest.solve(self.rates)
+
+        return self.latest_engine.get(engine, solve)
 
     def _mount_forces(self, load: HarmonicLoad | None) -> MountForces:
         if load is not None:

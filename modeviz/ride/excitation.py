@@ -196,6 +196,11 @@ def known_part(load: Load, frequency_hz: Floats, speed: float) -> slice:
     return held(what, table, frequency_hz)
 
 
+def acting_lines(load: Load, frequency_hz: Floats) -> Floats:
+    """Those of some frequencies at which a load acts: an order of an engine only where that can run."""
+    return frequency_hz[load.acts(frequency_hz)] if isinstance(load, EngineOrder) else frequency_hz
+
+
 def table_hz(load: Load, speed: float) -> Floats:
     """The frequencies at which the spectrum of a load is given, Hz, rising; none of a harmonic load."""
     if isinstance(load, Road):

@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from modeviz.analysis.results import Conditions
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, VehicleError
 from modeviz.ride.excitation import Load, known_part
-from modeviz.vehicle.loads import RandomLoad, Road
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.loads import RandomLoad, ResponsePoint, Road
+from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 EVEN_HZ = np.array([1e-3, 1e3])
@@ -46,10 +48,34 @@ def has_ride(vehicle: Vehicle) -> bool:
 
 
 def on_even_road(vehicle: Vehicle) -> tuple[Vehicle, Conditions]:
-    """Return a vehicle without a ride as one that can be shown: on an even road, unfelt."""
+    """Return a vehicle without a ride as one that can be shown: on an even road.
+
+    What harmonic loads do to it is felt at its response points or, if it has none, at the centres of
+    its rigid bodies. Of its problems those remain that need no road.
+    """
     even = Road("no road", "No road", vehicle.speed, EVEN_HZ, np.zeros((len(EVEN_HZ), 2, 2), complex))
-    still = replace(vehicle, roads=(even,), response_points=(), problems=())
-    return still, Conditions(even.name, still.speed)
+    points = (vehicle.response_points or _centers(vehicle)) if vehicle.swept_loads else ()
+    still = replace(vehicle, roads=(even,), response_points=points, problems=())
+    kept = tuple(problem for problem in vehicle.problems if _holds(still, problem))
+    return replace(still, problems=kept), Conditions(even.name, still.speed)
+
+
+def _centers(vehicle: Vehicle) -> tuple[ResponsePoint, ...]:
+    """A response point at the centre of gravity of every rigid body."""
+    bodies = (body for body in vehicle.bodies if isinstance(body, RigidBody))
+    return tuple(
+        ResponsePoint(f"{body.name} center of gravity", body.name, body.center_of_gravity)
+        for body in bodies
+    )
+
+
+def _holds(vehicle: Vehicle, problem: Problem) -> bool:
+    """Whether a vehicle has all that a problem names."""
+    try:
+        vehicle.check_problem(problem)
+    except VehicleError:
+        return False
+    return not any(performance.roads for performance in problem.performance)
 
 
 def chosen_load(vehicle: Vehicle, name: str | None) -> Load:

@@ -37,14 +37,14 @@ def default_problem(vehicle: Vehicle) -> Problem:
     Where the vehicle has neither, but tyres, for the usual road of ISO 8608.
 
     At the paper's frequencies, as far as the road's table holds them at the vehicle's speed. A vehicle
-    that nothing shakes and where nobody feels anything is to be decoupled.
+    that nothing shakes but an engine, or where nobody feels anything, is to be decoupled.
 
     Raises:
         VehicleError: the vehicle lacks what such a problem is made of.
     """
     groups = tuple(filter(None, map(_design_group, vehicle.mount_groups)))
     performance = _performance(vehicle)
-    if groups and not vehicle.response_points and not performance:
+    if groups and not performance and (vehicle.engines or not vehicle.response_points):
         return Problem(DECOUPLED, groups, goal="decoupling", reference=_reference(vehicle))
     lacking = {
         "a [[mount_group]] with rates above zero": groups,
@@ -76,7 +76,7 @@ def _reference(vehicle: Vehicle) -> str:
 def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
     loads = tuple(load.name for load in vehicle.harmonic_loads)
     shaken = [Performance(WHEEL_HZ, wheel_loads=loads)] if loads else []
-    road = next(filter(vehicle.is_shaken_by, vehicle.roads), None)
+    road = next((r for r in vehicle.roads if vehicle.is_shaken_by(r) and not r.is_even), None)
     if road is None and not shaken and vehicle.has_driven_tyres:
         road = vehicle.random_load(USUAL_ROAD)
     if isinstance(road, Road) and len(f := _held(road, vehicle.speed)):

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from modeviz.errors import Fault, FaultsError, VehicleError, check_unique
 from modeviz.vehicle.arrays import Complexes, Floats, frozen, frozen_places
@@ -39,6 +40,11 @@ class EngineOrder:
     def label(self) -> str:
         """Its name, for people."""
         return self.name
+
+    def acts(self, frequency_hz: Floats) -> NDArray[np.bool_]:
+        """Return at which frequencies the engine can run, (n_freqs,)."""
+        low, high = self.frequency_hz[[0, -1]]
+        return (frequency_hz >= low) & (frequency_hz <= high)
 
     def at(self, frequency_hz: Floats) -> Complexes:
         """Return force and moment at frequencies, (n_freqs, 6), straight between speeds.

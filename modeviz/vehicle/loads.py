@@ -56,6 +56,11 @@ class Road:
     roughness: Roughness | None = None
     """Of which the spectra were made; None: they are a table's."""
 
+    @property
+    def is_even(self) -> bool:
+        """Whether it shakes nothing."""
+        return not self.spectrum.any()
+
     def __post_init__(self) -> None:
         where = f"road {self.name!r}"
         frozen(self, "frequency_hz", self.frequency_hz, (None,))

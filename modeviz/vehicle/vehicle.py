@@ -193,6 +193,12 @@ class Vehicle:
         """The orders of its engines, engine by engine: harmonic loads that depend on speed."""
         return tuple(order for engine in self.engines for order in engine.orders)
 
+    @cached_property
+    def swept_loads(self) -> tuple[HarmonicLoad, ...]:
+        """Its harmonic loads, and the orders of engines that act at two or more lines of its band."""
+        orders = (o for o in self.engine_orders if o.acts(self.frequency_hz).sum() > 1)
+        return (*self.harmonic_loads, *orders)
+
     def is_shaken_by(self, load: RandomLoad) -> bool:
         """Whether a load gets into the vehicle: a road does through tyres with rates along their z."""
         return self.has_driven_tyres or not isinstance(load, Road)

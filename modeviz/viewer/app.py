@@ -51,7 +51,7 @@ from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import color_scale
 from modeviz.viewer.session.commands.decisions import Swap
 from modeviz.viewer.session.commands.looks import SelectGroup
-from modeviz.viewer.session.cursor import is_shaken
+from modeviz.viewer.session.cursor import has_ride, is_shaken
 from modeviz.viewer.session.design import variant_name
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification
 from modeviz.viewer.session.session import Session
@@ -152,7 +152,7 @@ class App:
         name = variant_name(vehicle, state.design)
         now = RateSet(name if name != state.against else f"{name}, now", state.design.rates)
         base = RateSet(state.against, solved.base.rates)
-        conditions = state.conditions if state.charts.curves else None
+        conditions = state.conditions if has_ride(vehicle) else None
         comparison = compare(solved.now.prepared, base, now, conditions)
         return report(comparison, date.today(), pictures, solved.findings.check).encode()
 
@@ -221,7 +221,7 @@ class App:
             with right.add_tab("Figures", viser.Icon.TABLE):
                 self._of_ride.append(TablePanel(gui))
         if session.state.charts.curves or is_shaken(session.vehicle):
-            with right.add_tab("Road", viser.Icon.ROAD):
+            with right.add_tab("Road" if has_ride(session.vehicle) else "Load", viser.Icon.ROAD):
                 self._of_ride.append(ExcitationPanel(gui, session))
         with right.add_tab("Rigid", viser.Icon.AXIS_X):
             self._rigid = RigidPanel(gui, session)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from dynamic_mounts import MAXWELL, OTHER_RATES, on_mounts
 
+from modeviz.analysis.driven import driven
 from modeviz.analysis.engine_results import solve_engine
 from modeviz.analysis.preparation import prepare
 from modeviz.cli import main
@@ -77,6 +78,62 @@ def test_forces_under_an_order_hold_the_engine_in_balance():
     forces = solve_forces(system, order, f, VEHICLE.speed)
     expected = system.motion("engine", VEHICLE.engines[0].position).T @ order.at(f)[0]
     np.testing.assert_allclose(forces.loads[0, :, 0], expected, rtol=1e-12, atol=1e-12)
+
+
+def test_forces_of_mounts_are_those_of_all_connections_solved_at_each_speed():
+    vehicle = replace(VEHICLE, response_points=())
+    prepared, engine, speeds = prepare(vehicle), vehicle.engines[0], np.array([12.5, 17.77])
+    found = solve_engine(prepared, {"E": OTHER_RATES}, engine, speeds)
+    system = assemble(vehicle.with_rates({"E": OTHER_RATES}))
+    order, f = engine.orders[1], engine.orders[1].order * speeds
+    forces = solve_forces(system, order, f, vehicle.speed)
+    n = 6 * len(vehicle.mounts)
+    for part, solved in (
+        (found.force, forces.force),
+        (found.force_in_vehicle_axes, forces.in_vehicle_axes),
+    ):
+        expected = solved[:, :n, 0].reshape(len(f), -1, 6)
+        np.testing.assert_allclose(part[:, 1], expected, atol=1e-8 * np.abs(expected).max())
+
+
+def test_a_run_up_leaves_no_resonance_out_between_few_speeds():
+    vehicle = with_engine(on_mounts(None))
+    engine = vehicle.engines[0]
+    ends = [0, -1]
+    orders = tuple(
+        replace(order, frequency_hz=order.frequency_hz[ends], loads=order.loads[ends])
+        for order in engine.orders[1:2]
+    )
+    coarse = replace(engine, speed_hz=SPEEDS[ends], orders=orders)
+    prepared = prepare(replace(vehicle, engines=(coarse,)))
+    run = solve_engine(prepared, {}, coarse)
+    f = orders[0].order * run.speed_hz
+    assert np.diff(f[f <= vehicle.highest_frequency]).max() <= vehicle.frequency_step + 1e-9
+    fine = solve_engine(prepared, {}, coarse, np.linspace(10.0, 20.0, 3001))
+    assert run.rms[:, 0, 2].max() == pytest.approx(fine.rms[:, 0, 2].max(), rel=1e-3)
+    assert coarse.idle_hz in run.speed_hz
+
+
+def test_some_lines_of_a_band_are_solved_as_all_of_them():
+    prepared, order = prepare(VEHICLE), VEHICLE.engine_orders[1]
+    under = driven(prepared, [order], VEHICLE.speed)
+    stiffness, lines = prepared.mount_stiffness({"E": OTHER_RATES}), np.array([23.0, 25.0, 31.0])
+    at = np.searchsorted(prepared.frequency_hz, lines)
+    for solve in (under.response, under.stretches):
+        every = solve(stiffness, prepared.frequency_hz)
+        np.testing.assert_allclose(solve(stiffness, lines), every[at], rtol=1e-9)
+    H, a, b = under.response_gradient(stiffness, lines)
+    assert [len(part) for part in (H, a, b)] == [3, 3, 3]
+
+
+def test_few_springs_on_fewer_coordinates_are_solved_as_the_equations_of_motion():
+    prepared, order = prepare(VEHICLE), VEHICLE.engine_orders[1]
+    under = driven(prepared, [order], VEHICLE.speed)
+    rates = {name: MountRates(7e4, 9e4, 8e4) for name in ("E", "F")}
+    stiffness, lines = prepared.mount_stiffness(rates), np.array([21.3, 25.0, 39.0])
+    assert len(under.receptances.changed(stiffness)) > prepared.system.n_dofs
+    exact = under.exact_response(stiffness, lines)
+    np.testing.assert_allclose(under.response(stiffness, lines), exact, atol=1e-9 * np.abs(exact).max())
 
 
 def test_idle_quality_is_a_goal_with_derivatives():

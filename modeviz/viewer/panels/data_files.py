@@ -15,6 +15,7 @@ from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.downloads import Downloads
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.design import variant_name
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.page_jobs import Progress
@@ -145,7 +146,8 @@ def _choices(vehicle: Vehicle) -> dict[str, dict[str, _File]]:
     bodies = {label: words[name] for label, name in told_apart(vehicle.bodies).items()}
     writers = contents(vehicle)
     missing = set() if vehicle.mount_groups else {"rates", "mounts"}
-    missing |= set() if vehicle.response_points else {"psd", "frf"}
+    missing |= set() if vehicle.response_points else {"frf"}
+    missing |= set() if has_ride(vehicle) else {"psd"}
     return {
         label: {
             name: _File(word, ending[1:], writers[word][ending])

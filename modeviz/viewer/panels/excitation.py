@@ -9,6 +9,8 @@ import viser
 
 from modeviz.text.wording import sentence_case, told_apart
 from modeviz.units import factor
+from modeviz.vehicle.engine import EngineOrder
+from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
@@ -16,6 +18,7 @@ from modeviz.viewer.page.html import block, span
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ChangeCharts, Drive
+from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
 
@@ -36,10 +39,9 @@ class ExcitationPanel:
         self._session = session
         self._bindings: list[Binding] = []
         vehicle = session.vehicle
-        # Charts draw no orders of engines, but what else is told of forces is told under them, too.
-        orders = () if session.state.charts.curves else vehicle.engine_orders
-        every = (*vehicle.harmonic_loads, *orders)
-        loads = {ROAD: ""} | {sentence_case(load.name): load.name for load in every}
+        is_still = all(isinstance(load, Road) and load.is_even for load in vehicle.offered_loads)
+        loads = {} if is_still else {ROAD: ""}
+        loads |= {sentence_case(load.name): load.name for load in vehicle.swept_loads}
         self._add_choice(
             gui,
             "Excitation",
@@ -48,15 +50,8 @@ class ExcitationPanel:
             lambda state: state.charts.load,
             lambda load: session.do(ChangeCharts(load=load)),
         )
-        self._add_choice(
-            gui,
-            "Road",
-            told_apart(vehicle.offered_loads),
-            "What is driven over, a class of road of ISO 8608, or another random load",
-            lambda state: state.conditions.road,
-            lambda road: session.do(Drive(road=road)),
-        )
-        self._add_speed(gui, _speed_limits(vehicle, session.state.conditions.speed))
+        if not is_still:
+            self._add_road(gui, vehicle)
         self._about = gui.add_html("")
         self._add_choice(
             gui,
@@ -78,7 +73,19 @@ class ExcitationPanel:
     def show(self, solved: Solved) -> None:
         """Brings the controls after the state."""
         show_all(self._bindings)
-        assign(self._about, content=block(span(_about(solved.state), "dim")))
+        assign(self._about, content=block(span(_about(solved), "dim")))
+
+    def _add_road(self, gui: viser.GuiApi, vehicle: Vehicle) -> None:
+        """Which road, and how fast."""
+        self._add_choice(
+            gui,
+            "Road",
+            told_apart(vehicle.offered_loads),
+            "What is driven over, a class of road of ISO 8608, or another random load",
+            lambda state: state.conditions.road,
+            lambda road: self._session.do(Drive(road=road)),
+        )
+        self._add_speed(gui, _speed_limits(vehicle, self._session.state.conditions.speed))
 
     def _add_choice(
         self,
@@ -128,9 +135,16 @@ class ExcitationPanel:
         )
 
 
-def _about(state: State) -> str:
+def _about(solved: Solved) -> str:
     """Return the meaning of the choice."""
-    if state.charts.load:
+    name, vehicle = solved.state.charts.load, solved.now.prepared.vehicle
+    load = vehicle.harmonic_load(name) if name else None
+    if isinstance(load, EngineOrder):
+        low, high = 60 * load.frequency_hz[[0, -1]] / load.order
+        return f"As the engine runs from {low:.4g} to {high:.4g} rpm; all its orders: in Engine."
+    if load is not None and not has_ride(vehicle):
+        return "A force of the same size at every frequency."
+    if load is not None:
         return "A force of the same size at every frequency; the road is for figures of sets only."
     return "The rear wheels meet the same road later, by wheelbase and speed."
 

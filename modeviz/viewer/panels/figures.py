@@ -4,6 +4,8 @@ from html import escape
 
 import viser
 
+from modeviz.analysis.engine_results import EngineResults
+from modeviz.analysis.results import AXIS as ALONG
 from modeviz.analysis.results import Results
 from modeviz.report.coverage import band_text, coverage_note
 from modeviz.report.tables import wheel_band
@@ -14,7 +16,8 @@ from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, change, heading, named, row, span, table
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.responses import PSD, Responses
+from modeviz.viewer.session.cursor import has_ride
+from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.state import ResponseCurve
 from modeviz.viewer.session.wheel_responses import NOW
 
@@ -29,8 +32,8 @@ AXES = ("Fore-aft, Wd", "Lateral, Wd", "Vertical, Wk")
 
 
 NOTHING_FELT = (
-    "Responses need a road and somewhere to feel it: "
-    "give vehicle.toml a [[road]] and a [[response_point]]."
+    "Responses need what shakes and somewhere to feel it: give vehicle.toml a [[road]], an [[engine]] "
+    "or a [[force]], and a [[response_point]]."
 )
 
 
@@ -46,7 +49,9 @@ class FiguresPanel:
         if not solved.state.charts.curves:
             assign(self._content, content=block(span(NOTHING_FELT, "dim")))
             return
-        figures = _road_figures if responses.quantity is PSD else _wheel_figures
+        figures = _road_figures if responses.is_random else _wheel_figures
+        if responses.running(NOW) is not None:
+            figures = _engine_figures
         assign(self._content, content=block(figures(solved, responses)))
 
 
@@ -61,9 +66,9 @@ class TablePanel:
         """Lists the figures of an answer."""
         responses = Responses(solved)
         content = [_all_points(solved, responses)]
-        if responses.quantity is PSD:
+        if responses.is_random:
             content.append(_ratings(solved))
-        else:
+        elif has_ride(solved.now.prepared.vehicle):
             content.append(span("Ratings are those of a ride: choose the road again.", "dim"))
         assign(self._content, content=block(*content))
 
@@ -108,6 +113,30 @@ def _wheel_figures(solved: Solved, responses: Responses) -> str:
     return f'<div class="figures">{"".join(figures)}</div>'
 
 
+def _engine_figures(solved: Solved, responses: Responses) -> str:
+    """The RMS of all orders at idle, and the largest vertical one of the run-up."""
+    now = solved.now
+    running, before = (responses.running(name) for name in (NOW, solved.state.against))
+    assert running is not None
+    assert before is not None
+    figures = []
+    for direction in DIRECTIONS:
+        curve = ResponseCurve(DRIVER, direction)
+        value, old = responses.figure(NOW, curve), responses.figure(solved.state.against, curve)
+        about = f"RMS acceleration of all orders at idle, {_idle(running)}, {_point(now)}, {direction}"
+        delta = change(value, old)
+        figures.append(_figure(f"Idle {direction}", f"{1000 * value:.2f}", "10⁻³ g", delta, about))
+    value, old = (float(r.rms[:, DRIVER, ALONG["vertical"]].max()) for r in (running, before))
+    about = f"Largest RMS acceleration of all orders at any speed, {_point(now)}, vertical"
+    label = "Highest vertical"
+    figures.append(_figure(label, f"{1000 * value:.2f}", "10⁻³ g", change(value, old), about))
+    return f'<div class="figures">{"".join(figures)}</div>'
+
+
+def _idle(running: EngineResults) -> str:
+    return f"{60 * running.engine.idle_hz:.4g} rpm"
+
+
 def _figure(label: str, value: str, unit: str, delta: str, about: str) -> str:
     return (
         f'<div title="{escape(about)}"><span>{label}</span>'
@@ -117,7 +146,7 @@ def _figure(label: str, value: str, unit: str, delta: str, about: str) -> str:
 
 def _all_points(solved: Solved, responses: Responses) -> str:
     """A row for each point and direction."""
-    is_road = responses.quantity is PSD
+    is_road, running = responses.is_random, responses.running(NOW)
     scale, decimals = (1, 4) if is_road else (1000, 2)
     rows = []
     for i, point in enumerate(solved.now.prepared.vehicle.response_points):
@@ -135,6 +164,8 @@ def _all_points(solved: Solved, responses: Responses) -> str:
             rows.append(row(cells))
     what = "RMS, g" if is_road else "Mean, 10⁻³ g"
     quiet = band_text(solved.now) if is_road else _band_text(solved)
+    if running is not None:
+        what, quiet = "RMS at idle, 10⁻³ g", _idle(running)
     header = ("Point", "", escape(solved.state.against), "now", "change")
     return heading(what, quiet) + table(header, rows)
 

@@ -8,7 +8,9 @@ import viser
 from modeviz.analysis.results import Results
 from modeviz.errors import ModevizError
 from modeviz.ride.participation import Peak
+from modeviz.text.axes import shown_hz
 from modeviz.text.wording import sentence_case
+from modeviz.vehicle.engine import EngineOrder
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block, heading, span
 from modeviz.viewer.session.answers import Solved
@@ -75,7 +77,9 @@ class PeaksPanel:
                 words = f"{MARK}{label} {cursor:.1f} Hz"
                 at_cursor.append(self._row(words, there, solved, contributors))
         self._contributors = contributors
-        none = span("No peak between 5 and 25 Hz: look at another point or direction.", "dim")
+        low, high = _band(solved)
+        where = f"between {low:g} and {high:g} Hz"
+        none = span(f"No peak {where}: look at another point or direction.", "dim")
         listing = "".join(rows) or none
         peaks = heading("Peaks and their modes", HINT) + listing
         assign(self._content, content=block(peaks, *at_cursor))
@@ -116,12 +120,19 @@ def _told(
 def strongest(responses: Responses, curve: ChartCurve, solved: Solved) -> list[int]:
     """The lines of the `N_PEAKS` highest peaks within `PEAK_BAND` that stand apart, rising."""
     f, levels = responses.lines(""), responses.of("", curve)
-    lines = [i for i in responses.peak_lines(curve) if PEAK_BAND[0] <= f[i] <= PEAK_BAND[1]]
+    low, high = _band(solved)
+    lines = [i for i in responses.peak_lines(curve) if low <= f[i] <= high]
     chosen: list[int] = []
     for line in sorted(lines, key=lambda i: -levels[i]):
         if all(abs(f[line] - f[other]) > PEAK_GAP_HZ for other in chosen):
             chosen.append(line)
     return sorted(chosen[:N_PEAKS])
+
+
+def _band(solved: Solved) -> tuple[float, float]:
+    """Hz: where peaks are told; under an engine's order in all of what is drawn."""
+    is_engine = isinstance(Responses(solved).harmonic_load, EngineOrder)
+    return shown_hz(solved.now.prepared.vehicle.highest_frequency) if is_engine else PEAK_BAND
 
 
 def _labels(curves: tuple[ChartCurve, ...]) -> list[str]:

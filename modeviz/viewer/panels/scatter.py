@@ -17,6 +17,7 @@ from modeviz.vehicle.connections import RIDE_DIRECTIONS
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, row, span, table, title
+from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job
 from modeviz.viewer.tasks.scatter_task import PERCENT, Build, ScatterOutcome, ScatterTask
@@ -35,8 +36,7 @@ class ScatterPanel:
         """Builds the controls; nothing where there is nothing to optimise for, or nobody to feel it."""
         self._session, self._scatterer = session, scatterer
         self._lock = threading.Lock()
-        has_points = bool(session.vehicle.response_points)
-        self._is_built = session.state.design.plan is not None and has_points
+        self._is_built = session.state.design.plan is not None and has_ride(session.vehicle)
         if not self._is_built:
             return
         with gui.add_folder("Scatter of parts"):

@@ -11,6 +11,7 @@ from modeviz.viewer.page.html import change, heading, named, row, span, table
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.design import variant_name
 from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.state import ResponseCurve
@@ -86,13 +87,17 @@ def _figures(solved: Solved) -> list[str]:
     if not solved.state.charts.curves:
         return []
     responses = Responses(solved)
-    scale, unit = (1, "RMS g") if not solved.state.charts.load else (1000, "mean 10⁻³ g")
+    scale, unit = (1, "RMS g") if responses.is_random else (1000, "mean 10⁻³ g")
+    if responses.running(NOW) is not None:
+        unit = "idle 10⁻³ g"
     rows = []
     for direction in DIRECTIONS:
         curve = ResponseCurve(DRIVER, direction)
         old, new = (responses.figure(name, curve) for name in (solved.state.against, NOW))
         texts = (f"{scale * value:.3f}" for value in (old, new))
         rows.append(row([f"{sentence_case(direction)}, {unit}", *texts, change(new, old)]))
+    if not has_ride(solved.now.prepared.vehicle):
+        return rows
     old, new = (r.rating.mean_personal_rating for r in (solved.base, solved.now))
     rows.append(row(["Rating", number(old, 2), number(new, 2), signed(new - old, 2)]))
     return rows

@@ -18,6 +18,7 @@ from modeviz.viewer.panels.side_by_side import side_by_side
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.decisions import Forget, Load, Pin, Rename, Swap
 from modeviz.viewer.session.commands.looks import CompareWith, Overlay, ShowComparedGhost
+from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.design import known_sets, next_name, rate_sets, set_numbers
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
@@ -199,7 +200,7 @@ def _figures(results: Results, solved: Solved) -> list[str]:
     base = solved.base
     mode = _shown_mode(results, solved)
     f = "–" if mode is None else f"{results.modes.frequency_hz[mode]:.2f}"
-    if not solved.state.charts.curves:
+    if not has_ride(solved.now.prepared.vehicle):
         return ["–", "–", f, "–"]
     gain = results.rating.mean_personal_rating - base.rating.mean_personal_rating
     kind = "dim" if abs(gain) < 0.005 else "good" if gain > 0 else "bad"

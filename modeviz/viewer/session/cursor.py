@@ -6,7 +6,6 @@ from modeviz.analysis.results import Results
 from modeviz.mounting.forces import Forces
 from modeviz.mounting.levels import InputSpectra, input_spectra
 from modeviz.ride.excitation import Load
-from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.state import State
 
@@ -46,10 +45,13 @@ def is_shaken(vehicle: Vehicle) -> bool:
     """
     if not vehicle.roads and vehicle.has_driven_tyres:
         return True
-    roads = (road for road in vehicle.random_loads if isinstance(road, Road))
     others = len(vehicle.random_loads) > len(vehicle.roads)
-    harmonic = (*vehicle.harmonic_loads, *vehicle.engine_orders)
-    return bool(harmonic) or others or any(road.spectrum.any() for road in roads)
+    return bool(vehicle.swept_loads) or others or not all(road.is_even for road in vehicle.roads)
+
+
+def has_ride(vehicle: Vehicle) -> bool:
+    """Return whether somebody feels a vehicle that is shown on a road: an even road is not felt."""
+    return bool(vehicle.response_points) and not any(road.is_even for road in vehicle.roads)
 
 
 def shaking(state: State, results: Results) -> Load:

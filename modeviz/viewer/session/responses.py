@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeviz.analysis.engine_results import EngineResults
 from modeviz.analysis.force_peaks import force_participation
 from modeviz.analysis.mount_forces import MountForces
 from modeviz.analysis.results import AXIS, Results
 from modeviz.analysis.wheel_peaks import wheel_peak_lines
-from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import cut
 from modeviz.report.tables import wheel_band
 from modeviz.ride.excitation import Load, input_spectrum
@@ -21,6 +21,7 @@ from modeviz.ride.psd import amplitude_decibels, power_decibels
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
+from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import HarmonicLoad
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Solved
@@ -57,9 +58,13 @@ class Responses:
     def __init__(self, solved: Solved) -> None:
         """Looks at an answer."""
         self._solved = solved
-        self._load = load_number(solved.now.prepared.vehicle, solved.state.charts.load)
-        self.quantity: LevelUnit = PSD if self._load is None else PEAK_ACCELERATION
+        self.quantity: LevelUnit = PEAK_ACCELERATION if solved.state.charts.load else PSD
         """Of accelerations."""
+
+    @property
+    def is_random(self) -> bool:
+        """Whether what excites has a spectrum."""
+        return self.quantity is PSD
 
     @property
     def overlaid(self) -> list[str]:
@@ -80,23 +85,22 @@ class Responses:
         if isinstance(curve, ResponseCurve):
             return self.quantity
         if curve.motion in MOTIONS[:3]:
-            return FORCE_PSD if self._load is None else PEAK_FORCE
-        return MOMENT_PSD if self._load is None else PEAK_MOMENT
+            return FORCE_PSD if self.is_random else PEAK_FORCE
+        return MOMENT_PSD if self.is_random else PEAK_MOMENT
 
     def of(self, name: str, curve: ChartCurve) -> Floats:
         """The response with a set's rates, or `NOW`, (n_freqs,), in the unit of `quantity_of`."""
         if isinstance(curve, ForceCurve):
             mount = mount_number(self._solved.now.prepared.vehicle, curve.mount)
             return self.mount_forces(name).level(mount, curve.motion, curve.in_vehicle_axes)
-        if self._load is None:
+        if self.is_random:
             return self._results(name).response(curve.point, curve.direction)
-        g = self._solved.wheels[name].acceleration_g
-        return g[:, self._load, curve.point, AXIS[curve.direction]]
+        return self._solved.wheels[name].acceleration_g[:, 0, curve.point, AXIS[curve.direction]]
 
     def power(self, name: str, curve: ChartCurve) -> Floats:
         """The same as a PSD, or squared where it is an amplitude."""
         level = self.of(name, curve)
-        return level if self._load is None else np.square(level)
+        return level if self.is_random else np.square(level)
 
     def mount_forces(self, name: str) -> MountForces:
         """The forces of mounts with a set's rates, or `NOW`, under what excites the vehicle."""
@@ -104,25 +108,36 @@ class Responses:
 
     def lines(self, name: str) -> Floats:
         """The frequencies of all that, (n_freqs,)."""
-        if self._load is None:
+        if self.is_random:
             return self._results(name).frequency_hz
         return self._solved.wheels[name].frequency_hz
 
     def figure(self, name: str, curve: ResponseCurve) -> float:
-        """The RMS on the road, or the mean over the paper's band under a wheel load, g."""
+        """The RMS on the road, of an engine's orders at idle, or the mean under a wheel load, g."""
         at = curve.point, AXIS[curve.direction]
-        if self._load is None:
+        if self.is_random:
             return float(self._results(name).rms[at])
+        running = self.running(name)
+        if running is not None:
+            return float(running.rms[running.idle][at])
         band = wheel_band(self._solved.now.prepared.vehicle)
-        return float(self._solved.wheels[name].mean(band)[self._load][at])
+        return float(self._solved.wheels[name].mean(band)[0][at])
+
+    def running(self, name: str) -> EngineResults | None:
+        """What the engine whose order is drawn does as it runs up; None under another load."""
+        order = self.harmonic_load
+        if not isinstance(order, EngineOrder):
+            return None
+        results = self._results(name)
+        return results.running(results.prepared.vehicle.engine(order.engine))
 
     def peak_lines(self, curve: ChartCurve) -> list[int]:
         """Return the lines at which the present response has its peaks, numbers of frequencies."""
         if isinstance(curve, ForceCurve):
             return peak_lines(self.power(NOW, curve))
-        if self._load is None:
+        if self.is_random:
             return self._solved.now.peak_lines(curve.point, curve.direction)
-        return wheel_peak_lines(self._wheels, self._load, curve.point, curve.direction)
+        return wheel_peak_lines(self._solved.wheels[NOW], 0, curve.point, curve.direction)
 
     def peaks(
         self, curve: ChartCurve, count: int, lines: list[int], others_hz: Sequence[float] = ()
@@ -157,17 +172,8 @@ class Responses:
     def _shaking(self) -> Load:
         return self.harmonic_load or self._solved.now.drive.load
 
-    @property
-    def _wheels(self) -> WheelResults:
-        return self._solved.wheels[NOW]
-
     def _results(self, name: str) -> Results:
         return self._solved.now if name == NOW else self._solved.named.results[name]
-
-
-def load_number(vehicle: Vehicle, name: str) -> int | None:
-    """The number of the harmonic load of that name; None for the road."""
-    return next((i for i, load in enumerate(vehicle.harmonic_loads) if load.name == name), None)
 
 
 def mount_number(vehicle: Vehicle, name: str) -> int:

@@ -3,10 +3,13 @@
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+import numpy as np
+
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
 from modeviz.mounting.paths import By
 from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
+from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.design import ORIGINAL, Design, rate_sets
@@ -158,14 +161,18 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
     cabin = unit_of_role(vehicle, "cabin")
     every = vehicle.all_rates(rates)
     mode = f"{cabin.word} yaw" if cabin else ""
-    charts = Charts(
-        load=_first_load(vehicle, conditions),
-        cursor_hz=min(Charts.cursor_hz, vehicle.highest_frequency / 2),
-    )
+    charts = Charts(load=_first_load(vehicle, conditions))
+    charts = replace(charts, cursor_hz=_first_cursor(vehicle, charts))
     return State(
         Design(every, plan=first_plan(vehicle), decoupling=vehicle.decoupling),
         conditions,
-        Motion(mode, every, component=vehicle.bodies[0].name, load_case=vehicle.static_cases[0].name),
+        Motion(
+            mode,
+            every,
+            operating_hz=charts.cursor_hz,
+            component=vehicle.bodies[0].name,
+            load_case=vehicle.static_cases[0].name,
+        ),
         charts if vehicle.response_points else replace(charts, curves=()),
         rigid=first_look(vehicle),
         group=group,
@@ -175,9 +182,17 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
 def _first_load(vehicle: Vehicle, conditions: Conditions) -> str:
     """The harmonic load that a session opens with: on an even road the first, else the road, ""."""
     road = vehicle.random_load(conditions.road)
-    is_even = isinstance(road, Road) and not road.spectrum.any()
-    loads = (*vehicle.harmonic_loads, *vehicle.engine_orders) if is_even else ()
+    loads = vehicle.swept_loads if isinstance(road, Road) and road.is_even else ()
     return next((load.name for load in loads), "")
+
+
+def _first_cursor(vehicle: Vehicle, charts: Charts) -> float:
+    """Where the cursor is that a session opens with, Hz: under an order of an engine its idle."""
+    load = vehicle.harmonic_load(charts.load) if charts.load else None
+    if not isinstance(load, EngineOrder):
+        return min(charts.cursor_hz, vehicle.highest_frequency / 2)
+    inside = vehicle.frequency_hz[load.acts(vehicle.frequency_hz)]
+    return float(np.clip(load.order * vehicle.engine(load.engine).idle_hz, *inside[[0, -1]]))
 
 
 def compared_rates(vehicle: Vehicle, state: State) -> Rates:

@@ -1,9 +1,9 @@
-"""The responses to wheel loads that are drawn, kept as long as they hold."""
+"""The responses to the harmonic load that is drawn, kept as long as they hold."""
 
 from collections.abc import Mapping
 
 from modeviz.analysis.results import Results
-from modeviz.analysis.wheel_results import WheelResults, solve_wheels
+from modeviz.analysis.wheel_results import WheelResults, solve_harmonic
 from modeviz.viewer.session.state import State
 
 NOW = ""
@@ -11,11 +11,11 @@ NOW = ""
 
 
 class WheelResponses:
-    """Solves for the sets of rates that are drawn, and only for those that are new."""
+    """Solves for the sets of rates that are drawn, and only what is new."""
 
     def __init__(self) -> None:
         """Solves nothing."""
-        self._kept: dict[str, tuple[Results, WheelResults]] = {}
+        self._kept: dict[str, tuple[tuple[str, Results], WheelResults]] = {}
 
     def solve(
         self, state: State, named: Mapping[str, Results], now: Results
@@ -32,12 +32,14 @@ class WheelResponses:
         if not state.charts.load:
             return {}
         drawn = {name: named[name] for name in (state.against, *sorted(state.charts.overlaid))}
-        self._kept = {n: (r, self._response(n, r)) for n, r in {**drawn, NOW: now}.items()}
+        asked = {name: (state.charts.load, results) for name, results in {**drawn, NOW: now}.items()}
+        self._kept = {name: (each, self._response(name, *each)) for name, each in asked.items()}
         return {name: response for name, (_, response) in self._kept.items()}
 
-    def _response(self, name: str, results: Results) -> WheelResults:
-        """The response kept, if it is still to these results, or a new one."""
+    def _response(self, name: str, load: str, results: Results) -> WheelResults:
+        """The response kept, if it is still to this load with these results, or a new one."""
         before, kept = self._kept.get(name, (None, None))
-        if kept is not None and before is results:
+        if kept is not None and before == (load, results):
             return kept
-        return solve_wheels(results.prepared, results.rates)
+        shaking = results.prepared.vehicle.harmonic_load(load)
+        return solve_harmonic(results.prepared, results.rates, shaking)

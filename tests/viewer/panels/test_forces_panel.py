@@ -179,7 +179,6 @@ def test_forces_are_shown_without_anybody_who_feels_them():
     app = opened(*on_even_road(replace(mounted_cabin(), response_points=())))
     try:
         assert app.session.state.charts.load == "front left radial force"
-        assert app._paths is None
         assert "Largest peak, N" in text(app._forces._content)
     finally:
         app.close()

@@ -16,6 +16,7 @@ from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
 from modeviz.viewer.panels.mounts.rows import row_label
 from modeviz.viewer.session.commands.decisions import LinkRates, PlaceMounts, SetLossFactor
+from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
 
@@ -68,7 +69,7 @@ class Details:
             buttons: `N_BUTTONS`, which act on the selected group.
         """
         self._session, self._group, self._buttons = session, group, buttons
-        self._is_felt = bool(session.vehicle.response_points)
+        self._is_felt = has_ride(session.vehicle)
         self._part = gui.add_folder(None, visible=False)
         with self._part:
             self._table = gui.add_html("")
