@@ -6,7 +6,7 @@ import numpy as np
 
 from modeviz.vehicle.arrays import Array, Floats, frozen
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
-from modeviz.vehicle.held_nodes import HeldNodes, held_nodes
+from modeviz.vehicle.held_nodes import HeldNodes, extent, first_of_places, held_nodes
 
 COVERED = 0.02
 """Residual vectors that add this part of what is estimated, which may be many times too much, are taken
@@ -31,9 +31,6 @@ MOST_OF_NODE, MOST_OF_MEAN = 0.5, 0.9
 """More of what all modes together move a place, the modes that are there are not taken to do."""
 
 TINY = np.finfo(float).tiny
-
-SAME_PLACE = 1e-6
-"""Of the size of a body: nodes that are nearer to each other count as one."""
 
 DOUBTFUL = 1.2
 """Powers of two: directions of which less is known than this have no upper end of their own."""
@@ -77,8 +74,10 @@ def estimate_residuals(body: FlexibleBody) -> ResidualEstimate:
     if not n_elastic or not body.attachments:
         none = np.zeros((len(body.attachments), 3))
         return ResidualEstimate(none, none, none)
-    places = _places(body.nodes)
-    rows = [_along(body, attachment, places) for attachment in body.attachments]
+    held = [held_nodes(body, attachment) for attachment in body.attachments]
+    massive = np.delete(body.nodes, np.concatenate([each.without_mass for each in held]), axis=0)
+    places = massive[first_of_places(massive, extent(massive))]
+    rows = [_along(body, *each, places) for each in zip(body.attachments, held, strict=True)]
     estimate, spread = (np.array(values) for values in zip(*rows, strict=True))
     factor = 2.0 ** np.minimum(spread, 3.0)
     trusted = spread < DOUBTFUL
@@ -88,18 +87,13 @@ def estimate_residuals(body: FlexibleBody) -> ResidualEstimate:
     return ResidualEstimate(estimate * lacks, estimate / factor * lacks, most * lacks)
 
 
-def _places(nodes: Floats) -> Floats:
-    """Where nodes are, (n_places, 3): those that are written twice, as attachments often are, once."""
-    step = SAME_PLACE * np.ptp(nodes, axis=0).max() if len(nodes) else 0.0
-    return np.unique(np.round(nodes / step), axis=0) * step if step else nodes[:1]
-
-
-def _along(body: FlexibleBody, attachment: Attachment, places: Floats) -> tuple[Floats, Floats]:
+def _along(
+    body: FlexibleBody, attachment: Attachment, held: HeldNodes, places: Floats
+) -> tuple[Floats, Floats]:
     """The estimate along x, y and z, (3,), and by how many powers of two it is doubted."""
     elastic = slice(body.n_rigid, body.n_normal)
     n_elastic = body.n_normal - body.n_rigid
-    held = held_nodes(body, attachment)
-    n_held = len(_places(body.nodes[held.nodes]))
+    n_held = len(first_of_places(body.nodes[held.nodes], extent(body.nodes)))
     phi, on_nodes = attachment.shapes[:3, elastic], body.shapes[held.nodes][:, :, elastic]
     is_solid = bool(on_nodes.size) and not on_nodes[:, 3:].any()
     own = phi if held.is_mean or not on_nodes.size else on_nodes[:, :3].astype(float).mean(axis=0)

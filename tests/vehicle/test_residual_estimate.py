@@ -14,6 +14,8 @@ from modeviz.fem.attachments import OnFootprint, OnNode
 from modeviz.fem.component import body_from_matrices
 from modeviz.fem.matrices import assemble, nodal_matrices
 from modeviz.fem.mesh import ShellSection
+from modeviz.formats.node_sets import set_motion
+from modeviz.vehicle.bodies import Attachment
 from modeviz.vehicle.held_nodes import held_nodes
 from modeviz.vehicle.residual_estimate import estimate_residuals
 from modeviz.vehicle.residuals import modal_compliance, with_residual_compliance
@@ -144,3 +146,41 @@ def test_nodes_that_are_there_twice_change_no_estimate(body):
     found, expected = estimate_residuals(twice), estimate_residuals(once)
     for name in ("compliance", "least", "most"):
         np.testing.assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-9)
+
+
+def with_nodes_of_attachments(body):
+    """A body that has a node, without mass, wherever an attachment is, as universal files have it."""
+    shapes = np.array([a.shapes for a in body.attachments])
+    return replace(
+        body,
+        nodes=np.concatenate([[a.position for a in body.attachments], body.nodes]),
+        shapes=np.concatenate([shapes, body.shapes.astype(float)]),
+    )
+
+
+def test_a_reference_node_is_not_what_carries_its_attachment():
+    node, arm, mean = (held_nodes(with_nodes_of_attachments(sheet()), a) for a in sheet().attachments)
+    assert node.nodes.tolist() == [0, 75 + 3]
+    assert (arm.nodes.tolist(), arm.without_mass.tolist()) == ([210 + 3], [1])
+    assert (mean.is_mean, len(mean.nodes), mean.without_mass.tolist()) == (True, 9, [2])
+
+
+def test_a_reference_node_above_its_grids_follows_how_they_turn():
+    """As RBE3 carries one."""
+    body = sheet()
+    near = np.argsort(np.linalg.norm(body.nodes - body.nodes[200], axis=1))[:9]
+    place = body.nodes[200] + np.array([0, 0, 0.05])
+    motion = set_motion(place, body.nodes[near], np.ones(9), False)
+    shapes = motion @ body.shapes[near].reshape(54, -1).astype(float)
+    above = with_nodes_of_attachments(replace(body, attachments=(Attachment("above", place, shapes),)))
+    held = held_nodes(above, above.attachments[0])
+    assert (held.is_mean, held.without_mass.tolist()) == (True, [0])
+    assert sorted(held.nodes - 1) == sorted(near)
+
+
+def test_reference_nodes_change_no_estimate():
+    """One that counts as mass makes a node of a mean, and doubles the mass at the foot of an arm."""
+    once = sheet().truncated(46)
+    found, expected = (estimate_residuals(b) for b in (with_nodes_of_attachments(once), once))
+    for name in ("compliance", "least", "most"):
+        np.testing.assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-6)
