@@ -1,11 +1,13 @@
 """The errors a user can cause, and how they read."""
 
+import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from itertools import accumulate
+from pathlib import PurePath
 
 MOST_NAMES = 30
 """So many of the names that exist are listed; the rest is counted."""
@@ -86,6 +88,11 @@ def quoted(value: object) -> str:
     return cut(repr(value), LONGEST_NAME)
 
 
+def kind_of(value: object) -> str:
+    """Return what a value is, in words: "mesh part" of a `MeshPart`."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(value).__name__).lower()
+
+
 def listed(names: Iterable[object]) -> str:
     """Names in a sentence, the first of many, with the number of the others."""
     every = [cut(str(name), LONGEST_NAME) for name in names]
@@ -93,6 +100,16 @@ def listed(names: Iterable[object]) -> str:
     n_said = min(MOST_NAMES, max(1, fitting))
     more = [f"{len(every) - n_said} more"] if len(every) > n_said else []
     return ", ".join([*every[:n_said], *more]) or "none"
+
+
+def paths_together(paths: Iterable[PurePath]) -> str:
+    """Paths in front of a sentence on all of them, a folder once: "parts/M.mtx, K.mtx"."""
+    every = list(paths)
+    folders = [None, *(path.parent for path in every)]
+    return ", ".join(
+        path.name if path.parent == before else str(path)
+        for path, before in zip(every, folders, strict=False)
+    )
 
 
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:

@@ -23,6 +23,7 @@ from modeviz.errors import (
     located,
     of_file,
     of_part,
+    paths_together,
     quoted,
     reason,
     unknown,
@@ -31,6 +32,7 @@ from modeviz.files import write_vehicle
 from modeviz.files.schema.decoding import decode
 from modeviz.units import parse
 from modeviz.vehicle.arrays import frozen
+from modeviz.vehicle.bodies import Material, MeshPart
 from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Spring
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -200,6 +202,22 @@ def test_a_place_is_said_once(where, text, expected):
     with pytest.raises(SolveError) as error, of_file(where):
         raise SolveError(text)
     assert str(error.value) == expected
+
+
+def test_files_beside_each_other_have_their_folder_said_once():
+    block, other = Path("/models/block"), Path("/models/other")
+    files = [block / "M.mtx", block / "K.mtx", other / "nodes.csv", other / "faces.stl"]
+    said = paths_together(files)
+    assert said == f"{files[0]}, K.mtx, {files[2]}, faces.stl"
+    with pytest.raises(VehicleError) as caught, located(said):
+        raise VehicleError(f"{files[1]}: has no rows")
+    assert str(caught.value) == f"{files[1]}: has no rows"
+
+
+@pytest.mark.parametrize("values", [[[0.0, np.nan, 0.0]], [[0.0, 0.0]]])
+def test_a_kind_is_said_in_words_not_as_a_class(values):
+    with pytest.raises(VehicleError, match=r"^mesh part 'bonnet': vertices: found"):
+        MeshPart("bonnet", np.array(values), np.array([[0, 0, 0]]), Material((0, 0, 0)))
 
 
 def test_a_part_is_said_once():

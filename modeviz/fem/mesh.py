@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, kind_of
 from modeviz.vehicle.arrays import Floats, frozen
 
 FLAT = 1e-3
@@ -162,21 +162,17 @@ def _check_positive(owner: object, *fields: str) -> None:
     for field_name in fields:
         value = getattr(owner, field_name)
         if not (np.isfinite(value) and value > 0):
-            raise VehicleError(
-                f"{type(owner).__name__}: {field_name}: found {value}, expected more than 0"
-            )
+            raise VehicleError(f"{kind_of(owner)}: {field_name}: found {value}, expected more than 0")
 
 
 def _check_not_negative(owner: object, **values: float) -> None:
     for field_name, value in values.items():
         if not (np.isfinite(value) and value >= 0):
-            raise VehicleError(
-                f"{type(owner).__name__}: {field_name}: found {value}, expected zero or more"
-            )
+            raise VehicleError(f"{kind_of(owner)}: {field_name}: found {value}, expected zero or more")
 
 
 def _check_poisson_ratio(owner: object, value: float) -> None:
     if not -1 < value < 0.5:
         raise VehicleError(
-            f"{type(owner).__name__}: poisson_ratio: found {value}, expected above -1 and below 0.5"
+            f"{kind_of(owner)}: poisson_ratio: found {value}, expected above -1 and below 0.5"
         )

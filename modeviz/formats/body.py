@@ -54,36 +54,52 @@ def chosen_units(component: Component, name: str | None) -> UnitSystem:
 
 
 def uncoupled_because(component: Component) -> str | None:
-    """Return why a component cannot be coupled to others, in one sentence; None if it can."""
-    modes = component.modes
+    """Return all that keeps a component from being coupled to others, in words; None: nothing does."""
     if not component.n_modes:
         return "it has no modes"
     if component.is_complex:
         return "its shapes are complex, those of a damped structure; expected normal modes"
+    reasons = (_without_masses(component), _without_places(component), _not_free(component))
+    return "; and ".join(filter(None, reasons)) or None
+
+
+def _without_masses(component: Component) -> str:
+    """Words if a mode has no modal mass."""
+    modes = component.modes
     unknown = np.flatnonzero(~((modes.modal_mass > 1 / LARGEST) & (modes.modal_mass < LARGEST)))
-    if len(unknown):
-        return (
-            f"the modal mass of {len(unknown)} of its {component.n_modes} modes is not in the file, "
-            f"such as that at {modes.frequency_hz[unknown[0]]:.4g} Hz; without it nobody knows what "
-            f"force moves them{_where_masses_may_be(component)}"
-        )
-    if not component.has_place.any():
-        return "none of the nodes that it moves has a place; give the file with the geometry too"
-    zeros, _ = with_zeros(_omega_n_squared(modes.frequency_hz))
+    if not len(unknown):
+        return ""
+    return (
+        f"the modal mass of {len(unknown)} of its {component.n_modes} modes is not in the file, "
+        f"such as that at {modes.frequency_hz[unknown[0]]:.4g} Hz; without it nobody knows what "
+        f"force moves them{_where_masses_may_be(component)}"
+    )
+
+
+def _without_places(component: Component) -> str:
+    """Words if it has no geometry."""
+    if component.has_place.any():
+        return ""
+    return "none of the nodes that it moves has a place; give the file with the geometry too"
+
+
+def _not_free(component: Component) -> str:
+    """Words if its modes are not those of a free structure."""
+    zeros, _ = with_zeros(_omega_n_squared(component.modes.frequency_hz))
     if (zeros < 0).any():
         return (
             f"{int(np.sum(zeros < 0))} of its modes are unstable, down to an ω² of {zeros.min():.3g} "
             "rad²/s²"
         )
     n_rigid = int((zeros == 0).sum())
-    if n_rigid not in (FlexibleBody.N_RIGID - 1, FlexibleBody.N_RIGID):
-        half = "; of a half model, give its other run with --antisymmetric" if n_rigid == 3 else ""
-        return (
-            f"{n_rigid} of its modes are near zero Hz (the lowest is at {modes.frequency_hz[0]:.4g} "
-            "Hz), expected the six rigid ones of a free structure: solve it without supports and "
-            f"with all modes from zero up{half}"
-        )
-    return None
+    if n_rigid in (FlexibleBody.N_RIGID - 1, FlexibleBody.N_RIGID):
+        return ""
+    half = "; of a half model, give its other run with --antisymmetric" if n_rigid == 3 else ""
+    return (
+        f"{n_rigid} of its modes are near zero Hz (the lowest is at "
+        f"{component.modes.frequency_hz[0]:.4g} Hz), expected the six rigid ones of a free structure: "
+        f"solve it without supports and with all modes from zero up{half}"
+    )
 
 
 def _where_masses_may_be(component: Component) -> str:

@@ -13,7 +13,7 @@ from modeviz.files.records.vehicle import VehicleRecord
 from modeviz.files.schema.axes import axes_of
 from modeviz.files.toml_reader import read_toml
 from modeviz.formats.attachments import Found, far_notes, find_attachments
-from modeviz.formats.body import chosen_units, flexible_body
+from modeviz.formats.body import chosen_units, flexible_body, uncoupled_because
 from modeviz.formats.component import Component, UnitSystem
 from modeviz.formats.halves import Whole, join_halves, parse_plane
 from modeviz.formats.into_folder import add_body
@@ -160,7 +160,7 @@ def import_body(
     """
     if settings.replaces and folder is None:
         raise VehicleError("--replace is of a body in a folder; say which with --output")
-    units = chosen_units(component, settings.units)
+    units = _units(component, settings)
     axes = _axes_of(folder)
     pose = settings.pose
     if isinstance(pose, str):
@@ -179,6 +179,18 @@ def import_body(
         body, said = pose.moved(body), (*misfit_notes(pose), *said)
     vehicle = add_body(body, folder, component.source, settings.replaces) if folder else None
     return Imported(body, found, (*said, *far_notes(found), *notes), vehicle)
+
+
+def _units(component: Component, settings: ImportSettings) -> UnitSystem:
+    """Those of a component; where they are not said, what else is in the way is said with that."""
+    try:
+        return chosen_units(component, settings.units)
+    except VehicleError as error:
+        is_whole = component.matrices is None and not settings.antisymmetric
+        reason = uncoupled_because(component) if is_whole else None
+        if not reason:
+            raise
+        raise VehicleError(f"{error}; and it cannot be coupled to others: {reason}") from None
 
 
 def _attached(

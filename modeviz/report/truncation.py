@@ -100,7 +100,9 @@ def _lack(body: Body) -> str:
 
 
 def _too_high(gap: TruncationGap) -> str:
-    """By how much, and how well that is known."""
+    """By how much, and how well that is known; of what is little even at its upper end, that it is."""
+    if gap.change * gap.within <= SMALL:
+        return f"too high by less than {_percent(SMALL)}, too little to matter"
     return f"too high by up to about {_percent(gap.change)} (at {gap.at_hz:.3g} Hz; {_sure(gap)})"
 
 

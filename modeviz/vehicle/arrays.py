@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from modeviz.errors import VehicleError, quoted
+from modeviz.errors import VehicleError, kind_of, quoted
 
 Array = NDArray[Any]
 """Of numbers of any kind."""
@@ -64,4 +64,4 @@ def frozen_places(owner: Any, field: str, value: ArrayLike, shape: tuple[int | N
 
 def _named(owner: Any, field: str) -> str:
     name = getattr(owner, "name", None)
-    return f"{type(owner).__name__}{'' if name is None else f' {name!r}'}: {field}"
+    return f"{kind_of(owner)}{'' if name is None else f' {name!r}'}: {field}"

@@ -405,6 +405,17 @@ def test_what_cannot_be_coupled_is_listed_and_not_written(tmp_path, file, capsys
     assert not (tmp_path / "vehicle").exists()
 
 
+def test_all_that_keeps_a_body_from_being_coupled_is_said_at_once(tmp_path, file, capsys):
+    held = file(network_unv(np.zeros(24), first=6), "held.unv")
+    without_units = refused(capsys, held, "--output", tmp_path / "vehicle")
+    with_units = refused(capsys, held, "--output", tmp_path / "vehicle", "--units", "mm-t-s")
+    for said in (without_units, with_units):
+        assert "the modal mass of 18 of its 18 modes is not in the file" in said
+        assert "; and 0 of its modes are near zero Hz" in said
+    assert "doesn't say its units" in without_units
+    assert "doesn't say its units" not in with_units
+
+
 @pytest.mark.shared
 def test_a_test_systems_modes_are_listed_with_what_is_unknown(capsys):
     assert main(["import", str(SHARED / "uff55_translation.uff")]) == 0

@@ -248,6 +248,15 @@ def test_it_is_said_how_well_a_gap_is_known(within, said):
     assert said in gap_words(TruncationGap(("cab",), 0.03, 9.5, 30.0, within))
 
 
+@pytest.mark.parametrize("within", [2.0, 4.0, 10.0])
+def test_a_gap_that_is_little_at_its_upper_end_is_too_little_to_matter(within):
+    little, more = (
+        TruncationGap(("cab",), part * 0.005 / within, 9.5, 30.0, within) for part in (0.9, 1.1)
+    )
+    assert gap_words(little).endswith("are too high by less than 0.5 %, too little to matter")
+    assert "(at 9.5 Hz; " in gap_words(more)
+
+
 def test_fewer_than_a_dozen_modes_or_uneven_bodies_tell_the_order_of_magnitude():
     vehicle = on_trial_mounts(sheets()[0].body(6 + 40))
     assert truncation_gap(vehicle).within == 2

@@ -598,7 +598,7 @@ def test_damaged_op2_files_are_refused_in_a_sentence(read, content, words):
         ("GRID,1,,0.,0.,0.\nCORD1R,2,1,7,8\n", "one is missing"),
         ("GRID,1,,0.,0.,0.\nPLOTEL,1,1,5\n", "node 5 is named"),
         ("INCLUDE 'nowhere.bdf'\n", "'nowhere.bdf': there is no such file"),
-        ("INCLUDE 'a.bdf'\n", "is included by what it includes"),
+        ("INCLUDE 'a.bdf'\n", "includes itself, so it would never end"),
         ("INCLUDE 'a.bdf\n", "its quote does not end"),
         ("INCLUDE '/dev/zero'\n", "cannot be read"),
         ("GRID,1\0\0\n", "found no text"),
@@ -612,6 +612,30 @@ def test_damaged_decks_are_refused_in_a_sentence(read, deck, words):
         read(deck=deck)
     assert words in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
+
+
+def test_each_file_of_a_loop_of_includes_is_named_once(tmp_path):
+    """With what is wrong with a file that is included, too."""
+    for name, included in (("a.bdf", "b.inc"), ("b.inc", "c.inc"), ("c.inc", "a.bdf")):
+        (tmp_path / name).write_text(f"INCLUDE '{included}'\n")
+    with pytest.raises(VehicleError, match="again one of these files") as caught:
+        read_nastran([tmp_path / "a.bdf"])
+    assert [str(caught.value).count(name) for name in ("a.bdf", "b.inc", "c.inc")] == [1, 1, 1]
+    (tmp_path / "c.inc").write_bytes(b"\0")
+    with pytest.raises(VehicleError, match="found no text") as caught:
+        read_nastran([tmp_path / "a.bdf"])
+    assert [str(caught.value).count(name) for name in ("a.bdf", "b.inc", "c.inc")] == [1, 1, 1]
+
+
+def test_files_that_include_others_are_followed_so_far_only(tmp_path):
+    for level in range(30):
+        (tmp_path / f"{level}.bdf").write_text(f"INCLUDE '{level + 1}.bdf'\n")
+    with pytest.raises(VehicleError, match="include others, 20 deep"):
+        read_nastran([tmp_path / "0.bdf"])
+    (tmp_path / "empty.inc").write_text("")
+    (tmp_path / "many.bdf").write_text("INCLUDE 'empty.inc'\n" * 1000)
+    with pytest.raises(VehicleError, match="includes 1000 files or more"):
+        read_nastran([tmp_path / "many.bdf"])
 
 
 def test_an_input_file_of_another_model_is_refused(read):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
-from modeviz.errors import VehicleError, listed, located
+from modeviz.errors import VehicleError, listed, located, paths_together
 from modeviz.fem.matrices import Matrices
 from modeviz.files.disk import opened
 from modeviz.formats.ansys import FULL, read_full
@@ -75,7 +75,7 @@ def read_matrices(
     found += [matrix for one in inputs for matrix in one.matrices]
     if geometry is None and table is None and len(inputs) == 1:
         geometry = inputs[0].geometry()
-    with located(", ".join(map(str, [*paths, *(one.path for one in inputs)]))):
+    with located(paths_together([*paths, *(one.path for one in inputs)])):
         mass, stiffness, others = mass_and_stiffness(found)
         nodes = _geometry(geometry, table)
         orders = [] if table else [order for one in inputs for order in one.orders]

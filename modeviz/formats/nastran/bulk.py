@@ -239,9 +239,6 @@ def _lines(
     They are looked for beside it, and then at home; for one that is not there it is the error that says
     so.
     """
-    count[0] += 1
-    if path.resolve() in within or len(within) >= DEEPEST or count[0] > MOST_FILES:
-        raise VehicleError(f"{path}: is included by what it includes, or by too many")
     text = read_bytes(path, LARGEST_DECK).decode("latin-1")
     if "\0" in text:
         raise VehicleError(f"{path}: found no text, expected Nastran input")
@@ -259,10 +256,24 @@ def _lines(
             if other is None:
                 yield VehicleError(f"INCLUDE {quoted(name)}: there is no such file")
                 continue
-            with located(f"INCLUDE {quoted(name)}"):
-                yield from _lines(other, (*within, path.resolve()), count, home)
+            including = (*within, path.resolve())
+            _check_includes(other.resolve(), including, count)
+            with located(other):
+                yield from _lines(other, including, count, home)
         else:
             yield line
+
+
+def _check_includes(path: Path, including: tuple[Path, ...], count: list[int]) -> None:
+    """Counts an included file; raises VehicleError if it includes itself, or if there are too many."""
+    count[0] += 1
+    if path in including:
+        which = "itself" if path == including[-1] else "again one of these files"
+        raise VehicleError(f"includes {which}, so it would never end")
+    if len(including) >= DEEPEST:
+        raise VehicleError(f"includes files that include others, {DEEPEST} deep, expected fewer")
+    if count[0] >= MOST_FILES:
+        raise VehicleError(f"includes {MOST_FILES} files or more, expected fewer")
 
 
 def _is_there(path: Path) -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from modeviz.errors import VehicleError, located
+from modeviz.errors import VehicleError, located, paths_together
 from modeviz.formats.component import Component, ElementKind, Modes, rows_of
 from modeviz.formats.frames import turn_to_basic
 from modeviz.formats.nastran.deck import read_deck
@@ -68,7 +68,7 @@ def read_nastran(paths: Sequence[Path]) -> Component:
     model = read_deck(decks[0]) if decks else results.model()
     if model is None:
         return _without_geometry(results)
-    with located(", ".join(map(str, paths))):
+    with located(paths_together(paths)):
         places, frames = basic_geometry(model)
         if decks:
             _check_one_model(model, results)

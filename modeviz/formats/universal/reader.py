@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from modeviz.errors import VehicleError, listed, located, of_file
+from modeviz.errors import VehicleError, listed, located, of_file, paths_together
 from modeviz.files.disk import read_bytes
 from modeviz.formats.component import Component, ElementKind, Modes, UnitSystem, rows_of
 from modeviz.formats.frames import BASIC, Frame, basic_places, turn_to_basic
@@ -97,7 +97,7 @@ def read_universal(paths: Sequence[Path]) -> Component:
             for block in blocks(_without_zeros(read_bytes(path, LARGEST_FILE))):
                 with of_file("" if block.kind in ("55", "2414") else block.where):
                     content.add(block)
-    with located(", ".join(map(str, paths))):
+    with located(paths_together(paths)):
         return _component(content)
 
 
