@@ -18,7 +18,7 @@ from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions, drive, solve_on
 from modeviz.dynamics.basis import TOP_HZ
 from modeviz.files import builtin_vehicle, read_vehicle
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 N_SETS = 10

@@ -7,8 +7,10 @@ import numpy as np
 
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
+from modeviz.vehicle.connections import GROUND, Mount, Tyre
 from modeviz.vehicle.loads import ResponsePoint, Road
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 

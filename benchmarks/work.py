@@ -10,7 +10,7 @@ from modeviz.dynamics.assembly import System
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.ride.roads import track_amplitudes, tyre_directions
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,8 +47,6 @@ from modeviz.vehicle.bodies import RigidBody as RigidBody
 from modeviz.vehicle.connections import Bolt as Bolt
 from modeviz.vehicle.connections import Damper as Damper
 from modeviz.vehicle.connections import Mount as Mount
-from modeviz.vehicle.connections import MountGroup as MountGroup
-from modeviz.vehicle.connections import MountRates as MountRates
 from modeviz.vehicle.connections import Rod as Rod
 from modeviz.vehicle.connections import Spring as Spring
 from modeviz.vehicle.connections import Tyre as Tyre
@@ -71,6 +69,8 @@ from modeviz.vehicle.loads import Roughness as Roughness
 from modeviz.vehicle.loads import Spectrum as Spectrum
 from modeviz.vehicle.loads import WheelLoad as WheelLoad
 from modeviz.vehicle.mode_damping import ModeDamping as ModeDamping
+from modeviz.vehicle.mount_group import MountGroup as MountGroup
+from modeviz.vehicle.mount_rates import MountRates as MountRates
 from modeviz.vehicle.pose import Pose as Pose
 from modeviz.vehicle.problem import DeflectionLimit as DeflectionLimit
 from modeviz.vehicle.problem import DesignGroup as DesignGroup

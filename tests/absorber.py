@@ -3,8 +3,10 @@
 import numpy as np
 
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
+from modeviz.vehicle.connections import GROUND, Mount, Tyre
 from modeviz.vehicle.loads import ResponsePoint, Road
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -6,7 +6,7 @@ import numpy as np
 from mounted_cabin import mounted_cabin
 
 from modeviz.optimise.search import Search, prepare_search
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 
 BOUNDS = MountRates(1e5, 1e5, 1e5), MountRates(2e6, 2e6, 2e6)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeviz.vehicle.connections import RATE_FIELDS
+from modeviz.vehicle.mount_rates import RATE_FIELDS
 
 
 def central_difference(function, at: float, step: float):

@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring, usual_bounds
+from modeviz.vehicle.connections import GROUND, Mount, Spring
 from modeviz.vehicle.dynamic_rates import DynamicRates, HydraulicRates, RateTable, ThreeParameterRates
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Spectrum
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle
 
 RATES = MountRates(260e3, 180e3, 150e3)

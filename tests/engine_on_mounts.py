@@ -6,8 +6,10 @@ import numpy as np
 
 from modeviz.units import factor
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring, usual_bounds
+from modeviz.vehicle.connections import GROUND, Mount, Spring
 from modeviz.vehicle.load_cases import LoadCase, StaticLoad
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle
 
 INERTIA = np.array([[4.583, 0.610, -0.019], [0.610, 1.955, 0.066], [-0.019, 0.066, 5.507]])

@@ -10,19 +10,11 @@ from modeviz.vehicle.bodies import (
     MeshPart,
     RigidBody,
 )
-from modeviz.vehicle.connections import (
-    GROUND,
-    Bolt,
-    Damper,
-    Mount,
-    MountGroup,
-    MountRates,
-    Rod,
-    Spring,
-    Tyre,
-)
+from modeviz.vehicle.connections import GROUND, Bolt, Damper, Mount, Rod, Spring, Tyre
 from modeviz.vehicle.load_cases import LoadCase, StaticLoad
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum, WheelLoad
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.progressive import ForceCurve
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle

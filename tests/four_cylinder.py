@@ -3,7 +3,9 @@
 import numpy as np
 
 from modeviz.vehicle.bodies import AddedMass, RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring, usual_bounds
+from modeviz.vehicle.connections import GROUND, Mount, Spring
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle
 
 MASS = 117.2

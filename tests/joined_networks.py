@@ -7,8 +7,10 @@ import numpy as np
 from two_networks import ATTACHED, place, two_networks
 
 from modeviz.files import read_vehicle
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring
+from modeviz.vehicle.connections import GROUND, Mount, Spring
 from modeviz.vehicle.loads import Force, ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 SOFT, STIFF = MountRates(1e3, 1e3, 1e3), MountRates(1e6, 1e6, 1e6)

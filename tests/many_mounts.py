@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 from mounted_cabin import mounted_cabin
 
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates
+from modeviz.vehicle.connections import GROUND, Mount
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 ANGLE = np.radians(35.0)

@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
+from modeviz.vehicle.connections import GROUND, Mount, Tyre
 from modeviz.vehicle.loads import ResponsePoint, Road, WheelLoad
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 SOFT, STIFF = MountRates(1e4, 1e4, 1e4), MountRates(1e7, 1e7, 1e7)

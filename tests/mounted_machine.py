@@ -6,20 +6,11 @@ import numpy as np
 from oracles import Beam
 
 from modeviz.vehicle.bodies import AddedMass, RigidBody
-from modeviz.vehicle.connections import (
-    GROUND,
-    MOTIONS,
-    Bolt,
-    Damper,
-    Mount,
-    MountGroup,
-    MountRates,
-    Rod,
-    Spring,
-    Tyre,
-)
+from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Damper, Mount, Rod, Spring, Tyre
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Road, Spectrum, WheelLoad
 from modeviz.vehicle.mode_damping import ModeDamping
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 FLAT = Spectrum(np.array([0.01, 100.0]), np.array([2.0, 2.0]))

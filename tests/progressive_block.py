@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 from small_systems import block
 
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, usual_bounds
+from modeviz.vehicle.connections import GROUND, Mount
 from modeviz.vehicle.loads import Force, ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.progressive import ForceCurve
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -10,17 +10,10 @@ from modeviz.analysis.results import AXIS
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import (
-    GROUND,
-    MOTIONS,
-    Bolt,
-    Damper,
-    Mount,
-    MountGroup,
-    MountRates,
-    Spring,
-)
+from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Damper, Mount, Spring
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint, Spectrum
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 F = np.arange(1, 401) / 10

@@ -5,7 +5,9 @@ from oracles import Beam
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Damper, Mount, MountGroup, MountRates, Spring
+from modeviz.vehicle.connections import GROUND, Damper, Mount, Spring
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 

@@ -3,7 +3,9 @@
 import numpy as np
 
 from modeviz.units import factor
-from modeviz.vehicle.connections import Mount, MountGroup, MountRates
+from modeviz.vehicle.connections import Mount
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from pickup.parameters import Parameters
 from pickup.sides import SIDES, Place, on_side
 

@@ -17,8 +17,8 @@ from modeviz.mounting.forces import N_MOTIONS
 from modeviz.mounting.levels import input_spectra
 from modeviz.ride.psd import harmonic_acceleration
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.engine import Engine
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 MOST_SPEEDS = 400

@@ -20,8 +20,9 @@ from modeviz.mounting.transmission import acceleration_ratio, end_motions, force
 from modeviz.ride.excitation import Load
 from modeviz.ride.resolution import resolving_lines
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import MOTIONS, Rates
+from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.loads import Force, RandomLoad, ResponsePoint, Road, Spectrum, spectrum_of
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

@@ -18,7 +18,7 @@ from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
 from modeviz.mounting.forces import N_MOTIONS, Forces, acting_motions, ground_rows, pushes
 from modeviz.ride.excitation import Load
 from modeviz.vehicle.arrays import Complexes
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 
 @dataclass(frozen=True, eq=False)

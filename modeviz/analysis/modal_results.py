@@ -18,7 +18,7 @@ from modeviz.dynamics.resonances import Resonances, resonances
 from modeviz.dynamics.trust import ErrorEstimate
 from modeviz.mounting.dissipation import dissipated_energy
 from modeviz.vehicle.arrays import Array, Complexes, Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

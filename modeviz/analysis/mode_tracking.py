@@ -16,7 +16,7 @@ from modeviz.analysis.preparation import PreparedModes
 from modeviz.dynamics.band import Method
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import Track, track_modes
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 
 @dataclass(frozen=True, eq=False)

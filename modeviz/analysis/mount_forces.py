@@ -14,8 +14,9 @@ from modeviz.mounting.forces import N_MOTIONS
 from modeviz.mounting.levels import InputSpectra, input_spectra
 from modeviz.ride.excitation import acting_lines
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import MOTIONS, Rates
+from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.loads import HarmonicLoad
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

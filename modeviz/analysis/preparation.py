@@ -21,7 +21,7 @@ from modeviz.errors import of_file
 from modeviz.mounting.working_point import WorkingPoint, working_point
 from modeviz.ride.excitation import Load, excitation, input_directions, together
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import MountRates, Rates
+from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 STIFFEST_BASE = 5e6

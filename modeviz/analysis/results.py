@@ -26,9 +26,9 @@ from modeviz.ride.participation import Peak, participation, participation_above,
 from modeviz.ride.psd import acceleration_psd, averaged_acceleration_psd, rms
 from modeviz.ride.rating import Rating, rate
 from modeviz.vehicle.arrays import Array, Complexes, Floats
-from modeviz.vehicle.connections import DIRECTIONS, Rates
 from modeviz.vehicle.engine import Engine
 from modeviz.vehicle.loads import HarmonicLoad, RandomLoad
+from modeviz.vehicle.mount_rates import DIRECTIONS, Rates
 
 AXIS: dict[str, int] = dict(zip(DIRECTIONS, (2, 1, 0), strict=True))
 """Where a direction is among x, y, z."""

@@ -12,7 +12,7 @@ from modeviz.dynamics.resonances import resonances_at
 from modeviz.ride.psd import averaged_acceleration_psd, mean_square, rms
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import RATE_FIELDS, Rates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

@@ -12,8 +12,8 @@ from modeviz.ride.excitation import acting_lines
 from modeviz.ride.integration import line_distances
 from modeviz.ride.psd import harmonic_acceleration
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.loads import HarmonicLoad
+from modeviz.vehicle.mount_rates import Rates
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from modeviz.optimise.trade_off import TradeOff, chosen_sides, prepare_trade_off
 from modeviz.report.front import front_csv, front_record, front_table
 from modeviz.report.records import Record
 from modeviz.scatter.searching import SearchOptions
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -16,7 +16,7 @@ from modeviz.study.conditions import has_ride, on_even_road, road_conditions
 from modeviz.study.forces import loaded_forces
 from modeviz.study.searching import chosen_problem
 from modeviz.units import parse
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -17,7 +17,7 @@ from modeviz.cli.results import check_printable, print_result
 from modeviz.mounting.paths import By
 from modeviz.report.paths import paths_record, paths_table
 from modeviz.study.paths import point_paths
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 
 
 @dataclass(frozen=True, kw_only=True)

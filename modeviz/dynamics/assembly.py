@@ -20,7 +20,8 @@ from modeviz.dynamics.spring_law import spring_law
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
-from modeviz.vehicle.connections import GROUND, MOTIONS, Connection, Rates
+from modeviz.vehicle.connections import GROUND, MOTIONS, Connection
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -9,7 +9,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import MountRates, Rates
+from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

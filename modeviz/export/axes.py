@@ -7,7 +7,7 @@ import numpy as np
 
 from modeviz.files.schema.axes import axes_of
 from modeviz.vehicle.arrays import Array, Floats
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 
 
 @dataclass(frozen=True)

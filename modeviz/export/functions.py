@@ -15,8 +15,8 @@ from modeviz.export.axes import FileAxes
 from modeviz.ride.excitation import Load
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Array, Floats
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.loads import BaseMotion, Force, Road, WheelLoad
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 InputQuantity = Literal["displacement", "force", "acceleration", "unbalance"]

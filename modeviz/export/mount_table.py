@@ -10,7 +10,8 @@ from modeviz.export.axes import FileAxes
 from modeviz.files.schema.scaling import WRITTEN_UNITS, written
 from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Mount, MountGroup
+from modeviz.vehicle.connections import Mount
+from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.vehicle import Vehicle
 
 AXES = ("x", "y", "z")

@@ -8,7 +8,7 @@ from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError
 from modeviz.formats.component import UNIT_SYSTEMS
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 MOST_ID = 99_000_000

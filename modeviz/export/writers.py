@@ -22,7 +22,7 @@ from modeviz.export.vtu import motion_file, vtu_file
 from modeviz.files.rate_files import rates_text
 from modeviz.formats.component import UNIT_SYSTEMS
 from modeviz.vehicle.bodies import Body, FlexibleBody
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 Writer = Callable[[Solution, ExportOptions], bytes]

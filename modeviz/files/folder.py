@@ -55,12 +55,13 @@ from modeviz.files.toml_reader import in_si, tables_of
 from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
-from modeviz.vehicle.connections import Bolt, Damper, MountGroup, Rod, Spring
+from modeviz.vehicle.connections import Bolt, Damper, Rod, Spring
 from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.dynamic_rates import RateTable
 from modeviz.vehicle.engine import Engine
 from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.mesh_doubts import mesh_doubts
+from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.orientation import orientation_doubts
 from modeviz.vehicle.place_doubts import place_doubts
 from modeviz.vehicle.size_doubts import size_doubts

@@ -12,7 +12,7 @@ from modeviz.files.sheets import Sheet
 from modeviz.files.tables import Row
 from modeviz.units import QuantityName
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.vehicle import FARTHEST
+from modeviz.vehicle.checks import FARTHEST
 
 Headers = Callable[[Sequence[str]], tuple[dict[int, Column], list[str]]]
 """Gives the columns that are read, by where they stand, and the headers of others."""

@@ -17,7 +17,7 @@ from modeviz.files.schema.quantities import quantity_of
 from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si, to_si
 from modeviz.files.tables import Row, Table, read_table
 from modeviz.units import factor
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 WRITTEN_UNIT = WRITTEN_UNITS["stiffness"]

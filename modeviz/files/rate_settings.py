@@ -9,7 +9,7 @@ from modeviz.files.rate_files import read_rates
 from modeviz.files.records.rates import RateSetRecord
 from modeviz.files.schema.quantities import quantity_of
 from modeviz.units import parse, parse_number
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, Rates
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 ORIGINAL = "original"

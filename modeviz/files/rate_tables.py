@@ -18,8 +18,8 @@ from modeviz.files.spectra import FREQUENCY, open_table, write_spectrum_table
 from modeviz.files.tables import Row
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import RATE_FIELDS
 from modeviz.vehicle.dynamic_rates import RateTable
+from modeviz.vehicle.mount_rates import RATE_FIELDS
 
 SIZES = ("stiffness", "ratio", "storage")
 LOSSES = ("loss_angle", "loss_factor", "loss")

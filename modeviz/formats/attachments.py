@@ -10,8 +10,8 @@ from modeviz.formats.component import Component, UnitSystem
 from modeviz.formats.node_sets import NodeSet, set_motion
 from modeviz.formats.places import Place
 from modeviz.vehicle.arrays import Array, Floats, frozen
+from modeviz.vehicle.checks import REACH
 from modeviz.vehicle.rigid import rigid_motions
-from modeviz.vehicle.vehicle import REACH
 
 LOOSE = 0.02
 """Nodes that are joined rigidly move apart by less than this part of how they move."""

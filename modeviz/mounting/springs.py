@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.progressive import ForceCurve
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -33,8 +33,9 @@ from modeviz.mounting.springs import SpringLaws, spring_laws
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.connections import MOTIONS, Rates
+from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.load_cases import LoadCase, StaticLoad
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 FREE_HZ = 10.0

@@ -12,7 +12,8 @@ from modeviz.errors import SolveError, VehicleError, unknown
 from modeviz.mounting.settling import Settling
 from modeviz.mounting.static_system import HeldCase, PreparedStatics, RefusedCase
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Connection, Rates
+from modeviz.vehicle.connections import Connection
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

@@ -16,7 +16,8 @@ from modeviz.errors import SolveError
 from modeviz.mounting.rigid_part import RigidPart, rigid_parts
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body, Role
-from modeviz.vehicle.connections import GROUND, MOTIONS, Connection, MountRates
+from modeviz.vehicle.connections import GROUND, MOTIONS, Connection
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 FREE = (2 * np.pi * RESOLVED_HZ) ** 2

@@ -8,8 +8,9 @@ from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError
 from modeviz.mounting.static_system import PreparedStatics, prepare_statics
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import MountGroup, Rates
 from modeviz.vehicle.load_cases import STANDING
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from modeviz.errors import VehicleError
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
 
 SAME = 1e-12
 """Limits that leave one rate only may cross by such a part, which is rounding."""

@@ -17,8 +17,9 @@ from modeviz.mounting.frames import crank_direction, frame
 from modeviz.mounting.stiffness import HeldBody, held_bodies
 from modeviz.optimise.min_max import MinMax
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import MOTIONS, Rates
+from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.decoupling import DecoupledBody, Decoupling
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -11,7 +11,7 @@ from modeviz.mounting.springs import AXIS
 from modeviz.mounting.static_system import PreparedStatics, prepare_statics
 from modeviz.mounting.statics import Statics, solve_statics
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import DeflectionLimit
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -15,7 +15,7 @@ from modeviz.errors import VehicleError
 from modeviz.optimise.limits import DesignVariable, Limit, group_limits, group_variables, reach
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.problem import DesignGroup
 from modeviz.vehicle.vehicle import Vehicle
 

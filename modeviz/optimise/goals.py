@@ -18,7 +18,7 @@ from modeviz.ride.psd import RIDE_BAND
 from modeviz.ride.rating import COMFORT_FACTORS
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.problem import MOUNTED, VARIABLES, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

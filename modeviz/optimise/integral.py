@@ -17,8 +17,8 @@ from modeviz.ride.excitation import known_part
 from modeviz.ride.integration import integration_weights
 from modeviz.ride.rating import squared_weights
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.loads import RandomLoad
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

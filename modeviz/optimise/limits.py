@@ -8,7 +8,8 @@ import numpy as np
 from modeviz.errors import VehicleError
 from modeviz.optimise.contradiction import SAME, check_ratios
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, MountRates
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import DesignGroup
 
 VERTICAL, *SHEAR = RATE_FIELDS

@@ -3,7 +3,7 @@
 from abc import ABC, abstractmethod
 
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 
 class MinMax(ABC):

@@ -21,8 +21,9 @@ from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.excitation import Load
 from modeviz.ride.integration import integration_weights
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import GROUND, Mount, Rates
+from modeviz.vehicle.connections import GROUND, Mount
 from modeviz.vehicle.loads import HarmonicLoad, ResponsePoint, Road
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.mount_target import MountTarget
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle

@@ -18,8 +18,8 @@ from modeviz.ride.averaging import averaged_spectrum
 from modeviz.ride.excitation import Excitation, Load, excitation, input_spectrum, together
 from modeviz.ride.psd import averaged_acceleration_psd
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.loads import HarmonicLoad, Road
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 SAME_HZ = 1e-9

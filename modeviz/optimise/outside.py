@@ -6,7 +6,7 @@ from modeviz.optimise.design_space import DesignSpace
 from modeviz.optimise.limits import SHEAR
 from modeviz.optimise.search import Search
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates, Rates
 
 SAME = 1e-6
 """Relative: rates are read and written in other units, and are not more alike than that."""

@@ -14,7 +14,7 @@ from modeviz.optimise.run import BUDGET
 from modeviz.optimise.search import Search
 from modeviz.optimise.trade_off import ParetoPoint, TradeOff
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 SCREENED = 20
 """Spread designs for each start."""

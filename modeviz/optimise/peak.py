@@ -28,8 +28,8 @@ from modeviz.optimise.objective import (
 from modeviz.optimise.summits import Brackets, brackets, highest_lines, summits
 from modeviz.ride.excitation import table_hz
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.loads import HarmonicLoad
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 WIDEST = 4

@@ -13,7 +13,7 @@ from modeviz.optimise.evolution import evolve
 from modeviz.optimise.search import Search
 from modeviz.optimise.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 BUDGET = 5_000
 """Evaluations that a search may take, all starts together, besides those that choose these."""

@@ -15,7 +15,7 @@ from modeviz.optimise.goals import Goal, prepare_goal
 from modeviz.optimise.min_max import MinMax
 from modeviz.optimise.windows import Windows, prepare_windows
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -8,7 +8,7 @@ from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.optimise.descent import descend
 from modeviz.optimise.search import Search
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 MOST_STARTS = 1_000
 """More take minutes to choose, and an hour to search from."""

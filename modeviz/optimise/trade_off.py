@@ -11,7 +11,7 @@ from modeviz.optimise.min_max import MinMax
 from modeviz.optimise.search import Search, prepare_search
 from modeviz.optimise.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import VARIABLES, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

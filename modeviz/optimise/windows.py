@@ -10,7 +10,7 @@ from modeviz.analysis.preparation import PreparedModes
 from modeviz.analysis.sensitivity import frequency_sensitivity
 from modeviz.errors import VehicleError, unknown
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import FrequencyWindow
 
 MARGIN = 2e-6

@@ -11,7 +11,7 @@ from modeviz.dynamics.tracking import Track
 from modeviz.errors import VehicleError
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import prepare_goal
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import UNSHAKEN, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

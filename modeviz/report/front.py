@@ -14,7 +14,7 @@ from modeviz.report.tables import table
 from modeviz.report.truncation import at_rates, gap_record, is_large
 from modeviz.text.wording import percent_change, significant
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.problem import Problem
 
 

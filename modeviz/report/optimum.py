@@ -15,7 +15,7 @@ from modeviz.scatter.robust import Robust
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.wording import percent_change, scientific, significant
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS, Rates
+from modeviz.vehicle.mount_rates import DIRECTIONS, Rates
 from modeviz.vehicle.problem import UNSHAKEN, GoalKind, Problem
 
 SMALL: dict[GoalKind, str] = {

@@ -14,9 +14,10 @@ from modeviz.report.components import component_record
 from modeviz.ride.psd import amplitude_decibels
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RATE_FIELDS, MountGroup
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import BaseMotion, Force, HarmonicLoad, WheelLoad
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import RATE_FIELDS
 from modeviz.vehicle.vehicle import Vehicle
 
 Record = dict[str, Any]

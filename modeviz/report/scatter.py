@@ -10,7 +10,7 @@ from modeviz.scatter.driving import Scattered
 from modeviz.scatter.monte_carlo import Scatter, rating_of
 from modeviz.text.wording import MINUS, percent_change, significant
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 
 PERCENT = (5, 50, 95)
 

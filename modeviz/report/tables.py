@@ -17,7 +17,7 @@ from modeviz.ride.participation import Peak
 from modeviz.ride.psd import amplitude_decibels, power_decibels
 from modeviz.text.wording import scientific
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 WHEEL_BAND = (11.0, 16.0)

@@ -15,7 +15,7 @@ from modeviz.scatter.searching import check_whole
 from modeviz.scatter.sobol import Spread, spread
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.scatter.worst_case import WorstCase, worst_corner
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

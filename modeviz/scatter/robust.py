@@ -16,7 +16,7 @@ from modeviz.optimise.search import Search
 from modeviz.scatter.tolerance import Parts, Tolerance, scattered_parts
 from modeviz.scatter.worst_case import goals
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 LEAST_WEIGHT = 1e-5
 """Samples that count less are left out: at the 95th percentile of 100, eighty of them."""

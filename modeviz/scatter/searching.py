@@ -14,7 +14,7 @@ from modeviz.optimise.search import Search
 from modeviz.optimise.starts import MOST_STARTS, start_points
 from modeviz.scatter.robust import optimise_robustly, robust_search
 from modeviz.scatter.tolerance import Tolerance
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 FRONT_STARTS = 5
 """Usual for each design of a front, besides those found before."""

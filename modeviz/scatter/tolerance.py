@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from modeviz.analysis.preparation import PreparedModes
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,9 @@ from modeviz.study.displayed import Displayed
 from modeviz.study.notebook import block, paragraphs
 from modeviz.text.markup import NONE, table, title
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import MOTIONS, Rates
+from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.engine import EngineOrder
+from modeviz.vehicle.mount_rates import Rates
 
 
 def loaded_forces(

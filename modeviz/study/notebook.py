@@ -9,7 +9,8 @@ from modeviz.text.markup import table
 from modeviz.text.wording import percent_change, significant
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, MountGroup, Rates
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 STYLE = """<style>

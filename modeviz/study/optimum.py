@@ -25,7 +25,7 @@ from modeviz.text.axes import Axis
 from modeviz.text.markup import table
 from modeviz.text.wording import percent_change, significant
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import MountRates, Rates
+from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.vehicle.problem import Problem
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from modeviz.analysis.results import Conditions
 from modeviz.compute.threads import one_thread
 from modeviz.study.telling import Tell
-from modeviz.vehicle.connections import MountRates, Rates
+from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from modeviz.report.comparison import RateSet
 from modeviz.report.html import Picture
 from modeviz.study.notebook import block
 from modeviz.study.telling import Tell
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from modeviz.report.records import Record, rates_record
 from modeviz.report.tables import table
 from modeviz.study.displayed import Displayed
 from modeviz.study.notebook import block, rate_rows, rates_table
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 

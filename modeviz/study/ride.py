@@ -17,7 +17,7 @@ from modeviz.study.notebook import block, charts, paragraphs, spectrum
 from modeviz.study.peaks import ResponsePeak, named_peaks, peaks_table
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 
 
 @dataclass(frozen=True, eq=False, repr=False)

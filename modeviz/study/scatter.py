@@ -19,7 +19,7 @@ from modeviz.text.axes import Axis, decibel_axis, shown_hz
 from modeviz.text.markup import table, title
 from modeviz.text.wording import percent_change, significant
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 
 
 @dataclass(frozen=True, eq=False, repr=False)

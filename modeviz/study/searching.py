@@ -11,8 +11,8 @@ from modeviz.optimise.trade_off import TradeOff
 from modeviz.scatter.searching import SearchOptions
 from modeviz.study.telling import Tell
 from modeviz.text.wording import significant
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.default_problem import problems
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

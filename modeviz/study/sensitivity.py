@@ -15,7 +15,7 @@ from modeviz.study.notebook import block, paragraphs
 from modeviz.text.markup import table
 from modeviz.text.wording import signed
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 
 TENTH = 0.1
 """The part by which every rate rises."""

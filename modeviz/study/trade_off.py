@@ -16,7 +16,7 @@ from modeviz.text.axes import Axis
 from modeviz.text.markup import table, title
 from modeviz.text.wording import percent_change, significant
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import Problem
 
 

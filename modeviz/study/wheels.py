@@ -17,7 +17,7 @@ from modeviz.study.notebook import block, charts, paragraphs, spectrum
 from modeviz.study.peaks import ResponsePeak, named_peaks
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 

@@ -8,8 +8,8 @@ from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, FlexibleBody
 from modeviz.vehicle.carriers import SAME_PLACE, motions_by_nodes
+from modeviz.vehicle.checks import REACH
 from modeviz.vehicle.rigid import rigid_motions
-from modeviz.vehicle.vehicle import REACH
 
 
 def attachment_elsewhere(body: FlexibleBody, held: Attachment, place: Floats, name: str) -> Attachment:

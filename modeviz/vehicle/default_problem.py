@@ -4,9 +4,10 @@ import numpy as np
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, MountGroup
 from modeviz.vehicle.iso_8608 import USUAL_ROAD
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeviz.errors import VehicleError
-from modeviz.vehicle.connections import DIRECTIONS, check_directions
+from modeviz.vehicle.mount_rates import DIRECTIONS, check_directions
 
 
 @dataclass(frozen=True)

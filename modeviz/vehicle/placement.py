@@ -7,8 +7,9 @@ import numpy as np
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import MIDDLE, Mount, MountGroup
+from modeviz.vehicle.connections import MIDDLE, Mount
 from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
+from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.moved_ends import MovedMount, bodies_that_hold, missing_compliance
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -7,15 +7,15 @@ import numpy as np
 
 from modeviz.errors import VehicleError, check_unique, unknown
 from modeviz.vehicle.arrays import Floats, frozen
-from modeviz.vehicle.connections import (
+from modeviz.vehicle.decoupling import DecoupledBody
+from modeviz.vehicle.load_cases import STANDING
+from modeviz.vehicle.mount_rates import (
     DIRECTIONS,
     RIDE_DIRECTIONS,
     MountRates,
     check_bounds,
     check_directions,
 )
-from modeviz.vehicle.decoupling import DecoupledBody
-from modeviz.vehicle.load_cases import STANDING
 from modeviz.vehicle.mount_target import MountTarget
 
 GoalKind = Literal[

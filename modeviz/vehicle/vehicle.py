@@ -6,22 +6,11 @@ from functools import cached_property
 
 import numpy as np
 
-from modeviz.errors import Fault, FaultsError, PartError, VehicleError, check_unique, of_part, unknown
+from modeviz.errors import VehicleError, unknown
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import AddedMass, Body, FlexibleBody
-from modeviz.vehicle.connections import (
-    GROUND,
-    Bolt,
-    Connection,
-    Damper,
-    Mount,
-    MountGroup,
-    MountRates,
-    Rates,
-    Rod,
-    Spring,
-    Tyre,
-)
+from modeviz.vehicle.bodies import AddedMass, Body
+from modeviz.vehicle.checks import check_problem, check_vehicle
+from modeviz.vehicle.connections import GROUND, Connection, Mount, Tyre
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.engine import Engine, EngineOrder
 from modeviz.vehicle.iso_8608 import CLASSES, USUAL_ROAD, named_road
@@ -37,26 +26,15 @@ from modeviz.vehicle.loads import (
     WheelLoad,
 )
 from modeviz.vehicle.mode_damping import ModeDamping
-from modeviz.vehicle.mount_target import MountTarget
-from modeviz.vehicle.problem import UNFELT, Problem
-
-REACH = 0.10
-"""m: how far from an attachment of a flexible body a connection may hold on to it."""
-
-FARTHEST = 20.0
-"""m: hardly a vehicle is farther from its origin."""
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, Rates
+from modeviz.vehicle.problem import Problem
 
 USUAL_SPEED = 20.0
 """m/s: 72 km/h."""
 
-FEWEST_LINES, MOST_LINES = 10, 5000
-"""Of a band: each is a solution of the vehicle's equations, kept in memory."""
-
 OUR_AXES = "x rearward, y right, z up"
 """Of everything that is computed."""
-
-WHOLE = 1e-9
-"""Relative: a number of steps this close to a whole one is whole."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,29 +80,7 @@ class Vehicle:
     """Those of that file, in which things are written for other programs; all here is in ours."""
 
     def __post_init__(self) -> None:
-        if not self.bodies:
-            raise VehicleError(f"vehicle {self.name!r} has no bodies")
-        if not (np.isfinite(self.speed) and self.speed > 0):
-            raise FaultsError(Fault("speed", f"found {self.speed} m/s, expected more than 0"))
-        self._check_band()
-        self._check_names()
-        for connection in self.all_connections:
-            with of_part("connection", connection.name):
-                self._check_ends(connection)
-        for kind, things in (
-            ("added mass", self.added_masses),
-            ("response point", self.response_points),
-            ("force", self.forces),
-            ("engine", self.engines),
-        ):
-            for thing in things:
-                with of_part(kind, thing.name):
-                    self._check_place(thing.body, thing.position)
-        for case in self.load_cases:
-            with of_part("load case", case.name):
-                self._check_load_case(case)
-        check_unique("mode damping of", (damping.name for damping in self.mode_damping))
-        self._check_references()
+        check_vehicle(self)
 
     @cached_property
     def frequency_hz(self) -> Floats:
@@ -271,46 +227,7 @@ class Vehicle:
 
     def check_problem(self, problem: Problem) -> None:
         """Raises VehicleError unless all that a problem names is there."""
-        for group in problem.groups:
-            self.mount_group(group.group)
-        points = [point.name for point in self.response_points]
-        if problem.goal not in UNFELT and not points:
-            raise VehicleError(f"goal {problem.goal!r} needs a [[response_point]]")
-        if problem.goal == "idle" and not self.engines:
-            raise VehicleError("goal 'idle' needs an [[engine]]")
-        for performance in problem.performance:
-            for road in performance.roads:
-                if not self.is_shaken_by(self.random_load(road)):
-                    raise VehicleError(
-                        f"road {road!r} shakes nothing; expected a [[tyre]] with stiffness or damping "
-                        "along z"
-                    )
-            for load in performance.wheel_loads:
-                self.harmonic_load(load)
-            for point in performance.points:
-                if point not in points:
-                    raise VehicleError(unknown("response point", point, points))
-        for target in problem.mounts:
-            self._check_mount_target(target)
-        for decoupled in problem.decoupling:
-            self.body(decoupled.body)
-        mounts, cases = ([x.name for x in every] for every in (self.mounts, self.static_cases))
-        for limit in problem.deflections:
-            if limit.mount not in mounts:
-                raise VehicleError(unknown("mount", limit.mount, mounts))
-            if limit.load_case not in cases:
-                raise VehicleError(unknown("load case", limit.load_case, cases))
-        if problem.reference and problem.reference not in self.rate_sets:
-            raise VehicleError(unknown("set of rates", problem.reference, self.rate_sets))
-
-    def _check_mount_target(self, target: MountTarget) -> None:
-        """Raises VehicleError unless the mounts and loads are there."""
-        names = [mount.name for mount in self.mounts]
-        for mount in target.mounts:
-            if mount not in names:
-                raise VehicleError(unknown("mount", mount, names))
-        for load in target.loads:
-            self.load(load)
+        check_problem(self, problem)
 
     def load(self, name: str) -> RandomLoad | HarmonicLoad:
         """The harmonic or random load of that name, else the road of ISO 8608 that it means.
@@ -327,115 +244,6 @@ class Vehicle:
         except VehicleError:
             every = (*self.offered_loads, *every)
             raise VehicleError(unknown("load", name, (load.name for load in every))) from None
-
-    def _check_band(self) -> None:
-        for key in ("highest_frequency", "frequency_step"):
-            value = getattr(self, key)
-            if not (np.isfinite(value) and value > 0):
-                raise FaultsError(Fault(key, f"found {value} Hz, expected more than 0"))
-        count = self.highest_frequency / self.frequency_step
-        if abs(count - round(count)) > WHOLE * count:
-            words = (
-                f"found {self.highest_frequency:g} Hz, expected a whole multiple of frequency_step, "
-                f"{self.frequency_step:g} Hz"
-            )
-            raise FaultsError(Fault("highest_frequency", words))
-        if not FEWEST_LINES <= round(count) <= MOST_LINES:
-            words = (
-                f"found {self.frequency_step:g} Hz for {self.highest_frequency:g} Hz, which makes "
-                f"{round(count)} lines; expected {FEWEST_LINES} to {MOST_LINES}"
-            )
-            raise FaultsError(Fault("frequency_step", words))
-
-    def _check_names(self) -> None:
-        for kind, items in (
-            ("body", self.bodies),
-            ("connection", self.all_connections),
-            ("mount group", self.mount_groups),
-            ("added mass", self.added_masses),
-            ("response point", self.response_points),
-            ("random load", self.random_loads),
-            ("engine", self.engines),
-            ("harmonic load", (*self.harmonic_loads, *self.engine_orders)),
-            ("problem", self.problems),
-            ("load case", self.load_cases),
-        ):
-            check_unique(kind, (item.name for item in items))
-        if GROUND in (body.name for body in self.bodies):
-            raise PartError("body", GROUND, ": that name means what does not move; take another")
-        for connection in self.all_connections:
-            if connection.group in (body.name for body in self.bodies):
-                words = f": group {connection.group!r} is the name of a body; their energies are "
-                words += "reported side by side, so take another"
-                raise PartError("connection", connection.name, words)
-
-    def _check_references(self) -> None:
-        """Raises VehicleError unless every tyre and mount group that is named exists."""
-        tyres = [t.name for t in self.tyres]
-        for load in self.wheel_loads:
-            if load.tyre not in tyres:
-                raise PartError("wheel load", load.name, ": " + unknown("tyre", load.tyre, tyres))
-        for motion in self.base_motions:
-            with of_part("base motion", motion.name):
-                self._check_base_motion(motion)
-        for name, rates in self.rate_sets.items():
-            for group in rates:
-                if group not in self.rates:
-                    raise PartError("rates", name, ": " + unknown("mount group", group, self.rates))
-        for problem in self.problems:
-            with of_part("problem", problem.name):
-                self.check_problem(problem)
-
-    def _check_base_motion(self, motion: BaseMotion) -> None:
-        """Raises VehicleError unless what it moves holds on to the ground."""
-        grounded = [c.name for c in self.all_connections if c.bodies[1] == GROUND]
-        for name in motion.connections:
-            if name not in grounded:
-                raise VehicleError(unknown("connection to the ground", name, grounded))
-        if not self.moved_connections(motion):
-            raise VehicleError("nothing is connected to the ground, so nothing moves")
-
-    def _check_load_case(self, case: LoadCase) -> None:
-        """Raises VehicleError unless every body it presses on is there, and can be where it does."""
-        for load in case.loads:
-            self.body(load.body)
-            if load.position is not None:
-                self._check_place(load.body, load.position)
-
-    def _check_ends(self, connection: Connection) -> None:
-        if not isinstance(connection, Mount | Spring | Rod | Bolt | Damper | Tyre):
-            raise VehicleError("expected a Spring, Rod, Bolt, Damper or Tyre")
-        if connection.rigid and not isinstance(connection, Spring | Rod | Bolt):
-            raise VehicleError("only a spring, a rod or a bolt can be rigid")
-        if connection.bodies[0] == GROUND:
-            raise VehicleError(f"{GROUND!r} must be the second of its bodies")
-        for body, point in zip(connection.bodies, connection.points, strict=True):
-            if body != GROUND:
-                self._check_place(body, point)
-
-    def _check_place(self, body_name: str, position: Floats) -> None:
-        """Raises VehicleError unless the body is there and something can hang on it at `position`."""
-        body = self.body(body_name)
-        if not isinstance(body, FlexibleBody):
-            return
-        nearest = body.nearest_attachment(position)
-        distance = np.linalg.norm(nearest.position - position)
-        if distance > REACH:
-            raise VehicleError(
-                f"{position.tolist()} is {distance:.2f} m from the nearest attachment of "
-                f"{body_name!r}, {nearest.name!r}; at most {REACH} m is allowed"
-                f"{_in_other_units(body, position)}"
-            )
-
-
-def _in_other_units(body: FlexibleBody, position: Floats) -> str:
-    """Words for a place that would be near an attachment in mm where it is in m, or the reverse."""
-    is_far = np.abs(position).max() > FARTHEST
-    scale, meant, found = (1e-3, "mm", "m") if is_far else (1e3, "m", "mm")
-    moved = scale * position
-    if np.linalg.norm(body.nearest_attachment(moved).position - moved) > REACH:
-        return ""
-    return f"; it would fit if its numbers were in {meant} and not in {found}: see length in [units]"
 
 
 def track_width(tyres: Sequence[Tyre]) -> float:

@@ -12,7 +12,7 @@ from modeviz.errors import ModevizError
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import Picture, report
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.offline import offline_page
 from modeviz.viewer.page import scripts

@@ -15,7 +15,7 @@ from modeviz.text.axes import Axis, shown_hz
 from modeviz.text.wording import signed
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
 from modeviz.viewer.page.handshake import named_page
 from modeviz.viewer.page.html import block, row, span, style_sheet, table, title
 from modeviz.viewer.page.recording import recorded_page

@@ -15,7 +15,7 @@ from modeviz.errors import ModevizError, located, quoted
 from modeviz.report.comparison import RateSet
 from modeviz.report.html import Picture
 from modeviz.report.images import check_films, gif_bytes, mp4_bytes, png_bytes
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.offline import offline_page
 from modeviz.viewer.page.server import Server, open_server

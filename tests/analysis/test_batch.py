@@ -12,8 +12,8 @@ from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError, VehicleError
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.mount_rates import MountRates
 
 FLAT = Conditions("flat", 20.0)
 FREQUENCY_HZ = np.linspace(0.5, 40, 80)

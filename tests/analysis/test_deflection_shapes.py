@@ -16,8 +16,8 @@ from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError, VehicleError
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import ResponsePoint, Road
+from modeviz.vehicle.mount_rates import MountRates
 
 F = np.array([1.3, 8.0, 11.0, 23.7])
 RATES = {"A": MountRates(2e5, 1e5, 1e5)}

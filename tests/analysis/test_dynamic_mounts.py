@@ -23,15 +23,10 @@ from modeviz.optimise.objective import LoadCase, prepare_objective
 from modeviz.ride.excitation import generalised_forces, input_spectrum
 from modeviz.ride.psd import harmonic_acceleration
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import (
-    GROUND,
-    Mount,
-    MountGroup,
-    MountRates,
-    Spring,
-    usual_bounds,
-)
+from modeviz.vehicle.connections import GROUND, Mount, Spring
 from modeviz.vehicle.dynamic_rates import HydraulicRates
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle
 
 OTHER = MountRates(190e3, 240e3, 110e3)

@@ -17,8 +17,8 @@ from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.mounting.forces import solve_forces
 from modeviz.optimise.goals import prepare_goal
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.engine import Engine, EngineOrder, InlineEngine
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

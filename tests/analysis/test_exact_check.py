@@ -10,7 +10,7 @@ from modeviz.analysis.exact_check import check_exactly, classic_error
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.dynamics.modes import Modes
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 FLAT = Conditions("flat", 20.0)
 RATES = {"A": MountRates(2e5, 1e5, 1e5)}

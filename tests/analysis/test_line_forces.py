@@ -9,7 +9,7 @@ from modeviz.analysis.line_forces import prepare_line
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.mounting.levels import input_spectra
 from modeviz.mounting.paths import solve_paths
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 MACHINE = mounted_machine()
 PREPARED = prepare_modes(MACHINE, 60.0)

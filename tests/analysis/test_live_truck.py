@@ -27,7 +27,7 @@ from modeviz.optimise.goals import load_cases
 from modeviz.optimise.objective import prepare_objective
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 N_RANDOM = 50
 LINES_APART = 50

@@ -12,7 +12,7 @@ from modeviz.analysis.mount_forces import mount_forces
 from modeviz.analysis.preparation import prepare
 from modeviz.dynamics.resonances import resonances_at
 from modeviz.mounting.levels import input_spectra
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 MACHINE = mounted_machine()
 PREPARED = prepare(MACHINE)

@@ -12,7 +12,8 @@ from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.errors import SolveError, VehicleError
-from modeviz.vehicle.connections import GROUND, MountRates, Spring
+from modeviz.vehicle.connections import GROUND, Spring
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 FLAT = Conditions("flat", 20.0)

@@ -15,7 +15,7 @@ from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.ride.psd import acceleration_psd
 from modeviz.ride.roads import road_spectrum, track_forces
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 FLAT = Conditions("flat", 20.0)
 SOFT = {"A": MountRates(2e5, 1e5, 1e5)}

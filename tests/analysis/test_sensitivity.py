@@ -15,7 +15,7 @@ from modeviz.analysis.sensitivity import (
     ride_sensitivity,
     spring_shares,
 )
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
 
 FLAT = Conditions("flat", 20.0)
 RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4), "B": MountRates(9e5, 4e5, 2e5)}

@@ -13,7 +13,7 @@ from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.ride.participation import NEGLIGIBLE
 from modeviz.ride.psd import amplitude_decibels, harmonic_acceleration
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 RATES = {"A": MountRates(6e5, 2e5, 5e5)}
 SEAT = 0

@@ -13,7 +13,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.vehicle.alterations import Alterations, altered
-from modeviz.vehicle.connections import RATE_FIELDS
+from modeviz.vehicle.mount_rates import RATE_FIELDS
 from modeviz.viewer.session.commands.decisions import Load, SetRate
 
 SOLVE_S = 60

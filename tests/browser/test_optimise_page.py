@@ -14,8 +14,8 @@ from session_commands import Alter, AlterPlan
 
 from modeviz.files.problem_file import problem_text, read_problem
 from modeviz.text.wording import significant
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.default_problem import problems
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.session.commands.decisions import Load, SetRate
 from modeviz.viewer.session.planning.plan import first_plan, planned

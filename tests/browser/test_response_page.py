@@ -14,7 +14,7 @@ from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
 from modeviz.files import write_vehicle
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.panels.plots import SHOWN_HZ
 from modeviz.viewer.session.commands.decisions import Load, SetRate, TakeRates
 from modeviz.viewer.session.commands.looks import Overlay

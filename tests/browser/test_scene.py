@@ -12,8 +12,10 @@ from modeviz.analysis.results import Conditions
 from modeviz.shapes.motion import default_amplitude
 from modeviz.shapes.surface import surface, vertex_areas
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, Material, MeshPart, RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
+from modeviz.vehicle.connections import GROUND, Mount, Tyre
 from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.scene import stage
 from modeviz.viewer.scene.markers import PATCH_Z

@@ -18,7 +18,8 @@ from modeviz.cli.parser import COMMANDS, parse
 from modeviz.cli.render import RENDER
 from modeviz.cli.scatter import ScatterCommandOptions
 from modeviz.files import write_vehicle
-from modeviz.vehicle.connections import MountRates, Tyre
+from modeviz.vehicle.connections import Tyre
+from modeviz.vehicle.mount_rates import MountRates
 
 
 def test_modes_prints_a_table(capsys, folder):

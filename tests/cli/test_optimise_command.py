@@ -28,7 +28,7 @@ from modeviz.optimise.run import optimise, search_globally
 from modeviz.optimise.starts import start_points
 from modeviz.scatter.robust import robust
 from modeviz.scatter.tolerance import Tolerance
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance
 from modeviz.viewer.session.planning.plan import first_plan, planned
 

@@ -16,7 +16,7 @@ from modeviz.errors import ModevizError, SolveError
 from modeviz.files import write_vehicle
 from modeviz.report.comparison import RateSet
 from modeviz.shapes.colors import stop_colors
-from modeviz.vehicle.connections import DIRECTIONS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.pictures.pictures import ImageSettings, Pose, picture
 from modeviz.viewer.rendering import RenderRequest, photographs

@@ -9,7 +9,7 @@ from small_systems import block
 
 from modeviz.cli import main
 from modeviz.files import write_vehicle
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 

@@ -8,7 +8,9 @@ from small_systems import block, joined_beams
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import VehicleError
 from modeviz.vehicle.bodies import AddedMass
-from modeviz.vehicle.connections import Damper, Mount, MountGroup, MountRates, Spring, Tyre
+from modeviz.vehicle.connections import Damper, Mount, Spring, Tyre
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 

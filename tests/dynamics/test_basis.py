@@ -13,7 +13,9 @@ from modeviz.dynamics.band import band_modes, natural_frequencies
 from modeviz.dynamics.basis import prepare_basis
 from modeviz.dynamics.mount_rates import mount_stiffness
 from modeviz.errors import SolveError
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Tyre
+from modeviz.vehicle.connections import GROUND, Mount, Tyre
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 SOFT, STIFF = MountRates(1.0, 1.0, 1.0), MountRates(1e9, 1e9, 1e9)

@@ -24,7 +24,9 @@ from modeviz.files.rate_files import write_rates
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import report
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.vehicle.connections import GROUND, MOTIONS, Mount, MountGroup, MountRates, Spring
+from modeviz.vehicle.connections import GROUND, MOTIONS, Mount, Spring
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.session.commands.decisions import TakeRates

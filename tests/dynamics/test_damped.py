@@ -17,7 +17,8 @@ from modeviz.analysis.modal_results import ModalResults, solve_modal
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.dynamics.modes import vibrating_roots
 from modeviz.errors import SolveError
-from modeviz.vehicle.connections import Damper, MountRates, Spring
+from modeviz.vehicle.connections import Damper, Spring
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 A, B = 2, 8

@@ -18,8 +18,8 @@ from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.mode_damping import ModeDamping
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 CABIN = mounted_cabin()

@@ -10,18 +10,9 @@ from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.errors import VehicleError
 from modeviz.vehicle.bodies import Attachment, FlexibleBody, RigidBody
-from modeviz.vehicle.connections import (
-    GROUND,
-    Bolt,
-    Connection,
-    Damper,
-    Mount,
-    MountGroup,
-    MountRates,
-    Rod,
-    Spring,
-    Tyre,
-)
+from modeviz.vehicle.connections import GROUND, Bolt, Connection, Damper, Mount, Rod, Spring, Tyre
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -12,7 +12,7 @@ from oracles import Beam
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.naming import ModeName, name_modes, prepare_names
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 

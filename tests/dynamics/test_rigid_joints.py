@@ -17,7 +17,8 @@ from modeviz.dynamics.response import direct_response
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Damper, MountRates, Spring
+from modeviz.vehicle.connections import GROUND, MOTIONS, Bolt, Damper, Spring
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 F = np.array([0.3, 2.0, 9.0, 31.0])

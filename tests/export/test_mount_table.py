@@ -12,7 +12,7 @@ from turned_vehicles import turned_folder
 from modeviz.cli import main
 from modeviz.export.mount_table import mount_table
 from modeviz.files import read_vehicle
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 AXES = [("rearward", "right", "up"), ("forward", "left", "up"), ("up", "forward", "left")]

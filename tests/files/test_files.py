@@ -21,7 +21,7 @@ from modeviz.files import folder as folder_module
 from modeviz.files.meshes import read_mesh, write_mesh
 from modeviz.files.schema.scaling import written
 from modeviz.vehicle.bodies import FlexibleBody, Material, RigidBody
-from modeviz.vehicle.connections import MountRates, usual_bounds
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle
 
 RNG = np.random.default_rng(0)

@@ -10,7 +10,7 @@ from mounted_cabin import SOFT, mounted_cabin
 from modeviz.errors import VehicleError
 from modeviz.files.problem_file import problem_text, read_problem
 from modeviz.files.records.problems import ProblemRecord
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import UNLIMITED, DesignGroup, Performance, Problem
 
 STIFF = MountRates(1e6, 2e6, 1e6 / 3)

@@ -8,7 +8,7 @@ from folders import one_of_everything
 
 from modeviz.errors import VehicleError
 from modeviz.files.rate_files import parse_rates, rates_text, read_rates, write_rates
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 VEHICLE = one_of_everything()
 

@@ -8,7 +8,7 @@ from folders import one_of_everything
 from modeviz.errors import VehicleError
 from modeviz.files.rate_files import write_rates
 from modeviz.files.rate_settings import parse_setting, resolve_rates
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 VEHICLE = one_of_everything()
 RATES = VEHICLE.rates["C1"]

@@ -13,8 +13,8 @@ from modeviz.files.rate_files import parse_rates, read_rates
 from modeviz.files.roads import read_road
 from modeviz.files.schema.conventions import Conventions
 from modeviz.files.tables import read_table
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.mount_rates import MountRates
 
 HEADER = "frequency_hz,left,right,cross_real,cross_imag\n"
 PLAIN = HEADER + "0.5,1.5e-6,2.5e-6,1e-6,-1e-7\n40,1e-9,1e-9,0,0\n"

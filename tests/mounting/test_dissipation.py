@@ -15,8 +15,8 @@ from modeviz.mounting.dissipation import MODE_DAMPING, dissipated_energy, dissip
 from modeviz.mounting.forces import solve_forces
 from modeviz.mounting.levels import input_spectra
 from modeviz.ride.excitation import generalised_forces
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.loads import Force
+from modeviz.vehicle.mount_rates import MountRates
 
 F = np.array([0.7, 3.0, 9.5, 14.0, 22.0, 37.0])
 MACHINE = mounted_machine()

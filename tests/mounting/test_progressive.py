@@ -18,8 +18,9 @@ from modeviz.mounting import settling
 from modeviz.mounting.static_system import prepare_statics
 from modeviz.mounting.statics import solve_statics
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.connections import GROUND, Mount, MountRates
+from modeviz.vehicle.connections import GROUND, Mount
 from modeviz.vehicle.load_cases import LoadCase, StaticLoad
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.progressive import ForceCurve
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -16,8 +16,10 @@ from modeviz.mounting.frames import frame, principal_axes
 from modeviz.mounting.purity import direction_energy, sorted_modes
 from modeviz.mounting.rigid_part import rigid_parts
 from modeviz.vehicle.bodies import AddedMass, RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring, usual_bounds
+from modeviz.vehicle.connections import GROUND, Mount, Spring
 from modeviz.vehicle.decoupling import Decoupling
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle
 
 

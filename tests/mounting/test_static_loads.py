@@ -14,15 +14,10 @@ from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.mounting.static_system import prepare_statics
 from modeviz.mounting.statics import StaticCase, Statics, solve_statics
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.connections import (
-    GROUND,
-    Mount,
-    MountGroup,
-    MountRates,
-    Spring,
-    usual_bounds,
-)
+from modeviz.vehicle.connections import GROUND, Mount, Spring
 from modeviz.vehicle.load_cases import LoadCase, StaticLoad
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle
 
 

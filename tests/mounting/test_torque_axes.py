@@ -17,7 +17,9 @@ from modeviz.mounting.frames import crank_direction
 from modeviz.mounting.rigid_part import rigid_parts
 from modeviz.mounting.stiffness import held_bodies, holding, mounted_bodies
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring, usual_bounds
+from modeviz.vehicle.connections import GROUND, Mount, Spring
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.vehicle import Vehicle
 
 HALF_WIDTH, TILT = 0.3, np.radians(40.0)

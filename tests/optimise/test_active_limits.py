@@ -7,7 +7,7 @@ from toy_goals import CENTER, MINIMUM, logarithmic_search, paraboloid
 
 from modeviz.optimise.active_limits import active_constraints
 from modeviz.optimise.descent import descend
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import FrequencyWindow
 
 

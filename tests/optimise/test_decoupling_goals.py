@@ -24,9 +24,11 @@ from modeviz.optimise.run import optimise
 from modeviz.optimise.search import prepare_search
 from modeviz.optimise.starts import start_points
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, usual_bounds
+from modeviz.vehicle.connections import GROUND, Mount
 from modeviz.vehicle.decoupling import USUAL, DecoupledBody, Decoupling
 from modeviz.vehicle.default_problem import problems
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.problem import DesignGroup, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -15,7 +15,7 @@ from modeviz.optimise.run import optimise
 from modeviz.optimise.search import prepare_search
 from modeviz.report.optimum import optimum_table
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DeflectionLimit, DesignGroup, Problem
 
 WEIGHT = MASS * STANDARD_GRAVITY

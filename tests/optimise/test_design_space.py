@@ -13,7 +13,7 @@ from modeviz.errors import VehicleError
 from modeviz.optimise.design_space import design_space
 from modeviz.optimise.run import optimise, search_globally
 from modeviz.optimise.starts import start_points
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import DesignGroup
 
 START = MountRates(8e5, 3e5, 4e5)

@@ -15,7 +15,8 @@ from modeviz.errors import VehicleError
 from modeviz.optimise.goals import prepare_goal
 from modeviz.ride.roads import road_spectrum, track_forces
 from modeviz.units import STANDARD_GRAVITY
-from modeviz.vehicle.connections import MountRates, Tyre
+from modeviz.vehicle.connections import Tyre
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import Performance
 
 RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4), "B": MountRates(9e5, 4e5, 2e5)}

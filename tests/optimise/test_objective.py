@@ -9,7 +9,7 @@ from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.errors import SolveError, VehicleError
 from modeviz.optimise.objective import LoadCase, prepare_objective
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 FLAT, ROUGH = Conditions("flat", 20.0), Conditions("rough", 25.0)
 RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4), "B": MountRates(9e5, 4e5, 2e5)}

@@ -9,7 +9,7 @@ from mounted_cabin import mounted_cabin
 from modeviz.optimise.design_space import design_space
 from modeviz.optimise.outside import kept_ratios, outside_search, outside_space
 from modeviz.report.space import outside_words, ratio_words, space_lines
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import FrequencyWindow
 
 OTHER = {"B": MountRates(8e5, 2e5, 4e5)}

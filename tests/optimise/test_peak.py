@@ -26,8 +26,10 @@ from modeviz.optimise.starts import start_points
 from modeviz.scatter.monte_carlo import scatter
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates
+from modeviz.vehicle.connections import GROUND, Mount
 from modeviz.vehicle.loads import BaseMotion, ResponsePoint, Spectrum
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -15,8 +15,10 @@ from modeviz.files import write_vehicle
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import report
 from modeviz.report.truncation import truncation_doubts
-from modeviz.vehicle.connections import Mount, MountGroup, MountRates
+from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.loads import Force, ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 

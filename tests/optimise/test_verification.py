@@ -10,7 +10,7 @@ from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.optimise.search import prepare_search
 from modeviz.optimise.verification import verify
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Problem
 
 X = np.array([0.3, 0.1, -0.2, 0.4])

@@ -9,7 +9,7 @@ from modeviz.analysis.sensitivity import frequency_sensitivity
 from modeviz.dynamics.naming import ModeName
 from modeviz.errors import VehicleError
 from modeviz.optimise.windows import MARGIN, prepare_windows
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import FrequencyWindow
 
 YAW_HZ = 10.675

@@ -14,7 +14,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import report
 from modeviz.study.study import Study
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 TODAY = date(2026, 11, 29)
 ORIGINAL, STIFF = RateSet("original", {}), RateSet("stiff", {"E": MountRates(6e5, 2e5, 4e5)})

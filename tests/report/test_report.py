@@ -20,8 +20,8 @@ from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import Picture, report
 from modeviz.ride.psd import power_decibels
 from modeviz.text.axes import USUAL_SHOWN_HZ, decibel_axis
-from modeviz.vehicle.connections import DIRECTIONS, MountRates
 from modeviz.vehicle.loads import WheelLoad
+from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
 from modeviz.vehicle.problem import DesignGroup, Problem
 
 TODAY = date(2026, 11, 22)

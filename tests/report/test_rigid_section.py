@@ -12,7 +12,7 @@ from small_systems import oscillator
 from modeviz.analysis.preparation import prepare
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import report
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, Problem
 
 TODAY = date(2026, 11, 22)

@@ -14,7 +14,7 @@ from modeviz.mounting.statics import solve_statics
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html.statics import statics
 from modeviz.report.statics import carried_cells
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 STIFF = {"M3": MountRates(8e5, 2e5, 1e5)}

@@ -15,7 +15,7 @@ from modeviz.optimise.search import Search
 from modeviz.scatter.robust import optimise_robustly, percentile_weights, robust, robust_search
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.scatter.worst_case import goals
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, Performance
 
 TOLERANCE = Tolerance(0.3, 0.5)

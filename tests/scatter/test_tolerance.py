@@ -6,7 +6,7 @@ from rounding import EPSILON
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.errors import VehicleError
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4)}
 TOLERANCE = Tolerance(0.1, 0.5)

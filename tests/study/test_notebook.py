@@ -7,7 +7,7 @@ from html_documents import Document
 from studied_cabin import cabin_study
 
 from modeviz.study.study import Study
-from modeviz.vehicle.connections import MountGroup
+from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.vehicle import Vehicle
 
 BAD = "<b>&</b>"

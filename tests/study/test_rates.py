@@ -4,7 +4,7 @@ import pytest
 from studied_cabin import cabin_study
 
 from modeviz.errors import VehicleError
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 
 
 def test_a_text_with_its_unit_and_a_number_in_si_set_the_same_rate():

@@ -9,8 +9,8 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.errors import VehicleError
 from modeviz.optimise.search import prepare_search
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.default_problem import ROAD_HZ, default_problem
+from modeviz.vehicle.mount_rates import MountRates
 
 
 def test_it_has_every_rate_the_first_road_and_all_wheel_loads():

@@ -12,9 +12,11 @@ from modeviz.cli import main
 from modeviz.errors import VehicleError
 from modeviz.files import write_vehicle
 from modeviz.vehicle.bodies import AddedMass, Material, MeshPart, RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring
+from modeviz.vehicle.connections import GROUND, Mount, Spring
 from modeviz.vehicle.default_problem import default_problem
 from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import Performance
 from modeviz.vehicle.vehicle import Vehicle
 

@@ -16,8 +16,10 @@ from modeviz.fem.matrices import assemble as assemble_mesh
 from modeviz.fem.mesh import ShellSection
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
-from modeviz.vehicle.connections import GROUND, Mount, MountGroup, MountRates, Spring, usual_bounds
+from modeviz.vehicle.connections import GROUND, Mount, Spring
 from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.placement import Placement, with_placements
 from modeviz.vehicle.residuals import modal_compliance
 from modeviz.vehicle.vehicle import Vehicle

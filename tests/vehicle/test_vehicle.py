@@ -8,9 +8,11 @@ from folders import connections, engine, flexible_body, mount_group, one_of_ever
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.bodies import AddedMass, Attachment, FlexibleBody, Material, MeshPart, RigidBody
-from modeviz.vehicle.connections import GROUND, Connection, MountRates, Spring
+from modeviz.vehicle.checks import REACH
+from modeviz.vehicle.connections import GROUND, Connection, Spring
 from modeviz.vehicle.loads import ResponsePoint, WheelLoad
-from modeviz.vehicle.vehicle import REACH, Vehicle
+from modeviz.vehicle.mount_rates import MountRates
+from modeviz.vehicle.vehicle import Vehicle
 
 VEHICLE = one_of_everything()
 CAB = flexible_body()

@@ -9,7 +9,7 @@ from mounted_cabin import mounted_cabin
 from session_commands import Become
 
 from modeviz.analysis.results import Conditions
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import LinkRates, ResetRate, SetLossFactor, ToggleLock

@@ -17,8 +17,9 @@ from modeviz.files.records.progressive import GroupRatesRecord
 from modeviz.files.records.rates import RatesRecord
 from modeviz.files.records.record import Record, said, tuples
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import GROUND, MountRates, usual_bounds
+from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import AXES
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 
 SAME = 1e-9
 """Relative: rates of mounts of a group that differ by less are the same."""

@@ -38,20 +38,10 @@ from modeviz.files.schema.axes import whole_frame
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import (
-    DIRECTIONS,
-    MOTIONS,
-    SHARED,
-    USUAL_STATIC_RATIO,
-    Connection,
-    Mount,
-    MountGroup,
-    Rod,
-    Track,
-    Travel,
-    usual_bounds,
-)
+from modeviz.vehicle.connections import MOTIONS, Connection, Mount, Rod, Track
 from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
+from modeviz.vehicle.mount_group import SHARED, USUAL_STATIC_RATIO, MountGroup, Travel
+from modeviz.vehicle.mount_rates import DIRECTIONS, usual_bounds
 from modeviz.vehicle.progressive import ForceCurve
 
 NO_RATES = (0.0, 0.0, 0.0)

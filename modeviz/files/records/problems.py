@@ -12,9 +12,10 @@ from modeviz.files.records.rates import RatesRecord
 from modeviz.files.records.record import Record, built
 from modeviz.files.schema.quantities import UNITLESS, FixedUnit, Quantity
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, MOTIONS, RIDE_DIRECTIONS
+from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.decoupling import Axes, DecoupledBody
 from modeviz.vehicle.load_cases import STANDING
+from modeviz.vehicle.mount_rates import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.mount_target import MountTarget
 from modeviz.vehicle.problem import (
     UNLIMITED,

@@ -13,7 +13,7 @@ from modeviz.files.records.record import Record, tuples
 from modeviz.files.schema.quantities import Quantity
 from modeviz.files.source import Source
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
 from modeviz.vehicle.progressive import ForceCurve, not_rising
 
 Points = Annotated[tuple[float, ...], Meta(min_length=2, max_length=10_000)]

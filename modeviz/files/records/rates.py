@@ -8,9 +8,7 @@ from modeviz.files.records.fields import (
     Ratio,
 )
 from modeviz.files.records.record import Record
-from modeviz.vehicle.connections import (
-    MountRates,
-)
+from modeviz.vehicle.mount_rates import MountRates
 
 
 class RatesRecord(Record, kw_only=True):

@@ -9,7 +9,7 @@ import numpy as np
 from modeviz.errors import Fault, FaultsError, at_key
 from modeviz.files.schema.quantities import Vector, check_annotations
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 
 R = TypeVar("R")
 P = TypeVar("P")

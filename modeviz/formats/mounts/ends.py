@@ -11,8 +11,9 @@ from modeviz.files.mount_tables.bushing import Bushing, End
 from modeviz.files.mount_tables.records import Joined
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Attachment, Body, FlexibleBody
+from modeviz.vehicle.checks import REACH
 from modeviz.vehicle.connections import GROUND
-from modeviz.vehicle.vehicle import REACH, Vehicle
+from modeviz.vehicle.vehicle import Vehicle
 
 ALIKE = 1e-3
 """m: of places that differ by less in how far they are none is the nearer one."""

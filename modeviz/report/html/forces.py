@@ -17,8 +17,8 @@ from modeviz.ride.excitation import Load
 from modeviz.text.markup import note, section, table, title
 from modeviz.text.wording import number
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 
 LEAST_SHOWN = 0.01
 """Share of a response, below which a path is not listed."""

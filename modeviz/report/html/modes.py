@@ -19,7 +19,8 @@ from modeviz.text.axes import shown_hz
 from modeviz.text.markup import NONE, change, named_small, note, section, span, table, title
 from modeviz.text.wording import number, percent_change, signed, significant
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS, MountGroup
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 LISTED_HZ = 25.0

@@ -22,8 +22,8 @@ from modeviz.report.html.wheels import wheels
 from modeviz.text.markup import change, named_small, section, span
 from modeviz.text.wording import number, signed
 from modeviz.units import factor
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 

@@ -9,7 +9,7 @@ from modeviz.report.html.sides import by_direction, chart, compared
 from modeviz.ride.psd import power_decibels
 from modeviz.text.markup import note, section, table
 from modeviz.text.wording import number, signed
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 
 
 def spectra(comparison: Comparison) -> str:

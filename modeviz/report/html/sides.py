@@ -10,7 +10,7 @@ from modeviz.text.axes import Axis, decibel_axis, shown_hz
 from modeviz.text.markup import change, table, title
 from modeviz.text.wording import number
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 
 
 def chart(

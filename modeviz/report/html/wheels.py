@@ -13,8 +13,8 @@ from modeviz.ride.psd import amplitude_decibels
 from modeviz.text.markup import note, section, title
 from modeviz.text.wording import number, within_sentence
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.loads import WheelLoad
+from modeviz.vehicle.mount_rates import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 DRIVER = 0

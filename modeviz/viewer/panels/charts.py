@@ -11,7 +11,8 @@ from modeviz.ride.psd import FLOOR
 from modeviz.text.axes import shown_hz
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, MOTIONS
+from modeviz.vehicle.connections import MOTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign

@@ -8,7 +8,7 @@ import viser
 from modeviz.errors import ModevizError, VehicleError
 from modeviz.files.rate_files import RatesFormat, parse_rates, rates_text
 from modeviz.text.wording import file_name
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.decisions import AddVariant
 from modeviz.viewer.session.design import rate_sets, variant_name

@@ -12,7 +12,7 @@ from modeviz.report.tables import wheel_band
 from modeviz.ride.psd import rms
 from modeviz.text.wording import number, sentence_case, signed
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, change, heading, named, row, span, table
 from modeviz.viewer.session.answers import Solved

@@ -11,7 +11,7 @@ from modeviz.analysis.results import Results
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import WEAK_MAC
 from modeviz.text.wording import sentence_case, signed
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import (

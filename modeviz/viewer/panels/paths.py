@@ -12,7 +12,7 @@ from modeviz.mounting.paths import By, Path, Paths, solve_paths
 from modeviz.text.wording import number, significant
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import (

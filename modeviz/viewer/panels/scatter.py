@@ -13,7 +13,7 @@ from modeviz.scatter.driving import Scattered
 from modeviz.scatter.monte_carlo import Scatter, rating_of
 from modeviz.text.wording import number, significant
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, row, span, table, title

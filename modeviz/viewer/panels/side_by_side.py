@@ -6,7 +6,7 @@ from html import escape
 from modeviz.analysis.results import Results
 from modeviz.text.wording import number, sentence_case, signed
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS
 from modeviz.viewer.page.html import change, heading, named, row, span, table
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.modes import listed, moved_by

@@ -7,7 +7,7 @@ import viser
 from modeviz.analysis.mode_tracking import same_mode
 from modeviz.analysis.results import AXIS, Results
 from modeviz.text.wording import sentence_case, signed
-from modeviz.vehicle.connections import RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table

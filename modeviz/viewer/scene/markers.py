@@ -12,8 +12,10 @@ from modeviz.errors import cut
 from modeviz.shapes.colors import Color
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import DIRECTIONS, Mount, MountGroup, MountRates
+from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.scene.labels import keep_apart

@@ -6,8 +6,8 @@ from itertools import count
 
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.alterations import Alterations
-from modeviz.vehicle.connections import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.decoupling import USUAL, Decoupling
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.placement import Placement
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.plan import Plan

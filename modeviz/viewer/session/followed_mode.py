@@ -13,7 +13,7 @@ from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import Track
 from modeviz.errors import SolveError
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.viewer.session.state import State
 
 FREE_HZ = 0.5

@@ -8,9 +8,9 @@ import numpy as np
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
 from modeviz.mounting.paths import By
-from modeviz.vehicle.connections import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import Road
+from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.design import ORIGINAL, Design, rate_sets
 from modeviz.viewer.session.planning.plan import first_plan

@@ -6,7 +6,7 @@ from modeviz.dynamics.assembly import System
 from modeviz.errors import ModevizError, SolveError
 from modeviz.mounting.static_system import PreparedStatics, prepare_statics
 from modeviz.mounting.statics import StaticCase, Statics, solve_statics
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 
 
 @dataclass(frozen=True, eq=False)

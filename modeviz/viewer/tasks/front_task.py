@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from modeviz.compute.cancel import CancelToken
 from modeviz.optimise.pareto import FrontProgress, find_front
 from modeviz.optimise.trade_off import ParetoPoint, Side, chosen_sides, prepare_trade_off, sides
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.viewer.session.commands.decisions import TakeRates
 from modeviz.viewer.session.design import rate_sets

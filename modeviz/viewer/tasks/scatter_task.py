@@ -10,7 +10,7 @@ from modeviz.scatter.driving import Scattered, ScatterOptions, drive_many
 from modeviz.scatter.monte_carlo import Scatter
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import UNFELT, Problem
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session

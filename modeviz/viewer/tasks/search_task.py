@@ -13,8 +13,8 @@ from modeviz.optimise.search import Search, prepare_search
 from modeviz.report.optimum import compared_outside
 from modeviz.scatter.searching import SearchOptions, find_best
 from modeviz.scatter.tolerance import Tolerance
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.decoupling import USUAL, Decoupling
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command

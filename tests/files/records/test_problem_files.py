@@ -11,7 +11,7 @@ from mounted_cabin import SOFT, mounted_cabin
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.records.problems import MOST_FREQUENCIES, ProblemRecord, SpacedRecord
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import DeflectionLimit, DesignGroup, FrequencyWindow, Performance, Problem
 
 THIRDS = np.linspace(6.0, 14.0, 25)

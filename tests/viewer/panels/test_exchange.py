@@ -3,7 +3,7 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.errors import VehicleError
 from modeviz.files.rate_files import rates_text
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.panels.exchange import rates_in, set_name
 
 RATES = {"A": MountRates(4e5, 131.4e3, 4e5)}

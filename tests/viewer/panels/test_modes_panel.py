@@ -13,7 +13,7 @@ from session_commands import Listener, altered
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.tracking import WEAK_MAC
 from modeviz.text.wording import sentence_case, signed
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.panels.energy import MOVES_FREELY, EnergyPanel
 from modeviz.viewer.panels.ladder import MARGIN
 from modeviz.viewer.panels.modes import NONE_LISTED, ModesPanel, scale

@@ -15,8 +15,8 @@ from modeviz.analysis.rigid import body_axes, body_purity
 from modeviz.cli.options import RoadOptions
 from modeviz.errors import VehicleError
 from modeviz.files.records.decoupling import decoupling_text
-from modeviz.vehicle.connections import MountRates
 from modeviz.vehicle.decoupling import USUAL, Decoupling
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import ChangePlan, ChangeTargets, SetRate, TakeRates

@@ -5,8 +5,10 @@ import pytest
 from small_vehicles import tyre, wheel
 from viser.transforms import SO3
 
-from modeviz.vehicle.connections import Mount, MountGroup, MountRates
+from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.server import open_server
 from modeviz.viewer.scene.markers import CARD_LETTERS, Markers, MountMarker, card_text

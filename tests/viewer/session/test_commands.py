@@ -8,7 +8,7 @@ from session_commands import altered
 
 from modeviz.analysis.results import Conditions
 from modeviz.errors import VehicleError
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.session.commands import decisions, looks
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.state import ResponseCurve, first_state

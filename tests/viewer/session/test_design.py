@@ -4,7 +4,7 @@ import pytest
 from mounted_cabin import mounted_cabin
 
 from modeviz.analysis.results import Conditions
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.session.design import (
     Variant,
     known_sets,

@@ -14,7 +14,7 @@ from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.dynamics.components import component_modes, component_shares
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.commands.looks import ShowMode
 from modeviz.viewer.session.followed_mode import FollowedMode

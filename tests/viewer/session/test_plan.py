@@ -7,7 +7,7 @@ import pytest
 from mounted_cabin import SOFT, STIFF, mounted_cabin
 
 from modeviz.errors import VehicleError
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.problem import UNLIMITED, DesignGroup, FrequencyWindow, Performance, Problem
 from modeviz.viewer.session.planning.plan import first_plan, plan_of, planned
 

@@ -12,7 +12,7 @@ from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.errors import SolveError
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.session.commands.decisions import (
     AddVariant,
     Forget,

@@ -16,7 +16,7 @@ from modeviz.optimise.verification import verify
 from modeviz.scatter import searching
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.scatter.worst_case import goals
-from modeviz.vehicle.connections import MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.planning.plan import planned

@@ -7,8 +7,9 @@ import numpy as np
 import viser
 
 from modeviz.text.wording import signed
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, MountRates, Rates
 from modeviz.vehicle.local_axes import AXES
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates, Rates
 from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table

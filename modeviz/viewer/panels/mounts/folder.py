@@ -4,7 +4,8 @@ from html import escape
 
 import viser
 
-from modeviz.vehicle.connections import RATE_FIELDS, MountGroup, Rates
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import RATE_FIELDS, Rates
 from modeviz.viewer.page.binding import show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons

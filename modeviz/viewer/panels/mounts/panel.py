@@ -2,7 +2,7 @@
 
 import viser
 
-from modeviz.vehicle.connections import RATE_FIELDS
+from modeviz.vehicle.mount_rates import RATE_FIELDS
 from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.html import HiddenButtons
 from modeviz.viewer.panels.mounts.details import LOCK, N_BUTTONS, RESET

@@ -8,7 +8,8 @@ from modeviz.errors import ModevizError
 from modeviz.files.schema.scaling import written
 from modeviz.text.wording import MINUS, sentence_case, signed
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS, MountGroup, Rates
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, Rates
 from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.write_back import WriteBack

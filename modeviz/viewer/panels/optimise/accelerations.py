@@ -8,7 +8,7 @@ from typing import Any
 import viser
 
 from modeviz.text.wording import sentence_case
-from modeviz.vehicle.connections import DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint
 from modeviz.viewer.session.planning.load_plan import LoadPlan

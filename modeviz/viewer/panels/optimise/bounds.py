@@ -9,7 +9,7 @@ import viser
 from modeviz.files.schema.scaling import written
 from modeviz.text.wording import sentence_case
 from modeviz.units import factor
-from modeviz.vehicle.connections import DIRECTIONS, RATE_FIELDS
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint, may_change_hint
 from modeviz.viewer.session.planning.group_plan import Ratios

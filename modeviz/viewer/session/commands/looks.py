@@ -5,8 +5,8 @@ from typing import TypeVar
 
 from modeviz.analysis.results import Conditions
 from modeviz.mounting.paths import By
-from modeviz.vehicle.connections import Rates
 from modeviz.vehicle.decoupling import Axes
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import rate_sets

@@ -5,7 +5,8 @@ from typing import Literal
 
 import numpy as np
 
-from modeviz.vehicle.connections import DIRECTIONS, MountGroup, MountRates
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
 from modeviz.vehicle.problem import UNLIMITED, DesignGroup
 
 Ratios = Literal["limited", "fixed", "free"]

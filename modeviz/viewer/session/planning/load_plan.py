@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from modeviz.errors import VehicleError
-from modeviz.vehicle.connections import DIRECTIONS, RIDE_DIRECTIONS
+from modeviz.vehicle.mount_rates import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.problem import Performance
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.frequencies import parse_frequencies, spoken_frequencies
