@@ -145,10 +145,19 @@ def run_up(prepared: Prepared, engine: Engine) -> Floats:
     over the band by steps of the vehicle's, but for `MOST_SPEEDS`: as far as there is an order in the
     band.
     """
-    orders = np.array([order.order for order in engine.orders])
-    low, high = engine.speed_hz[[0, -1]]
-    last = min(high, max(prepared.frequency_hz[-1] / orders.min(), low))
-    step = max(prepared.vehicle.frequency_step / orders.max(), (last - low) / MOST_SPEEDS)
+    low, last = run_up_ends(prepared.vehicle, engine)
+    quickest = max(order.order for order in engine.orders)
+    step = max(prepared.vehicle.frequency_step / quickest, (last - low) / MOST_SPEEDS)
     between = np.linspace(low, last, max(2, int(np.ceil((last - low) / step)) + 1))
     every = np.unique(np.concatenate([engine.speed_hz, between, [engine.idle_hz]]))
     return every[(every <= last) | (every == engine.idle_hz)]
+
+
+def run_up_ends(vehicle: Vehicle, engine: Engine) -> tuple[float, float]:
+    """The slowest speed of an engine, and the fastest at which it has an order in the band, Hz.
+
+    Revolutions per second; both are the slowest where none is.
+    """
+    low, high = engine.speed_hz[[0, -1]].tolist()
+    slowest = min(order.order for order in engine.orders)
+    return low, min(high, max(vehicle.highest_frequency / slowest, low))

@@ -25,6 +25,7 @@ from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.data_files import DataPanel
 from modeviz.viewer.panels.energy import EnergyPanel
+from modeviz.viewer.panels.engine import EnginePanel
 from modeviz.viewer.panels.excitation import ExcitationPanel
 from modeviz.viewer.panels.figures import TablePanel
 from modeviz.viewer.panels.forces import ForcesPanel
@@ -223,6 +224,10 @@ class App:
         if session.state.charts.curves or is_shaken(session.vehicle):
             with right.add_tab("Road" if has_ride(session.vehicle) else "Load", viser.Icon.ROAD):
                 self._of_ride.append(ExcitationPanel(gui, session))
+        self._engine: EnginePanel | None = None
+        if session.vehicle.engines and (session.vehicle.response_points or session.vehicle.mounts):
+            with right.add_tab("Engine", viser.Icon.ENGINE):
+                self._engine = EnginePanel(gui, session, dark)
         with right.add_tab("Rigid", viser.Icon.AXIS_X):
             self._rigid = RigidPanel(gui, session)
         with right.add_tab("Static", viser.Icon.ARROW_BAR_TO_DOWN):
@@ -279,6 +284,8 @@ class App:
                 self._energy.show(solved)
                 self._rigid.show(solved)
                 self._static.show(solved)
+                if self._engine:
+                    self._engine.show(solved)
                 if self._forces:
                     self._forces.show(solved)
                 if self._paths:

@@ -33,10 +33,8 @@ class ChartsPanel:
     def __init__(self, gui: viser.GuiApi, session: Session, dark: bool) -> None:
         """Builds the charts; `show` fills them."""
         self._session = session
-        self._ends = (
-            ("#8a95a1", "#5aa9ea") if dark else ("#98a2ad", "#2b7cc4")
-        )  # of the compared set and of the present rates
-        self._curves = _curve_labels(session.vehicle)
+        self._ends = end_colors(dark)
+        self._curves = curve_labels(session.vehicle)
         self._legend = gui.add_html("")
         self._choices: list[viser.GuiDropdownHandle[str]] = []
         self._bindings: list[Binding] = []
@@ -127,7 +125,12 @@ def chart_lines(solved: Solved, responses: Responses, base: str, now: str) -> li
     return [Line(solved.state.against, base, 1.5), *overlaid, Line("now", now, 2.2)]
 
 
-def _curve_labels(vehicle: Vehicle) -> dict[str, ChartCurve]:
+def end_colors(dark: bool) -> tuple[str, str]:
+    """The colours of the compared set and of the present rates."""
+    return ("#8a95a1", "#5aa9ea") if dark else ("#98a2ad", "#2b7cc4")
+
+
+def curve_labels(vehicle: Vehicle) -> dict[str, ChartCurve]:
     """All responses there are, by what they are called: accelerations of points, then forces of mounts.
 
     Along the vehicle's axes too where a mount's own are others.

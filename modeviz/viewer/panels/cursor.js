@@ -1,16 +1,17 @@
-// Draws the cursor's frequency as a line in the charts, and puts it where one of them is clicked or the
+// Draws where a cursor is as a line in its charts, and puts it where one of them is clicked or the
 // line is dragged to.
 //
 // Leans on viser's list of its charts as zoom.js does, and on the number box of its slider.
-(slider, names) => {
+(slider, names, kind) => {
   const NEAR = 6; // px from the line within which it is taken, and within which a press is a click
-  const own = (window.__modevizCursor = {});
+  const cursors = (window.__modevizCursors ??= {}); // by what they move along
+  const own = (cursors[kind] = {});
   const lines = new WeakMap();
   let pressed = null; // what a press began: its chart, where, and whether it moves the line
 
   const box = () => document.getElementById(slider)?.parentElement.querySelector(".mantine-NumberInput-input");
 
-  function frequency() {
+  function place() {
     const thumb = document.getElementById(slider)?.querySelector("[role=slider]");
     return thumb ? Number(thumb.getAttribute("aria-valuenow")) : NaN;
   }
@@ -29,7 +30,7 @@
     const chart = charts().find(({ over }) => over.contains(event.target));
     if (!chart || event.button) return;
     const x = at(chart, event);
-    const moves = Math.abs(x - chart.valToPos(frequency(), "x")) < NEAR;
+    const moves = Math.abs(x - chart.valToPos(place(), "x")) < NEAR;
     pressed = { chart, x, moves };
     if (moves) event.stopPropagation(); // else the chart would zoom
   }
@@ -46,12 +47,12 @@
   }
 
   function draw() {
-    if (window.__modevizCursor !== own) {
+    if (cursors[kind] !== own) {
       for (const [type, heard] of listeners) document.removeEventListener(type, heard, true);
       return;
     }
     requestAnimationFrame(draw);
-    const value = frequency();
+    const value = place();
     for (const chart of charts()) {
       if (!lines.has(chart)) {
         const line = document.createElement("div");

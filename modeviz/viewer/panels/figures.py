@@ -10,7 +10,7 @@ from modeviz.analysis.results import Results
 from modeviz.report.coverage import band_text, coverage_note
 from modeviz.report.tables import wheel_band
 from modeviz.ride.psd import rms
-from modeviz.text.wording import number, sentence_case, signed
+from modeviz.text.wording import number, sentence_case, signed, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.viewer.page.handles import assign
@@ -125,12 +125,16 @@ def _engine_figures(solved: Solved, responses: Responses) -> str:
         value, old = responses.figure(NOW, curve), responses.figure(solved.state.against, curve)
         about = f"RMS acceleration of all orders at idle, {_idle(running)}, {_point(now)}, {direction}"
         delta = change(value, old)
-        figures.append(_figure(f"Idle {direction}", f"{1000 * value:.2f}", "10⁻³ g", delta, about))
+        figures.append(_figure(f"Idle {direction}", _milli(value), "10⁻³ g", delta, about))
     value, old = (float(r.rms[:, DRIVER, ALONG["vertical"]].max()) for r in (running, before))
     about = f"Largest RMS acceleration of all orders at any speed, {_point(now)}, vertical"
-    label = "Highest vertical"
-    figures.append(_figure(label, f"{1000 * value:.2f}", "10⁻³ g", change(value, old), about))
+    figures.append(_figure("Highest vert.", _milli(value), "10⁻³ g", change(value, old), about))
     return f'<div class="figures">{"".join(figures)}</div>'
+
+
+def _milli(acceleration: float) -> str:
+    """An acceleration, g, in thousandths, to three digits."""
+    return significant(float(f"{1000 * acceleration:.3g}"))
 
 
 def _idle(running: EngineResults) -> str:

@@ -22,6 +22,9 @@ NO_TICKS: dict[str, object] = {"show": False, "size": 0}
 HEADROOM = 3
 """dB above the highest curve, so that the scale need not change when the present one grows."""
 
+LETTER = 6.6
+"""Pixels: the width of a letter of `FONT`, about."""
+
 SHADE = "40"
 """Hexadecimal opacity of the band around the present curve."""
 
@@ -66,11 +69,19 @@ class ResponsePlot:
     """
 
     def __init__(
-        self, gui: viser.GuiApi, shown_hz: tuple[float, float], dark: bool, height: int = 130
+        self,
+        gui: viser.GuiApi,
+        shown: tuple[float, float],
+        dark: bool,
+        height: int = 130,
+        unit: str = "Hz",
     ) -> None:
-        """Draws an empty chart; `show` fills it."""
-        self._shown_hz = shown_hz
-        self._f = np.array(shown_hz)
+        """Draws an empty chart from one frequency to another, or from speed to speed.
+
+        `show` fills it.
+        """
+        self._shown, self._unit = shown, unit
+        self._f = np.array(shown)
         self._text_color = "#b4bcc6" if dark else "#5b6670"
         self._paper = "#242424" if dark else "#ffffff"
         self._subject: Hashable = None
@@ -78,11 +89,11 @@ class ResponsePlot:
         self._data = np.zeros((1, 0))
         self._chart = gui.add_uplot(
             (self._f, np.full(len(self._f), np.nan)),
-            ({"label": "Hz"}, {"label": "now"}),
-            scales={"x": {"time": False, "range": shown_hz}, "y": {"range": (-80, -20)}},
+            ({"label": unit}, {"label": "now"}),
+            scales={"x": {"time": False, "range": shown}, "y": {"range": (-80, -20)}},
             legend={"show": False},
-            cursor={"sync": {"key": "response"}, "drag": {"x": True, "y": False}},
-            padding=(6, 18, 0, 0),
+            cursor={"sync": {"key": unit}, "drag": {"x": True, "y": False}},
+            padding=(6, self._room_for_end(), 0, 0),
             height=height,
         )
 
@@ -107,12 +118,12 @@ class ResponsePlot:
             subject: what is drawn; with another one the axes are chosen anew.
             scale: how.
             lines: one for each curve.
-            frequency_hz: (n_freqs,).
+            frequency_hz: (n_freqs,), or speeds in the chart's unit.
             levels: (n_curves, n_freqs), in the unit of the scale's quantity; the last is the present.
             peaks: numbers of the frequencies at which that one is marked.
             band: (2, n_freqs), the levels between which the paper is shaded, if any.
         """
-        inside = (frequency_hz >= self._shown_hz[0]) & (frequency_hz <= self._shown_hz[1])
+        inside = (frequency_hz >= self._shown[0]) & (frequency_hz <= self._shown[1])
         f, levels = frequency_hz[inside], levels[:, inside]
         shaded = np.zeros((0, len(f))) if band is None else band[:, inside]
         decibels = scale.quantity.decibels(levels)
@@ -150,18 +161,18 @@ class ResponsePlot:
         points = {"show": True, "size": 7, "width": 2, "stroke": color, "fill": self._paper}
         marks = {"label": "peaks", "width": 0, "points": points}
         return {
-            "series": ({"label": "Hz"}, *ends, *curves, marks),
+            "series": ({"label": self._unit}, *ends, *curves, marks),
             "bands": ({"series": (2, 1), "fill": f"{color}{SHADE}"},) if is_shaded else (),
         }
 
     def _axes(self, scale: Scale, bottom: int, top: int) -> dict:
         y = level_axis(scale, bottom, top)
-        *inner, end = self._ticks_hz(scale.log_frequency)
-        x_ticks = [*((f, f"{f:g}") for f in inner), (end, f"{end:g} Hz")]
+        *inner, end = self._ticks_along(scale.log_frequency)
+        x_ticks = [*((f, f"{f:g}") for f in inner), (end, self._end_text(end))]
         common = {"font": FONT, "stroke": self._text_color, "ticks": NO_TICKS, "grid": GRID, "space": 1}
         return {
             "scales": {
-                "x": {"time": False, "range": self._shown_hz} | _distribution(scale.log_frequency),
+                "x": {"time": False, "range": self._shown} | _distribution(scale.log_frequency),
                 "y": {"range": (y.low, y.high)} | _distribution(y.is_logarithmic),
             },
             "axes": (
@@ -170,10 +181,17 @@ class ResponsePlot:
             ),
         }
 
-    def _ticks_hz(self, is_logarithmic: bool) -> Sequence[float]:
-        if self._shown_hz == SHOWN_HZ:
+    def _end_text(self, end: float) -> str:
+        return f"{end:g} {self._unit}"
+
+    def _room_for_end(self) -> int:
+        """Pixels right of the end for half of what is written below it."""
+        return max(18, round(LETTER * len(self._end_text(self._ticks_along(False)[-1])) / 2))
+
+    def _ticks_along(self, is_logarithmic: bool) -> Sequence[float]:
+        if self._shown == SHOWN_HZ:
             return LOG_TICKS_HZ if is_logarithmic else TICKS_HZ
-        return [f for f, _ in Axis("", *self._shown_hz, is_logarithmic).ticks()]
+        return [f for f, _ in Axis("", *self._shown, is_logarithmic).ticks()]
 
 
 def level_axis(scale: Scale, bottom: int, top: int) -> Axis:

@@ -5,7 +5,7 @@ from functools import partial
 import viser
 
 from modeviz.viewer.panels.charts import ChartsPanel
-from modeviz.viewer.panels.cursor import CursorSlider
+from modeviz.viewer.panels.cursor import CursorSlider, frequency_cursor
 from modeviz.viewer.panels.figures import FiguresPanel
 from modeviz.viewer.panels.peaks import PeaksPanel
 from modeviz.viewer.session.answers import Solved
@@ -22,7 +22,7 @@ class ResponsePanel:
         self._scatterer = scatterer
         self._figures = FiguresPanel(gui)
         self._charts = ChartsPanel(gui, session, dark)
-        self._cursor = CursorSlider(gui, session, self._charts.names)
+        self._cursor = CursorSlider(gui, session, self._charts.names, frequency_cursor(session.vehicle))
         self._peaks = PeaksPanel(gui, session)
         self._marked: list[list[int]] = [[] for _ in session.state.charts.curves]
 

@@ -82,11 +82,11 @@ class Responses:
 
     def quantity_of(self, curve: ChartCurve) -> LevelUnit:
         """The unit of a curve."""
+        if not self.is_random:
+            return peak_unit(curve)
         if isinstance(curve, ResponseCurve):
-            return self.quantity
-        if curve.motion in MOTIONS[:3]:
-            return FORCE_PSD if self.is_random else PEAK_FORCE
-        return MOMENT_PSD if self.is_random else PEAK_MOMENT
+            return PSD
+        return FORCE_PSD if curve.motion in MOTIONS[:3] else MOMENT_PSD
 
     def of(self, name: str, curve: ChartCurve) -> Floats:
         """The response with a set's rates, or `NOW`, (n_freqs,), in the unit of `quantity_of`."""
@@ -131,6 +131,15 @@ class Responses:
         results = self._results(name)
         return results.running(results.prepared.vehicle.engine(order.engine))
 
+    def run_up(self, name: str) -> EngineResults:
+        """What the engine that is looked at does as it runs up, with a set's rates, or `NOW`.
+
+        Raises:
+            SolveError: with these rates an undamped resonance lies on a frequency.
+        """
+        results = self._results(name)
+        return results.running(results.prepared.vehicle.engine(self._solved.state.engine.engine))
+
     def peak_lines(self, curve: ChartCurve) -> list[int]:
         """Return the lines at which the present response has its peaks, numbers of frequencies."""
         if isinstance(curve, ForceCurve):
@@ -174,6 +183,22 @@ class Responses:
 
     def _results(self, name: str) -> Results:
         return self._solved.now if name == NOW else self._solved.named.results[name]
+
+
+def order_peaks(results: EngineResults, curve: ChartCurve) -> Floats:
+    """Peaks of a response to each order of a running engine, (n_speeds, n_orders), g, N or N m."""
+    if isinstance(curve, ResponseCurve):
+        return results.acceleration_g[:, :, curve.point, AXIS[curve.direction]]
+    every = results.force_in_vehicle_axes if curve.in_vehicle_axes else results.force
+    number = mount_number(results.vehicle, curve.mount)
+    return np.abs(every[:, :, number, MOTIONS.index(curve.motion)])
+
+
+def peak_unit(curve: ChartCurve) -> LevelUnit:
+    """The unit of a response to a harmonic load."""
+    if isinstance(curve, ResponseCurve):
+        return PEAK_ACCELERATION
+    return PEAK_FORCE if curve.motion in MOTIONS[:3] else PEAK_MOMENT
 
 
 def mount_number(vehicle: Vehicle, name: str) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
 from modeviz.mounting.paths import By
+from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS, Rates
@@ -98,6 +99,18 @@ class Charts:
 
 
 @dataclass(frozen=True)
+class EngineLook:
+    """The choices of how a running engine is looked at."""
+
+    engine: str = ""
+    """Its name; "" where there is none."""
+    curve: ChartCurve = field(default_factory=lambda: ResponseCurve(0, "vertical"))
+    """What is drawn over its speed."""
+    speed_hz: float = 0.0
+    """Revolutions per second where the cursor is."""
+
+
+@dataclass(frozen=True)
 class Look:
     """The choices of how bodies are drawn."""
 
@@ -122,6 +135,7 @@ class State:
     charts: Charts = field(default_factory=Charts)
     look: Look = field(default_factory=Look)
     rigid: RigidLook = field(default_factory=RigidLook)
+    engine: EngineLook = field(default_factory=EngineLook)
     against: str = ORIGINAL
     """The name of the set that all is compared with."""
     group: str = ""
@@ -175,8 +189,20 @@ def first_state(vehicle: Vehicle, rates: Rates, conditions: Conditions) -> State
         ),
         charts if vehicle.response_points else replace(charts, curves=()),
         rigid=first_look(vehicle),
+        engine=_first_engine(vehicle),
         group=group,
     )
+
+
+def _first_engine(vehicle: Vehicle) -> EngineLook:
+    """The first engine at idle, and what it does to the first point or else to the first mount."""
+    if not vehicle.engines:
+        return EngineLook()
+    engine = vehicle.engines[0]
+    look = EngineLook(engine.name, speed_hz=engine.idle_hz)
+    if vehicle.response_points or not vehicle.mounts:
+        return look
+    return replace(look, curve=ForceCurve(vehicle.mounts[0].name, MOTIONS[2]))
 
 
 def _first_load(vehicle: Vehicle, conditions: Conditions) -> str:

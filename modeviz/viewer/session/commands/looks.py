@@ -15,6 +15,7 @@ from modeviz.viewer.session.state import (
     ChartCurve,
     Charts,
     Coloring,
+    EngineLook,
     Ghost,
     Look,
     Motion,
@@ -23,7 +24,7 @@ from modeviz.viewer.session.state import (
     State,
 )
 
-Part = TypeVar("Part", Charts, Conditions, Look, Motion, RigidLook)
+Part = TypeVar("Part", Charts, Conditions, EngineLook, Look, Motion, RigidLook)
 
 
 @dataclass(frozen=True)
@@ -98,6 +99,20 @@ class LookAtRigid(Command):
         if self.body is not None:
             vehicle.body(self.body)
         return replace(state, rigid=_changed(state.rigid, self))
+
+
+@dataclass(frozen=True)
+class LookAtEngine(Command):
+    """Looks at another engine, at another response to it or at another speed; what is None stays."""
+
+    engine: str | None = None
+    curve: ChartCurve | None = None
+    speed_hz: float | None = None
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        if self.engine is not None:
+            vehicle.engine(self.engine)
+        return replace(state, engine=_changed(state.engine, self))
 
 
 @dataclass(frozen=True)
@@ -221,7 +236,7 @@ class ShowClassicError(Command):
 
 
 def _changed(
-    part: Part, command: ChangeMotion | ChangeCharts | ChangeLook | LookAtRigid | Drive
+    part: Part, command: ChangeMotion | ChangeCharts | ChangeLook | LookAtEngine | LookAtRigid | Drive
 ) -> Part:
     """A part of a state with what a command names."""
     asked = {field.name: getattr(command, field.name) for field in fields(command)}
