@@ -5,7 +5,7 @@ crank, `force_x` to `force_z` and `moment_x` to `moment_z` along and about the f
 `_phase` to the crank's angle if it is known.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import pi
 from pathlib import Path
 
@@ -15,12 +15,16 @@ from modeviz.errors import VehicleError, listed, located, quoted
 from modeviz.files.schema.conventions import Conventions
 from modeviz.files.spectra import open_table, write_spectrum_table
 from modeviz.files.tables import Row
-from modeviz.units import factor
+from modeviz.files.untold_units import note_untold_units
+from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Complexes, Floats
 
 ALONG = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 TORQUE = "torque"
 VALUES = (*ALONG, TORQUE)
+QUANTITIES: Mapping[str, QuantityName] = {
+    name: "force" if name.startswith("force") else "torque" for name in VALUES
+}
 COLUMNS = (*VALUES, *(f"{name}_phase" for name in VALUES))
 SPEED, ORDER = "speed", "order"
 
@@ -39,6 +43,9 @@ PER_SECOND: Mapping[str, float] = {
     "rad/s": 1 / (2 * pi),
 }
 """Revolutions per second of one of each."""
+
+MOST_NAMED = 5
+"""Speeds in a sentence."""
 
 RADIANS: Mapping[str, float] = {"deg": pi / 180, "°": pi / 180, "rad": 1.0}
 
@@ -74,7 +81,11 @@ def read_orders(
                 )
             load = _load(row, factors, crank, conventions)
             found.setdefault(order, []).append((row, speed * factors[SPEED], load))
-        return {order: _rising(lines) for order, lines in sorted(found.items())}
+        orders = {order: _rising(lines) for order, lines in sorted(found.items())}
+        note_untold_units(path.name, table.units, QUANTITIES, conventions, note)
+        for missing in _missing(orders):
+            note(f"{path.name}: {missing}")
+        return orders
 
 
 def write_orders(path: Path, orders: Orders) -> None:
@@ -104,10 +115,9 @@ def _check_header(units: Mapping[str, str], crank: Floats | None) -> None:
 def _factor(name: str, unit: str, conventions: Conventions) -> float:
     """One of a column in SI."""
     with located(f"column {name}"):
-        if name.startswith("force") and not name.endswith("_phase"):
-            return factor(unit, "force") if unit else conventions.unit("force")
-        if name in VALUES:
-            return factor(unit, "torque") if unit else conventions.unit("torque")
+        if name in QUANTITIES:
+            quantity = QUANTITIES[name]
+            return factor(unit, quantity) if unit else conventions.unit(quantity)
         if name == ORDER:
             return 1.0
         known = PER_SECOND if name == SPEED else RADIANS
@@ -115,6 +125,20 @@ def _factor(name: str, unit: str, conventions: Conventions) -> float:
             words = f"found the unit {quoted(unit)}" if unit else "found no unit"
             raise VehicleError(f"{words}, expected {' or '.join(known)} in brackets")
         return known[unit.lower()]
+
+
+def _missing(orders: Orders) -> Iterator[str]:
+    """A sentence on each order that is not given at all speeds of the table."""
+    every = np.unique(np.concatenate([speed_hz for speed_hz, _ in orders.values()]))
+    for order, (speed_hz, _) in orders.items():
+        rpm = [f"{60 * speed:g}" for speed in np.setdiff1d(every, speed_hz)]
+        if rpm:
+            more = f" and {len(rpm) - MOST_NAMED} more" if len(rpm) > MOST_NAMED else ""
+            at = f"{', '.join(rpm[:MOST_NAMED])}{more}"
+            yield (
+                f"order {order:g} is missing at {at} rpm, where others are given: it goes straight "
+                "between its own speeds, and is nothing beyond them"
+            )
 
 
 def _load(

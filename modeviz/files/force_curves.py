@@ -9,6 +9,7 @@ from modeviz.errors import VehicleError, located
 from modeviz.files.schema.conventions import Conventions
 from modeviz.files.spectra import open_table
 from modeviz.files.tables import Row
+from modeviz.files.untold_units import note_untold_units
 from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.progressive import ForceCurve, not_rising
@@ -25,7 +26,7 @@ def read_force_curve(
     Args:
         path: of the file, with the columns deflection and force, each with its unit in brackets.
         conventions: with the units for a header that says none.
-        note: told if the file may be cut.
+        note: told if the file may be cut, and what units were not said.
 
     Raises:
         VehicleError: no such file, or no curve; the text names line and column.
@@ -36,6 +37,7 @@ def read_force_curve(
             _column(table.rows, name, table.units[name], quantity, conventions)
             for name, quantity in COLUMNS.items()
         ]
+        note_untold_units(path.name, table.units, COLUMNS, conventions, note)
         ForceCurve(*columns)  # what else is wrong is said with the file
         return columns[0], columns[1]
 

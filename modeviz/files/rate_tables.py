@@ -16,7 +16,8 @@ from modeviz.errors import VehicleError, listed, located, quoted
 from modeviz.files.schema.conventions import Conventions
 from modeviz.files.spectra import FREQUENCY, open_table, write_spectrum_table
 from modeviz.files.tables import Row
-from modeviz.units import factor
+from modeviz.files.untold_units import note_untold_units
+from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.dynamic_rates import RateTable
 from modeviz.vehicle.mount_rates import RATE_FIELDS
@@ -30,6 +31,16 @@ COLUMNS = (*QUANTITIES, *(f"{d}_{q}" for d in RATE_FIELDS for q in QUANTITIES), 
 """All that a table may have beside its frequencies."""
 
 WRITTEN = (FREQUENCY, *(f"{d}_{part} (N/m)" for d in RATE_FIELDS for part in ("storage", "loss")))
+
+TOLD_IN: Mapping[str, QuantityName] = {
+    AMPLITUDE: "length",
+    **{
+        prefix + name: "stiffness"
+        for prefix in ("", *(f"{d}_" for d in RATE_FIELDS))
+        for name in ("stiffness", "storage", "loss")
+    },
+}
+"""What the columns are of that have a unit of [units]."""
 
 PER_RADIAN: Mapping[str, float] = {"deg": pi / 180, "°": pi / 180, "degrees": pi / 180, "rad": 1.0}
 """Radians of one of each."""
@@ -73,7 +84,8 @@ def read_rate_table(
     table = open_table(path, note, (FREQUENCY,), COLUMNS, _check_header)
     with located(path):
         factors = {name: _factor(name, unit, conventions) for name, unit in table.units.items()}
-        rows = _of_amplitude(table.rows, amplitude, factors)
+        note_untold_units(path.name, table.units, TOLD_IN, conventions, note)
+        rows, taken = _of_amplitude(table.rows, amplitude, factors)
         f = _rising(rows)
         columns = {d: _of_direction(d, table.units) for d in RATE_FIELDS}
         known = {d: _rates(rows, own, factors) for d, own in columns.items() if own}
@@ -85,13 +97,17 @@ def read_rate_table(
             if own:
                 lossless = 1.0 if own.loss else 1 + 1j * loss_factor
                 rates[:, axis] = known[direction] * lossless
-        return RateTable(reference_hz=reference_hz, frequency_hz=f, rates=rates)
+        return RateTable(reference_hz=reference_hz, frequency_hz=f, rates=rates, amplitude=taken)
 
 
 def write_rate_table(path: Path, table: RateTable) -> None:
     """Writes both parts of the rates, N/m; every number reads back to the same bits."""
+    names = WRITTEN
     columns = [part(table.rates[:, axis]) for axis in AXES for part in (np.real, np.imag)]
-    write_spectrum_table(path, WRITTEN, [table.frequency_hz, *columns])
+    if table.amplitude is not None:
+        names = (*WRITTEN, f"{AMPLITUDE} (m)")
+        columns.append(np.full(len(table.frequency_hz), table.amplitude))
+    write_spectrum_table(path, names, [table.frequency_hz, *columns])
 
 
 def _loss_factor(rate: complex) -> float:
@@ -150,8 +166,8 @@ def _factor(name: str, unit: str, conventions: Conventions) -> float:
 
 def _of_amplitude(
     rows: Sequence[Row], amplitude: float | None, factors: Mapping[str, float]
-) -> Sequence[Row]:
-    """The lines of one amplitude.
+) -> tuple[Sequence[Row], float | None]:
+    """The lines of one amplitude, and that, m; None if the table says none.
 
     Raises:
         VehicleError: none was chosen of several, or one that is not there.
@@ -159,17 +175,18 @@ def _of_amplitude(
     if AMPLITUDE not in factors:
         if amplitude is not None:
             raise VehicleError(f"found no column {AMPLITUDE}: leave the key amplitude out")
-        return rows
+        return rows, None
     by_row = [row.number(AMPLITUDE, at_least=0) * factors[AMPLITUDE] for row in rows]
     known = sorted(set(by_row))
     if amplitude is None and len(known) == 1:
-        return rows
+        return rows, known[0]
     wanted = [value for value in known if amplitude is not None and np.isclose(value, amplitude)]
     if not wanted:
         found = "none" if amplitude is None else f"{1000 * amplitude:g} mm"
         every = ", ".join(f"{1000 * value:g}" for value in known)
         raise VehicleError(f"amplitude: found {found}, expected one of the table's, {every} mm")
-    return [row for row, value in zip(rows, by_row, strict=True) if value == wanted[0]]
+    taken = [row for row, value in zip(rows, by_row, strict=True) if value == wanted[0]]
+    return taken, wanted[0]
 
 
 def _rising(rows: Sequence[Row]) -> Floats:

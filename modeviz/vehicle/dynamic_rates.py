@@ -73,6 +73,8 @@ class RateTable(DynamicRates):
     """(n,), rising, not below zero."""
     rates: Complexes
     """(n, 3), along x, y, z."""
+    amplitude: float | None = None
+    """m: of the motion with which they were measured; None: not said."""
 
     def __post_init__(self) -> None:
         f = np.asarray(self.frequency_hz, np.float64)

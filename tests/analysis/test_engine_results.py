@@ -258,6 +258,31 @@ def test_wrong_engines_are_refused_by_their_key(tmp_path, old, new, words):
     assert words in str(refused.value)
 
 
+TABLE = """
+[[engine]]
+name = "four"
+body = "engine"
+file = "orders.csv"
+"""
+
+
+def test_an_order_that_is_missing_at_some_speeds_is_told(tmp_path):
+    table = "speed (rpm),order,force_z\n" + "".join(
+        f"{rpm},{order},{rpm * order}\n"
+        for rpm in (600, 700, 800, 900)
+        for order in (1, 2)
+        if order == 1 or rpm not in (700, 900)
+    )
+    vehicle = read_vehicle(folder_with(tmp_path, TABLE, table))
+    assert vehicle.notes == (
+        "orders.csv: column force_z says no unit: taken in N, the force of [units]",
+        "orders.csv: order 2 is missing at 700, 900 rpm, where others are given: it goes straight "
+        "between its own speeds, and is nothing beyond them",
+    )
+    second = vehicle.engines[0].orders[1]
+    np.testing.assert_allclose(second.at(np.array([2 * 700 / 60, 30.0]))[:, 2], [1400.0, 0.0])
+
+
 def test_the_command_prints_idle_and_speeds(tmp_path, capsys):
     folder = folder_with(tmp_path, INLINE)
     assert main(["engine", str(folder)]) == 0

@@ -10,7 +10,7 @@ from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
-from modeviz.files.rate_tables import read_rate_table
+from modeviz.files.rate_tables import read_rate_table, write_rate_table
 from modeviz.files.schema.conventions import Conventions
 from modeviz.vehicle.dynamic_rates import RateTable
 
@@ -120,3 +120,25 @@ def test_wrong_keys_are_refused(tmp_path, wrong, words):
     with pytest.raises(VehicleError, match="dynamic") as refused:
         read_vehicle(tmp_path / "folder")
     assert words in str(refused.value)
+
+
+def test_an_amplitude_that_was_chosen_is_known_and_written(tmp_path):
+    text = "frequency_hz,amplitude (mm),storage\n1,0.1,300\n9,0.1,400\n1,1,200\n9,1,250\n"
+    table = read(tmp_path, text, amplitude=1e-3)
+    assert table.amplitude == pytest.approx(1e-3)
+    write_rate_table(tmp_path / "again.csv", table)
+    again = read_rate_table(tmp_path / "again.csv", 10.0, None, UNITS, lambda note: None)
+    assert again.amplitude == table.amplitude
+    assert read(tmp_path, "frequency_hz,ratio\n1,1\n").amplitude is None
+
+
+def test_units_that_are_not_said_are_told(tmp_path):
+    notes = []
+    file = tmp_path / "rubber.csv"
+    file.write_text("frequency_hz,amplitude,vertical_storage,lateral_storage\n1,0.1,300,200\n", "utf-8")
+    read_rate_table(file, 10.0, None, UNITS, notes.append)
+    assert notes == [
+        "rubber.csv: column amplitude says no unit: taken in mm, the length of [units]",
+        "rubber.csv: columns vertical_storage, lateral_storage say no unit: taken in N/mm, the "
+        "stiffness of [units]",
+    ]

@@ -40,7 +40,9 @@ def test_a_curve_is_read_in_its_own_units_and_says_the_rate(folder):
 
 def test_a_header_without_units_has_those_of_the_vehicle(folder):
     (folder / "curve.csv").write_text("deflection,force\n0,0\n0.005,500\n0.01,2000\n")
-    assert curve_of(read_vehicle(folder)).force == pytest.approx(CURVE.force)
+    vehicle = read_vehicle(folder)
+    assert curve_of(vehicle).force == pytest.approx(CURVE.force)
+    assert "curve.csv: column force says no unit: taken in N, the force of [units]" in vehicle.notes
 
 
 def test_a_vehicle_with_a_tuned_curve_comes_back(folder, tmp_path):
