@@ -8,13 +8,16 @@ import numpy as np
 
 from modeviz.dynamics.assembly import is_rigid
 from modeviz.dynamics.mount_rates import rows_of_springs
-from modeviz.errors import SolveError, VehicleError, unknown
+from modeviz.errors import SolveError, VehicleError, quoted, unknown
 from modeviz.mounting.settling import Settling
 from modeviz.mounting.static_system import HeldCase, PreparedStatics, RefusedCase
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Connection
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
+
+LARGE_TURN = np.radians(5.0)
+"""What is linear in a rotation θ is off by θ/2 of itself, some 4 % here, as rates are at best known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +43,7 @@ class StaticCase:
 
     name: str
     notes: tuple[str, ...]
-    """Sentences on what nothing holds, and on mounts beyond their curves."""
+    """Sentences on what nothing holds, on bodies that turn far, and on mounts beyond their curves."""
     motion: Floats
     """(n_dofs,), in the generalised coordinates."""
     bodies: Mapping[str, Floats]
@@ -145,14 +148,29 @@ def _forces(prepared: PreparedStatics, x: Floats, of_mounts: Floats) -> Floats:
 def _case(prepared: PreparedStatics, held: HeldCase, x: Floats, forces: Floats) -> StaticCase:
     """The answer to a case from its motion, (n_dofs,), and the forces on first bodies, (n_rows,)."""
     deflections = (prepared.system.connection_motions @ x).reshape(-1, 6)
+    bodies = {body: rows @ x for body, rows in prepared.body_rows.items()}
     every = zip(prepared.vehicle.all_connections, deflections, forces.reshape(-1, 6), strict=True)
     return StaticCase(
         held.case.name,
-        (*held.notes, *_beyond(prepared, deflections)),
+        (*held.notes, *_turned(bodies), *_beyond(prepared, deflections)),
         x,
-        {body: rows @ x for body, rows in prepared.body_rows.items()},
+        bodies,
         {connection.name: Carried(connection, d, f) for connection, d, f in every},
     )
+
+
+def _turned(bodies: Mapping[str, Floats]) -> Iterator[str]:
+    """Sentences on bodies that turn so far that their motion is no longer linear in it.
+
+    A place at an arm r moves by r sin θ along and r (1 - cos θ) across, of which r θ is left.
+    """
+    for name, motion in bodies.items():
+        turn = float(np.linalg.norm(motion[3:]))
+        if turn > LARGE_TURN:
+            yield (
+                f"body {quoted(name)} turns by {np.degrees(turn):.3g}°, and turns are taken for small: "
+                f"what it moves and what its mounts carry is known to about {50 * turn:.0f} %"
+            )
 
 
 def _beyond(prepared: PreparedStatics, deflections: Floats) -> Iterator[str]:

@@ -173,6 +173,25 @@ def test_a_torque_turns_a_body_by_its_mounts_alone():
     )
 
 
+def test_a_body_that_turns_by_more_than_five_degrees_is_said_to_be_off_by_half_its_turn():
+    """Beside r θ, the end of an arm r is as far off as it leaves the tangent of its circle."""
+    unit = StaticLoad("engine", torque=np.array([0.0, 1.0, 0.0]))
+    turn = statics_of(engine_on_mounts(load_cases=(LoadCase("t", np.zeros(3), (unit,)),))).cases[0]
+    per_torque = np.linalg.norm(turn.bodies["engine"][3:])
+
+    def notes(degrees):
+        torque = StaticLoad("engine", torque=np.array([0.0, np.radians(degrees) / per_torque, 0.0]))
+        cases = (LoadCase("torque", np.zeros(3), (torque,)),)
+        return statics_of(engine_on_mounts(load_cases=cases)).cases[0].notes
+
+    assert notes(4.9) == ()
+    (said,) = notes(12.0)
+    assert said.startswith("body 'engine' turns by 12°, and turns are taken for small")
+    angle = np.radians(12.0)
+    off = np.hypot(np.sin(angle) - angle, 1 - np.cos(angle)) / angle
+    assert said.endswith(f"is known to about {100 * off:.0f} %")
+
+
 def test_a_force_acts_where_it_is_put():
     at = ENGINE.center_of_gravity + np.array([0, 0.5, 0])
     force = StaticLoad("engine", np.array([0.0, 0.0, 10.0]), position=at)
