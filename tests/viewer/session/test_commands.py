@@ -33,7 +33,7 @@ def done(state, *commands):
 DECISIONS = [
     decisions.SetRate("B", "lateral", 1e5),
     decisions.SetLossFactor("B", 0.3),
-    decisions.TurnMounts("B", 2, 0.1),
+    decisions.PlaceMounts("B", "angles", 2, 0.1),
     decisions.TakeRates({"A": RATES}),
     decisions.LinkRates("A", True),
     decisions.ToggleLock("A", "lateral"),
