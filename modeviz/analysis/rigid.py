@@ -8,7 +8,7 @@ import numpy as np
 from modeviz.analysis.modal_results import ModalResults
 from modeviz.mounting.axes import ElasticAxes, Line, elastic_axes, torque_roll_axis
 from modeviz.mounting.focus import Focus, focus
-from modeviz.mounting.frames import crank_direction, frame
+from modeviz.mounting.frames import crank_direction, frame, has_crank
 from modeviz.mounting.purity import Purity, direction_energy, sorted_modes
 from modeviz.mounting.rigid_part import RigidPart, rigid_parts
 from modeviz.mounting.stiffness import held_bodies, mounted_bodies
@@ -24,6 +24,8 @@ class BodyAxes:
 
     crank: Floats
     """(3,), the direction of its crank."""
+    has_crank: bool
+    """Whether it has one; else that is the direction of any torque on it."""
     torque_roll_axis: Line | None
     held: ElasticAxes | None
     """With the other ends of what holds it still; None if it moves freely then."""
@@ -71,6 +73,7 @@ def body_purity(
         sorted_modes(energy, held.strain(modes, results.band.springs.real.astype(np.float64))),
         targets,
         MOTIONS[3 + int(np.argmax(np.abs(turned @ direction)))],
+        has_crank(part.body),
     )
 
 
@@ -85,6 +88,7 @@ def body_axes(results: ModalResults, number: int, crank: Floats | None = None) -
     mounted = mounted_bodies(system).compliance(number, rates)
     return BodyAxes(
         direction,
+        has_crank(part.body),
         roll,
         None if still is None else elastic_axes(part.center, still, direction, roll),
         None if mounted is None else elastic_axes(part.center, mounted, direction, roll),

@@ -5,6 +5,7 @@ from scipy.optimize import linear_sum_assignment
 
 from modeviz.mounting.rigid_part import RigidPart
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.decoupling import Axes
 
 EQUAL = 1e-6
@@ -38,6 +39,11 @@ def crank_direction(part: RigidPart) -> Floats:
         return part.body.crank_axis
     along_x, along_y = np.diag(part.inertia)[:2]
     return np.eye(3)[0 if along_x <= along_y * (1 + EQUAL) else 1]
+
+
+def has_crank(body: Body) -> bool:
+    """Whether what `crank_direction` gives for a body is a crank, and not just its long axis."""
+    return body.crank_axis is not None or body.role == "powertrain"
 
 
 def principal_axes(tensor: Floats) -> tuple[Floats, Floats]:

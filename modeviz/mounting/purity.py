@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from modeviz.dynamics.catalogue import MOTION_WORDS
 from modeviz.mounting.rigid_part import RigidPart
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
@@ -86,6 +87,8 @@ class Purity:
     targets: Decoupling
     crank_motion: str
     """Of `MOTIONS`: the turning that is nearest to that about its crank."""
+    has_crank: bool
+    """Whether it has one; else it is that about its long axis."""
 
     def purity(self, motion: str) -> float | None:
         """Return the part that a direction has in the body's rigid energy in its mode.
@@ -114,6 +117,11 @@ class Purity:
         """Return whether the mode of a direction is where its frequency should be."""
         f, targets = self.frequency(motion), self.targets
         return f is not None and targets.lowest_frequency <= f <= targets.highest_frequency
+
+    @property
+    def crank_word(self) -> str:
+        """What turning about its crank is called, also of a body that has none."""
+        return "crank" if self.has_crank else MOTION_WORDS[MOTIONS.index(self.crank_motion)]
 
     @property
     def least(self) -> float:

@@ -36,7 +36,8 @@ def rigid_table(results: ModalResults, bodies: Sequence[RigidBodyFigures], axes:
 
 
 def _body_table(results: ModalResults, figures: RigidBodyFigures, axes: Axes) -> str:
-    of_axes = {"vehicle": "vehicle axes", "principal": "principal axes", "crank": "crank axes"}[axes]
+    along = "crank axes" if figures.axes.has_crank else "axes along the torque"
+    of_axes = {"vehicle": "vehicle axes", "principal": "principal axes", "crank": along}[axes]
     header = [f"{figures.name}, % of the mode, {of_axes}", "Hz", *MOTIONS, "share", "purity", ""]
     rows = [_mode_cells(results, figures.purity, mode) for mode in listed_modes(figures.purity)]
     parts = [table(header, rows), "\n".join(verdict_lines(figures.purity)), axes_table(figures.axes)]
@@ -78,9 +79,11 @@ def verdict_lines(found: Purity) -> Iterator[str]:
         if m not in missing and not found.is_in_band(m)
     ]
     yield _line(f"{targets.lowest_frequency:g} to {targets.highest_frequency:g} Hz", outside)
-    for what, gaps in (("gap", found.gaps), ("bounce to crank gap", found.bounce_gaps)):
+    for what, gaps, wanted in (
+        ("gap", found.gaps, targets.gap),
+        (f"bounce to {found.crank_word} gap", found.bounce_gaps, targets.bounce_gap),
+    ):
         close = [gap_words(gap) for gap in gaps if not gap.passes]
-        wanted = targets.gap if what == "gap" else targets.bounce_gap
         yield _line(f"{what} {wanted:g} Hz", close)
 
 
@@ -109,7 +112,7 @@ def percent(part: float) -> str:
 
 def axes_table(axes: BodyAxes) -> str:
     """Return axes and centres, with the ways it is held one beside the other."""
-    rows = [["crank", vector(axes.crank), ""]]
+    rows = [[torque_word(axes), vector(axes.crank), ""]]
     roll = axes.torque_roll_axis
     rows.append(["torque roll axis, free", vector(roll and roll.direction), ""])
     held, mounted = axis_rows(axes.held), axis_rows(axes.mounted)
@@ -118,6 +121,11 @@ def axes_table(axes: BodyAxes) -> str:
         rows.append([f"focus of {', '.join(axes.focus.mounts)}, m", focus_words(axes.focus), ""])
     header = ["axes and centres", HELD, MOUNTED]
     return table(header, rows)
+
+
+def torque_word(axes: BodyAxes) -> str:
+    """Return what the direction of the torque is called for which axes are told."""
+    return "crank" if axes.has_crank else "torque about"
 
 
 def axis_rows(axes: ElasticAxes | None, decimals: int = 4) -> dict[str, str]:

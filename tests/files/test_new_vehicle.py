@@ -47,6 +47,33 @@ def test_a_cab_is_felt_at_its_seat(tmp_path):
         assert np.isfinite(study.ride().rms(study.points[0], "vertical"))
 
 
+def test_a_machine_neither_brakes_nor_corners(tmp_path, printed_json):
+    """It is set down by a crane, pushed as by an earthquake, and turned by its own motor."""
+    cases = printed_json("static", str(new_vehicle("machine", tmp_path / "mine")))["cases"]
+    assert [case["name"] for case in cases] == [
+        "standing",
+        "set down 2 g",
+        "pushed along 0.3 g",
+        "pushed across 0.3 g",
+        "start",
+    ]
+    standing, down = (case["bodies"]["machine"][2] for case in cases[:2])
+    assert down == pytest.approx(2 * standing)
+
+
+def test_only_what_has_a_crank_is_told_of_one(tmp_path, capsys):
+    said = {}
+    for kind in get_args(Kind):
+        assert main(["rigid", str(new_vehicle(kind, tmp_path / kind)), "--axes", "crank"]) == 0
+        said[kind] = capsys.readouterr().out
+    assert "crank axes" in said["powertrain"]
+    assert "bounce to crank gap" in said["powertrain"]
+    for kind in ("cab", "cab-on-frame", "machine"):
+        assert "crank" not in said[kind]
+        assert "axes along the torque" in said[kind]
+        assert "bounce to roll gap" in said[kind] or "bounce to pitch gap" in said[kind]
+
+
 def test_nothing_is_overwritten(tmp_path, capsys):
     (tmp_path / "mounts.csv").write_text("mine")
     assert main(["new", "cab", str(tmp_path)]) == 2

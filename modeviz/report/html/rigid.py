@@ -39,7 +39,8 @@ def rigid(comparison: Comparison) -> str:
         table(["Body", *names], axes, words={1, 2}),
         note(
             "With the other ends of what holds the body still. The torque roll axis is that of the "
-            "free body under a torque about its crank, the elastic torque axis that of it at rest."
+            "free body under a torque about its crank, or its long axis if it has none, the elastic "
+            "torque axis that of it at rest."
         ),
     )
 

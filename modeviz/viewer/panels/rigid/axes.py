@@ -3,8 +3,9 @@
 from html import escape
 
 from modeviz.analysis.rigid import BodyAxes
-from modeviz.report.rigid import axis_rows, vector
+from modeviz.report.rigid import axis_rows, torque_word, vector
 from modeviz.shapes.colors import Color
+from modeviz.text.wording import sentence_case
 from modeviz.viewer.page.html import heading, hinted, row, span, table
 from modeviz.viewer.scene.rigid_axes import CENTER, FOCUS, ROLL, TORQUE
 from modeviz.viewer.session.answers import Solved
@@ -26,7 +27,7 @@ def axes_content(solved: Solved) -> str:
     axes = solved.rigid_axes
     roll = axes.torque_roll_axis
     free = [
-        row(["Crank", vector(axes.crank, DECIMALS)]),
+        row([sentence_case(torque_word(axes)), vector(axes.crank, DECIMALS)]),
         row([_swatch(ROLL) + "Torque roll axis, free", vector(roll and roll.direction, DECIMALS)]),
         *_focus(axes),
     ]

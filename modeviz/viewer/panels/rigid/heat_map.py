@@ -107,7 +107,9 @@ def verdicts(found: Purity) -> str:
         _line(f"Purity of {100 * targets.purity:g} %", mixed),
         _line(f"{targets.lowest_frequency:g} to {targets.highest_frequency:g} Hz", outside),
         _line(f"{targets.gap:g} Hz between modes", _close(found.gaps)),
-        _line(f"{targets.bounce_gap:g} Hz from bounce to crank", _close(found.bounce_gaps)),
+        _line(
+            f"{targets.bounce_gap:g} Hz from bounce to {found.crank_word}", _close(found.bounce_gaps)
+        ),
     ]
     return heading("Decoupling", overall) + table((), lines, "verdicts")
 

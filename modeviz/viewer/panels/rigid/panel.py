@@ -52,15 +52,15 @@ class RigidPanel:
                 lambda state: state.rigid.axes,
                 lambda axes: session.do(LookAtRigid(axes=axes)),
                 "Along which energy is told: the vehicle's, those of the body's inertia, or the "
-                "vehicle's turned so that one lies along the crank",
+                "vehicle's turned so that one lies along the crank, or the torque",
             ),
             self._choice(
-                "Crank",
+                "Torque about",
                 CRANKS,
                 lambda state: state.rigid.crank,
                 lambda crank: session.do(LookAtRigid(crank=crank)),
-                "About which the torque acts: what the body says, or else of x and y the one about "
-                "which its moment of inertia is smaller; or another axis",
+                "The direction of the torque: its own is the crank that the body says, or else of x and "
+                "y the one about which its moment of inertia is smaller; or another axis",
             ),
         ]
         self._buttons = HiddenButtons(gui, N_ROWS, self._select)

@@ -43,7 +43,7 @@ TARGETS = (
         "bounce_gap",
         "Bounce gap, Hz",
         "How far apart the modes should be in which it bounces, which the road excites, and in which "
-        "it turns about its crank, which an engine excites",
+        "it turns about its crank, which an engine excites, or of other bodies about their long axis",
     ),
 )
 
