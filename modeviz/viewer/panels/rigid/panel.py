@@ -59,8 +59,8 @@ class RigidPanel:
                 CRANKS,
                 lambda state: state.rigid.crank,
                 lambda crank: session.do(LookAtRigid(crank=crank)),
-                "The direction of the torque: its own is the crank that the body says, or else of x and "
-                "y the one about which its moment of inertia is smaller; or another axis",
+                "The direction of the torque: its own is the crank that the body says, or else of x "
+                "and y the one about which its moment of inertia is smaller; or another axis",
             ),
         ]
         self._buttons = HiddenButtons(gui, N_ROWS, self._select)
