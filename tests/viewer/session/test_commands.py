@@ -60,6 +60,7 @@ LOOKS = [
     ),
     looks.ChangeLook(coloring="displacement", see_through=False, follow=True),
     looks.LookAtRigid(body="cab", axes="crank", crank="z", support="mounted", drawn=True),
+    looks.LookAtEngine(curve=FORE_AFT, speed_hz=12.0),
     looks.ShowGhost("none"),
     looks.ShowComparedGhost(True),
     looks.ShowBody("cab", False),
@@ -88,10 +89,9 @@ def test_a_look_changes_all_that_it_names_and_leaves_the_design(state, command):
     assert after != state
     assert after.design == state.design
     named = {field.name: getattr(command, field.name) for field in fields(command)}
-    known = {
-        n: v for n, v in named.items() if name_of(command).startswith(("Change", "Drive", "LookAt"))
-    }
-    parts = (after.motion, after.charts, after.look, after.rigid, after.conditions)
+    is_known = name_of(command).startswith(("Change", "Drive", "LookAt"))
+    known = {n: v for n, v in named.items() if is_known and v is not None}
+    parts = (after.motion, after.charts, after.look, after.rigid, after.engine, after.conditions)
     assert known.items() <= {n: v for part in parts for n, v in vars(part).items()}.items()
 
 
