@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 
-from modeviz.vehicle.placement import Placement, Placements, with_placements
+from modeviz.vehicle.placement import Placement, Placements, check_placements, with_placements
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -31,3 +31,8 @@ def altered(vehicle: Vehicle, alterations: Alterations) -> Vehicle:
         VehicleError: it lacks what is to be altered, or cannot be altered so.
     """
     return with_placements(vehicle, alterations.placements)
+
+
+def check_alterations(vehicle: Vehicle, alterations: Alterations) -> None:
+    """Raises VehicleError as `altered` would, in a part of its time."""
+    check_placements(vehicle, alterations.placements)

@@ -32,7 +32,7 @@ def attachment_elsewhere(body: FlexibleBody, held: Attachment, place: Floats, na
     Raises:
         VehicleError: the place is off the body.
     """
-    _check_reach(body, held.position, place)
+    check_reach(body, held.position, place)
     if not len(body.nodes):
         return Attachment(name, place, _arm(held, place))
     others = [a for a in body.attachments if _apart(a.position, held.position) > SAME_PLACE]
@@ -69,7 +69,7 @@ def _arm(held: Attachment, place: Floats) -> Floats:
     return rigid_motions(place - held.position) @ held.shapes
 
 
-def _check_reach(body: FlexibleBody, before: Floats, place: Floats) -> None:
+def check_reach(body: FlexibleBody, before: Floats, place: Floats) -> None:
     """Raises VehicleError if a place is farther off the body than something may be held.
 
     That is `REACH`, or as far as it was off before, or as nodes are apart there.

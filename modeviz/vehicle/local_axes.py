@@ -15,6 +15,9 @@ AXES = ("x", "y", "z")
 OBLIQUE = np.radians(1.0)
 """By how much two of them may be off a right angle, for rounding."""
 
+LOCKED = 1e-9
+"""Cosine of a turn about y at which turns about x and z are told apart no more."""
+
 _FIXED = {"fixed", "extrinsic", "space"}
 _TURNED = {"turned", "intrinsic", "moving", "body", "local"}
 
@@ -98,6 +101,23 @@ def axes_of_angles(angles: Floats, order: TurnOrder) -> Floats:
         turn = _turn(axis, angles[axis])
         R = turn @ R if order.is_fixed else R @ turn
     return R.T
+
+
+def angles_of_axes(axes: Floats) -> Floats:
+    """Return the angles about x, then y, then z, (3,), rad, by which axes stand turned: y by up to 90°.
+
+    Of R = R_z R_y R_x, as of `axes_of_angles` in that order; where y is 90° and only x and z together
+    are known, z is zero.
+
+    Args:
+        axes: (3, 3), as rows.
+    """
+    R = axes.T
+    level = np.hypot(R[0, 0], R[1, 0])
+    y = np.arctan2(-R[2, 0], level)
+    if level < LOCKED:
+        return np.array([np.arctan2(-R[1, 2], R[1, 1]), y, 0.0])
+    return np.array([np.arctan2(R[2, 1], R[2, 2]), y, np.arctan2(R[1, 0], R[0, 0])])
 
 
 def _turn(axis: int, angle: float) -> Floats:

@@ -8,7 +8,7 @@ import numpy as np
 from modeviz.errors import located
 from modeviz.text.wording import free_name
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.attachments_elsewhere import attachment_elsewhere
+from modeviz.vehicle.attachments_elsewhere import attachment_elsewhere, check_reach
 from modeviz.vehicle.bodies import Attachment, Body, FlexibleBody
 from modeviz.vehicle.carriers import SAME_PLACE
 from modeviz.vehicle.connections import Mount, Tyre
@@ -47,6 +47,16 @@ def bodies_that_hold(vehicle: Vehicle, moved: Sequence[MovedMount]) -> tuple[Bod
         _that_holds(body, moved, vehicle) if isinstance(body, FlexibleBody) else body
         for body in vehicle.bodies
     )
+
+
+def check_moves(vehicle: Vehicle, moved: Sequence[MovedMount]) -> None:
+    """Raises VehicleError if a mount is moved off a flexible body, before anything is made of it."""
+    for body in vehicle.bodies:
+        if isinstance(body, FlexibleBody):
+            for mount in moved:
+                with located(f"mount {mount.after.name!r}"):
+                    for old, new in mount.ends_elsewhere(body):
+                        check_reach(body, old, new)
 
 
 def missing_compliance(

@@ -10,7 +10,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MIDDLE, Mount
 from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.moved_ends import MovedMount, bodies_that_hold, missing_compliance
+from modeviz.vehicle.moved_ends import MovedMount, bodies_that_hold, check_moves, missing_compliance
 from modeviz.vehicle.vehicle import Vehicle
 
 MIRRORED_OFFSET, MIRRORED_ANGLES = (1.0, -1.0, 1.0), (-1.0, 1.0, -1.0)
@@ -30,7 +30,7 @@ class Placement:
 
     def __post_init__(self) -> None:
         for name in ("offset", "angles"):
-            value = tuple(map(float, getattr(self, name)))
+            value = tuple(float(v) + 0.0 for v in getattr(self, name))  # no -0.0
             if len(value) != 3 or not np.isfinite(value).all():
                 raise VehicleError(f"{name}: found {value}, expected three numbers")
             object.__setattr__(self, name, value)
@@ -63,28 +63,42 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
     Raises:
         VehicleError: a group that the vehicle does not have, or mounts are moved off a flexible body.
     """
-    asked = {name: placed for name, placed in placements.items() if not placed.is_as_given}
-    for name in asked:
-        vehicle.mount_group(name)
-    if not asked:
+    moved = _moved_by_group(vehicle, placements)
+    if not moved:
         return vehicle
     groups = tuple(
-        replace(group, mounts=placed_mounts(group, asked[group.name])) if group.name in asked else group
+        replace(group, mounts=tuple(mount.after for mount in moved[group.name]))
+        if group.name in moved
+        else group
         for group in vehicle.mount_groups
     )
-    moved = {name: _moved(vehicle.mount_group(name), placed) for name, placed in asked.items()}
     bodies = bodies_that_hold(vehicle, [mount for mounts in moved.values() for mount in mounts])
     placed = replace(vehicle, bodies=bodies, mount_groups=groups)
     told = [
         note
-        for name, how in asked.items()
-        for note in (*_notes(name, how), *missing_compliance(vehicle.bodies, bodies, name, moved[name]))
+        for name, mounts in moved.items()
+        for note in (
+            *_notes(name, placements[name]),
+            *missing_compliance(vehicle.bodies, bodies, name, mounts),
+        )
     ]
     return replace(placed, notes=(*vehicle.notes, *told))
 
 
-def _moved(group: MountGroup, placement: Placement) -> tuple[MovedMount, ...]:
-    return tuple(map(MovedMount, group.mounts, placed_mounts(group, placement)))
+def check_placements(vehicle: Vehicle, placements: Placements) -> None:
+    """Raises VehicleError as `with_placements` would, in a part of its time."""
+    for mounts in _moved_by_group(vehicle, placements).values():
+        check_moves(vehicle, mounts)
+
+
+def _moved_by_group(vehicle: Vehicle, placements: Placements) -> dict[str, tuple[MovedMount, ...]]:
+    """The mounts of groups that are placed otherwise."""
+    asked = {name: placed for name, placed in placements.items() if not placed.is_as_given}
+    groups = {name: vehicle.mount_group(name) for name in asked}
+    return {
+        name: tuple(map(MovedMount, group.mounts, placed_mounts(group, asked[name])))
+        for name, group in groups.items()
+    }
 
 
 def placed_mounts(group: MountGroup, placement: Placement) -> tuple[Mount, ...]:

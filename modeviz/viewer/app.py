@@ -16,6 +16,7 @@ from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.offline import offline_page
 from modeviz.viewer.page import scripts
+from modeviz.viewer.page.binding import READ_WITHIN
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
@@ -46,15 +47,16 @@ from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.trade_off import TradeOffPanel
 from modeviz.viewer.panels.variants import VariantsPanel
 from modeviz.viewer.panels.view import ViewPanel
+from modeviz.viewer.scene.mount_handle import Dragged
 from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import DARK, LIGHT
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import color_scale
-from modeviz.viewer.session.commands.decisions import Swap
+from modeviz.viewer.session.commands.decisions import DragMounts, Swap
 from modeviz.viewer.session.commands.looks import SelectGroup
 from modeviz.viewer.session.cursor import has_ride, is_shaken
 from modeviz.viewer.session.design import variant_name
-from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification
+from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
 from modeviz.viewer.tasks.front_task import FrontTask
@@ -103,6 +105,7 @@ class App:
         scripts.run(self._gui, "page/no_drop.js")
         choose_theme(self._gui, dark)
         self._scene = Scene(server, vehicle, dark, self._select)
+        self._scene.let_drag(self._drag, mistake)
         self._hotkeys = Hotkeys(self._gui)
         self._lay_out(dark)
 
@@ -162,6 +165,7 @@ class App:
         self.search_task.close()
         self.front_task.cancel()
         self.scatter_task.cancel()
+        self._scene.close()
         self.session.close()
 
     def close(self) -> None:
@@ -251,6 +255,9 @@ class App:
         match notification:
             case Answered(solved):
                 self._show(solved)
+            case Preparing(fraction):
+                self._status.show_progress(fraction)
+                self.server.flush()
             case Checked(solved):
                 self._status.show(solved)
                 self.server.flush()
@@ -292,6 +299,7 @@ class App:
                     self._paths.show(solved)
         self.server.flush()
         self._scene.show(solved)
+        self._scene.place(self.session.state)
         self._static.tell_scale(solved, self._scene.exaggeration)
 
     def _solved(self) -> Solved:
@@ -321,6 +329,17 @@ class App:
         last = self.session.answer
         if last and listed(last.now):
             self.session.do(StepMode(last, step))
+
+    def _drag(self, dragged: Dragged) -> None:
+        """Puts the mounts of a group where their handle is, unless that is off a body: then nowhere."""
+        try:
+            self.session.do(DragMounts(dragged.group, dragged.placement, dragged.drag))
+        except ModevizError as refusal:
+            if dragged.is_over and dragged.client is not None:
+                dragged.client.add_notification(
+                    "Not possible", str(refusal), color="red", auto_close_seconds=READ_WITHIN
+                )
+        self._scene.place(self.session.state)
 
     def _subject(self) -> str:
         """Return the subject of a picture: "Pickup cab yaw"."""

@@ -241,7 +241,7 @@ def test_the_loss_factor_of_a_group_is_its_own(app, page):
 def test_mounts_that_are_turned_give_what_a_vehicle_with_such_mounts_gives(app, page):
     """Typed on the page; frequencies and the marker's axes are those of a fresh solve, until undone."""
     before = app.session.answer.now.modes.frequency_hz
-    page.get_by_text("Turned", exact=True).locator("visible=true").click()
+    page.get_by_text("Place", exact=True).locator("visible=true").click()
     number = page.locator(".mantine-Slider-root + div input >> visible=true").nth(1)
     wait_until(page, lambda: number.input_value() == "0")
     number.fill("30")

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from modeviz.errors import VehicleError
-from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
+from modeviz.vehicle.local_axes import TurnOrder, angles_of_axes, axes_of_angles
 
 ANGLES = np.radians([20.0, -35.0, 50.0])
 
@@ -26,6 +26,21 @@ def test_axes_of_angles_are_those_of_scipy(letters, is_fixed):
 def test_turns_about_fixed_axes_are_those_about_turned_ones_in_reverse():
     fixed, turned = (TurnOrder.of(text) for text in ("x y z fixed", "z, y, x turned"))
     assert axes_of_angles(ANGLES, fixed) == pytest.approx(axes_of_angles(ANGLES, turned), abs=1e-14)
+
+
+@pytest.mark.parametrize("degrees", [(20, -35, 50), (170, 80, -160), (0, 0, 0)])
+def test_angles_of_axes_are_those_that_turned_them(degrees):
+    angles = np.radians(degrees)
+    found = angles_of_axes(axes_of_angles(angles, TurnOrder()))
+    assert found == pytest.approx(angles, abs=1e-14)
+
+
+@pytest.mark.parametrize("y", [90.0, -90.0])
+def test_where_x_and_z_are_one_axis_their_angles_turn_alike(y):
+    axes = axes_of_angles(np.radians([30, y, 50]), TurnOrder())
+    found = angles_of_axes(axes)
+    assert found[2] == 0
+    assert axes_of_angles(found, TurnOrder()) == pytest.approx(axes, abs=1e-14)
 
 
 @pytest.mark.parametrize("text", ["xxz fixed", "abc fixed", "xy turned", "", "123"])

@@ -107,6 +107,33 @@ class SceneNodeClickMessage(_Wire):
     owner: Name = ""
 
 
+class TransformControlsDragStartMessage(_Wire):
+    """A handle in the scene that was taken hold of."""
+
+    name: Name
+    owner: Name = ""
+
+
+class TransformControlsUpdateMessage(_Wire):
+    """Where it was dragged to."""
+
+    name: Name
+    wxyz: Quaternion
+    position: Point
+    owner: Name = ""
+
+    def __post_init__(self) -> None:
+        if not any(self.wxyz):
+            raise ValueError("no orientation")
+
+
+class TransformControlsDragEndMessage(_Wire):
+    """A handle that was let go."""
+
+    name: Name
+    owner: Name = ""
+
+
 class CommandTriggerMessage(_Wire):
     """A key or a command that was chosen."""
 
@@ -147,6 +174,9 @@ _decoder = msgspec.msgpack.Decoder(
     | ViewerCameraMessage
     | GetRenderResponseMessage
     | SceneNodeClickMessage
+    | TransformControlsDragStartMessage
+    | TransformControlsUpdateMessage
+    | TransformControlsDragEndMessage
     | CommandTriggerMessage
     | FileTransferPartAck
     | FileTransferStartUpload

@@ -26,8 +26,8 @@ class StatusPanel:
     """Progress while the vehicle is prepared, then time, health and check of every answer."""
 
     def __init__(self, gui: viser.GuiApi, notes: Sequence[str] = ()) -> None:
-        """Makes room; `notes` of the vehicle stand below everything else, always."""
-        self._notes = "".join(f'<div class="note">{escape(note)}</div>' for note in notes)
+        """Makes room; `notes` of the vehicle stand below everything else until there is an answer."""
+        self._notes = _listed(notes)
         self._content = gui.add_html("")
 
     def show_progress(self, fraction: float) -> None:
@@ -36,7 +36,8 @@ class StatusPanel:
         self._draw(heading("Preparing", f"{100 * fraction:.0f} %"), bar)
 
     def show(self, solved: Solved) -> None:
-        """Says how an answer came about and how good it is."""
+        """Says how an answer came about and how good it is, and the notes of its vehicle."""
+        self._notes = _listed(solved.now.prepared.vehicle.notes)
         lines = [_found(solved.now), _checked(solved.findings), *_believed(solved.findings)]
         if solved.missing:
             lines.append(_compared(solved))
@@ -47,6 +48,10 @@ class StatusPanel:
 
     def _draw(self, *content: str) -> None:
         assign(self._content, content=block(*content, self._notes))
+
+
+def _listed(notes: Sequence[str]) -> str:
+    return "".join(f'<div class="note">{escape(note)}</div>' for note in notes)
 
 
 def _solved(solved: Solved) -> str:

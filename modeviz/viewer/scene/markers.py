@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from textwrap import fill
 
 import numpy as np
@@ -16,6 +17,7 @@ from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
+from modeviz.vehicle.placement import Placement, Placements, placed_mounts
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.scene.labels import keep_apart
@@ -98,11 +100,13 @@ class MountMarker:
             self.label_name, self._label_text, anchor="center-center", font_screen_scale=0.85
         )
 
-    def turn(self, axes: Floats) -> None:
-        """Draws the mount along its local axes, (3, 3) as rows."""
-        wxyz = SO3.from_matrix(axes.T).wxyz
+    def place(self, mount: Mount) -> None:
+        """Draws the mount where it is, along its local axes."""
+        wxyz = SO3.from_matrix(mount.axes.T).wxyz
         if not np.array_equal(wxyz, self._frame.wxyz):
             self._frame.wxyz = wxyz
+        if not np.array_equal(mount.center, self._frame.position):
+            self._frame.position = mount.center
 
     def on_click(self, callback: Callable[[], None]) -> None:
         """Calls back when the mount is clicked."""
@@ -161,7 +165,12 @@ class Card:
         """Hangs the card on a mount; an empty text puts it away."""
         assign(self._frame, visible=bool(text))
         assign(self._label, text=text)
-        self._frame.position = mount
+        self.move(mount)
+
+    def move(self, mount: Floats) -> None:
+        """Hangs it where its mount is."""
+        if not np.array_equal(mount, self._frame.position):
+            self._frame.position = mount
 
 
 class Markers:
@@ -186,7 +195,9 @@ class Markers:
             on_select: called with the group of a clicked mount.
             other_labels: nodes of labels that are to stay apart from those of the marks.
         """
-        self._groups = {group.name: group for group in vehicle.mount_groups}
+        self._given = {group.name: group for group in vehicle.mount_groups}
+        self._groups = dict(self._given)
+        self._carded = ""
         self._mounts = {
             name: [MountMarker(scene, mount, group, length) for mount in group.mounts]
             for name, group in self._groups.items()
@@ -210,11 +221,19 @@ class Markers:
         for mark, body in self._others:
             assign(mark, visible=body not in bodies)
 
-    def turn(self, groups: Sequence[MountGroup]) -> None:
-        """Draws the mounts along the local axes that they have in some groups, which are all."""
-        for group in groups:
-            for marker, mount in zip(self._mounts[group.name], group.mounts, strict=True):
-                marker.turn(mount.axes)
+    def place(self, placements: Placements) -> None:
+        """Draws the mounts where they are placed, and the card where its mount is."""
+        for name, given in self._given.items():
+            mounts = placed_mounts(given, placements.get(name, Placement()))
+            self._groups[name] = replace(given, mounts=mounts)
+            for marker, mount in zip(self._mounts[name], mounts, strict=True):
+                marker.place(mount)
+        if self._carded:
+            self._card.move(self._groups[self._carded].mounts[self._nearest[self._carded]].center)
+
+    def carrier(self, group: str) -> int:
+        """The number of the mount of a group that carries its card."""
+        return self._nearest[group]
 
     def are_seen(self, hidden: Collection[str]) -> bool:
         """Whether one of them is, where these bodies are not drawn."""
@@ -250,6 +269,7 @@ class Markers:
                 color = colors.get(name, RUBBER)
                 marker.show(shares[name] / largest, is_selected, is_carded, color)
         group = self._groups.get(selected)
+        self._carded = selected if group else ""
         if group is None:
             self._card.show("", np.zeros(3))
         else:

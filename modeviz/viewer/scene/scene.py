@@ -16,6 +16,7 @@ from modeviz.viewer.scene.body_view import DrawnBody
 from modeviz.viewer.scene.cameras import Cameras
 from modeviz.viewer.scene.driver import LARGEST, ShapeDriver
 from modeviz.viewer.scene.markers import Markers
+from modeviz.viewer.scene.mount_handle import Dragged, MountHandle
 from modeviz.viewer.scene.rigid_axes import RigidAxesMarks
 from modeviz.viewer.scene.stage import DARK, LIGHT, Box, Stage, bodies_box, box
 from modeviz.viewer.session.answers import Solved
@@ -29,6 +30,7 @@ from modeviz.viewer.session.coloring import (
     share_colors,
     strain_shares,
 )
+from modeviz.viewer.session.state import State
 
 
 class Scene:
@@ -60,6 +62,7 @@ class Scene:
         self._markers = Markers(
             server.scene, vehicle, theme, self._box.length, on_select, self._axes.label_names
         )
+        self._handle: MountHandle | None = None
         self._cameras = Cameras(server, self._box)
         self.exaggeration: float = 1.0
         """How many times as large as it is the shape is drawn at the driver's amplitude of one."""
@@ -82,11 +85,33 @@ class Scene:
                 groups = {group: strain[group] for group in state.design.rates}
                 what = within_sentence(moving.title)
                 group = state.group if moving.bodies is None else ""  # else no mount is at work
-                self._markers.turn(solved.now.prepared.vehicle.mount_groups)
                 self._markers.show(
                     group, state.design.rates, state.unit, groups, what, share_colors(shares)
                 )
         self._cameras.frame(self._framed(solved))
+
+    def let_drag(
+        self, on_drag: Callable[[Dragged], None], mistake: Callable[[Exception], None]
+    ) -> None:
+        """Lets pages drag the mounts of a group by a handle, where it is wanted; as `MountHandle`."""
+        self._handle = MountHandle(self._server.scene, self._box.length, on_drag, mistake)
+
+    def place(self, state: State) -> None:
+        """Draws mounts where a state has them, and the handle of the selected group if it is wanted."""
+        alterations, group = state.design.alterations, state.group
+        self._markers.place(alterations.placements)
+        if self._handle is None:
+            return
+        if state.look.handle and group in state.design.rates:
+            given = self._vehicle.mount_group(group)
+            self._handle.show(given, self._markers.carrier(group), alterations.placement(group))
+        else:
+            self._handle.hide()
+
+    def close(self) -> None:
+        """Ends what hears the handle."""
+        if self._handle:
+            self._handle.close()
 
     def _show_axes(self, solved: Solved) -> None:
         """Draws axes and centres of the body that is looked at, where they are wanted."""

@@ -147,19 +147,30 @@ class Answers:
                 self._drive = excitation
         return near
 
-    def answer(self, asked: State, findings: Callable[[Results], Findings]) -> Solved:
+    @property
+    def original(self) -> Vehicle:
+        """Without alterations."""
+        return self._vehicle
+
+    def answer(
+        self,
+        asked: State,
+        findings: Callable[[Results], Findings],
+        progress: Callable[[float], None] | None = None,
+    ) -> Solved:
         """Solves a state, or only shows it differently.
 
         Args:
             asked: what is asked for.
             findings: gives what is known beyond an answer.
+            progress: told the fraction of a preparation that is done; what it raises ends that.
 
         Raises:
             ModevizError: there is no answer.
         """
         begin = time.perf_counter()
         if asked.design.alterations != self._alterations:
-            self.prepare(asked)
+            self.prepare(asked, progress)
         named = self._named.solve(asked)
         state = named.answerable(asked)
         now, base = self._solve(state), named.results[state.against]

@@ -12,6 +12,14 @@ class Answered:
     solved: Solved
 
 
+@dataclass(frozen=True)
+class Preparing:
+    """The vehicle is altered and made ready anew, which takes a while; the last answer stays."""
+
+    fraction: float
+    """What is done of it."""
+
+
 @dataclass(frozen=True, eq=False)
 class Checked:
     """A check has gone on of the answer that is drawn already."""
@@ -26,4 +34,4 @@ class Failed:
     error: Exception
 
 
-Notification = Answered | Checked | Failed
+Notification = Answered | Preparing | Checked | Failed

@@ -4,9 +4,11 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from modeviz.analysis.preparation import Prepared
 from modeviz.errors import ModevizError
+from modeviz.vehicle.alterations import check_alterations
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Answers, Solved, asks_for_the_same
 from modeviz.viewer.session.commands.command import Command
@@ -14,9 +16,16 @@ from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
 from modeviz.viewer.session.history import History
 from modeviz.viewer.session.inspector import Inspector
-from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification
+from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.worker import Worker
+
+FOLLOWS = 0.3
+"""s: a vehicle that is prepared in less follows the hand that alters it; others wait for it to rest."""
+
+
+class _OvertakenError(Exception):
+    """The vehicle is to be altered otherwise by now."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +111,8 @@ class Session:
         """
         with self._lock:
             state = command.apply(self.state, self.vehicle)
+            if state.design.alterations != self.state.design.alterations:
+                check_alterations(self._answers.original, state.design.alterations)
             self._history.put(state, command.step, command.within)
             self._submit()
 
@@ -174,11 +185,26 @@ class Session:
             self._worker.submit(_Job(self.state, self._n_drawings))
 
     def _solve(self, job: _Job) -> None:
-        solved = self._answers.answer(job.state, self._inspector.findings)
+        try:
+            solved = self._answers.answer(
+                job.state,
+                self._inspector.findings,
+                partial(self._follow_preparing, job.state, time.perf_counter()),
+            )
+        except _OvertakenError:
+            return
         self._answer, self._failure = solved, None
         self._notify(Answered(solved) if job.drawing > self._n_drawn else Checked(solved))
         self._n_drawn = job.drawing
         self._inspector.submit(solved)
+
+    def _follow_preparing(self, state: State, begin: float, fraction: float) -> None:
+        """Tells how far a preparation is that takes its time, or ends one that was overtaken."""
+        if time.perf_counter() - begin < FOLLOWS:
+            return
+        if state.design.alterations != self.state.design.alterations:
+            raise _OvertakenError
+        self._notify(Preparing(fraction))
 
     def _fail(self, error: Exception) -> None:
         self._failure = error

@@ -123,6 +123,8 @@ class Look:
     """Bodies that are not drawn."""
     follow: bool = False
     """Whether cameras look at the selected group."""
+    handle: bool = False
+    """Whether the mounts of the selected group have a handle, by which they are moved and turned."""
 
 
 @dataclass(frozen=True)

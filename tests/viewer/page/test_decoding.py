@@ -29,6 +29,13 @@ CLICK = {
     "modifier": None,
     "owner": "",
 }
+DRAG = {
+    "type": "TransformControlsUpdateMessage",
+    "name": "/mount handle",
+    "wxyz": (1.0, 0.0, 0.0, 0.0),
+    "position": (0.0, 1.0, 2.0),
+    "owner": "",
+}
 START = {
     "type": "FileTransferStartUpload",
     "source_component_uuid": "button",
@@ -59,6 +66,11 @@ def picture(payload):
         UPDATE,
         CAMERA,
         CLICK,
+        DRAG,
+        *(
+            {"type": f"TransformControlsDrag{end}Message", "name": "a", "owner": ""}
+            for end in ("Start", "End")
+        ),
         START,
         PART_OF_FILE,
         picture(png()),

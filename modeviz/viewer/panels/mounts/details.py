@@ -3,11 +3,9 @@
 from collections.abc import Sequence
 from html import escape
 
-import numpy as np
 import viser
 
 from modeviz.text.wording import signed
-from modeviz.vehicle.local_axes import AXES
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates, Rates
 from modeviz.viewer.page.binding import Binding
@@ -15,8 +13,9 @@ from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
+from modeviz.viewer.panels.mounts.placing import Placing
 from modeviz.viewer.panels.mounts.rows import row_label
-from modeviz.viewer.session.commands.decisions import LinkRates, PlaceMounts, SetLossFactor
+from modeviz.viewer.session.commands.decisions import LinkRates, SetLossFactor
 from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
@@ -24,14 +23,6 @@ from modeviz.viewer.session.state import State
 LOSS_STEP, LOSS_DECIMALS = 0.005, 3
 LARGEST_LOSS = 0.5
 """The end of the slider, unless a group's own is larger: about that of the most damping rubbers."""
-
-TURN_STEP, TURN_DECIMALS, LARGEST_TURN = 0.5, 6, 90.0
-"""Degrees."""
-
-TURN_HINT = (
-    "How the mounts are turned out of the axes in the file, about the vehicle's x, then y, then z; "
-    "those on the other side as in a mirror. The set compared with is turned too"
-)
 
 PADLOCK = (
     '<svg viewBox="0 0 12 12" width="12" height="12"><path fill="none" stroke="currentColor" '
@@ -89,9 +80,9 @@ class Details:
                 self._is_linked(session.state),
                 hint="When one of these rates moves, the others move by the same factor",
             )
-            self._turns = self._add_turns(gui)
+            placing = Placing(gui, session, group)
         self.bindings: tuple[Binding[State], ...] = (
-            *self._turns,
+            *placing.bindings,
             Binding(
                 self._loss,
                 session,
@@ -105,37 +96,6 @@ class Details:
                 self._is_linked,
                 lambda linked: session.do(LinkRates(group.name, linked)),
             ),
-        )
-
-    def _add_turns(self, gui: viser.GuiApi) -> tuple[Binding[State], ...]:
-        """Sliders for how the mounts are turned, put away until they are wanted."""
-        name = self._group.name
-        with gui.add_folder("Turned", expand_by_default=False):
-            return tuple(self._add_turn(gui, name, axis) for axis in range(len(AXES)))
-
-    def _add_turn(self, gui: viser.GuiApi, name: str, axis: int) -> Binding[State]:
-        session = self._session
-
-        def angle(state: State) -> float:
-            return round(
-                float(np.degrees(state.design.alterations.placement(name).angles[axis])), TURN_DECIMALS
-            )
-
-        slider = gui.add_slider(
-            f"About {AXES[axis]}, °",
-            -LARGEST_TURN,
-            LARGEST_TURN,
-            TURN_STEP,
-            angle(session.state),
-            marks=(0.0,),
-            hint=TURN_HINT,
-        )
-        return Binding(
-            slider,
-            session,
-            angle,
-            lambda degrees: session.do(PlaceMounts(name, "angles", axis, float(np.radians(degrees)))),
-            WriteBack(),
         )
 
     def show(self, state: State, compared: Rates, effects: Effects, mode: str, is_old: bool) -> None:

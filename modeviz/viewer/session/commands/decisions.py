@@ -1,11 +1,13 @@
 """Commands that decide something: they can be undone."""
 
+import math
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from modeviz.text.wording import free_name
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.placement import Placement
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import known_sets, next_name, rate_sets
@@ -53,28 +55,62 @@ class SetLossFactor(Command):
 
 @dataclass(frozen=True)
 class PlaceMounts(Command):
-    """Moves the mounts of a group along one of the vehicle's axes, or turns them, and selects it."""
+    """Moves the mounts of a group, or turns them, and selects it."""
 
     group: str
     field: str
     """Of `Placement`."""
-    axis: int
-    """Of x, y, z."""
-    value: float
-    """m or rad, from how they were given."""
+    values: tuple[float | None, float | None, float | None]
+    """Along or about x, y, z, m or rad, from how they were given; None: as before."""
 
     @property
     def step(self) -> Hashable:
-        return "place", self.group, self.field, self.axis
+        changed = tuple(value is not None for value in self.values)
+        return "place", self.group, self.field, changed
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         vehicle.mount_group(self.group)
         before = state.design.alterations.placement(self.group)
-        values = list(getattr(before, self.field))
-        values[self.axis] = self.value
-        placement = replace(before, **{self.field: tuple(values)})
+        old = getattr(before, self.field)
+        values = tuple(o if v is None else v for o, v in zip(old, self.values, strict=True))
+        placement = replace(before, **{self.field: values})
         design = state.design.with_placement(self.group, placement)
         return replace(state, design=design, group=self.group)
+
+
+@dataclass(frozen=True)
+class DragMounts(Command):
+    """Puts the mounts of a group where its handle is, and selects it."""
+
+    group: str
+    placement: Placement
+    drag: int
+    """Its number: all of a drag is undone together."""
+
+    @property
+    def step(self) -> Hashable:
+        return "drag", self.group, self.drag
+
+    @property
+    def within(self) -> float:
+        return math.inf
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.mount_group(self.group)
+        return replace(
+            state, design=state.design.with_placement(self.group, self.placement), group=self.group
+        )
+
+
+@dataclass(frozen=True)
+class ResetPlacement(Command):
+    """Puts the mounts of a group back to where they were given, as they were turned there."""
+
+    group: str
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        vehicle.mount_group(self.group)
+        return replace(state, design=state.design.with_placement(self.group, Placement()))
 
 
 @dataclass(frozen=True)

@@ -80,6 +80,7 @@ class ChangeLook(Command):
     coloring: Coloring | None = None
     see_through: bool | None = None
     follow: bool | None = None
+    handle: bool | None = None
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         return replace(state, look=_changed(state.look, self))

@@ -1,0 +1,111 @@
+"""Mounts dragged in the scene of a real page."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from apps import SOLVE_S, listening, n_bytes, open_solved_cabin
+from mount_controls import open_folder
+from mounted_cabin import mounted_cabin
+from pages import CLOSE_NOTICES, wait_for, wait_until
+
+from modeviz.analysis.preparation import prepare
+from modeviz.analysis.results import solve
+from modeviz.files import read_vehicle, write_vehicle
+from modeviz.vehicle.alterations import Alterations
+from modeviz.vehicle.placement import Placement
+from modeviz.viewer.session.commands.decisions import DragMounts
+
+HANDLE = "/mount handle"
+IS_SEEN = "window.__viserSceneTree.getState()[a.name]?.effectiveVisibility === true"
+PLACE = "window.__viserMutable.nodePoseData[a.name]?.position"
+ON_PAGE = """([name, along]) => {
+  const { camera, canvas, nodeRefFromName } = window.__viserMutable;
+  const node = nodeRefFromName[name];
+  node.updateWorldMatrix(true, false);
+  const place = node.localToWorld(camera.position.clone().set(along, 0, 0)).project(camera);
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  return [left + (width * (1 + place.x)) / 2, top + (height * (1 - place.y)) / 2];
+}"""
+"""Where a point on the first arrow of the handle is on the page."""
+
+
+@pytest.fixture(scope="module")
+def app(server):
+    with open_solved_cabin(server) as app:
+        yield app
+
+
+@pytest.fixture(scope="module")
+def page(app, server, open_page):
+    page = open_page(server, viewport=(1280, 800))
+    wait_for(page, "document.querySelectorAll('.mv-rates').length === 2")
+    page.evaluate(CLOSE_NOTICES)
+    return page
+
+
+def drag_along_x(page, length):
+    """Drags the handle by its first arrow as far as that is long."""
+    tip, root = (np.array(page.evaluate(ON_PAGE, [HANDLE, x])) for x in (0.7 * length, 0.0))
+    page.mouse.move(*tip)
+    page.wait_for_timeout(500)  # the arrow lights up once a picture is drawn
+    page.mouse.down()
+    for part in np.linspace(0, 1, 9)[1:]:
+        page.mouse.move(*(tip + part * (tip - root)))
+        page.wait_for_timeout(60)
+    page.mouse.up()
+
+
+def in_a_folder(offset, folder):
+    """The cabin with its front mounts elsewhere, from a folder that has them there."""
+    vehicle = mounted_cabin()
+    front, rear = vehicle.mount_groups
+    mounts = tuple(
+        replace(mount, points=mount.points + np.multiply(offset, [1, side, 1]))
+        for mount, side in zip(front.mounts, (1, -1), strict=True)
+    )
+    write_vehicle(replace(vehicle, mount_groups=(replace(front, mounts=mounts), rear)), folder)
+    return read_vehicle(folder)
+
+
+def test_mounts_dragged_in_the_scene_give_what_a_folder_with_that_place_gives(app, page, tmp_path):
+    before = app.session.answer.now
+    open_folder(page, "A")
+    page.get_by_text("Place", exact=True).locator("visible=true").click()
+    page.get_by_label("Handle in the scene").locator("visible=true").click()
+    wait_for(page, IS_SEEN, name=HANDLE)
+    given = wait_for(page, PLACE, name=HANDLE)
+    marker = "/mounts/A -0.5"
+    assert given == pytest.approx(wait_for(page, PLACE, name=marker))
+    drag_along_x(page, app.scene._handle._handle.scale)
+    wait_until(page, lambda: not app.scene._handle._is_dragged and app.session.can_undo)
+    assert app.session.wait(SOLVE_S)
+    offset = app.session.state.design.alterations.placement("A").offset
+    assert abs(offset[0]) > 0.02
+    assert offset[1:] == pytest.approx((0, 0), abs=1e-6)
+    for name in (HANDLE, marker):
+        wait_for(page, f"Math.abs({PLACE}[0] - a.x) < 1e-4", name=name, x=given[0] + offset[0])
+    fresh = in_a_folder(offset, tmp_path / "elsewhere")
+    expected = solve(prepare(fresh), app.session.state.design.rates, before.conditions)
+    now = app.session.answer.now
+    assert now.modes.frequency_hz == pytest.approx(expected.modes.frequency_hz, rel=1e-9)
+    np.testing.assert_allclose(now.psd, expected.psd, rtol=1e-7, atol=1e-12 * np.abs(now.psd).max())
+    assert not np.allclose(now.psd, before.psd, rtol=0.01)
+    wait_for(page, "document.body.textContent.includes(\"mounts 'A' are moved by\")")
+
+    page.get_by_role("button", name="Undo", exact=True).click()
+    wait_until(page, lambda: app.session.state.design.alterations == Alterations())
+    assert app.session.wait(SOLVE_S)
+    assert not app.session.can_undo
+    assert app.session.answer.now.modes.frequency_hz == pytest.approx(before.modes.frequency_hz)
+    for name in (HANDLE, marker):
+        wait_for(page, f"Math.abs({PLACE}[0] - a.x) < 1e-6", name=name, x=given[0])
+
+
+def test_a_move_is_a_small_message(app, server):
+    with listening(server) as socket:
+        app.session.do(DragMounts("A", Placement((0.05, 0, 0)), 0))
+        assert app.session.wait(SOLVE_S)
+        assert 0 < n_bytes(socket) < 200_000
+    app.session.undo()
+    assert app.session.wait(SOLVE_S)
