@@ -13,6 +13,7 @@ from modeviz.text.axes import Axis
 from modeviz.vehicle.arrays import Floats
 
 BASE, NOW = "var(--mv-base, #98a2ad)", "var(--mv-now, #2b7cc4)"
+PAPER = "var(--mv-paper, #fff)"
 TEXT, GRID = "var(--mv-dim, #5b6670)", "var(--mv-line, #e2e6ea)"
 
 LEFT, RIGHT, TOP, BOTTOM = 62, 14, 30, 44
@@ -45,6 +46,8 @@ class Curve:
     """Which points are marked; the marks say x."""
     dash: Sequence[float] = ()
     """Lengths of dashes and gaps; none is a full line."""
+    points: Sequence[int] = ()
+    """Which points have a ring, with nothing beside it."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +134,7 @@ def _legend(curves: Sequence[Curve]) -> str:
 
 def _marks(frame: _Frame, curves: Sequence[Curve]) -> str:
     """A dot on every peak, and its x beside it where no other is written: the last curve's first."""
-    parts, taken = [], []
+    parts, taken = [_rings(frame, curve) for curve in curves], []
     for curve in reversed(curves):
         peaks = sorted(curve.peaks, key=lambda i: -curve.y[i])
         for value, (x, y) in zip(
@@ -144,6 +147,16 @@ def _marks(frame: _Frame, curves: Sequence[Curve]) -> str:
                 taken.append((x, y))
                 parts.append(_text(x, y - 6, f"{value:.1f}", curve.color, more=HALO))
     return "".join(parts)
+
+
+def _rings(frame: _Frame, curve: Curve) -> str:
+    at = [*curve.points]
+    places = frame.points(curve.x[at], curve.y[at]) if at else ()
+    return "".join(
+        f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2.6" fill="{PAPER}" stroke="{curve.color}"/>'
+        for x, y in places
+        if 0 <= x <= frame.width and 0 <= y <= frame.height
+    )
 
 
 def _text(

@@ -7,6 +7,7 @@ from datetime import date
 import viser
 
 from modeviz.analysis.results import Conditions
+from modeviz.analysis.rubber import dynamic_groups
 from modeviz.compute.threads import one_thread
 from modeviz.errors import ModevizError
 from modeviz.report.comparison import RateSet, compare
@@ -40,6 +41,7 @@ from modeviz.viewer.panels.paths import PathsPanel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
 from modeviz.viewer.panels.rigid.panel import RigidPanel
+from modeviz.viewer.panels.rubber import RubberPanel
 from modeviz.viewer.panels.scatter import ScatterPanel
 from modeviz.viewer.panels.shape import ShapePanel
 from modeviz.viewer.panels.statics import StaticPanel
@@ -236,6 +238,10 @@ class App:
             self._rigid = RigidPanel(gui, session)
         with right.add_tab("Static", viser.Icon.ARROW_BAR_TO_DOWN):
             self._static = StaticPanel(gui, session)
+        self._rubber: RubberPanel | None = None
+        if dynamic_groups(session.vehicle):
+            with right.add_tab("Rubber", viser.Icon.WAVE_SAW_TOOL):
+                self._rubber = RubberPanel(gui, session, dark)
         right.dock_right()
 
         card = gui.add_panel()
@@ -291,6 +297,8 @@ class App:
                 self._energy.show(solved)
                 self._rigid.show(solved)
                 self._static.show(solved)
+                if self._rubber:
+                    self._rubber.show(solved)
                 if self._engine:
                     self._engine.show(solved)
                 if self._forces:

@@ -17,6 +17,7 @@ from modeviz.report.html.forces import forces, paths
 from modeviz.report.html.modes import frequencies, objective, participation, rates
 from modeviz.report.html.ride import levels, spectra
 from modeviz.report.html.rigid import rigid
+from modeviz.report.html.rubber import rubber
 from modeviz.report.html.statics import statics
 from modeviz.report.html.wheels import wheels
 from modeviz.text.markup import change, named_small, section, span
@@ -56,6 +57,7 @@ def report(
             rates(comparison),
             objective(comparison),
             frequencies(comparison),
+            rubber(comparison),
             rigid(comparison),
             forces(comparison),
             paths(comparison),

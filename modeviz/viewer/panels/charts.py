@@ -1,6 +1,6 @@
 """Right column: two charts of responses, and what their colours mean."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from html import escape
 
 import numpy as np
@@ -150,8 +150,13 @@ def curve_labels(vehicle: Vehicle) -> dict[str, ChartCurve]:
 
 def legend(lines: list[Line], solved: Solved) -> str:
     """The sets with their colours, and what excites the vehicle."""
-    swatches = "".join(f'<span class="key">{swatch(line)}{escape(line.label)}</span>' for line in lines)
-    return heading(f'<span class="keyed">{swatches}</span>', excited_by(solved))
+    return heading(keys(lines), excited_by(solved))
+
+
+def keys(lines: Sequence[Line]) -> str:
+    """What lines are called, each beside a sample."""
+    every = (f'<span class="key">{swatch(line)}{escape(line.label)}</span>' for line in lines)
+    return f'<span class="keyed">{"".join(every)}</span>'
 
 
 def swatch(line: Line) -> str:

@@ -14,7 +14,7 @@ from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block, change, heading, row, span, table
-from modeviz.viewer.panels.charts import chart_lines, curve_labels, end_colors, swatch
+from modeviz.viewer.panels.charts import chart_lines, curve_labels, end_colors, keys
 from modeviz.viewer.panels.cursor import Cursor, CursorSlider
 from modeviz.viewer.panels.plots import Line, ResponsePlot, Scale, set_line
 from modeviz.viewer.session.answers import Solved
@@ -103,9 +103,8 @@ class EnginePanel:
         levels: list[Floats],
     ) -> None:
         lines = chart_lines(solved, responses, *self._ends)
-        assign(
-            self._total_legend, content=block(_legend(lines, f"{run.engine.name}, RMS of all orders"))
-        )
+        words = f"{escape(run.engine.name)}, RMS of all orders"
+        assign(self._total_legend, content=block(heading(keys(lines), words)))
         every = np.array([_total(level) for level in levels])
         subject = "all", run.engine.name, solved.state.engine.curve
         self._total.show(subject, scale, lines, PER_MINUTE * run.speed_hz, every, ())
@@ -117,7 +116,7 @@ class EnginePanel:
         lines = [set_line(f"order {o.order:g}", i) for i, o in enumerate(run.engine.orders)]
         before = [Line(line.label, line.color, 1.0, BEFORE) for line in lines]
         words = f"peak, dashed: {escape(solved.state.against)}"
-        assign(self._legend, content=block(_legend(lines, words)))
+        assign(self._legend, content=block(heading(keys(lines), words)))
         both = np.concatenate([base, now], axis=1).T
         highest = float(np.nanmax(scale.quantity.decibels(both), initial=-np.inf))
         subject = run.engine.name, solved.state.engine.curve, highest // 10
@@ -173,11 +172,6 @@ def _shown_rpm(vehicle: Vehicle) -> tuple[float, float]:
 def _total(peaks: Floats) -> Floats:
     """The RMS of all orders, (n_speeds,); nan where none is in the band."""
     return np.where(np.isnan(peaks).all(axis=1), np.nan, orders_rms(peaks))
-
-
-def _legend(lines: list[Line], words: str) -> str:
-    swatches = "".join(f'<span class="key">{swatch(line)}{escape(line.label)}</span>' for line in lines)
-    return heading(f'<span class="keyed">{swatches}</span>', words)
 
 
 def _table_unit(solved: Solved) -> tuple[float, str]:

@@ -11,7 +11,7 @@ from modeviz.mounting.paths import By
 from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import Road
-from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS, Rates
+from modeviz.vehicle.mount_rates import DIRECTIONS, RIDE_DIRECTIONS, Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.design import ORIGINAL, Design, rate_sets
 from modeviz.viewer.session.planning.plan import first_plan
@@ -90,6 +90,8 @@ class Charts:
     paths_by: By = "mount"
     in_vehicle_axes: bool = False
     """Whether forces are told along the vehicle's axes, else the mounts' own."""
+    rubber_direction: str = DIRECTIONS[0]
+    """Along which rates over frequency are drawn, one of `DIRECTIONS`."""
 
     @property
     def reference(self) -> ResponseCurve | None:

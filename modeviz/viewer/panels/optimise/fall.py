@@ -5,7 +5,7 @@ import math
 import numpy as np
 import viser
 
-from modeviz.text.axes import Axis
+from modeviz.text.axes import Axis, round_top
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page.handles import send_together
 from modeviz.viewer.panels.plots import FONT, GRID, NO_TICKS, SET_COLORS
@@ -50,7 +50,7 @@ class FallChart:
         ends = np.full(len(x), look.original), np.full(len(x), look.reference)
         data = tuple(a.astype(np.float32) for a in (x, best, *ends))
         highest = np.nanmax([look.original, look.reference, best[-1]])
-        frame = (Axis("", 0, _room(x[-1])), Axis("", 0, _top(1.05 * highest)))
+        frame = (Axis("", 0, _room(x[-1])), Axis("", 0, round_top(1.05 * highest)))
         axes = self._axes(*frame) if frame != self._frame else {}
         self._frame = frame
         send_together(self._chart, data=data, visible=True, **axes)
@@ -90,9 +90,3 @@ def steps(look: SearchStatus) -> tuple[Floats, Floats]:
 def _room(evaluations: float) -> float:
     """Twice `FIRST` as often as it takes: the axis seldom changes."""
     return FIRST * 2.0 ** max(0, math.ceil(math.log2(max(evaluations, 1) / FIRST)))
-
-
-def _top(value: float) -> float:
-    """The next of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten."""
-    power = 10.0 ** math.floor(math.log10(value)) if value > 0 else 1.0
-    return next(m * power for m in (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12) if m * power >= value)

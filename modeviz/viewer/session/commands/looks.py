@@ -68,6 +68,7 @@ class ChangeCharts(Command):
     path_curve: ResponseCurve | None = None
     paths_by: By | None = None
     in_vehicle_axes: bool | None = None
+    rubber_direction: str | None = None
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         return replace(state, charts=_changed(state.charts, self))
