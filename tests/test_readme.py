@@ -4,18 +4,24 @@ import ast
 import inspect
 import json
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
 import pytest
 from builtin_truck import builtin_truck
+from cabin_problem import PROBLEM
 from engine_on_mounts import limited_engine
+from four_cylinder import on_subframe
+from mounted_cabin import mounted_cabin
 from shared_preparations import shared_preparations
+from two_sheets import joined, mount_stiffness, sheets
 
 import modeviz as mv
 from modeviz.cli import main
 from modeviz.files import builtin_vehicle, read_vehicle, write_vehicle
+from modeviz.files.new_vehicle import new_vehicle
 from modeviz.vehicle.problem import DesignGroup, GoalKind, Performance, Problem
 
 CHECKOUT = Path(__file__).parents[1]
@@ -79,8 +85,12 @@ def keys(value) -> set[str]:
     named = {
         "rates", "kinetic_energy", "strain_energy", "dissipated_energy", "local_axes", "vehicle_axes",
         "transmissibility", "dissipated", "dissipated_w", "by_mount", "by_body", "by_group",
+        "fixed_ratios", "own_modes", "purity", "bodies",
     }  # fmt: skip
-    inner = (keys(list(v.values())) if k in named else keys(v) for k, v in value.items())
+    inner = (
+        keys(list(v.values())) if k in named and isinstance(v, dict) else keys(v)
+        for k, v in value.items()
+    )
     return set(value).union(*inner)
 
 
@@ -98,6 +108,46 @@ def test_json_has_the_keys_that_the_readme_documents(command, capsys: pytest.Cap
     assert main([command, str(builtin_vehicle()), "--json"]) == 0
     printed = keys(json.loads(capsys.readouterr().out))
     assert printed == set(re.findall(r'"(\w+)"', documented + rates))
+
+
+def documented_keys(command: str) -> set[str]:
+    """The names that the README has in the record of a command, and those of rates."""
+    (record,) = re.findall(rf"^{command} +(\{{.*?)(?=^\w|^```)", README, re.DOTALL | re.MULTILINE)
+    (rates,) = re.findall(r"^rates +(\{.*?)^```", README, re.DOTALL | re.MULTILINE)
+    return set(re.findall(r'"(\w+)"', record + rates))
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory) -> Mapping[str, str]:
+    """Folders of small vehicles, by name."""
+    path = tmp_path_factory.mktemp("vehicles")
+    new_vehicle("powertrain", path / "engine")
+    write_vehicle(on_subframe(), path / "subframe")
+    write_vehicle(replace(mounted_cabin(), problems=(PROBLEM,)), path / "cabin")
+    floor, roof = (sheet.body(16) for sheet in sheets())  # without residual vectors
+    write_vehicle(joined(floor, roof, mount_stiffness(0.5)), path / "sheets")
+    return {folder.name: str(folder) for folder in path.iterdir()}
+
+
+@pytest.mark.parametrize(
+    ("command", "arguments", "empty"),
+    [
+        ("rigid", ["subframe"], ["mounts", "point", "miss"]),
+        ("check", ["sheets"], ["file", "key", "words", "line", "left_out"]),
+        ("engine", ["engine"], []),
+        ("optimise", ["cabin", "--starts", "1"], ["bodies", "change", "at_hz", "below_hz", "within"]),
+        ("optimise --front", ["cabin", "lateral against vertical", "--starts", "1"], []),
+        ("scatter", ["cabin", "--samples", "20"], []),
+    ],
+)
+def test_json_of_small_vehicles_has_the_keys_that_the_readme_documents(
+    command, arguments, empty, small, printed_json
+):
+    """All but those of what is null or an empty list here."""
+    name, *option = command.split()
+    printed = keys(printed_json(name, small[arguments[0]], *option, *arguments[1:]))
+    of_rates = {"vertical", "lateral", "fore_aft", "loss_factor"}
+    assert printed - of_rates == documented_keys(command) - of_rates - {*empty}
 
 
 def test_static_json_has_the_keys_that_the_readme_documents(tmp_path, printed_json):

@@ -17,6 +17,8 @@ ALONG_Z = f"""(() => {{
   const [w, x, y, z] = {POSE}.wxyz;
   return [2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z];
 }})()"""
+CELLS = "[...document.querySelectorAll('.mv .axes td')]"
+TRIPLES = rf"{CELLS}.filter((td) => /^\S+ \S+ \S+$/.test(td.innerText))"
 SHOW = """(name) => {
   const enter = new KeyboardEvent("keydown", { key: "Enter", bubbles: true });
   document.querySelector(`[role="tab"][title="${name}"]`).dispatchEvent(enter);
@@ -54,3 +56,9 @@ def test_axes_are_drawn_once_wanted_and_follow_the_rates(app, page):
     now = wait_for(page, f"{POSE}.position", name="elastic centre")
     assert now == pytest.approx(held.center.tolist(), abs=1e-5)
     wait_for(page, GONE, name="focus")
+
+
+def test_on_a_usual_screen_three_numbers_are_one_line(page):
+    page.set_viewport_size({"width": 1440, "height": 900})
+    page.evaluate(SHOW, "Rigid")
+    wait_for(page, f"{TRIPLES}.length >= 6 && {TRIPLES}.every((td) => td.clientHeight < 28)")

@@ -57,7 +57,7 @@ class Binding(Generic[S]):
             typed: whether values are typed, so that only the last of them is meant; with `write_back`.
         """
         self._widget, self._owner, self._read, self._write = widget, owner, read, write
-        self._known = widget.value
+        self._known, self._options = widget.value, self._choices()
         self._write_back, self._typed = write_back, typed
         self._lock = threading.Lock()
         widget.on_update(self._changed)
@@ -87,14 +87,23 @@ class Binding(Generic[S]):
                 self._widget.value = self._known
 
     def show(self) -> None:
-        """Puts the newest state's value on the page, if the widget has another."""
+        """Puts the newest state's value on the page, if the widget has another.
+
+        What a page has just chosen, and `_take` has not seen yet, stays.
+        """
         with self._lock:
-            value = self._read(self._owner.state)
+            value, options = self._read(self._owner.state), self._choices()
             # of a dropdown whose options change viser itself chooses another
-            is_dropdown = isinstance(self._widget, viser.GuiDropdownHandle)
-            if value != (self._widget.value if is_dropdown else self._known):
+            shown = self._known if options == self._options else self._widget.value
+            self._options = options
+            if value != shown:
                 self._known = value
                 self._widget.value = value
+
+    def _choices(self) -> tuple[str, ...]:
+        """The options of a dropdown."""
+        is_dropdown = isinstance(self._widget, viser.GuiDropdownHandle)
+        return tuple(self._widget.options) if is_dropdown else ()
 
 
 def show_all(bindings: Sequence[Binding[Any]]) -> None:

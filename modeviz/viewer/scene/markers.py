@@ -61,7 +61,7 @@ class MountMarker:
     def __init__(self, scene: viser.SceneApi, mount: Mount, group: MountGroup, length: float) -> None:
         """Draws a mount at rest and not selected; the length of its vehicle, m, gives its size."""
         self._length = length
-        self._label_text = _short_name(mount, group)
+        self._label_text = short_name(mount, group)
         self._looks: tuple[float, bool, bool, Color] | None = None
         axes = SO3.from_matrix(mount.axes.T).wxyz
         path = f"/mounts/{mount.name.replace('/', '-')}"
@@ -288,10 +288,17 @@ def card_text(group: MountGroup, rates: MountRates, unit: str, share: float, mod
     return "\n".join(fill(line, CARD_LETTERS, replace_whitespace=False) for line in lines)
 
 
-def _short_name(mount: Mount, group: MountGroup) -> str:
-    """The group's name and the initial of what tells its mounts apart: "C1 L"."""
-    side = mount.name.removeprefix(group.name).strip()
-    return f"{cut(group.name, LABEL_LETTERS)} {side[:1].upper()}".strip()
+def short_name(mount: Mount, group: MountGroup) -> str:
+    """Return a group's name and what tells its mounts apart, the initial if that does: "C1 L".
+
+    Mounts that are not called after their group keep their names.
+    """
+    if len(group.mounts) == 1:
+        return cut(group.name, LABEL_LETTERS)
+    sides = {m.name: m.name.removeprefix(group.name).strip() for m in group.mounts}
+    initials = {side[:1] for name, side in sides.items() if side != name}
+    side = sides[mount.name][:1].upper() if len(initials) == len(sides) else sides[mount.name]
+    return cut(f"{group.name} {side}".strip(), LABEL_LETTERS)
 
 
 def _nearest_to_us(group: MountGroup) -> int:

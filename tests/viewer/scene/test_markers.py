@@ -11,7 +11,13 @@ from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.scene.markers import CARD_LETTERS, Markers, MountMarker, card_text
+from modeviz.viewer.scene.markers import (
+    CARD_LETTERS,
+    Markers,
+    MountMarker,
+    card_text,
+    short_name,
+)
 from modeviz.viewer.scene.stage import LIGHT
 
 BOUNDS = (MountRates(1.0, 1.0, 1.0), MountRates(1e6, 1e6, 1e6))
@@ -53,6 +59,21 @@ def test_card_says_rates_in_the_unit_that_was_chosen():
 
 def test_lone_mount_has_no_side():
     assert card_text(group("C1"), RATES, "N/mm", 0.0, "pitch").splitlines()[0] == "C1  cab front"
+
+
+@pytest.mark.parametrize(
+    ("names", "labels"),
+    [
+        (["C1 left", "C1 right"], ["C1 L", "C1 R"]),
+        (["C1 left", "C1 lower"], ["C1 left", "C1 lower"]),
+        (["front left", "front right"], ["C1 front left", "C1 front right"]),
+        (["gearbox mount"], ["C1"]),
+        (["C1", "C1 other"], ["C1", "C1 O"]),
+    ],
+)
+def test_labels_tell_mounts_apart_by_an_initial_only_if_that_does(names, labels):
+    shown = group(*names)
+    assert [short_name(mount, shown) for mount in shown.mounts] == labels
 
 
 @pytest.fixture

@@ -32,7 +32,7 @@ def axes_content(solved: Solved) -> str:
         *_focus(axes),
     ]
     held, mounted = axis_rows(axes.held, DECIMALS), axis_rows(axes.mounted, DECIMALS)
-    rows = [row([_label(name), escape(held[name]), escape(mounted[name])]) for name in held]
+    rows = [row([_label(name), _numbers(held[name]), _numbers(mounted[name])]) for name in held]
     return (
         heading("Axes and centres", "x, y, z") + table((), free, "axes") + table(HEADER, rows, "axes")
     )
@@ -51,6 +51,11 @@ def _label(name: str) -> str:
     words = name.strip()
     text = escape(words[:1].upper() + words[1:])
     return (_swatch(COLORS[name]) if name in COLORS else "") + text
+
+
+def _numbers(text: str) -> str:
+    """Numbers of a row, a rate on a line below its direction."""
+    return escape(text).replace(": ", "<br>")
 
 
 def _swatch(color: Color) -> str:
