@@ -14,6 +14,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from modeviz.dynamics.held_springs import held_rows
 from modeviz.dynamics.mount_rates import mount_stiffness, rows_of_springs
 from modeviz.dynamics.rigid_joints import RigidJoints, rigid_joints
 from modeviz.dynamics.spring_law import spring_law
@@ -197,6 +198,7 @@ def assemble(vehicle: Vehicle) -> System:
     if not vehicle.all_connections:
         return bare
     R = np.vstack([bare.relative_motion(c) for c in vehicle.all_connections])
+    R[held_rows(vehicle, R)] = 0.0
     k, c, g = all_coefficients(vehicle)
     held = is_rigid(vehicle)
     joints = rigid_joints(M, R[held]) if held.any() else None

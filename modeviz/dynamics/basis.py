@@ -137,7 +137,8 @@ def prepare_basis(system: System, top_hz: float = TOP_HZ) -> EnrichedBasis:
 
 def _orthonormal(first: Floats, more: Floats) -> Floats:
     """Orthonormal columns: `first`, which are so already, and what `more` adds to them."""
-    more = more / np.linalg.norm(more, axis=0)
+    given = np.linalg.norm(more, axis=0)
+    more = more[:, given > 0] / given[given > 0]
     for _ in range(2):
         more = more - first @ (first.T @ more)
     size = np.linalg.norm(more, axis=0)
