@@ -38,6 +38,8 @@ from modeviz.study.static import StaticResults as StaticResults
 from modeviz.study.study import Study as Study
 from modeviz.study.trade_off import FrontResult as FrontResult
 from modeviz.study.wheels import WheelRide as WheelRide
+from modeviz.vehicle.absorber import Absorber as Absorber
+from modeviz.vehicle.absorbers import with_absorbers as with_absorbers
 from modeviz.vehicle.bodies import AddedMass as AddedMass
 from modeviz.vehicle.bodies import Attachment as Attachment
 from modeviz.vehicle.bodies import FlexibleBody as FlexibleBody

@@ -13,6 +13,7 @@ from modeviz.mounting.purity import Purity, direction_energy, sorted_modes
 from modeviz.mounting.rigid_part import RigidPart, rigid_parts
 from modeviz.mounting.stiffness import held_bodies, mounted_bodies
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import LIGHT_ROLES
 from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.decoupling import Axes, Decoupling
 from modeviz.vehicle.vehicle import Vehicle
@@ -139,6 +140,6 @@ def usual_body(vehicle: Vehicle) -> str:
 
 
 def main_bodies(vehicle: Vehicle) -> tuple[str, ...]:
-    """Return the names of the bodies that are neither linkages nor wheels, or of all if all are."""
-    names = tuple(b.name for b in vehicle.bodies if b.role not in ("linkage", "unsprung"))
+    """Return the names of the bodies that are neither light parts nor wheels, or of all if all are."""
+    names = tuple(b.name for b in vehicle.bodies if b.role not in (*LIGHT_ROLES, "unsprung"))
     return names or tuple(body.name for body in vehicle.bodies)

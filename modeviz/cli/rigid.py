@@ -22,7 +22,7 @@ class RigidOptions(VehicleOptions, JsonOptions):
 
     axes: Axes = "vehicle"
     body: tuple[str, ...] = ()
-    """Names of bodies; none: those that are neither linkages nor wheels, with `json` all."""
+    """Names of bodies; none: those that are no linkages, absorbers or wheels, with `json` all."""
     up_to: float | None = None
     """Hz: to where modes are looked for, if beyond the vehicle's band."""
 
@@ -52,7 +52,7 @@ def _add_options(command: ArgumentParser) -> None:
         "--body",
         action="append",
         metavar="NAME",
-        help="a body; may be repeated (default: all that are neither linkages nor wheels)",
+        help="a body; may be repeated (default: all that are no linkages, absorbers or wheels)",
     )
     command.add_argument(
         "--up-to",

@@ -26,9 +26,10 @@ STAND_INS: Mapping[str, float] = {"damping_ratio": 0.0, "loss_factor": 0.0}
 
 TABLES: Mapping[str, tuple[str, ...]] = {
     "body": ("flexible_body", "rigid_body"),
-    "connection": (*CONNECTION_KINDS, "mount_group"),
-    "mount group": ("mount_group",),
+    "connection": (*CONNECTION_KINDS, "mount_group", "absorber"),
+    "mount group": ("mount_group", "absorber"),
     "added mass": ("added_mass",),
+    "absorber": ("absorber",),
     "response point": ("response_point",),
     "random load": ("road", "force", "base_motion"),
     "harmonic load": ("wheel_load", "force", "base_motion"),

@@ -21,6 +21,7 @@ from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
 from modeviz.files.own_tables import with_tables
 from modeviz.files.rate_tables import write_rate_table
+from modeviz.files.records.absorbers import AbsorberRecord
 from modeviz.files.records.bodies import AddedMassRecord, FlexibleBodyRecord, RigidBodyRecord
 from modeviz.files.records.connections import (
     ConnectionRecord,
@@ -54,6 +55,7 @@ from modeviz.files.spectra import write_spectrum
 from modeviz.files.toml_reader import in_si, tables_of
 from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
+from modeviz.vehicle.absorber_parts import absorbers_of
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.connections import Bolt, Damper, Rod, Spring
 from modeviz.vehicle.doubts import doubts
@@ -195,10 +197,17 @@ def _write_content(vehicle: Vehicle, folder: Path) -> None:
 
 def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
     """The content of the vehicle's file, with the files it names written."""
+    absorbers = absorbers_of(vehicle)
+    masses = {absorber.body_name for absorber in absorbers}
+    guides = {absorber.guide_name for absorber in absorbers}
+    springs = {absorber.name for absorber in absorbers}
+    bodies = [body for body in vehicle.bodies if body.name not in masses]
+    connections = [c for c in vehicle.connections if c.name not in guides]
+    mount_groups = tuple(g for g in vehicle.mount_groups if g.name not in springs)
     stems = file_stems(body.name for body in vehicle.bodies)
     spectra = _spectrum_files(vehicle, folder)
-    flexible = [b for b in vehicle.bodies if isinstance(b, FlexibleBody)]
-    rigid = [b for b in vehicle.bodies if isinstance(b, RigidBody)]
+    flexible = [b for b in bodies if isinstance(b, FlexibleBody)]
+    rigid = [b for b in bodies if isinstance(b, RigidBody)]
     return VehicleRecord(
         units=_units(vehicle),
         name=vehicle.name,
@@ -208,11 +217,12 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         flexible_body=[_record_of_flexible(b, stems[b.name], folder) for b in flexible],
         rigid_body=[RigidBodyRecord.of(b, _mesh_file(b, stems[b.name], folder)) for b in rigid],
         added_mass=[AddedMassRecord.of(m) for m in vehicle.added_masses],
-        mount_group=_group_records(vehicle.mount_groups, folder),
-        spring=[JointRecord.of(c) for c in vehicle.connections if type(c) is Spring],
-        rod=[RodRecord.of(c) for c in vehicle.connections if isinstance(c, Rod)],
-        bolt=[JointRecord.of(c) for c in vehicle.connections if type(c) is Bolt],
-        damper=[ConnectionRecord.of(c) for c in vehicle.connections if type(c) is Damper],
+        absorber=[AbsorberRecord.of(absorber) for absorber in absorbers],
+        mount_group=_group_records(mount_groups, folder),
+        spring=[JointRecord.of(c) for c in connections if type(c) is Spring],
+        rod=[RodRecord.of(c) for c in connections if isinstance(c, Rod)],
+        bolt=[JointRecord.of(c) for c in connections if type(c) is Bolt],
+        damper=[ConnectionRecord.of(c) for c in connections if type(c) is Damper],
         tyre=[TyreRecord.of(c) for c in vehicle.tyres],
         response_point=[ResponsePointRecord.of(p) for p in vehicle.response_points],
         road=_road_records(vehicle.roads, folder),

@@ -15,7 +15,7 @@ from modeviz.dynamics.spring_law import constant_law
 from modeviz.errors import SolveError
 from modeviz.mounting.rigid_part import RigidPart, rigid_parts
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import Body, Role
+from modeviz.vehicle.bodies import LIGHT_ROLES, Body, Role
 from modeviz.vehicle.connections import GROUND, MOTIONS, Connection
 from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
@@ -109,13 +109,13 @@ def _held(system: System, part: RigidPart) -> HeldBody:
 def holding(vehicle: Vehicle, body: Body) -> NDArray[np.bool_]:
     """Return which of all connections hold a body, (n_connections,).
 
-    What joins it to a linkage, such as a propshaft, does not, for that goes along with it; unless
-    nothing else holds it, or it is a linkage itself.
+    What joins it to a linkage, such as a propshaft, or to an absorber does not, for these go along
+    with it; unless nothing else holds it, or it is such a body itself.
     """
     others = [_other_end(vehicle, c, body) for c in vehicle.all_connections]
     joined = np.array([other is not None for other in others], bool)
-    firm = np.array([other not in (None, "linkage") for other in others], bool)
-    return firm if firm.any() and body.role != "linkage" else joined
+    firm = np.array([other not in (None, *LIGHT_ROLES) for other in others], bool)
+    return firm if firm.any() and body.role not in LIGHT_ROLES else joined
 
 
 def _other_end(vehicle: Vehicle, connection: Connection, body: Body) -> Role | None:

@@ -5,6 +5,9 @@ from os import PathLike
 from pathlib import Path
 from typing import get_args
 
+import numpy as np
+
+from modeviz.analysis.absorbers import tuned_absorber
 from modeviz.analysis.engine_results import solve_engine
 from modeviz.analysis.forces import LoadedForces
 from modeviz.analysis.modal_results import solve_modal
@@ -28,6 +31,7 @@ from modeviz.study.conditions import has_ride, need, road_conditions
 from modeviz.study.engine import EngineRide
 from modeviz.study.forces import MountForces, loaded_forces
 from modeviz.study.modes import ModesTable
+from modeviz.study.names import number_of
 from modeviz.study.notebook import block, paragraphs
 from modeviz.study.optimum import OptimiseResult
 from modeviz.study.output import StudyOutput
@@ -43,6 +47,7 @@ from modeviz.study.telling import Tell, cancelled_by_ctrl_c, say_nothing
 from modeviz.study.trade_off import FrontResult
 from modeviz.study.tuned_vehicle import TunedVehicle
 from modeviz.study.wheels import WheelRide
+from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.decoupling import Axes
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
@@ -146,6 +151,37 @@ class Study(StudyOutput):
             raise ModevizError(unknown("axes", axes, get_args(Axes)))
         results = solve_modal(self._tuned.prepared_modes(below), self.rates.by_group)
         return RigidBodies(results, axes, rigid_figures(results, axes))
+
+    @one_thread()
+    def tuned_absorber(
+        self,
+        name: str,
+        body: str,
+        position: tuple[float, float, float],
+        mass: float,
+        *,
+        mode: str,
+        directions: tuple[str, ...] = ("vertical",),
+    ) -> Absorber:
+        """Return an absorber tuned to a mode with the present rates, for `with_absorbers`.
+
+        By J. P. Den Hartog's formulas for the mass that moves in the mode where it sits.
+
+        Args:
+            name: of the absorber.
+            body: what it is to sit on.
+            position: where, m.
+            mass: kg.
+            mode: the name of the mode.
+            directions: along which it moves: some of "vertical", "lateral", "fore-aft".
+
+        Raises:
+            VehicleError: there is no such mode or body, or the mode does not move the body there.
+        """
+        results = solve_modal(self._tuned.prepared_modes(), self.rates.by_group)
+        number = number_of("mode", mode, (found.name for found in results.names))
+        place = np.array(position, float)
+        return tuned_absorber(results, number, name, body, place, mass, directions)
 
     @one_thread()
     def ride(self, road: str | None = None) -> Ride:

@@ -12,13 +12,17 @@ from modeviz.vehicle.inertia import impossible
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.rigid_fit import RigidFit, fit_rigid
 
-Role = Literal["cabin", "frame", "bed", "powertrain", "unsprung", "linkage", "other"]
+Role = Literal["cabin", "frame", "bed", "powertrain", "unsprung", "linkage", "absorber", "other"]
 """What a body is in the vehicle; modes are named from it.
 
 cabin: where people sit and what is rigidly joined to it. frame: the structure everything hangs on.
 bed: the load carrier. powertrain: engine and transmission. unsprung: moves with the wheels.
-linkage: light parts between the others. other: nothing of these.
+linkage: light parts between the others. absorber: a mass on a spring that is there for a mode of what
+it sits on. other: nothing of these.
 """
+
+LIGHT_ROLES: tuple[Role, ...] = ("linkage", "absorber")
+"""Those of bodies that go along with others, and hold none."""
 
 
 FURTHEST_VERTEX = 1e5

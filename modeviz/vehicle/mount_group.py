@@ -65,7 +65,7 @@ class MountGroup:
                 f"mount group {self.name!r}: found a loss factor in its rates or bounds, expected it "
                 "as the group's own"
             )
-        check_bounds(f"mount group {self.name!r}", self.bounds)
+        check_bounds(f"mount group {self.name!r}", self.bounds, may_be_same=True)
         if self.ratio_limits is not None and not 0 <= self.ratio_limits[0] < self.ratio_limits[1]:
             raise VehicleError(
                 f"mount group {self.name!r}: ratio_limits: found {self.ratio_limits}, expected the "

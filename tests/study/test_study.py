@@ -342,3 +342,17 @@ def test_a_vehicle_and_a_problem_are_written_and_read_by_paths_in_words(tmp_path
     assert mv.read_vehicle(folder).rates == vehicle.rates
     file.write_text(problem_text(vehicle.problems[0]), encoding="utf-8")
     assert mv.read_problem(str(file), vehicle).name == vehicle.problems[0].name
+
+
+def test_an_absorber_is_tuned_to_a_mode_and_becomes_a_group_of_the_study():
+    study = cabin_study()
+    f = study.modes()["cab lateral"].frequency_hz
+    roof = study.tuned_absorber(
+        "roof", "cab", (0.2, 0, 1.4), 5.0, mode="cab lateral", directions=("lateral",)
+    )
+    assert 0.8 * f < roof.frequency_hz < f
+    tuned = mv.Study(mv.with_absorbers(study.vehicle, [roof]))
+    assert tuned.rates["roof.lateral"] == pytest.approx(5.0 * (2 * np.pi * roof.frequency_hz) ** 2)
+    assert "roof lateral" in tuned.modes().names
+    with pytest.raises(VehicleError, match="unknown mode 'cab roll over'"):
+        study.tuned_absorber("roof", "cab", (0.2, 0, 1.4), 5.0, mode="cab roll over")

@@ -6,8 +6,9 @@ from typing import Annotated, Any, Self
 import msgspec
 import numpy as np
 
-from modeviz.errors import at_key
+from modeviz.errors import at_key, check_unique
 from modeviz.files.limits import check_size
+from modeviz.files.records.absorbers import AbsorberRecord
 from modeviz.files.records.bodies import AddedMassRecord, FlexibleBodyRecord, RigidBodyRecord
 from modeviz.files.records.connections import (
     ConnectionRecord,
@@ -37,6 +38,8 @@ from modeviz.files.records.rates import RateSetRecord
 from modeviz.files.records.record import FileRecord, Record, built, tuples
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
+from modeviz.vehicle.absorber_parts import absorber_guide, absorber_mass, absorber_spring
+from modeviz.vehicle.absorbers import on_attachment, put_in_place
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 from modeviz.vehicle.connections import (
     Bolt,
@@ -119,6 +122,7 @@ class VehicleRecord(FileRecord, kw_only=True):
     flexible_body: list[FlexibleBodyRecord] = msgspec.field(default_factory=list)
     rigid_body: list[RigidBodyRecord] = msgspec.field(default_factory=list)
     added_mass: list[AddedMassRecord] = msgspec.field(default_factory=list)
+    absorber: list[AbsorberRecord] = msgspec.field(default_factory=list)
     mount_group: list[MountGroupRecord] = msgspec.field(default_factory=list)
     spring: list[JointRecord] = msgspec.field(default_factory=list)
     rod: list[RodRecord] = msgspec.field(default_factory=list)
@@ -145,10 +149,14 @@ class VehicleRecord(FileRecord, kw_only=True):
         def known(record: FlexibleBodyRecord | RigidBodyRecord) -> Any:
             return source.once(msgspec.json.encode(record), lambda: record.build(source))
 
+        absorbers = built(self.absorber, "absorber", AbsorberRecord.build)
+        check_unique("absorber", (absorber.name for absorber in absorbers))
         flexible: tuple[FlexibleBody, ...] = built(self.flexible_body, "flexible_body", known)
         rigid: tuple[RigidBody, ...] = built(self.rigid_body, "rigid_body", known)
-        n_coordinates = sum(body.n_modes for body in flexible) + 6 * len(rigid)
+        n_coordinates = sum(body.n_modes for body in flexible) + 6 * len((*rigid, *absorbers))
         check_size(COORDINATES, n_coordinates, MOST_COORDINATES)
+        by_name = {body.name: body for body in (*flexible, *rigid, *source.stand_ins)}
+        near = [on_attachment(a, by_name[a.body]) if a.body in by_name else a for a in absorbers]
         connections = [
             built(getattr(self, key), key, lambda r, kind=kind: r.build(kind))
             for key, kind in CONNECTION_KINDS.items()
@@ -157,14 +165,16 @@ class VehicleRecord(FileRecord, kw_only=True):
         roads = built(self.road, "road", lambda r: r.build(source, track_width(tyres)))
         forces = built(self.force, "force", lambda r: r.build(source))
         base_motions = built(self.base_motion, "base_motion", lambda r: r.build(source))
-        by_name = {body.name: body for body in (*flexible, *rigid, *source.stand_ins)}
         engines = built(self.engine, "engine", lambda r: r.build(source, by_name))
         source.check_lines()
-        return Vehicle(
+        vehicle = Vehicle(
             name=self.name,
-            bodies=(*flexible, *rigid, *source.stand_ins),
-            connections=tuple(chain(*connections)),
-            mount_groups=built(self.mount_group, "mount_group", lambda r: r.build(source)),
+            bodies=(*flexible, *rigid, *source.stand_ins, *map(absorber_mass, near)),
+            connections=(*chain(*connections), *map(absorber_guide, near)),
+            mount_groups=(
+                *built(self.mount_group, "mount_group", lambda r: r.build(source)),
+                *map(absorber_spring, near),
+            ),
             added_masses=built(self.added_mass, "added_mass", AddedMassRecord.build),
             response_points=built(self.response_point, "response_point", ResponsePointRecord.build),
             roads=roads,
@@ -184,6 +194,7 @@ class VehicleRecord(FileRecord, kw_only=True):
             engines=engines,
             load_cases=built(self.load_case, "load_case", LoadCaseRecord.build),
         )
+        return put_in_place(vehicle, absorbers)
 
     def _decoupling(self) -> Decoupling:
         if self.decoupling is None:
@@ -197,6 +208,6 @@ class VehicleRecord(FileRecord, kw_only=True):
             tables = getattr(self, key)
             if isinstance(tables, list):
                 check_size(f"tables [[{key}]]", len(tables), MOST_TABLES)
-        check_size("bodies", len(self.rigid_body) + len(self.flexible_body), MOST_BODIES)
+        check_size("bodies", len((*self.rigid_body, *self.flexible_body, *self.absorber)), MOST_BODIES)
         check_size("mounts", sum(len(group.mount) for group in self.mount_group), MOST_TABLES)
-        check_size(COORDINATES, 6 * len(self.rigid_body), MOST_COORDINATES)
+        check_size(COORDINATES, 6 * len((*self.rigid_body, *self.absorber)), MOST_COORDINATES)

@@ -1,0 +1,55 @@
+"""The table of `vehicle.toml` that is an absorber, in SI."""
+
+from typing import Annotated, Self
+
+import numpy as np
+
+from modeviz.files.records.fields import Frequency, Mass, Name, Position, Ratio
+from modeviz.files.records.record import Record, said
+from modeviz.files.schema.quantities import FixedUnit
+from modeviz.vehicle.absorber import Absorber
+
+
+class AbsorberRecord(Record, kw_only=True):
+    """[[absorber]]."""
+
+    name: Name
+    body: str
+    at: Position
+    mass: Mass
+    frequency: Frequency
+    """Hz, of the mass on its spring, were the body still."""
+    damping_ratio: Ratio = 0.0
+    loss_factor: Ratio = 0.0
+    directions: tuple[str, ...] = ("vertical",)
+    frequency_range: Annotated[tuple[float, float], FixedUnit("Hz")] | None = None
+    """Within which it can be tuned; half its frequency to twice it, if not given."""
+
+    @classmethod
+    def of(cls, absorber: Absorber) -> Self:
+        fields = {
+            "name": absorber.name,
+            "body": absorber.body,
+            "at": absorber.position,
+            "mass": absorber.mass,
+            "frequency": absorber.frequency_hz,
+            "damping_ratio": absorber.damping_ratio,
+            "loss_factor": absorber.loss_factor,
+            "directions": absorber.directions,
+            "frequency_range": absorber.frequency_range,
+        }
+        return cls(**said(cls, fields))
+
+    def build(self) -> Absorber:
+        x, y, z = np.array(self.at).tolist()
+        return Absorber(
+            self.name,
+            self.body,
+            (x, y, z),
+            self.mass,
+            self.frequency,
+            self.damping_ratio,
+            self.loss_factor,
+            self.directions,
+            frequency_range=self.frequency_range,
+        )

@@ -1,0 +1,125 @@
+"""[[absorber]] of a vehicle folder."""
+
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.dynamics.assembly import assemble
+from modeviz.errors import VehicleError
+from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files.survey import survey
+from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorber_parts import absorbers_of
+from modeviz.vehicle.absorbers import with_absorbers
+from modeviz.vehicle.mount_rates import MountRates
+
+ROOF = Absorber("roof", "cab", (1.0, 0.2, 1.4), 6.0, 12.0, 0.1)
+ROLL = Absorber(
+    "roll",
+    "chassis",
+    (1.0, 0.5, 0.4),
+    9.0,
+    7.0,
+    0.0,
+    0.2,
+    ("lateral", "fore-aft"),
+    frequency_range=(5.0, 9.0),
+)  # fmt: skip
+TABLE = """
+[[absorber]]
+name = "roof"
+body = "cab"
+at = [1.0, 0.2, 1.4]
+mass = 6
+frequency = 12
+damping_ratio = 0.1
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    write_vehicle(mounted_cabin(), tmp_path / "cabin")
+    return tmp_path / "cabin"
+
+
+def add(folder, table):
+    file = folder / "vehicle.toml"
+    file.write_text(file.read_text("utf-8") + table, "utf-8")
+
+
+def test_a_table_gives_the_parts_that_python_gives(folder):
+    add(folder, TABLE)
+    read, made = read_vehicle(folder), with_absorbers(mounted_cabin(), [ROOF])
+    for name in ("mass", "stiffness", "damping", "structural_damping"):
+        np.testing.assert_allclose(
+            getattr(assemble(read), name), getattr(assemble(made), name), rtol=1e-12, atol=1e-12
+        )
+    assert [body.role for body in read.bodies] == ["cabin", "unsprung", "absorber"]
+
+
+def test_a_vehicle_is_written_with_tables_of_its_absorbers_as_they_are_tuned(tmp_path):
+    made = with_absorbers(mounted_cabin(), [ROOF, ROLL])
+    stiffer = replace(made.rates["roof"], vertical=1.5 * made.rates["roof"].vertical)
+    made = made.with_rates({"roof": stiffer})
+    write_vehicle(made, tmp_path / "v")
+    tables = tomllib.loads((tmp_path / "v" / "vehicle.toml").read_text("utf-8"))
+    assert [table["name"] for table in tables["absorber"]] == ["roof", "roll"]
+    assert tables["absorber"][0]["frequency"] == pytest.approx(12.0 * np.sqrt(1.5))
+    assert tables["absorber"][0]["frequency_range"] == pytest.approx([6.0, 24.0])
+    assert "directions" not in tables["absorber"][0]
+    assert tables["absorber"][1]["directions"] == ["lateral", "fore-aft"]
+    assert [table["name"] for table in tables["rigid_body"]] == ["cab", "chassis"]
+    read = read_vehicle(tmp_path / "v")
+    for name in ("mass", "stiffness", "damping", "structural_damping"):
+        np.testing.assert_allclose(
+            getattr(assemble(read), name), getattr(assemble(made), name), rtol=1e-12, atol=1e-12
+        )
+
+
+def test_what_one_table_does_not_say_is_written_as_parts(tmp_path):
+    made = with_absorbers(mounted_cabin(), [replace(ROOF, directions=("vertical", "lateral"))])
+    uneven = made.with_rates({"roof": MountRates(3e4, 4e4, 0.0)})
+    assert absorbers_of(made)
+    assert not absorbers_of(uneven)
+    write_vehicle(uneven, tmp_path / "v")
+    read = read_vehicle(tmp_path / "v")
+    assert read.rates["roof"] == uneven.rates["roof"]
+    assert read.body("roof mass").role == "absorber"
+    np.testing.assert_allclose(assemble(read).stiffness, assemble(uneven).stiffness, rtol=1e-12)
+
+
+def test_sets_of_rates_and_problems_know_its_group(folder):
+    set_of_it = "[rates.softer.roof]\nvertical = 9000\nlateral = 0\nfore_aft = 0\n"
+    add(folder, TABLE + set_of_it)
+    assert read_vehicle(folder).rate_sets["softer"]["roof"].vertical == 9e6
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "key", "words"),
+    [
+        ("mass = 6", "mass = -6", "absorber[0].mass", "found -6, expected a number above zero"),
+        ('body = "cab"', 'body = "cap"', "absorber[0]", "unknown body 'cap': did you mean 'cab'?"),
+        ("mass = 6\n", "", "absorber[0].mass", "missing"),
+        (
+            "frequency = 12",
+            "frequency = 0",
+            "absorber[0].frequency",
+            "found 0, expected a number above zero",
+        ),
+        ("mass = 6", 'mass = 6\ndirections = ["up"]', "absorber[0]", "unknown direction 'up'"),
+        ("mass = 6", "mass = 6\nfrequency_range = [9, 3]", "absorber[0]", "found 9 to 3 Hz"),
+        ('name = "roof"', 'name = "A"', "absorber[0]", "there twice"),
+    ],
+)
+def test_what_is_wrong_with_a_table_is_said_at_its_key(folder, old, new, key, words):
+    assert old in TABLE
+    add(folder, TABLE.replace(old, new))
+    with pytest.raises(VehicleError) as caught:
+        read_vehicle(folder)
+    assert words in str(caught.value)
+    (problem,) = survey(folder).problems
+    assert problem.key.startswith(key)
+    assert words in problem.words
