@@ -50,7 +50,15 @@ def test_what_else_a_study_is_asked_for_is_there():
                 signature = inspect.signature(getattr(mv.Study, name))
                 signature.bind(None, *call.args, **dict.fromkeys(keywords))
                 names.append(name)
-    assert sorted(names) == ["export", "optimise", "render", "report", "scatter", "show"]
+    assert sorted(names) == [
+        "export",
+        "optimise",
+        "render",
+        "report",
+        "scatter",
+        "show",
+        "tuned_absorber",
+    ]
 
 
 def test_the_problem_it_shows_is_read_and_says_what_is_so_anyway(tmp_path: Path):
