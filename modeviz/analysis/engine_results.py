@@ -32,6 +32,8 @@ class EngineResults:
     engine: Engine
     speed_hz: Floats
     """(n_speeds,), revolutions of the crank per second."""
+    in_band: NDArray[np.bool_]
+    """(n_speeds, n_orders): whether an order's frequency is in the vehicle's band."""
     acceleration_g: Floats
     """(n_speeds, n_orders, n_points, 3): peak x, y, z of each order, g; nan beyond the band."""
     force: Complexes
@@ -58,11 +60,6 @@ class EngineResults:
     def idle(self) -> int:
         """Which of the speeds is idle, or closest to it."""
         return int(np.argmin(np.abs(self.speed_hz - self.engine.idle_hz)))
-
-    @property
-    def in_band(self) -> NDArray[np.bool_]:
-        """(n_speeds, n_orders): whether an order's frequency is in the vehicle's band."""
-        return ~np.isnan(self.force).any(axis=(2, 3))
 
 
 def orders_rms(peaks: Floats) -> Floats:
@@ -98,7 +95,7 @@ class RunningEngine:
                 spectra = input_spectra(order, f, under.speed)
                 passed = mount_forces(under, stiffness, f, spectra, is_random=False)
                 force[inside, number] = passed.force[..., 0]
-        return EngineResults(self.engine, self.speed_hz, acceleration, force, vehicle)
+        return EngineResults(self.engine, self.speed_hz, self.in_band, acceleration, force, vehicle)
 
 
 def running_engine(prepared: Prepared, engine: Engine, speed_hz: Floats | None = None) -> RunningEngine:

@@ -20,11 +20,11 @@ class EngineOptions(VehicleOptions, JsonOptions):
 
 
 def print_engine(options: EngineOptions) -> None:
-    """Prints the response to an engine's orders at idle and over its speed."""
+    """Prints what an engine's orders do at points and mounts, at idle and over its speed."""
     check_printable()
     vehicle, rates = options.read()
     need(vehicle, "engine", vehicle.engines)
-    need(vehicle, "response point", vehicle.response_points)
+    need(vehicle, "response point", (*vehicle.response_points, *vehicle.mounts))
     engine = vehicle.engines[0] if options.engine is None else vehicle.engine(options.engine)
     results = solve_engine(prepare_telling(vehicle), rates, engine)
     print_result((engine_record if options.json else engine_table)(vehicle.with_rates(rates), results))
@@ -38,7 +38,7 @@ def _add_options(command: ArgumentParser) -> None:
 
 ENGINE = Command(
     "engine",
-    "response to the orders of a running engine, at idle and over its speed",
+    "response to the orders of a running engine, and forces of mounts, at idle and over its speed",
     EngineOptions,
     _add_options,
     print_engine,

@@ -7,6 +7,7 @@ from modeviz.analysis.results import AXIS
 from modeviz.errors import listed
 from modeviz.report.records import Record, rates_record
 from modeviz.report.tables import table
+from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 MOST_SPEEDS = 16
@@ -14,14 +15,18 @@ MOST_SPEEDS = 16
 
 PER_MINUTE = 60
 
+ALONG = MOTIONS[:3]
+"""The motions in which forces of mounts are told."""
+
 
 def engine_record(vehicle: Vehicle, results: EngineResults) -> Record:
-    """The accelerations under an engine's orders.
+    """The accelerations and forces of mounts under an engine's orders.
 
     `{"vehicle", "rates": see rates_record, "engine", "idle_rpm", "speeds_rpm": [...], "orders":
     [{"order", "responses": [{"point", "direction", "acceleration_g": [...peak at each speed, null
-    beyond the band]}]}], "rms": [{"point", "direction", "acceleration_g": [...at each speed, of all
-    orders]}]}`.
+    beyond the band]}], "forces": [{"mount", "motion": "x", "force_n": likewise, along its own axis}]}],
+    "rms": [{"point", "direction", "acceleration_g": [...at each speed, of all orders]}], "force_rms":
+    [{"mount", "motion", "force_n": likewise}]}`.
 
     Args:
         vehicle: with the mount rates.
@@ -31,6 +36,11 @@ def engine_record(vehicle: Vehicle, results: EngineResults) -> Record:
         (i, axis, {"point": point.name, "direction": direction})
         for i, point in enumerate(vehicle.response_points)
         for direction, axis in AXIS.items()
+    ]
+    mounts = [
+        (i, axis, {"mount": mount.name, "motion": motion})
+        for i, mount in enumerate(vehicle.mounts)
+        for axis, motion in enumerate(ALONG)
     ]
     return {
         "vehicle": vehicle.name,
@@ -45,11 +55,18 @@ def engine_record(vehicle: Vehicle, results: EngineResults) -> Record:
                     {**place, "acceleration_g": _values(results.acceleration_g[:, number, i, axis])}
                     for i, axis, place in places
                 ],
+                "forces": [
+                    {**place, "force_n": _values(np.abs(results.force[:, number, i, axis]))}
+                    for i, axis, place in mounts
+                ],
             }
             for number, order in enumerate(results.engine.orders)
         ],
         "rms": [
             {**place, "acceleration_g": results.rms[:, i, axis].tolist()} for i, axis, place in places
+        ],
+        "force_rms": [
+            {**place, "force_n": results.force_rms[:, i, axis].tolist()} for i, axis, place in mounts
         ],
     }
 
@@ -59,17 +76,43 @@ def _values(peaks: np.ndarray) -> list[float | None]:
 
 
 def engine_table(vehicle: Vehicle, results: EngineResults) -> str:
-    """The orders at idle, then the RMS of all over speed; arguments as of `engine_record`."""
-    parts = [_idle_table(vehicle, results), *_beyond(vehicle, results)]
-    if len(results.speed_hz) > 1:
-        parts.append(_speed_table(vehicle, results))
-    return "\n\n".join(parts)
+    """The orders at idle and the RMS of all over speed at points, then forces of mounts.
+
+    Arguments as of `engine_record`.
+    """
+    parts = []
+    if vehicle.response_points:
+        parts.append(_idle_table(vehicle, results))
+        if len(results.speed_hz) > 1:
+            parts.append(_speed_table(vehicle, results))
+    if vehicle.mounts:
+        header = [f"RMS of all orders, N, along its own axes, {_idle(results)}", *force_columns()]
+        parts.append(table(header, force_rows(results)))
+    return "\n\n".join([*parts, *_beyond(vehicle, results)])
+
+
+def _idle(results: EngineResults) -> str:
+    return f"at {PER_MINUTE * results.speed_hz[results.idle]:.4g} rpm"
 
 
 def _idle_table(vehicle: Vehicle, results: EngineResults) -> str:
-    speed = PER_MINUTE * results.speed_hz[results.idle]
-    what = f"{results.engine.name} at {speed:.4g} rpm: peak, 0.001 g"
+    what = f"{results.engine.name} {_idle(results)}: peak, 0.001 g"
     return table([what, "Hz", *_places(vehicle)], order_rows(results))
+
+
+def force_columns() -> list[str]:
+    """The header of `force_rows` but for its first column."""
+    return [*ALONG, *(f"largest {motion}" for motion in ALONG)]
+
+
+def force_rows(results: EngineResults) -> list[list[str]]:
+    """The RMS of the force of each mount under all orders at idle, and its largest at any speed, N."""
+    rms = results.force_rms[..., : len(ALONG)]
+    both = np.hstack([rms[results.idle], rms.max(axis=0)])
+    return [
+        [mount.name, *(f"{value:.2f}" for value in row)]
+        for mount, row in zip(results.vehicle.mounts, both.tolist(), strict=True)
+    ]
 
 
 def order_rows(results: EngineResults) -> list[list[str]]:
@@ -103,7 +146,7 @@ def _places(vehicle: Vehicle) -> list[str]:
 
 def _beyond(vehicle: Vehicle, results: EngineResults) -> list[str]:
     """A sentence on orders that leave the band, if some do."""
-    is_beyond = np.isnan(results.acceleration_g[:, :, 0, 0]).any(axis=0)
+    is_beyond = ~results.in_band.all(axis=0)
     names = [f"{results.engine.orders[i].order:g}" for i in np.flatnonzero(is_beyond)]
     if not names:
         return []

@@ -212,7 +212,7 @@ class Study(StudyOutput):
 
     @one_thread()
     def engine(self, name: str | None = None) -> EngineRide:
-        """Return the response to the orders of an engine at idle and at its other speeds.
+        """Return what the orders of an engine do at points and mounts, at idle and at its other speeds.
 
         Args:
             name: of the engine; None: the first.
@@ -222,7 +222,7 @@ class Study(StudyOutput):
         """
         vehicle = self.vehicle
         need(vehicle, "engine", vehicle.engines)
-        need(vehicle, "response point", vehicle.response_points)
+        need(vehicle, "response point", (*vehicle.response_points, *vehicle.mounts))
         engine = vehicle.engines[0] if name is None else vehicle.engine(name)
         results = solve_engine(self._tuned.prepared(), self.rates.by_group, engine)
         return EngineRide(vehicle.with_rates(self.rates.by_group), results)

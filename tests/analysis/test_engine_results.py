@@ -1,5 +1,6 @@
 """An engine's orders in a vehicle: against one solve a frequency, read from tables, and as a goal."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 from dynamic_mounts import MAXWELL, OTHER_RATES, on_mounts
 
+import modeviz as mv
 from modeviz.analysis.driven import driven
 from modeviz.analysis.engine_results import solve_engine
 from modeviz.analysis.preparation import prepare
@@ -285,14 +287,31 @@ def test_an_order_that_is_missing_at_some_speeds_is_told(tmp_path):
 
 def test_the_command_prints_idle_and_speeds(tmp_path, capsys):
     folder = folder_with(tmp_path, INLINE)
-    assert main(["engine", str(folder)]) == 0
-    said = capsys.readouterr().out
+    assert main(["engine", str(folder), "--json"]) == 0
+    record, study = json.loads(capsys.readouterr().out), mv.Study(folder).engine()
+    said = study.table()
     assert "four at 600 rpm" in said
     assert "order 2" in said
-    assert main(["engine", str(folder), "--json"]) == 0
-    assert '"speeds_rpm"' in capsys.readouterr().out
+    (order,) = [each for each in record["orders"] if each["order"] == 2]
+    assert order["forces"][0] | {"force_n": []} == {"mount": "E0", "motion": "x", "force_n": []}
+    at_idle = record["speeds_rpm"].index(record["idle_rpm"])
+    z = np.abs(study.force(2, "E0", "z"))
+    assert order["forces"][2]["force_n"][at_idle] == pytest.approx(z[at_idle])
+    assert record["force_rms"][2]["force_n"] == pytest.approx(study.force_rms("E0", "z").tolist())
+    assert f"{study.force_rms('E0', 'z')[at_idle]:.2f}" in said
+    with pytest.raises(VehicleError, match="unknown mount 'nowhere'"):
+        study.force_rms("nowhere", "z")
     assert main(["engine", str(folder), "--engine", "six"]) == 2
     assert "unknown engine 'six': there are four" in capsys.readouterr().err
+
+
+def test_forces_are_told_where_there_is_no_response_point(tmp_path, capsys):
+    write_vehicle(replace(VEHICLE, response_points=()), tmp_path / "folder")
+    assert main(["engine", str(tmp_path / "folder")]) == 0
+    said = capsys.readouterr().out
+    assert "RMS of all orders, N, along its own axes, at 750 rpm" in said
+    assert "0.001 g" not in said
+    assert "Order 2: left out at speeds" in said
 
 
 def test_a_vehicle_without_engines_says_what_it_wants(tmp_path, capsys):

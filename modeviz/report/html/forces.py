@@ -17,6 +17,7 @@ from modeviz.ride.excitation import Load
 from modeviz.text.markup import note, section, table, title
 from modeviz.text.wording import number
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 
@@ -59,13 +60,18 @@ def paths(comparison: Comparison) -> str:
     return section(
         f"Paths to {escape(point.name)}",
         note(
-            f"Under {escape(load.name)}, where each acceleration is highest with "
-            f"{escape(comparison.names[1])}. The body is cut free: the share of a connection is what "
-            "of the response is coherent with the part that comes through it, and all shares add up "
-            "to 100 %; negative is what works against the others."
+            f"Under {escape(load.name)}, {_where(comparison, load)}. The body is cut free: the share "
+            "of a connection is what of the response is coherent with the part that comes through it, "
+            "and all shares add up to 100 %; negative is what works against the others."
         ),
         *tables,
     )
+
+
+def _where(comparison: Comparison, load: Load) -> str:
+    if isinstance(load, EngineOrder):
+        return "where the engine idles"
+    return f"where each acceleration is highest with {escape(comparison.names[1])}"
 
 
 def _paths_at_peak(comparison: Comparison, load: Load, direction: str) -> str:
@@ -102,7 +108,13 @@ def _shares(
 
 
 def _peak_hz(comparison: Comparison, load: Load, direction: str) -> float | None:
-    """Where the driver's acceleration is highest with the second set; None where there is none."""
+    """Where the driver's acceleration is highest with the second set; None where there is none.
+
+    Under an order of an engine where that idles.
+    """
+    if isinstance(load, EngineOrder):
+        idle_hz = load.order * comparison.vehicle.engine(load.engine).idle_hz
+        return idle_hz if idle_hz <= comparison.vehicle.highest_frequency else None
     if comparison.rides is not None:
         now = comparison.rides[1]
         f, level = now.frequency_hz, now.response(DRIVER, direction)
@@ -117,10 +129,10 @@ def _peak_hz(comparison: Comparison, load: Load, direction: str) -> float | None
 
 
 def _load(comparison: Comparison) -> Load | None:
-    """What shakes: the road, else the first harmonic load, if there is one."""
+    """What shakes: the road, else the first harmonic load or order of an engine, if there is one."""
     if comparison.rides is not None:
         return comparison.rides[1].drive.load
-    return next(iter(comparison.vehicle.harmonic_loads), None)
+    return next(iter(comparison.vehicle.swept_loads), None)
 
 
 def _mount_forces(results: ModalResults, load: Load) -> MountForces:
