@@ -59,8 +59,8 @@ class Comparison:
 
     @property
     def vehicle(self) -> Vehicle:
-        """With the rates it has in its file."""
-        return self.base.prepared.vehicle
+        """The second one, with the rates it has in its file."""
+        return self.now.prepared.vehicle
 
     @property
     def rides(self) -> tuple[Results, Results] | None:
@@ -71,7 +71,11 @@ class Comparison:
 
 
 def compare(
-    prepared: Prepared, base: RateSet, now: RateSet, conditions: Conditions | None
+    prepared: Prepared,
+    base: RateSet,
+    now: RateSet,
+    conditions: Conditions | None,
+    prepared_base: Prepared | None = None,
 ) -> Comparison:
     """Solves a vehicle with two sets of rates, all that it has loads for.
 
@@ -80,20 +84,21 @@ def compare(
         base: what is compared with.
         now: the other.
         conditions: road and speed; None for a vehicle that has no roads or no response points.
+        prepared_base: the vehicle that is compared with, if its mounts are elsewhere.
 
     Raises:
         VehicleError: a group or a road that the vehicle does not have.
         SolveError: with these rates an undamped resonance lies on a frequency.
     """
+    sets = (prepared_base or prepared, base.rates), (prepared, now.rates)
     if conditions is None:
-        first, second = (solve_modal(prepared, s.rates) for s in (base, now))
+        first, second = (solve_modal(*each) for each in sets)
     else:
-        road = drive(prepared, conditions)
-        first, second = (solve_on(road, s.rates) for s in (base, now))
+        first, second = (solve_on(drive(vehicle, conditions), rates) for vehicle, rates in sets)
     vehicle = prepared.vehicle
     wheels = None
     if vehicle.harmonic_loads and vehicle.response_points:
-        wheels = solve_wheels(prepared, base.rates), solve_wheels(prepared, now.rates)
+        wheels = solve_wheels(*sets[0]), solve_wheels(*sets[1])
     track = follow(first, second)
     worth = _worth(vehicle, base.rates, now.rates, conditions.speed if conditions else vehicle.speed)
     return Comparison((base.name, now.name), first, second, track, wheels, worth)

@@ -159,7 +159,7 @@ class App:
         now = RateSet(name if name != state.against else f"{name}, now", state.design.rates)
         base = RateSet(state.against, solved.base.rates)
         conditions = state.conditions if has_ride(vehicle) else None
-        comparison = compare(solved.now.prepared, base, now, conditions)
+        comparison = compare(solved.now.prepared, base, now, conditions, solved.base.prepared)
         return report(comparison, date.today(), pictures, solved.findings.check).encode()
 
     def end(self) -> None:

@@ -72,7 +72,7 @@ def test_mounts_dragged_in_the_scene_give_what_a_folder_with_that_place_gives(ap
     before = app.session.answer.now
     open_folder(page, "A")
     page.get_by_text("Place", exact=True).locator("visible=true").click()
-    page.get_by_label("Handle in the scene").locator("visible=true").click()
+    page.get_by_label("Handle", exact=True).locator("visible=true").click()
     wait_for(page, IS_SEEN, name=HANDLE)
     given = wait_for(page, PLACE, name=HANDLE)
     marker = "/mounts/A -0.5"

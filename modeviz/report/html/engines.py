@@ -1,6 +1,6 @@
 """The report's section on running engines; empty where there are none, or nothing to look at."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 
 import numpy as np
@@ -26,11 +26,12 @@ PER_MINUTE = 60
 
 def engines(comparison: Comparison) -> str:
     """Return what each order of each engine does at idle, and what all do over its speed."""
-    prepared, vehicle = comparison.base.prepared, comparison.vehicle
+    vehicle, prepared = comparison.vehicle, [r.prepared for r in (comparison.base, comparison.now)]
+    ready = [each for each in prepared if isinstance(each, Prepared)]
     is_seen = vehicle.response_points or vehicle.mounts
-    if not (vehicle.engines and is_seen and isinstance(prepared, Prepared)):
+    if not (vehicle.engines and is_seen and len(ready) == len(prepared)):
         return ""
-    parts = [part for engine in vehicle.engines for part in _engine(comparison, prepared, engine)]
+    parts = [part for engine in vehicle.engines for part in _engine(comparison, ready, engine)]
     return section(
         "Running engines",
         note(
@@ -42,9 +43,10 @@ def engines(comparison: Comparison) -> str:
     )
 
 
-def _engine(comparison: Comparison, prepared: Prepared, engine: Engine) -> Iterator[str]:
+def _engine(comparison: Comparison, prepared: Sequence[Prepared], engine: Engine) -> Iterator[str]:
     """A table for each point, the run-up at the first, and the forces of mounts."""
-    sets = [solve_engine(prepared, r.rates, engine) for r in (comparison.base, comparison.now)]
+    results = comparison.base, comparison.now
+    sets = [solve_engine(p, r.rates, engine) for p, r in zip(prepared, results, strict=True)]
     vehicle = comparison.vehicle
     heading = title(f"{engine.name}, idle at {PER_MINUTE * engine.idle_hz:.4g} rpm")
     names = [

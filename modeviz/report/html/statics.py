@@ -20,8 +20,10 @@ def statics(comparison: Comparison) -> str:
     if not comparison.vehicle.mounts:
         return ""
     try:
-        prepared = prepare_statics(comparison.base.prepared.system)
-        sets = [solve_statics(prepared, r.rates) for r in (comparison.base, comparison.now)]
+        sets = [
+            solve_statics(prepare_statics(r.prepared.system), r.rates)
+            for r in (comparison.base, comparison.now)
+        ]
     except SolveError:
         return ""
     first = [each.cases[0] for each in sets]

@@ -19,7 +19,13 @@ from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.decisions import Forget, Load, Pin, Rename, Swap
 from modeviz.viewer.session.commands.looks import CompareWith, Overlay, ShowComparedGhost
 from modeviz.viewer.session.cursor import has_ride
-from modeviz.viewer.session.design import known_sets, next_name, rate_sets, set_numbers
+from modeviz.viewer.session.design import (
+    current_set,
+    known_sets,
+    next_name,
+    rate_sets,
+    set_numbers,
+)
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
 
@@ -105,9 +111,7 @@ class VariantsPanel:
         """A row for each set; the last for the present rates, if they have no name."""
         name = named(sentence_case(solved.followed.name.name))
         header = ("", "Set", "lat. g", "vert. g", f"{name} Hz", "rating", "")
-        current = next(
-            (n for n, r in solved.named.results.items() if r.rates == solved.now.rates), None
-        )
+        current = current_set(self._session.vehicle, solved.state.design)
         colors = set_numbers(self._session.vehicle, solved.state.design)
         rows = [
             row(self._cells(i, name, colors[name], solved), chosen=name == current)
@@ -165,9 +169,8 @@ class NameBox:
 
     def _current(self, state: State) -> str | None:
         """The pinned set that the present rates are, if they are one."""
-        return next(
-            (n for n, v in state.design.variants.items() if v.rates == state.design.rates), None
-        )
+        current = current_set(self._session.vehicle, state.design)
+        return current if current in state.design.variants else None
 
     def _press(self, button: str, event: viser.GuiEvent) -> None:
         complaint = self._keep(button, self._box.value.strip())

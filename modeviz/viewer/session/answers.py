@@ -7,19 +7,21 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from modeviz.analysis.exact_check import ClassicError, classic_error
-from modeviz.analysis.preparation import Prepared, prepare
+from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import Results, RoadExcitation, drive, solve_on
 from modeviz.analysis.rigid import BodyAxes, body_axes, body_purity
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
 from modeviz.mounting.purity import Purity
-from modeviz.vehicle.alterations import Alterations, altered
+from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.cursor import CursorForces
+from modeviz.viewer.session.design import named_sets
 from modeviz.viewer.session.findings import Findings
 from modeviz.viewer.session.followed_mode import FollowedMode, ModeFollower
 from modeviz.viewer.session.movement import Movement, asks, movement
 from modeviz.viewer.session.named_results import Named, NamedResults
+from modeviz.viewer.session.preparations import Preparations
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.static_answers import SolvedStatics, StaticSolver
 from modeviz.viewer.session.wheel_responses import WheelResponses
@@ -96,7 +98,7 @@ class Answers:
 
     def __init__(self, vehicle: Vehicle) -> None:
         """Nothing is solved before `prepare`."""
-        self._vehicle = vehicle
+        self._preparations = Preparations(vehicle)
         self._lock = threading.Lock()
         self._alterations = Alterations()
         self.vehicle: Vehicle = vehicle
@@ -105,17 +107,18 @@ class Answers:
         """That vehicle made ready, once `prepare` has."""
         self._drive: RoadExcitation
         """Near the rates of the last rest."""
-        self._named: NamedResults
+        self._named = NamedResults(self._preparations)
         self._follower: ModeFollower
         self._wheels = WheelResponses()
-        self._static: StaticSolver
+        self._static = {"now": StaticSolver(), "base": StaticSolver()}
         self._cursor = CursorForces()
         self._last: Solved | None = None
 
     def prepare(self, state: State, progress: Callable[[float], None] | None = None) -> None:
         """Prepares the vehicle as it is altered, and solves with all sets that have a name.
 
-        It is another vehicle then, so that nothing is kept of answers to others.
+        It is another vehicle then, so that nothing is kept of answers to others, but
+        those with sets that have a name: their vehicle is as it was.
 
         Args:
             state: the first one, or the first with other alterations.
@@ -125,16 +128,14 @@ class Answers:
             ModevizError: there is no answer on that road at that speed.
         """
         alterations = state.design.alterations
-        vehicle = altered(self._vehicle, alterations)
-        prepared = prepare(vehicle, progress=progress)
+        prepared = self._preparations.get(alterations, progress)
         excitation = drive(prepared, state.conditions)
         with self._lock:
-            self.vehicle, self._alterations = vehicle, alterations
+            self.vehicle, self._alterations = prepared.vehicle, alterations
             self.prepared, self._drive = prepared, excitation
-        self._named, self._follower = NamedResults(self._drive), ModeFollower(self.prepared)
-        self._static = StaticSolver(self.prepared.system)
+        self._follower = ModeFollower(self.prepared)
         self._wheels, self._cursor, self._last = WheelResponses(), CursorForces(), None
-        self._named.solve(state)
+        self._solve_named(state)
 
     def rebase(self, state: State) -> Prepared:
         """Makes answers close to a state cheap; gives the vehicle prepared there."""
@@ -150,7 +151,7 @@ class Answers:
     @property
     def original(self) -> Vehicle:
         """Without alterations."""
-        return self._vehicle
+        return self._preparations.vehicle
 
     def answer(
         self,
@@ -171,7 +172,7 @@ class Answers:
         begin = time.perf_counter()
         if asked.design.alterations != self._alterations:
             self.prepare(asked, progress)
-        named = self._named.solve(asked)
+        named = self._solve_named(asked)
         state = named.answerable(asked)
         now, base = self._solve(state), named.results[state.against]
         followed = self._follower.follow(state, base, now)
@@ -193,6 +194,13 @@ class Answers:
         )
         return self._last
 
+    def _solve_named(self, state: State) -> Named:
+        """The results with all sets that have a name, each with mounts where it has them."""
+        sets = named_sets(self.vehicle, state.design)
+        named = self._named.solve(sets, state.conditions)
+        self._preparations.keep([self._alterations, *(each.alterations for each in sets.values())])
+        return named
+
     def _solve(self, state: State) -> Results:
         """The results with the rates of a state, which may be those of the last."""
         if self._last and asks_for_the_same(self._last.state, state):
@@ -206,7 +214,13 @@ class Answers:
         """Return the load cases, which nobody sees while rates move but for the sag that is drawn."""
         if self._last and not followed.is_detailed and state.motion.kind != "sag":
             return self._last.static
-        return self._static.solve(followed.now.rates, followed.base.rates)
+        compared = named_sets(self.vehicle, state.design)[state.against]
+        return SolvedStatics(
+            self._static["now"].solve(self.prepared.system, followed.now.rates),
+            self._static["base"].solve(
+                self._preparations.get(compared.alterations).system, compared.rates
+            ),
+        )
 
     def _movement(self, state: State, followed: FollowedMode, static: SolvedStatics) -> Movement:
         """Return the motion that is asked for; if that cannot be, the one before, and why."""

@@ -8,7 +8,7 @@ from modeviz.text.wording import sentence_case
 from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
-from modeviz.vehicle.placement import Placement
+from modeviz.vehicle.placement import Placement, Placements
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.plan import Plan
 
@@ -27,6 +27,17 @@ class Variant:
     """Of every mount group."""
     number: int
     """Its own among the pinned sets while it lives: its colour goes by it."""
+    placements: Placements = field(default_factory=dict)
+    """Where mounts were with these rates, of the groups that were placed otherwise."""
+
+
+@dataclass(frozen=True)
+class NamedSet:
+    """What a name stands for: rates, and the vehicle that has them."""
+
+    rates: Rates
+    """Of every mount group."""
+    alterations: Alterations
 
 
 @dataclass(frozen=True)
@@ -44,7 +55,7 @@ class Design:
     plan: Plan | None = None
     """What a search is to look for; None where there is nothing to optimise for."""
     alterations: Alterations = field(default_factory=Alterations)
-    """What else is other than in the vehicle's file, whatever the rates, also with those compared."""
+    """What else is other than in the vehicle's file."""
     decoupling: Decoupling = USUAL
     """What the modes of bodies on their mounts are held against."""
 
@@ -73,11 +84,12 @@ class Design:
         return replace(self, alterations=self.alterations.with_placement(group, placement))
 
     def with_variant(self, name: str, rates: Rates) -> "Design":
-        """Return it with a pinned set; one that takes the place of another keeps its number."""
+        """Return it with rates pinned, and where mounts are; in place of another by its number."""
         taken = {variant.number for variant in self.variants.values()}
         before = self.variants.get(name)
+        placements = self.alterations.placements
         number = before.number if before else next(i for i in count() if i not in taken)
-        return replace(self, variants={**self.variants, name: Variant(dict(rates), number)})
+        return replace(self, variants={**self.variants, name: Variant(dict(rates), number, placements)})
 
     def _unlocked(self, group: str, new: MountRates) -> MountRates:
         """New rates of a group, with its locked ones as they are."""
@@ -93,10 +105,29 @@ def known_sets(vehicle: Vehicle) -> dict[str, Rates]:
     return sets
 
 
+def named_sets(vehicle: Vehicle, design: Design) -> dict[str, NamedSet]:
+    """Return every set that has a name: the vehicle's, mounts as in its file, then the pinned ones.
+
+    What is altered besides where mounts are is so with all of them.
+    """
+
+    def placed(rates: Rates, placements: Placements) -> NamedSet:
+        return NamedSet(dict(rates), replace(design.alterations, placements=placements))
+
+    known = {name: placed(rates, {}) for name, rates in known_sets(vehicle).items()}
+    pinned = {name: placed(each.rates, each.placements) for name, each in design.variants.items()}
+    return {**known, **pinned}
+
+
 def rate_sets(vehicle: Vehicle, design: Design) -> dict[str, Rates]:
-    """Return every set of rates that has a name: the vehicle's, then the pinned ones."""
-    pinned = {name: variant.rates for name, variant in design.variants.items()}
-    return {**known_sets(vehicle), **pinned}
+    """Return the rates of `named_sets`."""
+    return {name: each.rates for name, each in named_sets(vehicle, design).items()}
+
+
+def current_set(vehicle: Vehicle, design: Design) -> str | None:
+    """Return the name of the set that the present design is; None if it has none."""
+    present = NamedSet(dict(design.rates), design.alterations)
+    return next((n for n, each in named_sets(vehicle, design).items() if each == present), None)
 
 
 def set_numbers(vehicle: Vehicle, design: Design) -> dict[str, int]:
@@ -106,11 +137,8 @@ def set_numbers(vehicle: Vehicle, design: Design) -> dict[str, int]:
 
 
 def variant_name(vehicle: Vehicle, design: Design) -> str:
-    """Return what the present rates are called: a set's name, or that of the next one to be pinned."""
-    for name, rates in rate_sets(vehicle, design).items():
-        if dict(rates) == dict(design.rates):
-            return name
-    return next_name(design)
+    """Return what the present design is called: a set's name, or that of the next one to be pinned."""
+    return current_set(vehicle, design) or next_name(design)
 
 
 def next_name(design: Design) -> str:

@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import Conditions, Results, RoadExcitation, drive, solve_on
-from modeviz.errors import SolveError
-from modeviz.viewer.session.design import Variant, rate_sets
+from modeviz.errors import ModevizError, SolveError
+from modeviz.viewer.session.design import NamedSet
+from modeviz.viewer.session.preparations import Preparations
 from modeviz.viewer.session.state import State
 
 
@@ -28,39 +30,50 @@ class Named:
 class NamedResults:
     """Solves with the sets of a state, and only with those that are new."""
 
-    def __init__(self, home: RoadExcitation) -> None:
+    def __init__(self, preparations: Preparations) -> None:
         """Solves nothing.
 
         Args:
-            home: at the vehicle's own rates: what is kept for long shares its receptances.
+            preparations: at the vehicle's own rates: what is kept for long shares their receptances.
         """
-        self._drive = home
+        self._preparations = preparations
+        self._drives: list[RoadExcitation] = []
         self._named = Named({}, {})
-        self._solved_for: tuple[Mapping[str, Variant], Conditions] | None = None
+        self._solved_for: tuple[Mapping[str, NamedSet], Conditions] | None = None
 
-    def solve(self, state: State) -> Named:
-        """Return the results with all sets of a state.
+    def solve(self, sets: Mapping[str, NamedSet], conditions: Conditions) -> Named:
+        """Return the results with all sets that have a name.
 
         Raises:
             SolveError: none has an answer.
         """
-        wanted = (state.design.variants, state.conditions)
+        wanted = (sets, conditions)
         if self._solved_for != wanted:
-            self._named, self._solved_for = self._solve(state), wanted
+            self._named, self._solved_for = self._solve(sets, conditions), wanted
         return self._named
 
-    def _solve(self, state: State) -> Named:
-        prepared = self._drive.prepared
-        if self._drive.conditions != state.conditions:
-            self._drive = drive(prepared, state.conditions)
-        results, unsolved = {}, {}
-        for name, rates in rate_sets(prepared.vehicle, state.design).items():
-            kept = self._named.results.get(name)
-            holds = kept and kept.conditions == state.conditions and kept.rates == rates
+    def _solve(self, sets: Mapping[str, NamedSet], conditions: Conditions) -> Named:
+        results, unsolved, driven = {}, {}, []
+        for name, each in sets.items():
             try:
-                results[name] = kept if kept and holds else solve_on(self._drive, rates)
-            except SolveError as error:
+                excitation = self._drive(self._preparations.get(each.alterations), conditions)
+                driven.append(excitation)
+                results[name] = self._kept(name, excitation, each) or solve_on(excitation, each.rates)
+            except ModevizError as error:
                 unsolved[name] = str(error)
+        self._drives = driven
         if not results:
             raise SolveError("; ".join(f"{name}: {why}" for name, why in unsolved.items()))
         return Named(results, unsolved)
+
+    def _kept(self, name: str, excitation: RoadExcitation, wanted: NamedSet) -> Results | None:
+        """The results under a name if they still hold."""
+        kept = self._named.results.get(name)
+        if kept is None or kept.prepared is not excitation.prepared or kept.rates != wanted.rates:
+            return None
+        return kept if kept.conditions == excitation.conditions else None
+
+    def _drive(self, prepared: Prepared, conditions: Conditions) -> RoadExcitation:
+        """The vehicle on the road, which may have been there."""
+        known = (d for d in self._drives if d.prepared is prepared and d.conditions == conditions)
+        return next(known, None) or drive(prepared, conditions)

@@ -39,31 +39,40 @@ class SolvedStatics:
 
 
 class StaticSolver:
-    """Solves the load cases of a vehicle."""
+    """Solves the load cases of a vehicle as it is now, or as it is where it is compared with."""
 
-    def __init__(self, system: System) -> None:
-        """Makes the vehicle ready, or remembers why it cannot be."""
+    def __init__(self) -> None:
+        """Solves nothing."""
+        self._system: System | None = None
         self._prepared: PreparedStatics | ModevizError
-        try:
-            self._prepared = prepare_statics(system)
-        except ModevizError as error:
-            self._prepared = error
-        self._last: dict[str, tuple[Rates, StaticAnswer]] = {}
+        self._last: tuple[Rates, StaticAnswer] | None = None
 
-    def solve(self, now: Rates, base: Rates) -> SolvedStatics:
-        """Return the load cases with the present rates and with those compared with."""
-        return SolvedStatics(self._solved("now", now), self._solved("base", base))
+    def solve(self, system: System, rates: Rates) -> StaticAnswer:
+        """Return the load cases with some rates.
 
-    def _solved(self, whose: str, rates: Rates) -> StaticAnswer:
-        """The answer with some rates, which may be those of the last one."""
-        if whose not in self._last or self._last[whose][0] != rates:
-            self._last[whose] = rates, self._answer(rates)
-        return self._last[whose][1]
+        Args:
+            system: of the vehicle with its own; it is made ready when it is another one.
+            rates: of the groups that differ from the vehicle's own.
+        """
+        if system is not self._system:
+            self._system, self._prepared, self._last = system, _prepared(system), None
+        if self._last is None or self._last[0] != rates:
+            self._last = rates, _answer(self._prepared, rates)
+        return self._last[1]
 
-    def _answer(self, rates: Rates) -> StaticAnswer:
-        if isinstance(self._prepared, ModevizError):
-            return StaticAnswer(None, str(self._prepared))
-        try:
-            return StaticAnswer(solve_statics(self._prepared, rates))
-        except ModevizError as error:
-            return StaticAnswer(None, str(error))
+
+def _prepared(system: System) -> PreparedStatics | ModevizError:
+    """What is made ready, or why it cannot be."""
+    try:
+        return prepare_statics(system)
+    except ModevizError as error:
+        return error
+
+
+def _answer(prepared: PreparedStatics | ModevizError, rates: Rates) -> StaticAnswer:
+    if isinstance(prepared, ModevizError):
+        return StaticAnswer(None, str(prepared))
+    try:
+        return StaticAnswer(solve_statics(prepared, rates))
+    except ModevizError as error:
+        return StaticAnswer(None, str(error))

@@ -9,6 +9,7 @@ from session_commands import altered
 from modeviz.analysis.results import Conditions
 from modeviz.errors import VehicleError
 from modeviz.vehicle.mount_rates import MountRates
+from modeviz.vehicle.placement import Placement
 from modeviz.viewer.session.commands import decisions, looks
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.state import ResponseCurve, first_state
@@ -33,7 +34,8 @@ def done(state, *commands):
 DECISIONS = [
     decisions.SetRate("B", "lateral", 1e5),
     decisions.SetLossFactor("B", 0.3),
-    decisions.PlaceMounts("B", "angles", 2, 0.1),
+    decisions.PlaceMounts("B", "angles", (None, None, 0.1)),
+    decisions.DragMounts("B", Placement((0.1, 0, 0)), 0),
     decisions.TakeRates({"A": RATES}),
     decisions.LinkRates("A", True),
     decisions.ToggleLock("A", "lateral"),
@@ -97,7 +99,7 @@ def test_a_look_changes_all_that_it_names_and_leaves_the_design(state, command):
 
 def test_every_command_is_tried_here():
     tried = {name_of(command) for command in (*DECISIONS, *LOOKS)}
-    tried |= {"Forget", "Rename", "Swap", "ResetGroups", "ResetRate"}
+    tried |= {"Forget", "Rename", "Swap", "ResetGroups", "ResetRate", "ResetPlacement"}
     modules = (decisions, looks)
     there = {
         n for m in modules for n, v in vars(m).items() if isinstance(v, type) and issubclass(v, Command)

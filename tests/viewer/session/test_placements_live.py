@@ -16,7 +16,17 @@ from modeviz.cli.options import RoadOptions
 from modeviz.errors import VehicleError
 from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.placement import Placement, with_placements
-from modeviz.viewer.session.commands.decisions import DragMounts, PlaceMounts, SetRate
+from modeviz.viewer.session.commands.decisions import (
+    DragMounts,
+    Load,
+    Pin,
+    PlaceMounts,
+    ResetPlacement,
+    SetRate,
+    Swap,
+)
+from modeviz.viewer.session.commands.looks import CompareWith
+from modeviz.viewer.session.design import variant_name
 from modeviz.viewer.session.notifications import Preparing
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
@@ -70,10 +80,37 @@ def test_turning_is_undone_and_redone(session):
     assert session.wait_for_answer(60).now.modes.frequency_hz == pytest.approx(turned, rel=1e-12)
 
 
-def test_what_is_compared_with_is_turned_too(session):
-    session.do(PlaceMounts("A", "angles", (0.5, None, None)))
+def test_what_is_compared_with_stays_where_it_was(session):
+    before = session.wait_for_answer(60)
+    session.do(PlaceMounts("A", "offset", (0.2, None, None)))
     solved = session.wait_for_answer(60)
-    assert solved.base.modes.frequency_hz == pytest.approx(solved.now.modes.frequency_hz, rel=1e-9)
+    assert solved.base is before.base
+    assert solved.base.modes.frequency_hz == pytest.approx(before.now.modes.frequency_hz, rel=1e-12)
+    assert not np.allclose(solved.now.psd, solved.base.psd, rtol=1e-3)
+    assert variant_name(session.vehicle, session.state.design) == "Trial 1"
+    assert solved.static.base.case("standing").motion == pytest.approx(
+        before.static.now.case("standing").motion
+    )
+
+
+def test_a_pinned_set_keeps_where_mounts_were_and_has_its_own_answer(session):
+    placed = Placement((0.2, 0, 0))
+    session.do(DragMounts("A", placed, 0))
+    session.do(Pin("Mine"))
+    mine = session.wait_for_answer(60).now
+    session.do(ResetPlacement("A"))
+    session.do(SetRate("A", "vertical", 3e5))
+    solved = session.wait_for_answer(60)
+    kept = solved.named.results["Mine"]
+    assert kept.modes.frequency_hz == pytest.approx(mine.modes.frequency_hz, rel=1e-9)
+    session.do(CompareWith("Mine"))
+    assert session.wait_for_answer(60).base is kept
+    session.do(Swap())
+    assert session.state.design.alterations == Alterations({"A": placed})
+    assert session.wait_for_answer(60).now.psd == pytest.approx(mine.psd, rel=1e-7)
+    session.do(Load("Original"))
+    assert session.state.design.alterations == Alterations()
+    assert session.wait_for_answer(60).now.psd == pytest.approx(solved.named.results["Original"].psd)
 
 
 def test_a_drag_back_to_no_turn_is_no_step(session):
@@ -124,7 +161,7 @@ def test_a_preparation_that_takes_long_is_told_and_given_up_when_it_is_overtaken
         return prepare(vehicle)
 
     session.wait_for_answer(60)
-    monkeypatch.setattr("modeviz.viewer.session.answers.prepare", slowly)
+    monkeypatch.setattr("modeviz.viewer.session.preparations.prepare", slowly)
     heard = session._notify
     session._notify = lambda told: (
         fractions.append(told) if isinstance(told, Preparing) else heard(told)

@@ -530,8 +530,8 @@ def test_after_a_failure_and_the_way_back_the_comparison_is_right_and_checked(se
     good = session.answers[-1]
     solve_flat, answers = session._answers.answer, session._answers
 
-    def failing(state, findings):
-        answers._named.solve(state)
+    def failing(state, findings, progress):
+        answers._solve_named(state)
         raise SolveError("not on this road")
 
     answers.answer = failing

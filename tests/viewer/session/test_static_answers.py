@@ -14,6 +14,7 @@ from modeviz.dynamics.assembly import assemble
 from modeviz.errors import SolveError
 from modeviz.mounting.static_system import prepare_statics
 from modeviz.mounting.statics import solve_statics
+from modeviz.vehicle.placement import Placement, with_placements
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.session import Session
@@ -71,18 +72,20 @@ def test_a_case_without_an_answer_leaves_what_moved_and_says_why(session):
 
 
 def test_what_nothing_holds_has_a_sentence_in_place_of_an_answer():
-    static = StaticSolver(assemble(Vehicle("free", (block("block"),), ()))).solve({}, {})
-    assert static.now.problem.startswith("load case 'standing': nothing holds 'block' along z")
+    static = StaticSolver().solve(assemble(Vehicle("free", (block("block"),), ())), {})
+    assert static.problem.startswith("load case 'standing': nothing holds 'block' along z")
     with pytest.raises(SolveError, match="nothing holds 'block'"):
-        static.now.case("standing")
+        static.case("standing")
 
 
-def test_the_same_rates_are_solved_once(session):
-    solver = StaticSolver(session.prepared.system)
+def test_the_same_rates_of_the_same_vehicle_are_solved_once(session):
+    solver, system = StaticSolver(), session.prepared.system
     rates = session.vehicle.rates
-    first = solver.solve(rates, rates)
-    other = {**rates, "A": replace(rates["A"], vertical=1e5)}
-    second = solver.solve(other, rates)
-    assert second.base is first.base
-    assert second.now is not first.now
-    assert solver.solve(dict(other), dict(rates)).now is second.now
+    first = solver.solve(system, rates)
+    assert solver.solve(system, dict(rates)) is first
+    other = solver.solve(system, {**rates, "A": replace(rates["A"], vertical=1e5)})
+    assert other is not first
+    moved = assemble(with_placements(session.vehicle, {"A": Placement((0.1, 0, 0))}))
+    assert not np.allclose(
+        solver.solve(moved, rates).case("standing").motion, first.case("standing").motion
+    )

@@ -21,7 +21,7 @@ OFFSET_STEP = 1.0
 DECIMALS = 6
 """Of mm and degrees: more is rounding."""
 
-AS_IN_A_MIRROR = "those on the other side as in a mirror. The set compared with is altered too"
+AS_IN_A_MIRROR = "those on the other side as in a mirror"
 
 
 class Placing:
@@ -39,14 +39,14 @@ class Placing:
         which = f"{group.mounts[0].name} and mounts on its side; {AS_IN_A_MIRROR}"
         with gui.add_folder("Place", expand_by_default=False):
             moved = gui.add_vector3(
-                "Moved x y z, mm",
+                "Moved, mm",
                 self._offset(session.state),
                 step=OFFSET_STEP,
                 hint=f"From where the file has them, along the vehicle's axes: {which}",
             )
             turned = [self._add_turn(gui, axis, which) for axis in range(len(AXES))]
             handle = gui.add_checkbox(
-                "Handle in the scene",
+                "Handle",
                 session.state.look.handle,
                 hint="Arrows and arcs at the selected group, to drag its mounts with",
             )

@@ -10,7 +10,14 @@ from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.placement import Placement
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
-from modeviz.viewer.session.design import known_sets, next_name, rate_sets
+from modeviz.viewer.session.design import (
+    NamedSet,
+    current_set,
+    known_sets,
+    named_sets,
+    next_name,
+    rate_sets,
+)
 from modeviz.viewer.session.planning.plan import Plan
 from modeviz.viewer.session.state import State, compared_rates
 
@@ -179,7 +186,7 @@ class ToggleLock(Command):
 
 @dataclass(frozen=True)
 class Pin(Command):
-    """Gives a name to the present rates and keeps them.
+    """Gives a name to the present rates, and to where mounts are, and keeps them.
 
     A pinned set of that name is replaced; one that comes with the vehicle stays its own.
     """
@@ -204,8 +211,8 @@ class AddVariant(Command):
     """Of the groups that differ from the vehicle's own."""
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
-        every, sets = vehicle.all_rates(self.rates), rate_sets(vehicle, state.design)
-        if sets.get(self.name) == every:
+        every, sets = vehicle.all_rates(self.rates), named_sets(vehicle, state.design)
+        if sets.get(self.name) == NamedSet(every, state.design.alterations):
             return state
         return replace(state, design=state.design.with_variant(free_name(self.name, sets), every))
 
@@ -238,30 +245,33 @@ class Rename(Command):
 
 @dataclass(frozen=True)
 class Load(Command):
-    """Takes over the rates of a set, locked ones too, if there is one of that name."""
+    """Takes over the rates of a set, locked ones too, and where its mounts are, if there is one."""
 
     name: str
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
-        rates = rate_sets(vehicle, state.design).get(self.name)
-        return state if rates is None else _designed(state, rates=dict(rates))
+        wanted = named_sets(vehicle, state.design).get(self.name)
+        if wanted is None:
+            return state
+        return _designed(state, rates=wanted.rates, alterations=wanted.alterations)
 
 
 @dataclass(frozen=True)
 class Swap(Command):
     """Changes places: the set compared with becomes the present one, and the other way round.
 
-    Rates that have no name are pinned, so that there is a way back.
+    What has no name is pinned, so that there is a way back.
     """
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         design = state.design
-        sets = rate_sets(vehicle, design)
-        own = next((n for n, rates in sets.items() if rates == design.rates), None)
+        other = named_sets(vehicle, design)[state.against]
+        own = current_set(vehicle, design)
         if own is None:
             own = next_name(design)
             design = design.with_variant(own, design.rates)
-        return replace(state, design=replace(design, rates=dict(sets[state.against])), against=own)
+        taken = replace(design, rates=other.rates, alterations=other.alterations)
+        return replace(state, design=taken, against=own)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,43 @@
+"""A vehicle made ready as it is altered: each way once, as long as somebody wants it."""
+
+from collections.abc import Callable, Collection
+
+from modeviz.analysis.preparation import Prepared, prepare
+from modeviz.vehicle.alterations import Alterations, altered
+from modeviz.vehicle.vehicle import Vehicle
+
+
+class Preparations:
+    """Makes a vehicle ready with alterations, which takes long, and keeps it."""
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        """Prepares nothing.
+
+        Args:
+            vehicle: without alterations.
+        """
+        self.vehicle: Vehicle = vehicle
+        self._kept: list[tuple[Alterations, Prepared]] = []
+
+    def get(
+        self, alterations: Alterations, progress: Callable[[float], None] | None = None
+    ) -> Prepared:
+        """Return the vehicle made ready with some alterations.
+
+        Args:
+            alterations: of the vehicle.
+            progress: told the fraction that is done, if it is not ready yet; what it raises ends that.
+
+        Raises:
+            ModevizError: it cannot be altered so, or not be prepared.
+        """
+        known = next((prepared for each, prepared in self._kept if each == alterations), None)
+        if known is not None:
+            return known
+        prepared = prepare(altered(self.vehicle, alterations), progress=progress)
+        self._kept.append((alterations, prepared))
+        return prepared
+
+    def keep(self, wanted: Collection[Alterations]) -> None:
+        """Forgets what is not wanted any more."""
+        self._kept = [each for each in self._kept if each[0] in wanted]
