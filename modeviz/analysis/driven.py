@@ -120,9 +120,20 @@ class Driven:
 
     def at(self, lines: Floats) -> Receptances:
         """Receptances at lines, (n_lines,)."""
+        (known, kept), *others = self.parts(lines)
+        return known.merged(others[0][0], kept) if others else known
+
+    def parts(self, lines: Floats) -> list[tuple[Receptances, NDArray[np.bool_]]]:
+        """Receptances at those of some lines, (n_lines,), that are of the band, then at the others.
+
+        With each, which lines these are, (n_lines,); the others only if there are some.
+        """
         kept, place = self._on_band(lines)
-        known = self.receptances.at(place[kept])
-        return known if kept.all() else known.merged(self._interpolated(lines[~kept], None), kept)
+        here = place[kept]
+        known = self.receptances if len(here) == len(self.frequency_hz) else self.receptances.at(here)
+        if kept.all():
+            return [(known, kept)]
+        return [(known, kept), (self._interpolated(lines[~kept], None), ~kept)]
 
     def _on_band(self, lines: Floats) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
         """Return which lines are of the band, and where in it."""

@@ -130,20 +130,6 @@ class Receptances:
         self._add_forces(stretches, *self._forces(self.change(stiffness), stretches))
         return stretches
 
-    def stretch_gradient(self, stiffness: Complexes) -> tuple[Complexes, Complexes]:
-        """The stretches at other mount rates, and what their derivatives are made of.
-
-        ∂x_i/∂k_s = -G_is r_s x_s for the complex rate of each spring at the reference, r_s being what
-        its rate is in parts of that; receptances at the new rates. Arguments and errors as `response`.
-
-        Returns:
-            x (n_freqs, n_springs, n_inputs), see `stretches`, and G (n_freqs, n_springs, n_springs).
-        """
-        columns = np.dstack([self.springs, self.inputs])
-        self._add_forces(columns, *self._forces(self.change(stiffness), columns))
-        n_springs = self.springs.shape[2]
-        return columns[:, :, n_springs:], columns[:, :, :n_springs]
-
     def responses(self, stiffness: Complexes) -> Complexes:
         """The responses at many sets of mount rates: `response` of each, but for rounding.
 

@@ -1,6 +1,6 @@
 """Goals of what gets through mounts: their forces, and the accelerations of their ends."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,7 @@ from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import AXIS, Conditions
 from modeviz.analysis.sensitivity import spring_shares
 from modeviz.dynamics.mount_rates import rows_of_springs
+from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.resonances import resonances_at
 from modeviz.dynamics.spacing import placed_lines
 from modeviz.errors import VehicleError
@@ -52,6 +53,12 @@ class MountCase:
         assert not isinstance(load, Road)
         return load
 
+    @property
+    def counts(self) -> Floats:
+        """What the square of each spring's force counts, (n_springs,): those about axes nothing."""
+        n_springs = len(self.driven.prepared.basis.mount_stiffness)
+        return self.weight * np.pad(self.selected.ravel(), (0, n_springs - self.selected.size))
+
     def lines(self, stiffness: Complexes) -> Floats:
         """Lines that mount rates want, (n_lines,), Hz: closer where any mode is sharp.
 
@@ -71,16 +78,17 @@ class MountCase:
 class MountForceGoal:
     """F = Σ w ∫ Σ S_FF df over loads, mounts and their own axes, N²; S is one under a harmonic load.
 
-    With F_i = z_i x_i, z_i = r_i k_i + jωc_i and ∂x_i/∂k_s as of `Receptances.stretch_gradient`
+    With F_i = z_i x_i, z_i = r_i k_i + jωc_i, ∂x_i/∂k_s = -G_is r_s x_s and G, the stretch of springs
+    per force in others, symmetric,
 
-        ∂F/∂k_s = 2 r_s (m_s p_ss - Σ_i m_i z_i G_is p_si),  p_si = x_s S F_iᴴ
+        ∂F/∂k_s = 2 r_s x_s · (m_s P_s - G_s (m z P)),  P = S Fᴴ
     """
 
     cases: tuple[MountCase, ...]
 
     def values(self, rates: Rates) -> Floats:
         """Return what each case adds, (n_cases,); raises as `solve`."""
-        return np.array([self._case(case, rates)[0] for case in self.cases])
+        return np.array([self._value(case, rates) for case in self.cases])
 
     def value(self, rates: Rates) -> float:
         """At rates of the groups that differ from the vehicle's own; raises as `solve`."""
@@ -103,24 +111,23 @@ class MountForceGoal:
         """Return the goal with other weights: each case's times a factor, (n_cases,)."""
         return replace(self, cases=_scaled(self.cases, factors))
 
+    def _value(self, case: MountCase, rates: Rates) -> float:
+        """What a case adds."""
+        counts = case.counts
+        return sum(float((passed.power @ counts).sum()) for passed in _passed(case, rates))
+
     def _case(self, case: MountCase, rates: Rates) -> tuple[float, Complexes]:
         """What a case adds, and its derivatives to the complex rates of springs, (n_springs,)."""
-        prepared = case.driven.prepared
-        stiffness = prepared.mount_stiffness(rates)
-        lines = case.lines(stiffness)
-        at = case.driven.at(lines)
-        x, G = at.stretch_gradient(stiffness)
-        ratios = at.law.ratios(lines)
-        z = stiffness * ratios + 2j * np.pi * lines[:, None] * spring_damping(prepared.system)
-        counts = case.weight * _of_springs(case, len(stiffness))
-        F = z[:, :, None] * x
-        P = case.spectrum(lines) @ F.conj().swapaxes(1, 2)
-        power = np.einsum("fsi,fis->fs", F, P).real
-        p = x @ P
-        through = np.einsum("fis,fsi->fs", G * (counts * z)[:, :, None], p)
-        own = counts * np.einsum("fss->fs", p)
-        by_spring = 2 * (ratios * (own - through)).sum(axis=0)
-        return float((power @ counts).sum()), by_spring
+        counts, value = case.counts, 0.0
+        by_spring = np.zeros(len(counts), complex)
+        for passed in _passed(case, rates):
+            x, P = passed.stretch, passed.weighted
+            pushed = (counts * passed.stiffness)[:, :, None] * P.swapaxes(1, 2)
+            through = (passed.moved_by(pushed) * x).sum(axis=2)
+            own = counts * (x * P.swapaxes(1, 2)).sum(axis=2)
+            value += float((passed.power @ counts).sum())
+            by_spring += 2 * (passed.ratios * (own - through)).sum(axis=0)
+        return value, by_spring
 
     def _exact(self, case: MountCase, rates: Rates) -> float:
         prepared = case.driven.prepared
@@ -129,7 +136,49 @@ class MountForceGoal:
         forces = solve_forces(system, case.load, lines, case.driven.speed).force
         F = forces[:, rows_of_springs(prepared.vehicle)]
         power = ((F @ case.spectrum(lines)) * F.conj()).sum(axis=2).real
-        return float((power @ (case.weight * _of_springs(case, F.shape[1]))).sum())
+        return float((power @ case.counts).sum())
+
+
+@dataclass(frozen=True, eq=False)
+class _Passed:
+    """What springs pass on at some lines with mount rates."""
+
+    receptances: Receptances
+    at_reference: Complexes
+    """Rates of springs, (n_springs,), N/m."""
+    ratios: Complexes
+    """What they are in parts of these, (n_lines or 1, n_springs)."""
+    stiffness: Complexes
+    """z, (n_lines, n_springs), N/m."""
+    stretch: Complexes
+    """x, (n_lines, n_springs, n_inputs)."""
+    weighted: Complexes
+    """P = S Fᴴ, (n_lines, n_inputs, n_springs)."""
+
+    @property
+    def power(self) -> Floats:
+        """F S Fᴴ of each spring, (n_lines, n_springs)."""
+        F = self.stiffness[:, :, None] * self.stretch
+        return (F * self.weighted.swapaxes(1, 2)).sum(axis=2).real
+
+    def moved_by(self, forces: Complexes) -> Complexes:
+        """Return G f, how forces in springs stretch them, (n_lines, n_springs, n_columns)."""
+        at = self.receptances
+        return replace(at, inputs=at.springs @ forces).stretches(self.at_reference)
+
+
+def _passed(case: MountCase, rates: Rates) -> Iterator[_Passed]:
+    """What passes at the lines of the band, then at those between; raises as `solve`."""
+    system = case.driven.prepared.system
+    stiffness = case.driven.prepared.mount_stiffness(rates)
+    lines = case.lines(stiffness)
+    spectrum = case.spectrum(lines)
+    for at, own in case.driven.parts(lines):
+        f = at.frequency_hz
+        ratios, x = at.law.ratios(f), at.stretches(stiffness)
+        z = stiffness * ratios + 2j * np.pi * f[:, None] * spring_damping(system)
+        weighted = spectrum[own] @ (z[:, :, None] * x).conj().swapaxes(1, 2)
+        yield _Passed(at, stiffness, ratios, z, x, weighted)
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,7 +303,7 @@ def _cases(
 def _loads(vehicle: Vehicle, problem: Problem, target: MountTarget) -> list[Load]:
     if target.loads:
         return [vehicle.load(name) for name in target.loads]
-    usual = vehicle.usual_load or next(iter(vehicle.harmonic_loads), None)
+    usual = vehicle.usual_load or next(iter(vehicle.swept_loads), None)
     if usual is None:
         raise VehicleError(f"problem {problem.name!r}: goal {problem.goal!r} needs a load")
     return [usual]
@@ -271,11 +320,6 @@ def _selected(vehicle: Vehicle, target: MountTarget) -> Floats:
     rows = [i for i, mount in enumerate(vehicle.mounts) if mount in chosen]
     selected[np.ix_(rows, [AXIS[direction] for direction in target.directions])] = 1.0
     return selected
-
-
-def _of_springs(case: MountCase, n_springs: int) -> Floats:
-    """What each spring counts, (n_springs,): those about axes nothing."""
-    return np.pad(case.selected.ravel(), (0, n_springs - case.selected.size))
 
 
 def _scaled(cases: Sequence[MountCase], factors: Floats) -> tuple[MountCase, ...]:

@@ -11,8 +11,10 @@ from mounted_machine import mounted_machine
 from modeviz.cli import main
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
+from modeviz.files.new_vehicle import new_vehicle
 from modeviz.optimise.goals import prepare_goal
 from modeviz.study.study import Study
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.mount_target import MountTarget
 from modeviz.vehicle.problem import DesignGroup, Problem
 
@@ -125,3 +127,14 @@ def test_the_command_line_takes_the_goal(tmp_path, capsys):
     write_vehicle(mounted_cabin(), tmp_path / "cabin")
     assert main(["optimise", str(tmp_path / "cabin"), "--goal", "forces", "--starts", "1"]) == 0
     assert "mean squares of mounts' forces" in capsys.readouterr().out
+
+
+def test_forces_under_an_order_of_an_engine_are_a_goal_where_nothing_else_shakes(tmp_path):
+    vehicle = read_vehicle(new_vehicle("powertrain", tmp_path / "mine"))
+    vehicle = replace(vehicle, highest_frequency=40.0)
+    groups = tuple(DesignGroup(group.name) for group in vehicle.mount_groups)
+    goal = prepare_goal(vehicle, Problem("forces", groups, goal="forces"), vehicle.rates, vehicle.speed)
+    assert goal.cases[0].load.name == "four-cylinder order 2"
+    softer = {"M1": MountRates(9e4, 5e4, 7e4)}
+    assert goal.value(softer) == pytest.approx(goal.exact_value(softer), rel=1e-8)
+    assert goal.value_and_gradient(softer)[0] == pytest.approx(goal.value(softer), rel=1e-12)
