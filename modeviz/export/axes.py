@@ -39,6 +39,12 @@ class FileAxes:
         """Return rates (3,) along local x, y, z along those of the same frame here."""
         return np.abs(self.turn.T) @ rates
 
+    def ranges(self, ranges: Floats) -> Floats:
+        """Return the least and the most along local x, y, z, (2, 3), along those of the same frame."""
+        ours = np.abs(self.turn).argmax(axis=0)
+        is_against = self.turn[ours, np.arange(3)] < 0
+        return np.where(is_against, 0.0 - ranges[::-1, ours], ranges[:, ours])
+
     @property
     def directions(self) -> tuple[str, ...]:
         """What a person calls the directions along x, y and z: "fore-aft", "lateral", "vertical"."""

@@ -7,11 +7,13 @@ from io import StringIO
 import numpy as np
 
 from modeviz.export.axes import FileAxes
+from modeviz.files.mount_tables.limits import RATIOS, STATIC_RATIO, TRAVEL
 from modeviz.files.schema.scaling import WRITTEN_UNITS, written
 from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 AXES = ("x", "y", "z")
@@ -47,15 +49,27 @@ def _cells(group: MountGroup, mount: Mount, axes: FileAxes) -> Iterator[tuple[st
     yield "loss_factor", mount.loss_factor
     yield from _with_unit("softest_{}", "stiffness", softest)
     yield from _with_unit("stiffest_{}", "stiffness", stiffest)
+    for name, ends in zip(TRAVEL, axes.ranges(_travel(group)), strict=True):
+        yield from _with_unit(f"{name}_{{}}", "length", ends)
+    yield STATIC_RATIO, group.static_ratio
+    yield from zip(RATIOS, group.ratio_limits or ("", ""), strict=True)
     yield from _plain("x_axis_{}", frame[0])
     yield from _plain("z_axis_{}", frame[2])
     yield "elastic_center", mount.elastic_center
 
 
-def _with_unit(name: str, quantity: QuantityName, values: Floats) -> Iterable[tuple[str, float]]:
+def _travel(group: MountGroup) -> Floats:
+    """The least and the most along local x, y, z, (2, 3), m; not numbers where nothing is limited."""
+    nothing = (np.nan, np.nan)
+    return np.array([group.travel.get(direction, nothing) for direction in DIRECTIONS[::-1]]).T
+
+
+def _with_unit(name: str, quantity: QuantityName, values: Floats) -> Iterable[tuple[str, str | float]]:
+    """A cell for each axis, empty where there is no number."""
     unit = WRITTEN_UNITS[quantity]
     for axis, value in zip(AXES, values.tolist(), strict=True):
-        yield f"{name.format(axis)} [{unit}]", written(value, factor(unit, quantity))
+        cell = "" if np.isnan(value) else written(value, factor(unit, quantity))
+        yield f"{name.format(axis)} [{unit}]", cell
 
 
 def _plain(name: str, values: Floats) -> Iterable[tuple[str, float]]:

@@ -22,10 +22,18 @@ def bare(vehicle: Vehicle) -> Vehicle:
     return replace(vehicle, mount_groups=(), rate_sets={})
 
 
+def limited(vehicle: Vehicle) -> Vehicle:
+    """With a travel, a static ratio and limits of ratios of the first group."""
+    first, *others = vehicle.mount_groups
+    travel = {"vertical": (-0.0125, 0.0625), "lateral": (-0.25, 0.0)}
+    first = replace(first, static_ratio=1.625, ratio_limits=(0.25, 1.5), travel=travel)
+    return replace(vehicle, mount_groups=(first, *others))
+
+
 @pytest.mark.parametrize("words", AXES)
 def test_mounts_are_read_again_as_they_were_in_any_axes(words, tmp_path):
     before = read_vehicle(turned_folder(tmp_path / "all", many_mounts(), words))
-    tuned = before.with_rates({"Z": MountRates(1e6 / 3, 1e5 / 3, 1e4 / 7, 0.25)})
+    tuned = limited(before).with_rates({"Z": MountRates(1e6 / 3, 1e5 / 3, 1e4 / 7, 0.25)})
     (tmp_path / "mounts.csv").write_bytes(mount_table(tuned))
     folder = turned_folder(tmp_path / "bare", bare(many_mounts()), words)
     assert main(["import", str(tmp_path / "mounts.csv"), "--output", str(folder)]) == 0
@@ -39,6 +47,11 @@ def test_mounts_are_read_again_as_they_were_in_any_axes(words, tmp_path):
                 getattr(found, name), getattr(expected, name), rtol=1e-14, atol=1e-15
             )
     for found, expected in zip(after.mount_groups, tuned.mount_groups, strict=True):
+        assert (found.static_ratio, found.ratio_limits) == (
+            expected.static_ratio,
+            expected.ratio_limits,
+        )
+        assert found.travel == expected.travel
         for one, other in zip(found.bounds, expected.bounds, strict=True):
             np.testing.assert_allclose(one.as_tuple(), other.as_tuple(), rtol=1e-14)
 

@@ -311,7 +311,7 @@ WRONG = {
     "softest above stiffest": (
         {},
         {"softest_z [N/mm]": 900, "stiffest_z [N/mm]": 500},
-        "mounts.csv: line 2: the softest rates,",
+        "mounts.csv: line 2, column softest_z [N/mm]: found 900, expected less than the stiffest, 500",
     ),
     "group named as a body": (
         {},

@@ -384,13 +384,33 @@ def test_a_unit_that_one_column_says_holds_for_others_of_its_quantity(tmp_path):
     (own,) = read(
         written(
             tmp_path / "m.csv",
-            [["name", "from", "to", "kx", "kx min [N/mm]", "units"], ["a", "b", "c", 3, 1, "N/m"]],
+            [["name", "from", "to", "kx", "kx min [N/mm]", "units"], ["a", "b", "c", 3000, 1, "N/m"]],
         )
     )
-    assert (own.stiffness[0], own.softest[0]) == (3, 1000)
+    assert (own.stiffness[0], own.softest[0]) == (3000, 1000)
     header[4] = "y [cm]"
     with pytest.raises(VehicleError, match="line 2, column z: found 508 without a unit"):
         read(written(tmp_path / "m.csv", [header, [*ROW, 2]]))
+
+
+def test_a_group_has_the_travel_and_the_ratios_of_its_first_line(block, tmp_path):
+    header = [*HEADER, "group", "least_travel_z [mm]", "travel vertical max [cm]", "mintravelx [m]",
+              "max travel x [m]", "static_ratio", "least_ratio", "most_ratio"]  # fmt: skip
+    rows = [[*ROW, "M", -8, 0.5, -0.01, 0.01, 1.5, 0.2, 1.2], ["b", *ROW[1:], "M", *[""] * 7]]
+    path = written(tmp_path / "m.csv", [header, *rows])
+    assert main(["import", str(path), "--output", str(block)]) == 0
+    group = read_vehicle(block).mount_group("M")
+    assert group.static_ratio == 1.5
+    assert group.ratio_limits == (0.2, 1.2)
+    assert set(group.travel) == {"vertical", "fore-aft"}
+    assert group.travel["vertical"] == pytest.approx((-0.008, 0.005))
+    assert group.travel["fore-aft"] == pytest.approx((-0.01, 0.01))
+
+
+def test_a_static_rate_of_another_program_is_left_out_and_no_misspelt_ratio(tmp_path):
+    header = [*HEADER, "static rate [N/mm]", "group"]
+    (found,) = read(written(tmp_path / "m.csv", [header, [*ROW, 11, "M"]]))
+    assert np.isnan(found.limits.static_ratio)
 
 
 def test_numbers_without_units_are_in_those_that_are_named(tmp_path):
@@ -550,11 +570,76 @@ BAD = {
     "a name twice": (bad([HEADER, ROW, ROW]), "line 3, column name: 'a' is there twice, in line 2 too"),
     "mounts of a group that differ": (
         bad([[*HEADER, "group"], [*ROW, "M"], ["b", *ROW[1:8], 20, "M"]]),
-        "line 3: the stiffness of 'b'",
+        "line 3, column k_z [N/mm]: found 20, expected 19 as 'a' has it in line 2",
+    ),
+    "a loss factor that differs": (
+        bad([[*HEADER, "group", "eta [%]"], [*ROW, "M", 8], ["b", *ROW[1:], "M", 10]]),
+        "line 3, column eta [%]: found 10, expected 8 as 'a' has it in line 2",
+    ),
+    "a bound that only one has": (
+        bad(
+            [
+                [*HEADER, "group", "max vertical [kN/m]", "min lateral [kN/m]"],
+                [*ROW, "M", 40, ""],
+                ["b", *ROW[1:], "M", "", 9],
+            ]
+        ),
+        "line 3, column min lateral [kN/m]: found 9, expected nothing as 'a' has it",
+    ),
+    "stiffest below softest": (
+        bad([[*HEADER, "kx max [kN/m]"], [*ROW, 4]]),
+        "line 2, column kx max [kN/m]: found 4, expected more than the softest, 4.375",
+    ),
+    "half a travel": (
+        bad([[*HEADER, "group", "travel z min [mm]", "travel z max [mm]"], [*ROW, "M", -5, ""]]),
+        "column travel z max [mm]: empty, expected a length, zero or above",
+    ),
+    "a travel upside down": (
+        bad([[*HEADER, "group", "travel z min [mm]", "travel z max [mm]"], [*ROW, "M", 5, 8]]),
+        "column travel z min [mm]: found 5, expected zero or below",
+    ),
+    "no travel at all": (
+        bad([[*HEADER, "group", "travel z min [mm]", "travel z max [mm]"], [*ROW, "M", 0, 0]]),
+        "column travel z max [mm]: found no travel at all",
+    ),
+    "another travel": (
+        bad(
+            [
+                [*HEADER, "group", "travel z min [mm]", "travel z max [mm]"],
+                [*ROW, "M", -5, 5],
+                ["b", *ROW[1:], "M", -5, 6],
+            ]
+        ),
+        "line 3, column travel z max [mm]: found 6, expected 5 as 'a' has it in line 2",
+    ),
+    "a travel of the ground": (
+        bad(
+            [
+                [*HEADER, "group", "travel z min [mm]", "travel z max [mm]"],
+                ["a", "ground", "block", *ROW[3:], "M", -5, 6],
+            ]
+        ),
+        "the first of 'a' is the ground; give the ground as the second",
+    ),
+    "a travel of what is not tuned": (
+        bad([[*HEADER, "group", "travel z min [mm]", "travel z max [mm]"], [*ROW, "", -5, 5]]),
+        "travel and ratios are of mounts that are tuned; give 'a' a group",
+    ),
+    "a static ratio of nothing": (
+        bad([[*HEADER, "static_ratio"], [*ROW, 0]]),
+        "column static_ratio: found 0, expected more than zero",
+    ),
+    "half of the ratios": (
+        bad([[*HEADER, "least_ratio", "most_ratio"], [*ROW, 0.2, ""]]),
+        "column most_ratio: empty, expected the other ratio too",
+    ),
+    "ratios upside down": (
+        bad([[*HEADER, "least_ratio", "most_ratio"], [*ROW, 0.5, 0.2]]),
+        "column most_ratio: found 0.2, expected more than the least, 0.5",
     ),
     "softest above stiffest": (
         bad([[*HEADER, "kx min [N/mm]", "kx max [N/mm]"], [*ROW, 30, 20]]),
-        "are not below the stiffest",
+        "line 2, column kx min [N/mm]: found 30, expected less than the stiffest, 20",
     ),
     "two axes along a line": (bad([X_AXIS, [*ROW, 1, 0, 0, 2, 0, 0]]), "are 0° apart, expected 90°"),
     "an axis of no length": (bad([X_AXIS, [*ROW, 0, 0, 0, 0, 1, 0]]), "which has no direction"),

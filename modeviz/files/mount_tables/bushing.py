@@ -5,8 +5,10 @@ from typing import Self
 
 import numpy as np
 
+from modeviz.files.mount_tables.limits import GroupLimits
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.local_axes import AXES
+from modeviz.vehicle.mount_rates import MountRates, usual_bounds
 from modeviz.vehicle.pose import Pose
 
 DIRECTIONS = (*AXES, *(f"r{axis}" for axis in AXES))
@@ -52,6 +54,8 @@ class Bushing:
     rigid: tuple[str, ...] = ()
     """Which of `DIRECTIONS` there is no motion in."""
     elastic_center: float = 0.5
+    limits: GroupLimits = field(default_factory=GroupLimits)
+    """What is said of its group beside rates."""
     acts_at: Floats | None = None
     """(3,), m: where it acts if that is not between its ends; rigid arms go there."""
 
@@ -59,6 +63,16 @@ class Bushing:
         frozen(self, "stiffness", self.stiffness, (6,))
         frozen(self, "damping", self.damping, (6,))
         frozen(self, "axes", self.axes, (3, 3))
+
+    @property
+    def bounds(self) -> tuple[Floats, Floats]:
+        """The softest and the stiffest rates along x, y, z, (3,) each, the usual ones if not given."""
+        usual = usual_bounds(MountRates(*self.stiffness[:3]))  # three numbers, whatever they are called
+        low, high = (
+            np.where(np.isnan(bound), other.as_tuple(), bound)
+            for bound, other in zip((self.softest, self.stiffest), usual, strict=True)
+        )
+        return low, high
 
     def moved(self, pose: Pose) -> Self:
         """Return the bushing in the vehicle that is in the coordinates of a component."""

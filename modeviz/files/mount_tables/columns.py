@@ -6,6 +6,7 @@ from difflib import get_close_matches
 
 from modeviz.errors import VehicleError, listed, quoted
 from modeviz.files.columns import Column, Kind, bare, split_header
+from modeviz.files.mount_tables.limits import RATIOS, STATIC_RATIO, TRAVEL
 from modeviz.vehicle.local_axes import AXES
 
 NAMED = ("vertical", "lateral", "fore_aft")
@@ -30,6 +31,10 @@ REMARKS = {"note", "notes", "remark", "remarks", "comment", "comments"}
 """Headers of columns for people, which say nothing here."""
 
 
+EXACT = (STATIC_RATIO, *RATIOS)
+"""Headers that nothing else is a misspelling of, such as a static rate."""
+
+
 def _kinds() -> Iterator[tuple[str, Kind]]:
     for name in TEXTS:
         yield name, "text"
@@ -44,10 +49,13 @@ def _kinds() -> Iterator[tuple[str, Kind]]:
     for direction in (*AXES, *NAMED):
         for what in ("k", "softest", "stiffest"):
             yield f"{what}_{direction}", "stiffness"
+        for what in TRAVEL:
+            yield f"{what}_{direction}", "length"
     for axis in AXES:
         yield f"angle_{axis}", "angle"
     yield "loss_factor", "ratio"
-    yield "elastic_center", "number"
+    for name in ("elastic_center", *EXACT):
+        yield name, "number"
 
 
 KINDS: Mapping[str, Kind] = dict(_kinds())
@@ -105,6 +113,12 @@ def _synonyms() -> Iterator[tuple[str, str]]:
     for header, name in ROLL_PITCH_YAW.items():
         words[name] = header
     words["angle_order"] = "order orderofangles rotationorder"
+    for direction in (*AXES, *NAMED):
+        plain = direction.replace("_", "")
+        for name, bound in zip(TRAVEL, ("min", "max"), strict=True):
+            words[f"{name}_{direction}"] = (
+                f"travel{plain}{bound} travel{bound}{plain} {bound}travel{plain} {plain}travel{bound}"
+            )
     for direction in NAMED:
         plain = direction.replace("_", "")
         words[f"k_{direction}"] = f"{plain} {plain}rate {plain}stiffness k{plain}"
@@ -113,6 +127,10 @@ def _synonyms() -> Iterator[tuple[str, str]]:
 
 
 SYNONYMS: Mapping[str, str] = dict(_synonyms())
+
+
+MISSPELT = [word for word, name in SYNONYMS.items() if name not in EXACT]
+"""What headers may be meant for that mean nothing."""
 
 
 WEAK = {"id", "label", "designation", "element", "partnumber", "partno", "nodeid", "unit", "file", "s"}
@@ -158,7 +176,7 @@ def _column(header: str) -> Column | None:
     name, unit = split_header(header, _meaning)
     if meaning := _meaning(name):
         return Column(header, meaning, unit, KINDS[meaning])
-    close = get_close_matches(bare(name), SYNONYMS, n=1, cutoff=0.85)
+    close = get_close_matches(bare(name), MISSPELT, n=1, cutoff=0.85)
     if close:
         raise VehicleError(
             f"unknown column {quoted(header)}: did you mean {SYNONYMS[close[0]]}? There are "

@@ -12,7 +12,15 @@ from modeviz.files.disk import inside
 from modeviz.files.headed_table import TableLine
 from modeviz.files.mount_tables.bushing import DIRECTIONS, Bushing, End
 from modeviz.files.mount_tables.columns import NAMED, has_known_order
+from modeviz.files.mount_tables.limits import (
+    TRAVEL,
+    GroupLimits,
+    check_travel,
+    read_ratios,
+    read_static_ratio,
+)
 from modeviz.files.mount_tables.reading import Reading, SixRates
+from modeviz.files.mount_tables.same_part import difference
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import AXES, TurnOrder, axes_of_angles, axes_of_vectors
@@ -54,10 +62,10 @@ class MountLine(TableLine):
         loss_factor = self.number("loss_factor", 0)
         if loss_factor is None:
             loss_factor = twin.loss_factor if twin else 0.0
-        bounds = [self._bound(which) for which in ("softest", "stiffest")]
+        bounds = [self._along(which) for which in ("softest", "stiffest")]
         if twin and np.isnan(bounds).all():
             bounds = [twin.softest, twin.stiffest]
-        return Bushing(
+        bushing = Bushing(
             f"line {self.row.line}",
             name,
             (self._end("1", self._place("")), self._end("2", self._second_place())),
@@ -68,7 +76,70 @@ class MountLine(TableLine):
             *bounds,
             axes=self._axes(),
             elastic_center=self._elastic_center(),
+            limits=self._limits(twin.limits if twin else GroupLimits()),
         )
+        self._check_same(bushing, before)
+        self._check_bounds(bushing)
+        return bushing
+
+    def _limits(self, groups: GroupLimits) -> GroupLimits:
+        """Travel and ratios of a line, or else what the first of its group has."""
+        travel = np.array([self._along(which, -np.inf) for which in TRAVEL])
+        for axis, low, high in zip(AXES, *travel.tolist(), strict=True):
+            least, most = (self._column(which, axis) for which in TRAVEL)
+            check_travel(self, (least, most), (low, high))
+        static_ratio, ratios = read_static_ratio(self), read_ratios(self)
+        return GroupLimits(
+            groups.travel if np.isnan(travel).all() else travel,
+            groups.static_ratio if np.isnan(static_ratio) else static_ratio,
+            groups.ratios if np.isnan(ratios).all() else ratios,
+        )
+
+    def _check_same(self, bushing: Bushing, before: Mapping[str, Bushing]) -> None:
+        """Raises VehicleError unless a mount is the same part as the mounts of its group above it."""
+        group = bushing.group
+        lot = (b for b in before.values() if group and b.group == group and b.stiffness[:3].any())
+        first = next(lot, None)
+        if first is None or not bushing.stiffness[:3].any():
+            return
+        if found := difference(bushing, first):
+            name, _, expected = found
+            prefix, _, axis = name.rpartition("_")
+            name = self._column(prefix, axis) if axis in AXES else name
+            words = "nothing" if np.isnan(expected) else self._written(name, expected)
+            raise VehicleError(
+                f"{self.where(name)}: found {self.text(name) or 'nothing'}, expected {words} as "
+                f"{quoted(first.name)} has it in {first.where}: mounts of a group, here "
+                f"{quoted(group)}, are the same part"
+            )
+
+    def _check_bounds(self, bushing: Bushing) -> None:
+        """Raises VehicleError for a bound that is given here and on the wrong side of the other."""
+        for axis, low, high in zip(AXES, *bushing.bounds, strict=True):
+            softest, stiffest = (self._column(which, axis) for which in ("softest", "stiffest"))
+            if low < high:
+                continue
+            if self.text(softest):
+                words = f"less than the stiffest, {self._written(softest, high)}"
+                raise VehicleError(
+                    f"{self.where(softest)}: found {self.text(softest)}, expected {words}"
+                )
+            if self.text(stiffest):
+                words = f"more than the softest, {self._written(stiffest, low)}"
+                raise VehicleError(
+                    f"{self.where(stiffest)}: found {self.text(stiffest)}, expected {words}"
+                )
+
+    def _written(self, name: str, value: float) -> str:
+        """A value in the unit of its column."""
+        one = self.factor(self.columns[name]) if name in self.columns else None
+        return f"{value / (one or 1.0):.6g}"
+
+    def _column(self, prefix: str, axis: str) -> str:
+        """What the column along a local axis is called in this table."""
+        direction = next(d for d in NAMED if self.reading.named[d] == axis)
+        plain, named = f"{prefix}_{axis}", f"{prefix}_{direction}"
+        return named if named in self.columns and not self.text(plain) else plain
 
     def _elastic_center(self) -> float:
         value = self.number("elastic_center", 0)
@@ -99,11 +170,13 @@ class MountLine(TableLine):
         zeros = np.zeros(6)
         return (zeros if stiffness is None else stiffness), (zeros if damping is None else damping)
 
-    def _directed(self, prefix: str, names: tuple[str, ...], empty: float) -> Floats | None:
+    def _directed(
+        self, prefix: str, names: tuple[str, ...], empty: float, at_least: float = 0
+    ) -> Floats | None:
         """Values along the local axes, of which some columns are called by directions."""
-        values = self.numbers(names, 0, empty)
+        values = self.numbers(names, at_least, empty)
         for direction in NAMED:
-            value = self.number(f"{prefix}_{direction}", 0)
+            value = self.number(f"{prefix}_{direction}", at_least)
             if value is None:
                 continue
             axis = self.reading.named[direction]
@@ -116,10 +189,10 @@ class MountLine(TableLine):
             values[AXES.index(axis)] = value
         return values
 
-    def _bound(self, which: str) -> Floats:
-        """The softest or the stiffest rates, not numbers where they are not given."""
+    def _along(self, which: str, at_least: float = 0) -> Floats:
+        """Bounds along x, y, z, (3,), such as the softest rates; not numbers where there are none."""
         names = tuple(f"{which}_{axis}" for axis in AXES)
-        found = self._directed(which, names, np.nan)
+        found = self._directed(which, names, np.nan, at_least)
         return np.full(3, np.nan) if found is None else found
 
     def _place(self, suffix: str) -> Floats | None:

@@ -7,11 +7,13 @@ import numpy as np
 
 from modeviz.errors import VehicleError, quoted
 from modeviz.files.mount_tables.bushing import Bushing
+from modeviz.files.mount_tables.same_part import difference
 from modeviz.files.records.connections import (
     ConnectionRecord,
     JointRecord,
     MountGroupRecord,
     MountRecord,
+    TravelRecord,
 )
 from modeviz.files.records.progressive import GroupRatesRecord
 from modeviz.files.records.rates import RatesRecord
@@ -19,10 +21,7 @@ from modeviz.files.records.record import Record, said, tuples
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import AXES
-from modeviz.vehicle.mount_rates import MountRates, usual_bounds
-
-SAME = 1e-9
-"""Relative: rates of mounts of a group that differ by less are the same."""
+from modeviz.vehicle.mount_group import USUAL_STATIC_RATIO
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +55,11 @@ def connection_tables(
         is_spring = bushing.stiffness.any() or bushing.rigid
         if bushing.group and bushing.stiffness[:3].any() and not bushing.rigid:
             groups.setdefault(bushing.group, []).append(bushing)
+        elif bushing.limits.are_said:
+            raise VehicleError(
+                f"{bushing.where}: travel and ratios are of mounts that are tuned; give "
+                f"{quoted(bushing.name)} a group and rates, or nothing in these columns"
+            )
         elif is_spring or bushing.damping.any():
             record = JointRecord if is_spring else ConnectionRecord
             (springs if is_spring else dampers).append(_connection(bushing, joined, record))
@@ -103,8 +107,10 @@ def _group(
         VehicleError: they are not the same part.
     """
     first = lot[0]
-    for other in lot[1:]:
+    for other in lot:
         _check_same(other, first)
+        _check_way(other, joined[other.name])
+    limits = first.limits
     softest, stiffest = _bounds(first, named)
     return MountGroupRecord(
         name=name,
@@ -112,29 +118,38 @@ def _group(
         loss_factor=first.loss_factor,
         softest=softest,
         stiffest=stiffest,
+        ratio_limits=None if np.isnan(limits.ratios).all() else limits.ratios,
+        static_ratio=USUAL_STATIC_RATIO if np.isnan(limits.static_ratio) else limits.static_ratio,
+        travel=_travel(limits.travel, named),
         mount=[MountRecord(name=b.name, **said(MountRecord, _placed(b, joined[b.name]))) for b in lot],
     )
 
 
 def _check_same(other: Bushing, first: Bushing) -> None:
-    """Raises VehicleError unless a mount has the rates, loss factor and bounds of its group's first."""
-    values = (
-        ("stiffness", other.stiffness[:3], first.stiffness[:3]),
-        ("loss factor", other.loss_factor, first.loss_factor),
-        ("softest", other.softest, first.softest),
-        ("stiffest", other.stiffest, first.stiffest),
-    )
-    for what, found, expected in values:
-        if not np.allclose(found, expected, rtol=SAME, atol=0, equal_nan=True):
-            raise VehicleError(
-                f"{other.where}: the {what} of {quoted(other.name)} is {_list(found)} and that of "
-                f"{quoted(first.name)} in {first.where} {_list(expected)}; mounts of a group, here "
-                f"{quoted(other.group)}, are the same part"
-            )
+    """Raises VehicleError unless a mount is the same part as its group's first, in SI."""
+    if differs := difference(other, first):
+        name, found, expected = differs
+        raise VehicleError(
+            f"{other.where}: {name} of {quoted(other.name)} is {found:.6g} and that of "
+            f"{quoted(first.name)} in {first.where} {expected:.6g}; mounts of a group, here "
+            f"{quoted(other.group)}, are the same part"
+        )
 
 
-def _list(values: Floats | float) -> str:
-    return ", ".join(f"{value:.6g}" for value in np.atleast_1d(values))
+def _check_way(bushing: Bushing, joined: Joined) -> None:
+    """Raises VehicleError for a travel from a mount's second end, which is called the first here."""
+    if joined.bodies[0] == GROUND and not np.isnan(bushing.limits.travel).all():
+        raise VehicleError(
+            f"{bushing.where}: travel is how far the first body goes from the second, and the first of "
+            f"{quoted(bushing.name)} is the ground; give the ground as the second"
+        )
+
+
+def _travel(travel: Floats, named: Mapping[str, str]) -> TravelRecord | None:
+    """The travel of a group as a table of its own; None if nothing is limited."""
+    along = {name: travel[:, AXES.index(axis)].tolist() for name, axis in named.items()}
+    ranges = {name: (low, high) for name, (low, high) in along.items() if not np.isnan(low)}
+    return TravelRecord(**ranges) if ranges else None
 
 
 def _rates(stiffness: Floats, named: Mapping[str, str]) -> dict[str, float]:
@@ -143,22 +158,8 @@ def _rates(stiffness: Floats, named: Mapping[str, str]) -> dict[str, float]:
 
 
 def _bounds(bushing: Bushing, named: Mapping[str, str]) -> list[RatesRecord | None]:
-    """The softest and the stiffest rates of a group, where they are given.
-
-    Raises:
-        VehicleError: the softest are above the stiffest.
-    """
+    """The softest and the stiffest rates of a group, where they are given."""
     given = bushing.softest, bushing.stiffest
     if np.isnan(given).all():
         return [None, None]
-    usual = usual_bounds(MountRates(*bushing.stiffness[:3]))  # three numbers, whatever they are called
-    low, high = (
-        np.where(np.isnan(bound), other.as_tuple(), bound)
-        for bound, other in zip(given, usual, strict=True)
-    )
-    if not (low < high).all():
-        raise VehicleError(
-            f"{bushing.where}: the softest rates, {_list(low)} N/m, are not below the stiffest, "
-            f"{_list(high)} N/m"
-        )
-    return [RatesRecord(**_rates(bound, named)) for bound in (low, high)]
+    return [RatesRecord(**_rates(bound, named)) for bound in bushing.bounds]

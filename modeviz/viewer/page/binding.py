@@ -102,8 +102,8 @@ class Binding(Generic[S]):
 
     def _choices(self) -> tuple[str, ...]:
         """The options of a dropdown."""
-        is_dropdown = isinstance(self._widget, viser.GuiDropdownHandle)
-        return tuple(self._widget.options) if is_dropdown else ()
+        widget = self._widget
+        return tuple(widget.options) if isinstance(widget, viser.GuiDropdownHandle) else ()
 
 
 def show_all(bindings: Sequence[Binding[Any]]) -> None:
