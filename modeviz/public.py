@@ -73,6 +73,8 @@ from modeviz.vehicle.loads import WheelLoad as WheelLoad
 from modeviz.vehicle.mode_damping import ModeDamping as ModeDamping
 from modeviz.vehicle.mount_group import MountGroup as MountGroup
 from modeviz.vehicle.mount_rates import MountRates as MountRates
+from modeviz.vehicle.placement import Placement as Placement
+from modeviz.vehicle.placement import with_placements as with_placements
 from modeviz.vehicle.pose import Pose as Pose
 from modeviz.vehicle.problem import DeflectionLimit as DeflectionLimit
 from modeviz.vehicle.problem import DesignGroup as DesignGroup

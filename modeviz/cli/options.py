@@ -10,6 +10,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError, located
 from modeviz.files import builtin_vehicle, read_vehicle
+from modeviz.files.place_settings import parse_placements
 from modeviz.files.rate_settings import ORIGINAL, resolve_rates
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.study.conditions import has_ride, on_even_road, road_conditions
@@ -17,6 +18,7 @@ from modeviz.study.forces import loaded_forces
 from modeviz.study.searching import chosen_problem
 from modeviz.units import parse
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.placement import with_placements
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -31,17 +33,21 @@ class VehicleOptions:
     """The name of a set of the vehicle's, or of a file."""
     settings: tuple[str, ...] = ()
     """Single rates, such as "C2.lateral=131 N/mm"."""
+    places: tuple[str, ...] = ()
+    """Where mounts are, such as "C2=20,0,0 mm"."""
 
     def read(self) -> tuple[Vehicle, Rates]:
         """Return the vehicle with its own rates, and the rates chosen; says the notes on the vehicle.
 
         Raises:
-            VehicleError: something is wrong in a file, or there are no such rates.
+            VehicleError: something is wrong in a file, there are no such rates, or mounts are to be
+                where they cannot.
         """
         return self.with_rates(read_vehicle(self.vehicle or builtin_vehicle()))
 
     def with_rates(self, vehicle: Vehicle) -> tuple[Vehicle, Rates]:
-        """Return a vehicle with the rates chosen, as `read`; says the notes on the vehicle."""
+        """Return a vehicle with mounts where they are chosen, as `read`; says the notes on it."""
+        vehicle = with_placements(vehicle, parse_placements(self.places))
         for note in vehicle.notes:
             remark(note)
         return vehicle, resolve_rates(vehicle, self.rates, self.settings)
@@ -182,6 +188,14 @@ def add_rates(command: ArgumentParser) -> None:
         dest="settings",
         help='one rate or loss factor, such as "C2.lateral=131 N/mm" or C2.loss_factor=0.2; may be '
         "repeated",
+    )
+    command.add_argument(
+        "--place",
+        action="append",
+        metavar="PLACE",
+        dest="places",
+        help='where the mounts of a group are moved, "C2=20,0,-10 mm", or turned, "C2=0,5,0 deg", '
+        "along and about the vehicle's axes, those on the other side as in a mirror; may be repeated",
     )
 
 

@@ -53,9 +53,9 @@ class ViewOptions(VehicleOptions, RoadOptions):
 
     def check_no_vehicle(self) -> None:
         """Raises ModevizError if something is asked for that only a vehicle has."""
-        for option in ("rates", "settings", "road", "speed"):
+        for option in ("rates", "settings", "places", "road", "speed"):
             if getattr(self, option) != getattr(ViewOptions, option):
-                name = "set" if option == "settings" else option
+                name = {"settings": "set", "places": "place"}.get(option, option)
                 raise ModevizError(f"--{name} is of a vehicle, and a component's files are given")
 
 

@@ -162,7 +162,7 @@ def vehicle_of(tables: Mapping[str, Any], source: Source) -> Vehicle:
         for doubt in (*of_bodies, *orientation_doubts(vehicle, axes)):
             own.note(doubt)
     file = str(own.folder / VEHICLE_FILE)
-    return replace(vehicle, notes=own.notes, file=file, axes=record.axes)
+    return replace(vehicle, notes=(*vehicle.remarks, *own.notes), file=file, axes=record.axes)
 
 
 def write_vehicle(vehicle: Vehicle, folder: Path | str) -> None:
@@ -214,6 +214,7 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         speed=vehicle.speed,
         highest_frequency=vehicle.highest_frequency,
         frequency_step=vehicle.frequency_step,
+        remarks=list(vehicle.remarks),
         flexible_body=[_record_of_flexible(b, stems[b.name], folder) for b in flexible],
         rigid_body=[RigidBodyRecord.of(b, _mesh_file(b, stems[b.name], folder)) for b in rigid],
         added_mass=[AddedMassRecord.of(m) for m in vehicle.added_masses],

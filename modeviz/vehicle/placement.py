@@ -82,7 +82,7 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
             *missing_compliance(vehicle.bodies, bodies, name, mounts),
         )
     ]
-    return replace(placed, notes=(*vehicle.notes, *told))
+    return replace(placed, remarks=(*vehicle.remarks, *told), notes=(*vehicle.notes, *told))
 
 
 def check_placements(vehicle: Vehicle, placements: Placements) -> None:

@@ -70,6 +70,8 @@ class Vehicle:
     engines: tuple[Engine, ...] = ()
     load_cases: tuple[LoadCase, ...] = ()
     """Those in which it is looked at standing still; none are the usual ones, see `static_cases`."""
+    remarks: tuple[str, ...] = ()
+    """What is to be known of it wherever it is looked at, a sentence each; its file keeps them."""
     notes: tuple[str, ...] = ()
     """What reading it had to say: what was taken otherwise than it stands, or is likely wrong.
 

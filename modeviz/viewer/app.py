@@ -145,7 +145,8 @@ class App:
         """
         solved = self._solved()
         variant = variant_name(self.session.vehicle, solved.state.design)
-        return offline_page(self.server, solved, variant, self._dark, position, look_at)
+        with self._scene.without_handle():
+            return offline_page(self.server, solved, variant, self._dark, position, look_at)
 
     def report(self, pictures: Sequence[Picture]) -> bytes:
         """The present rates against the set they are compared with, see `report.html`.

@@ -17,9 +17,12 @@ from modeviz.cli.new import NEW
 from modeviz.cli.parser import COMMANDS, parse
 from modeviz.cli.render import RENDER
 from modeviz.cli.scatter import ScatterCommandOptions
+from modeviz.dynamics.assembly import assemble
+from modeviz.dynamics.modes import solve_modes
 from modeviz.files import write_vehicle
 from modeviz.vehicle.connections import Tyre
 from modeviz.vehicle.mount_rates import MountRates
+from modeviz.vehicle.placement import Placement, with_placements
 
 
 def test_modes_prints_a_table(capsys, folder):
@@ -83,6 +86,14 @@ def test_psd_json_is_the_solution_of_the_tuned_vehicle(printed_json, folder):
     )
 
 
+def test_modes_with_mounts_elsewhere_are_those_of_the_vehicle_with_these(capsys, printed_json, folder):
+    record = printed_json("modes", folder, "--place", "A=40,20,0 mm", "--place", "A=0,30,0 deg")
+    placed = {"A": Placement((0.04, 0.02, 0), (0, np.radians(30), 0))}
+    expected = solve_modes(assemble(with_placements(mounted_cabin(), placed)), below_hz=40.0)
+    found = [mode["frequency_hz"] for mode in record["modes"]]
+    assert found == pytest.approx(expected.frequency_hz, rel=1e-9)
+
+
 def test_wheels_json_has_a_response_for_every_load(printed_json, folder):
     record = printed_json("wheels", folder)
     (load,) = record["loads"]
@@ -107,6 +118,8 @@ def test_tables_name_points_and_directions(capsys, folder, command):
         (["modes", "{}", "--set", "C9.lateral=131 N/mm"], "unknown mount group 'C9'"),
         (["modes", "{}", "--set", "A.sideways=131 N/mm"], "unknown direction 'sideways'"),
         (["modes", "{}", "--set", "A.lateral=131"], "without a unit"),
+        (["modes", "{}", "--place", "A=1,2 mm"], "expected GROUP=X,Y,Z UNIT"),
+        (["modes", "{}", "--place", "C9=1,2,3 mm"], "unknown mount group 'C9'"),
         (["modes", "{}", "--set", "A.lateral=131 N/furlong"], "unit of stiffness"),
         (["modes", "{}", "--set", "A.lateral=-5 N/mm"], "zero or more"),
         (["modes", "{}", "--set", "A.lateral=nan N/mm"], "expected a number"),

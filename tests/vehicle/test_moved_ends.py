@@ -150,4 +150,5 @@ def test_the_folder_of_a_vehicle_with_moved_mounts_gives_its_frequencies(tmp_pat
     after = moved(on_a_block(sheet(at(A)), place(A)), beyond(place(B), 0.01, 0.02, 0.03))
     write_vehicle(after, tmp_path / "moved")
     again = read_vehicle(tmp_path / "moved")
+    assert again.notes[: len(after.notes)] == again.remarks == after.notes
     assert frequencies(again) == pytest.approx(frequencies(after), rel=1e-9)

@@ -11,6 +11,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.session.commands.looks import ChangeLook
 
 WIDTH = 420 - 62 - 14
 """Of the frame of a chart, in its own units."""
@@ -75,3 +76,14 @@ def check(line, frequency_hz, response):
     highest = frequency_hz[inside][response[inside].argmax()]
     x, y = line[inside].T
     assert 1 + 24 * x[y.argmin()] == pytest.approx(highest, abs=0.05)
+
+
+def test_the_handle_of_mounts_stays_behind(app, monkeypatch):
+    app.session.do(ChangeLook(handle=True))
+    app.session.wait_for_answer(30)
+    handle, seen = app.scene._handle._handle, []
+    monkeypatch.setattr("modeviz.viewer.app.offline_page", lambda *_: seen.append(handle.visible))
+    assert handle.visible
+    app.offline(np.zeros(3), np.ones(3))
+    assert seen == [False]
+    assert handle.visible

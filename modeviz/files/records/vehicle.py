@@ -115,6 +115,8 @@ class VehicleRecord(FileRecord, kw_only=True):
     """Hz: up to where modes and responses are looked at."""
     frequency_step: Frequency = 0.1
     """Hz: between the lines at which responses are given."""
+    remarks: list[str] = msgspec.field(default_factory=list)
+    """Sentences that are told with all notes on the vehicle."""
     body_table: str | None = None
     """A file of the folder, .csv or .xlsx, with rigid bodies."""
     mount_table: str | None = None
@@ -193,6 +195,7 @@ class VehicleRecord(FileRecord, kw_only=True):
             decoupling=self._decoupling(),
             engines=engines,
             load_cases=built(self.load_case, "load_case", LoadCaseRecord.build),
+            remarks=tuple(self.remarks),
         )
         return put_in_place(vehicle, absorbers)
 

@@ -1,6 +1,7 @@
 """The handle in the scene by which the mounts of a group are moved and turned."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -81,6 +82,16 @@ class MountHandle:
         """Leaves it out."""
         self._is_dragged = False
         assign(self._handle, visible=False)
+
+    @contextmanager
+    def away(self) -> Iterator[None]:
+        """Leaves it out inside the block, whatever is seen of the scene there."""
+        was = self._handle.visible
+        assign(self._handle, visible=False)
+        try:
+            yield
+        finally:
+            assign(self._handle, visible=was)
 
     def close(self) -> None:
         """Tells nobody any more."""

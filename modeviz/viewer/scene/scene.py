@@ -1,6 +1,7 @@
 """The vehicle in the middle of the page: its bodies in a moving shape, its marks, the stage."""
 
 from collections.abc import Callable, Collection, Mapping
+from contextlib import AbstractContextManager, nullcontext
 
 import numpy as np
 import viser
@@ -107,6 +108,10 @@ class Scene:
             self._handle.show(given, self._markers.carrier(group), alterations.placement(group))
         else:
             self._handle.hide()
+
+    def without_handle(self) -> AbstractContextManager[None]:
+        """Leaves out, inside a block, what is only for hands."""
+        return self._handle.away() if self._handle else nullcontext()
 
     def close(self) -> None:
         """Ends what hears the handle."""
