@@ -152,3 +152,5 @@ def test_the_folder_of_a_vehicle_with_moved_mounts_gives_its_frequencies(tmp_pat
     again = read_vehicle(tmp_path / "moved")
     assert again.notes[: len(after.notes)] == again.remarks == after.notes
     assert frequencies(again) == pytest.approx(frequencies(after), rel=1e-9)
+    found, expected = (assemble(vehicle).stiffness for vehicle in (again, after))
+    np.testing.assert_allclose(found, expected, atol=1e-12 * np.abs(expected).max())

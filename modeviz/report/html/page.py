@@ -25,7 +25,6 @@ from modeviz.text.wording import number, signed
 from modeviz.units import factor
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
-from modeviz.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ def report(
             wheels(comparison),
             engines(comparison),
             exactness(comparison, check),
-            _notes(comparison.vehicle),
+            _notes(comparison),
         ]
     )
     style = files("modeviz.report.html").joinpath("style.css").read_text("utf-8")
@@ -127,11 +126,14 @@ def _gain(difference: float) -> str:
     return span(signed(difference, 2), kind if abs(difference) >= 0.005 else "dim")
 
 
-def _notes(vehicle: Vehicle) -> str:
-    """The section with the notes made while the vehicle was read."""
-    if not vehicle.notes:
+def _notes(comparison: Comparison) -> str:
+    """The section with the notes on the vehicle, and on the one compared with what else there is."""
+    own, (first, _) = comparison.vehicle.notes, comparison.names
+    others = [note for note in comparison.base.prepared.vehicle.notes if note not in own]
+    notes = [*own, *(f"{first}: {note}" for note in others)]
+    if not notes:
         return ""
-    items = "".join(f"<li>{escape(note)}</li>" for note in vehicle.notes)
+    items = "".join(f"<li>{escape(note)}</li>" for note in notes)
     return section("Notes on the vehicle", f"<ul>{items}</ul>")
 
 

@@ -14,7 +14,8 @@ TOPICS = (
     (
         "Change",
         "Left: softer or stiffer mounts. Everything follows while you drag; each rate says what ten "
-        "percent of it would do.",
+        "percent of it would do. Place, in the details of a group, moves and turns its mounts, by "
+        "numbers or by a handle in the scene.",
     ),
     (
         "Look",

@@ -3,16 +3,19 @@
 import math
 from html import escape
 
+import numpy as np
+
 from modeviz.analysis.results import Results
 from modeviz.text.wording import number, sentence_case, signed
 from modeviz.units import factor
 from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS
+from modeviz.vehicle.placement import Placement
 from modeviz.viewer.page.html import change, heading, named, row, span, table
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.cursor import has_ride
-from modeviz.viewer.session.design import variant_name
+from modeviz.viewer.session.design import named_sets, variant_name
 from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.state import ResponseCurve
 from modeviz.viewer.session.wheel_responses import NOW
@@ -25,14 +28,39 @@ def side_by_side(solved: Solved) -> str:
     """Rates that differ, frequencies that moved, and the figures of the ride."""
     state, base, now = solved.state, solved.base, solved.now
     names = escape(state.against), escape(variant_name(now.prepared.vehicle, state.design))
-    rates = _rates(base, now, state.unit)
-    if not rates:
+    rates, places = _rates(base, now, state.unit), _places(solved)
+    if not rates and not places:
         same = f"The present rates are those of {names[0]}: change one, or compare with another set."
         return heading("Side by side") + span(same, "dim")
     sections = [(f"Rates, {state.unit}", rates), ("Modes, Hz", _modes(solved))]
     sections.append(("Driver", _figures(solved)))
     tables = "".join(table((what, *names, "change"), rows) for what, rows in sections if rows)
-    return heading("Side by side") + f'<div class="beside">{tables}</div>'
+    placed = table(("Mounts placed", *names), places) if places else ""
+    return heading("Side by side") + f'<div class="beside">{placed}{tables}</div>'
+
+
+def _places(solved: Solved) -> list[str]:
+    """How the mounts of groups are moved and turned, where that differs."""
+    design, vehicle = solved.state.design, solved.now.prepared.vehicle
+    before = named_sets(vehicle, design)[solved.state.against].alterations
+    rows = []
+    for group in solved.now.rates:
+        placements = before.placement(group), design.alterations.placement(group)
+        if placements[0] != placements[1]:
+            rows.append(row([named(group), *map(_placed, placements)]))
+    return rows
+
+
+def _placed(placement: Placement) -> str:
+    """How mounts are placed, in mm along and degrees about x, y, z."""
+    if placement.is_as_given:
+        return "as in the file"
+    values = (
+        (1e3 * np.array(placement.offset), " mm"),
+        (np.degrees(placement.angles), "°"),
+    )
+    words = (", ".join(f"{v:.4g}" for v in vector) + unit for vector, unit in values if vector.any())
+    return "; ".join(words)
 
 
 def _rates(base: Results, now: Results, unit: str) -> list[str]:

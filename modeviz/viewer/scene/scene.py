@@ -103,7 +103,8 @@ class Scene:
         self._markers.place(alterations.placements)
         if self._handle is None:
             return
-        if state.look.handle and group in state.design.rates:
+        is_whole = state.motion.kind != "component"
+        if state.look.handle and is_whole and group in state.design.rates:
             given = self._vehicle.mount_group(group)
             self._handle.show(given, self._markers.carrier(group), alterations.placement(group))
         else:
@@ -147,7 +148,7 @@ class Scene:
         drawn = [*filter(drawn_mesh, those)]
         if drawn:
             return bodies_box(drawn)
-        groups = {group.name: group for group in self._vehicle.mount_groups}
+        groups = {group.name: group for group in solved.now.prepared.vehicle.mount_groups}
         if not state.look.follow or state.group not in groups:
             return self._box
         return self._box.around(np.mean([m.center for m in groups[state.group].mounts], axis=0))

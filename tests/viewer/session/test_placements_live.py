@@ -16,6 +16,7 @@ from modeviz.cli.options import RoadOptions
 from modeviz.errors import VehicleError
 from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.placement import Placement, with_placements
+from modeviz.viewer.panels.side_by_side import side_by_side
 from modeviz.viewer.session.commands.decisions import (
     DragMounts,
     Load,
@@ -88,6 +89,9 @@ def test_what_is_compared_with_stays_where_it_was(session):
     assert solved.base.modes.frequency_hz == pytest.approx(before.now.modes.frequency_hz, rel=1e-12)
     assert not np.allclose(solved.now.psd, solved.base.psd, rtol=1e-3)
     assert variant_name(session.vehicle, session.state.design) == "Trial 1"
+    html = side_by_side(solved)
+    assert "as in the file" in html
+    assert "200, 0, 0 mm" in html
     assert solved.static.base.case("standing").motion == pytest.approx(
         before.static.now.case("standing").motion
     )
