@@ -8,13 +8,12 @@ from modeviz.optimise.outside import kept_ratios, outside_search
 from modeviz.optimise.pareto import Front, most_truncated
 from modeviz.optimise.trade_off import TradeOff
 from modeviz.report.optimum import objective_words, solved_from_scratch
+from modeviz.report.rate_fields import listed_fields, spoken, with_unit, written_rate, written_unit
 from modeviz.report.records import Record, rates_record
 from modeviz.report.space import space_lines
 from modeviz.report.tables import table
 from modeviz.report.truncation import at_rates, gap_record, is_large
 from modeviz.text.wording import percent_change, significant
-from modeviz.units import factor
-from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.problem import Problem
 
 
@@ -70,18 +69,23 @@ def front_table(problem: Problem, trade_off: TradeOff, front: Front) -> str:
     ]
     header = ["", *(text for name in front.names for text in (name, ""))]
     return "\n\n".join(
-        [table(header, goals), _rates_table(problem, front), _ending(problem, trade_off, front)]
+        [
+            table(header, goals),
+            _rates_table(problem, trade_off, front),
+            _ending(problem, trade_off, front),
+        ]
     )
 
 
-def front_csv(problem: Problem, front: Front) -> str:
-    """A row for each design: both goals, and the rates that may change, N/mm."""
+def front_csv(problem: Problem, trade_off: TradeOff, front: Front) -> str:
+    """A row for each design: both goals, and the rates of groups that may change, with their units."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    names, columns = _rates(problem, front)
-    writer.writerow(["design", *front.names, *(f"{name}, N/mm" for name in names)])
-    for number, (design, rates) in enumerate(zip(front.designs, columns, strict=True), 1):
-        writer.writerow([number, *design.values, *rates])
+    columns = _columns(problem, trade_off, front)
+    names = [f"{group} {spoken(field)}, {written_unit(field)}" for group, field, _ in columns]
+    writer.writerow(["design", *front.names, *names])
+    for i, design in enumerate(front.designs):
+        writer.writerow([i + 1, *design.values, *(values[i] for *_, values in columns)])
     return text.getvalue()
 
 
@@ -90,22 +94,22 @@ def _original(trade_off: TradeOff) -> list[float]:
     return [search.goal.value({}) for search in trade_off.searches]
 
 
-def _rates(problem: Problem, front: Front) -> tuple[list[str], list[list[float]]]:
-    """Names of the rates of the problem's groups, and these of each design, N/mm."""
-    per_mm = factor("N/mm", "stiffness")
-    groups = [group.group for group in problem.groups]
-    names = [f"{group} {direction}" for group in groups for direction in DIRECTIONS]
-    columns = [
-        [rate / per_mm for group in groups for rate in design.rates[group].as_tuple()]
-        for design in front.designs
+def _columns(problem: Problem, trade_off: TradeOff, front: Front) -> list[tuple[str, str, list[float]]]:
+    """The group, the field and the values in each design, in written units, of rates that are told."""
+    columns, vehicle = [], trade_off.searches[0].space.vehicle
+    for name in (group.group for group in problem.groups):
+        rates = [design.rates[name] for design in front.designs]
+        for field in listed_fields(vehicle.mount_group(name), *rates):
+            columns.append((name, field, [written_rate(each, field) for each in rates]))
+    return columns
+
+
+def _rates_table(problem: Problem, trade_off: TradeOff, front: Front) -> str:
+    rows = [
+        [f"{group} {with_unit(field)}", *map(significant, values)]
+        for group, field, values in _columns(problem, trade_off, front)
     ]
-    return names, columns
-
-
-def _rates_table(problem: Problem, front: Front) -> str:
-    names, columns = _rates(problem, front)
-    rows = [[name, *map(significant, rates)] for name, *rates in zip(names, *columns, strict=True)]
-    return table(["rates, N/mm", *(str(i + 1) for i in range(len(columns)))], rows)
+    return table(["rates, N/mm", *(str(i + 1) for i in range(len(front.designs)))], rows)
 
 
 def _ending(problem: Problem, trade_off: TradeOff, front: Front) -> str:

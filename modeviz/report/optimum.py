@@ -7,6 +7,7 @@ from modeviz.optimise.goals import Goal
 from modeviz.optimise.outside import kept_ratios, outside_search
 from modeviz.optimise.run import Optimum
 from modeviz.optimise.search import Search
+from modeviz.report.rate_fields import listed_fields, with_unit, written_rate
 from modeviz.report.records import Record, rates_record
 from modeviz.report.space import space_lines
 from modeviz.report.tables import table
@@ -14,8 +15,7 @@ from modeviz.report.truncation import gap_doubts, gap_record
 from modeviz.scatter.robust import Robust
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.wording import percent_change, scientific, significant
-from modeviz.units import factor
-from modeviz.vehicle.mount_rates import DIRECTIONS, Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import UNSHAKEN, GoalKind, Problem
 
 SMALL: dict[GoalKind, str] = {
@@ -118,13 +118,12 @@ def _rates_table(problem: Problem, search: Search, optimum: Optimum) -> str:
     others: dict[str, Rates] = {"found": optimum.rates}
     if problem.reference:
         others[problem.reference] = vehicle.all_rates(vehicle.rate_sets[problem.reference])
-    per_mm = factor("N/mm", "stiffness")
     rows = []
     for group in problem.groups:
-        columns = [rates[group.group].as_tuple() for rates in (own, *others.values())]
-        for direction, (original, *changed) in zip(DIRECTIONS, zip(*columns, strict=True), strict=True):
-            values = [original / per_mm, *(rate / per_mm for rate in changed)]
-            rows.append([f"{group.group} {direction}", *_row(values)])
+        columns = [rates[group.group] for rates in (own, *others.values())]
+        for field in listed_fields(vehicle.mount_group(group.group), *columns):
+            values = [written_rate(rates, field) for rates in columns]
+            rows.append([f"{group.group} {with_unit(field)}", *_row(values)])
     values = [v for v in _objective(problem, search, optimum).values() if v is not None]
     rows.append(["objective", *_row(values)])
     return table(["rates, N/mm", "original", *(c for name in others for c in (name, ""))], rows)

@@ -11,8 +11,8 @@ from modeviz.analysis.mode_tracking import Followed
 from modeviz.analysis.results import AXIS, Results
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.report.components import component_record
+from modeviz.report.rate_fields import quantity, written_rate
 from modeviz.ride.psd import amplitude_decibels
-from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import BaseMotion, Force, HarmonicLoad, WheelLoad
@@ -24,13 +24,17 @@ Record = dict[str, Any]
 
 
 def rates_record(vehicle: Vehicle) -> Record:
-    """`{group: {"vertical", "lateral", "fore_aft", "loss_factor"}}`, rates in N/mm."""
+    """`{group: {"vertical", "lateral", "fore_aft", "loss_factor"}}`, rates in N/mm.
+
+    Where they are tuned, rates about the local axes, "rx", "ry" and "rz", N m/rad, and of dampers,
+    "damping_vertical", "damping_lateral" and "damping_fore_aft", N s/m, stand there too.
+    """
     return {group.name: _group_record(group) for group in vehicle.mount_groups}
 
 
 def _group_record(group: MountGroup) -> Record:
-    per_mm = factor("N/mm", "stiffness")
-    rates = {name: getattr(group.rates, name) / per_mm for name in RATE_FIELDS}
+    told = (f for f in RATE_FIELDS if quantity(f) == "stiffness" or f in group.fields)
+    rates = {field: written_rate(group.rates, field) for field in told}
     return {**rates, "loss_factor": group.loss_factor}
 
 

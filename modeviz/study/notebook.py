@@ -4,13 +4,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 
 from modeviz.report.charts import NOW, Curve, line_chart
+from modeviz.report.rate_fields import listed_fields, with_unit, written_rate
 from modeviz.text.axes import Axis, decibel_axis, shown_hz
 from modeviz.text.markup import table
 from modeviz.text.wording import percent_change, significant
-from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 STYLE = """<style>
@@ -104,7 +104,7 @@ def rates_table(vehicle: Vehicle, groups: Iterable[str], sets: Mapping[str, Rate
 
 
 def rate_rows(group: MountGroup, sets: Sequence[Rates]) -> list[list[str]]:
-    """Return a row for each rate of a group, N/mm, and one for its loss factor.
+    """Return a row for each rate of a group, N/mm or as it says, and one for its loss factor.
 
     In a row are its name, its value in the first set, and value and change in each other.
 
@@ -112,12 +112,14 @@ def rate_rows(group: MountGroup, sets: Sequence[Rates]) -> list[list[str]]:
         group: whose rates they are.
         sets: the rates of every group.
     """
-    per_mm = factor("N/mm", "stiffness")
     own = [rates[group.name] for rates in sets]
-    columns = [(*(k / per_mm for k in r.as_tuple()), group.loss_factor_with(r)) for r in own]
+    columns = [
+        (with_unit(field), [written_rate(rates, field) for rates in own])
+        for field in listed_fields(group, *own)
+    ]
+    columns.append(("loss factor", [group.loss_factor_with(rates) for rates in own]))
     rows = []
-    for what, values in zip((*DIRECTIONS, "loss factor"), zip(*columns, strict=True), strict=True):
-        first, *others = values
+    for what, (first, *others) in columns:
         changed = [cell for v in others for cell in (significant(v), percent_change(v, first))]
         rows.append([f"{group.name} {what}", significant(first), *changed])
     return rows

@@ -8,11 +8,12 @@ from pathlib import Path
 from modeviz.errors import located
 from modeviz.files.rate_files import write_rates
 from modeviz.files.rate_settings import LOSS_FACTOR, ORIGINAL, parse_setting, rate_field, resolve_rates
+from modeviz.report.rate_fields import listed_fields
 from modeviz.report.records import Record, rates_record
 from modeviz.report.tables import table
 from modeviz.study.displayed import Displayed
 from modeviz.study.notebook import block, rate_rows, rates_table
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -68,8 +69,9 @@ class StudyRates(Displayed):
 
     def keys(self) -> tuple[str, ...]:
         """Return the names of all rates and loss factors."""
-        fields = (*RATE_FIELDS, LOSS_FACTOR)
-        return tuple(f"{group}.{field}" for group in self._rates for field in fields)
+        groups = self._vehicle.mount_groups
+        told = [(g.name, (*listed_fields(g, self._rates[g.name]), LOSS_FACTOR)) for g in groups]
+        return tuple(f"{group}.{field}" for group, fields in told for field in fields)
 
     @property
     def by_group(self) -> dict[str, MountRates]:
@@ -127,7 +129,7 @@ class StudyRates(Displayed):
         return table(["rates, N/mm", *self._compared, ""], rows)
 
     def to_dict(self) -> Record:
-        """Return `{group: {"vertical", "lateral", "fore_aft", "loss_factor"}}`, rates in N/mm."""
+        """Return plain values, see `report.records.rates_record`: rates in N/mm, by their group."""
         return rates_record(self._vehicle.with_rates(self._rates))
 
     def _repr_html_(self) -> str:

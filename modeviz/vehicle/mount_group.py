@@ -9,7 +9,7 @@ from modeviz.errors import VehicleError, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.dynamic_rates import DynamicRates
-from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates, check_bounds
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates, check_bounds
 from modeviz.vehicle.progressive import ForceCurve
 
 USUAL_STATIC_RATIO = 1.3
@@ -91,6 +91,12 @@ class MountGroup:
                     f"{where}: travel: {direction}: found {1e3 * least:g} to {1e3 * most:g} mm, "
                     "expected the least first, zero or below, and the most, zero or above"
                 )
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Those of `RATE_FIELDS` that are tuned."""
+        softest, stiffest = self.bounds
+        return tuple(f for f in RATE_FIELDS if getattr(softest, f) < getattr(stiffest, f))
 
     @property
     def meaning(self) -> str:

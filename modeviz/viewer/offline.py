@@ -11,11 +11,11 @@ import viser
 
 from modeviz.report.charts import BASE, Curve, line_chart
 from modeviz.report.charts import NOW as NOW_COLOR
+from modeviz.report.rate_fields import direction, quantity, sections, tuned_fields
 from modeviz.text.axes import Axis, shown_hz
 from modeviz.text.wording import signed
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
 from modeviz.viewer.page.handshake import named_page
 from modeviz.viewer.page.html import block, row, span, style_sheet, table, title
 from modeviz.viewer.page.recording import recorded_page
@@ -75,9 +75,7 @@ def _content(solved: Solved, name: str) -> str:
         MOTION,
         _charts(solved),
         f"<h2>Modes</h2>{_modes(solved)}",
-        f"<h2>Mount rates, {solved.state.unit}</h2>{_rates(solved)}"
-        if solved.state.design.rates
-        else "",
+        _rates(solved),
     )
 
 
@@ -134,20 +132,29 @@ def _modes(solved: Solved) -> str:
 
 
 def _rates(solved: Solved) -> str:
-    base, per_unit = solved.base.rates, factor(solved.state.unit, "stiffness")
-    rows = [
-        row([escape(group), *_rate_cells(rates, base[group], per_unit)])
-        for group, rates in solved.now.rates.items()
-    ]
-    return table(("Group", *DIRECTIONS), rows)
+    """The rates that are tuned, a table for each quantity."""
+    groups = solved.now.prepared.vehicle.mount_groups
+    return "".join(_rate_table(solved, *section) for section in sections(tuned_fields(groups)))
 
 
-def _rate_cells(now: MountRates, base: MountRates, per_unit: float) -> list[str]:
-    cells = []
-    for rate, before in zip(now.as_tuple(), base.as_tuple(), strict=True):
-        change = f" {span(signed(100 * (rate / before - 1), 0, ' %'), 'dim')}" if before else ""
-        cells.append(f"{rate / per_unit:.4g}" + (change if rate != before else ""))
-    return cells
+def _rate_table(solved: Solved, kind: str, fields: Sequence[str]) -> str:
+    """The rates of one quantity, with their changes, of the groups that are tuned in it."""
+    unit = solved.state.units[quantity(fields[0])]
+    per_unit = factor(unit, quantity(fields[0]))
+    rows = []
+    for group in solved.now.prepared.vehicle.mount_groups:
+        if not set(fields).isdisjoint(group.fields):
+            now, base = (results.rates[group.name] for results in (solved.now, solved.base))
+            cells = (_rate_cell(getattr(now, f), getattr(base, f), per_unit) for f in fields)
+            rows.append(row([escape(group.name), *cells]))
+    listing = table(("Group", *map(direction, fields)), rows)
+    return f"<h2>{kind or 'Mount rates'}, {unit}</h2>{listing}"
+
+
+def _rate_cell(rate: float, before: float, per_unit: float) -> str:
+    """A rate, and how much it differs from another."""
+    change = f" {span(signed(100 * (rate / before - 1), 0, ' %'), 'dim')}" if before else ""
+    return f"{rate / per_unit:.4g}" + (change if rate != before else "")
 
 
 def _file(name: str) -> str:

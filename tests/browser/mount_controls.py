@@ -6,20 +6,25 @@ from playwright.sync_api import Locator, Page
 DIRECTIONS = ("vertical", "lateral", "fore-aft")
 
 
-def controls(page: Page, group: str) -> Locator:
-    """The elements in the folder of a group: a marker, then slider and number of each direction."""
-    return page.locator(f'div:has(> div > .mv-rates[data-group="{group}"]) > div')
+def sliders(page: Page, group: str) -> Locator:
+    """The elements with the sliders of a group's rates; after each comes that with its number."""
+    folder = f'div:has(> div > .mv-rates[data-group="{group}"])'
+    return page.locator(f"{folder} > div:has(> .mantine-Flex-root .mantine-Slider-root)")
 
 
-def thumb(page: Page, group: str, direction: str) -> Locator:
+def row(page: Page, group: str, rate: str | int) -> Locator:
+    """The slider of a rate, by its direction or its number among those of its group."""
+    return sliders(page, group).nth(DIRECTIONS.index(rate) if isinstance(rate, str) else rate)
+
+
+def thumb(page: Page, group: str, rate: str | int) -> Locator:
     """The handle of a rate's slider."""
-    at = 1 + 2 * DIRECTIONS.index(direction)
-    return controls(page, group).nth(at).locator(".mantine-Slider-thumb")
+    return row(page, group, rate).locator(".mantine-Slider-thumb")
 
 
-def box(page: Page, group: str, direction: str) -> Locator:
+def box(page: Page, group: str, rate: str | int) -> Locator:
     """The number of a rate."""
-    return controls(page, group).nth(2 + 2 * DIRECTIONS.index(direction)).locator("input")
+    return row(page, group, rate).locator("xpath=following-sibling::div[1]").locator("input")
 
 
 def position(slider: Locator) -> int:
@@ -71,9 +76,9 @@ def drag(page: Page, slider: Locator, target: int) -> None:
     raise AssertionError(f"the slider stays at {position(slider)}, {target} was wanted")
 
 
-def type_rate(page: Page, group: str, direction: str, text: str) -> None:
+def type_rate(page: Page, group: str, rate: str | int, text: str) -> None:
     """Types into the number of a rate, key by key, and leaves it."""
-    number = box(page, group, direction)
+    number = box(page, group, rate)
     number.scroll_into_view_if_needed()
     number.click()
     number.press("ControlOrMeta+a")

@@ -12,6 +12,7 @@ from viser.transforms import SO3
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
+from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.vehicle.alterations import Alterations, altered
 from modeviz.vehicle.mount_rates import RATE_FIELDS
 from modeviz.viewer.session.commands.decisions import Load, SetRate
@@ -50,7 +51,7 @@ def original(app, page):
             rates=app.session.vehicle.rates,
             locked=frozenset(),
             linked=frozenset(),
-            unit="N/mm",
+            units=dict(WRITTEN_UNITS),
             group="A",
         )
     )

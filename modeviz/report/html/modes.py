@@ -13,14 +13,13 @@ from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.optimise.outside import outside_space
 from modeviz.report.comparison import Comparison, ObjectiveValues
 from modeviz.report.optimum import objective_words
+from modeviz.report.rate_fields import listed_fields, with_unit, written_rate
 from modeviz.report.space import outside_words, ratio_words
 from modeviz.ride.psd import power_decibels
 from modeviz.text.axes import shown_hz
 from modeviz.text.markup import NONE, change, named_small, note, section, span, table, title
 from modeviz.text.wording import number, percent_change, signed, significant
-from modeviz.units import factor
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 
 LISTED_HZ = 25.0
@@ -96,11 +95,9 @@ def _reference(comparison: Comparison) -> list[tuple[str, Vehicle]]:
 
 def _group_rows(groups: Sequence[MountGroup]) -> Iterator[list[str]]:
     """Rows of one group's rates with each set."""
-    per_mm = factor("N/mm", "stiffness")
     yield [named_small(groups[0].name, groups[0].label)]
-    columns = zip(*(group.rates.as_tuple() for group in groups), strict=True)
-    for direction, values in zip(DIRECTIONS, columns, strict=True):
-        yield [direction, *_rate_cells([value / per_mm for value in values])]
+    for field in listed_fields(groups[0], *(group.rates for group in groups)):
+        yield [with_unit(field), *_rate_cells([written_rate(group.rates, field) for group in groups])]
     loss_factors = [group.loss_factor for group in groups]
     if len(set(loss_factors)) > 1:
         yield ["loss factor", *_rate_cells(loss_factors)]

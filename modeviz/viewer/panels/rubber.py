@@ -72,7 +72,7 @@ class RubberPanel:
         measured = measured[(measured >= low) & (measured <= high)]
         f = np.union1d(np.linspace(low, high, N_LINES), measured)
         curves = [rubber_curve(r.prepared, r.rates, group.name, f) for r in (*sets, solved.now)]
-        lines, unit = chart_lines(solved, responses, *self._ends), solved.state.unit
+        lines, unit = chart_lines(solved, responses, *self._ends), solved.state.units["stiffness"]
         stiffness = np.array([curve.stiffness[:, axis] for curve in curves]) / factor(unit, "stiffness")
         angle = np.degrees([curve.loss_angle[:, axis] for curve in curves])
         told = heading(f"{escape(group.title)}: dynamic stiffness, {escape(unit)}")
@@ -88,7 +88,7 @@ def _at_lines(solved: Solved, group: MountGroup) -> list[str]:
     assert group.dynamic is not None
     f = np.array([group.dynamic.reference_hz, solved.state.charts.cursor_hz])
     base, now = (rubber_curve(r.prepared, r.rates, group.name, f) for r in (solved.base, solved.now))
-    per_unit = factor(solved.state.unit, "stiffness")
+    per_unit = factor(solved.state.units["stiffness"], "stiffness")
     rows = []
     for direction in DIRECTIONS:
         axis = AXIS[direction]
@@ -102,6 +102,6 @@ def _at_lines(solved: Solved, group: MountGroup) -> list[str]:
         more = percent_change(now.stiffness[1, axis], base.stiffness[1, axis])
         cells.append(span(more, "dim"))
         rows.append(row([direction, *cells]))
-    unit = escape(solved.state.unit)
+    unit = escape(solved.state.units["stiffness"])
     header = ("", f"{f[0]:g} Hz, {unit}", "°", f"{f[1]:.4g} Hz, {unit}", "°", "change")
     return [heading("At the reference and at the cursor"), table(header, rows)]

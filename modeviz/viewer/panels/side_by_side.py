@@ -1,13 +1,15 @@
 """The set compared with and the present rates, side by side, as page text."""
 
 import math
+from collections.abc import Mapping
 from html import escape
 
 import numpy as np
 
 from modeviz.analysis.results import Results
+from modeviz.report.rate_fields import plain, quantity, with_unit
 from modeviz.text.wording import number, sentence_case, signed
-from modeviz.units import factor
+from modeviz.units import QuantityName, factor
 from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS
 from modeviz.vehicle.placement import Placement
 from modeviz.viewer.page.html import change, heading, named, row, span, table
@@ -28,11 +30,11 @@ def side_by_side(solved: Solved) -> str:
     """Rates that differ, frequencies that moved, and the figures of the ride."""
     state, base, now = solved.state, solved.base, solved.now
     names = escape(state.against), escape(variant_name(now.prepared.vehicle, state.design))
-    rates, places = _rates(base, now, state.unit), _places(solved)
+    rates, places = _rates(base, now, state.units), _places(solved)
     if not rates and not places:
         same = f"The present rates are those of {names[0]}: change one, or compare with another set."
         return heading("Side by side") + span(same, "dim")
-    sections = [(f"Rates, {state.unit}", rates), ("Modes, Hz", _modes(solved))]
+    sections = [(f"Rates, {state.units['stiffness']}", rates), ("Modes, Hz", _modes(solved))]
     sections.append(("Driver", _figures(solved)))
     tables = "".join(table((what, *names, "change"), rows) for what, rows in sections if rows)
     placed = table(("Mounts placed", *names), places) if places else ""
@@ -63,16 +65,18 @@ def _placed(placement: Placement) -> str:
     return "; ".join(words)
 
 
-def _rates(base: Results, now: Results, unit: str) -> list[str]:
-    per_unit = factor(unit, "stiffness")
+def _rates(base: Results, now: Results, units: Mapping[QuantityName, str]) -> list[str]:
+    """Rates that differ; those that are not along axes with their unit."""
     rows = []
     for group, new in now.rates.items():
         old = base.rates[group]
-        for field, direction in zip(RATE_FIELDS, DIRECTIONS, strict=True):
-            before, after = getattr(old, field) / per_unit, getattr(new, field) / per_unit
+        for field in RATE_FIELDS:
+            of = quantity(field)
+            before, after = (getattr(rates, field) / factor(units[of], of) for rates in (old, new))
             if before != after:
                 delta = signed(100 * (after / before - 1), 0, " %") if before else "new"
-                rows.append(row([named(f"{group} {direction}"), _plain(before), _plain(after), delta]))
+                name = named(f"{group} {with_unit(field, units)}")
+                rows.append(row([name, plain(before), plain(after), delta]))
         if old.loss_factor != new.loss_factor:
             rows.append(row([named(f"{group} loss factor"), *_losses(base, now, group)]))
     return rows
@@ -129,8 +133,3 @@ def _figures(solved: Solved) -> list[str]:
     old, new = (r.rating.mean_personal_rating for r in (solved.base, solved.now))
     rows.append(row(["Rating", number(old, 2), number(new, 2), signed(new - old, 2)]))
     return rows
-
-
-def _plain(value: float) -> str:
-    """A rate as one would write it, four digits or all before the point."""
-    return f"{value:.0f}" if value >= 1000 else f"{value:.4g}"

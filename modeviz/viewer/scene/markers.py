@@ -10,18 +10,19 @@ import viser
 from viser.transforms import SO3
 
 from modeviz.errors import cut
+from modeviz.report.rate_fields import direction, quantity, sections
 from modeviz.shapes.colors import Color
-from modeviz.units import factor
+from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
+from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.placement import Placement, Placements, placed_mounts
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.scene.labels import keep_apart
-from modeviz.viewer.scene.mount_looks import HEIGHT, RADIUS, STEEL, mount_look
+from modeviz.viewer.scene.mount_looks import HEIGHT, RADIUS, STEEL, has_springs, mount_look
 from modeviz.viewer.scene.stage import Theme
 
 RUBBER, SELECTED, BLUE = (236, 190, 96), (242, 140, 24), (43, 124, 196)
@@ -83,7 +84,7 @@ class MountMarker:
                 piece.height * HEIGHT * length,
                 color=RUBBER if i == 0 else STEEL,
                 cast_shadow=False,
-                wxyz=look.wxyz,
+                wxyz=look.turn.wxyz,
             )
             for i, piece in enumerate(look.pieces)
         ]
@@ -246,7 +247,7 @@ class Markers:
         self,
         selected: str,
         rates: Mapping[str, MountRates],
-        unit: str,
+        units: Mapping[QuantityName, str],
         shares: Mapping[str, float],
         mode: str,
         colors: Mapping[str, Color],
@@ -256,7 +257,7 @@ class Markers:
         Args:
             selected: name of a group, or "" for none.
             rates: what the card says.
-            unit: in which the card says them.
+            units: in which the card says them.
             shares: of the mode's strain energy, by group.
             mode: what the mode is called.
             colors: sRGB, by group, of those whose colour means something.
@@ -273,19 +274,35 @@ class Markers:
         if group is None:
             self._card.show("", np.zeros(3))
         else:
-            text = card_text(group, rates[selected], unit, shares[selected], mode)
+            text = card_text(group, rates[selected], units, shares[selected], mode)
             self._card.show(text, group.mounts[self._nearest[selected]].center)
 
 
-def card_text(group: MountGroup, rates: MountRates, unit: str, share: float, mode: str) -> str:
-    """Return the text of a group's card: name, mounts, rates in a unit and share of a mode's energy."""
+def card_text(
+    group: MountGroup, rates: MountRates, units: Mapping[QuantityName, str], share: float, mode: str
+) -> str:
+    """Return the text of a group's card: name, mounts, tuned rates and share of a mode's energy."""
     sides = " + ".join(mount.name.removeprefix(group.name).strip() for mount in group.mounts)
     title = group.title + (f", {sides}" if sides else "")
-    named = zip(DIRECTIONS, rates.as_tuple(), strict=True)
-    per_unit = factor(unit, "stiffness")
-    values = "  ".join(f"{direction} {rate / per_unit:.0f}" for direction, rate in named)
-    lines = (title, f"{values} {unit}", f"{100 * share:.0f} % of strain energy in {mode}")
+    values = [_values(rates, kind, its, units) for kind, its in sections(group.fields)]
+    energy = [f"{100 * share:.0f} % of strain energy in {mode}"] * any(map(has_springs, group.mounts))
+    lines = (title, *values, *energy)
     return "\n".join(fill(line, CARD_LETTERS, replace_whitespace=False) for line in lines)
+
+
+def _values(
+    rates: MountRates, kind: str, fields: Sequence[str], units: Mapping[QuantityName, str]
+) -> str:
+    """Rates of one quantity in a line, "damping: vertical 1600 N s/m"."""
+    of = quantity(fields[0])
+    per_unit = factor(units[of], of)
+    said = (f"{direction(field)} {_short(getattr(rates, field) / per_unit)}" for field in fields)
+    return f"{kind.lower()}: ".removeprefix(": ") + f"{'  '.join(said)} {units[of]}"
+
+
+def _short(rate: float) -> str:
+    """A rate to three digits, those before the point in full."""
+    return f"{rate:.0f}" if rate >= 100 else f"{rate:.3g}"
 
 
 def short_name(mount: Mount, group: MountGroup) -> str:

@@ -33,13 +33,13 @@ class MountLook:
     """The cylinders of a marker, one behind the other; the first carries its colour."""
 
     pieces: tuple[Piece, ...]
-    wxyz: Floats
-    """(4,): how they are turned out of the mount's local z."""
+    turn: SO3
+    """How they are turned out of the mount's local z."""
 
     @property
     def direction(self) -> Floats:
         """(3,), along which they follow each other, in the mount's local axes."""
-        return SO3(self.wxyz).apply(np.array([0.0, 0.0, 1.0]))
+        return np.asarray(self.turn.apply(np.array([0.0, 0.0, 1.0])), np.float64)
 
 
 RUBBER = (
@@ -66,13 +66,16 @@ def mount_look(mount: Mount) -> MountLook:
     A spring with a damper is a strut along its local z; what has no springs is a damper, along the axis
     in which it damps most.
     """
-    upright = SO3.identity()
-    springs = mount.stiffness.any() or mount.rotational_stiffness.any() or mount.rigid
     if not mount.damping.any():
-        return MountLook(RUBBER, upright.wxyz)
-    if springs:
-        return MountLook(STRUT, upright.wxyz)
-    return MountLook(DAMPER, _from_z(int(np.argmax(mount.damping))).wxyz)
+        return MountLook(RUBBER, SO3.identity())
+    if has_springs(mount):
+        return MountLook(STRUT, SO3.identity())
+    return MountLook(DAMPER, _from_z(int(np.argmax(mount.damping))))
+
+
+def has_springs(mount: Mount) -> bool:
+    """Return whether there is anything in a mount that gives back what it takes."""
+    return bool(mount.stiffness.any() or mount.rotational_stiffness.any() or mount.rigid)
 
 
 def _from_z(axis: int) -> SO3:

@@ -87,7 +87,7 @@ class Scene:
                 what = within_sentence(moving.title)
                 group = state.group if moving.bodies is None else ""  # else no mount is at work
                 self._markers.show(
-                    group, state.design.rates, state.unit, groups, what, share_colors(shares)
+                    group, state.design.rates, state.units, groups, what, share_colors(shares)
                 )
         self._cameras.frame(self._framed(solved))
 

@@ -4,10 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import count
 
+from modeviz.report.rate_fields import is_damping
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.decoupling import USUAL, Decoupling
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.vehicle.placement import Placement, Placements
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.plan import Plan
@@ -51,7 +53,7 @@ class Design:
     locked: frozenset[tuple[str, str]] = frozenset()
     """Rates, (group, field of `MountRates`), that nothing moves but loading a whole set."""
     linked: frozenset[str] = frozenset()
-    """Groups whose rates keep their ratios when one of them moves."""
+    """Groups whose rates keep their ratios when one of them moves; dampers go with dampers only."""
     plan: Plan | None = None
     """What a search is to look for; None where there is nothing to optimise for."""
     alterations: Alterations = field(default_factory=Alterations)
@@ -64,20 +66,24 @@ class Design:
         free = {group: self._unlocked(group, new) for group, new in rates.items()}
         return replace(self, rates={**self.rates, **free})
 
-    def with_rate(self, group: str, direction: str, rate: float) -> "Design":
-        """Return it with another rate, N/m, in a field of `MountRates`, and all of a linked group."""
-        before = self.rates[group]
-        if (group, direction) in self.locked:
+    def with_rate(self, group: MountGroup, field: str, rate: float) -> "Design":
+        """Return it with another rate, in SI, and those of a linked group that keep a ratio to it.
+
+        Args:
+            group: whose rate.
+            field: which, one of the group's own.
+            rate: what it becomes.
+        """
+        before = self.rates[group.name]
+        if (group.name, field) in self.locked:
             return self
-        old = getattr(before, direction)
-        if group in self.linked and old > 0:
+        old, scaled = getattr(before, field), {}
+        if group.name in self.linked and old > 0:
+            alike = (f for f in group.fields if is_damping(f) == is_damping(field))
             scaled = {
-                name: float(f"{value * rate / old:.{LINKED_DIGITS}g}")
-                for name, value in zip(RATE_FIELDS, before.as_tuple(), strict=True)
+                name: float(f"{getattr(before, name) * rate / old:.{LINKED_DIGITS}g}") for name in alike
             }
-        else:
-            scaled = {}
-        return self.with_rates({group: replace(before, **{**scaled, direction: rate})})
+        return self.with_rates({group.name: replace(before, **{**scaled, field: rate})})
 
     def with_placement(self, group: str, placement: Placement) -> "Design":
         """Return it with the mounts of a group moved and turned otherwise."""

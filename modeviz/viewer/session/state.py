@@ -1,5 +1,6 @@
 """All that can be asked of a tuning session: what was decided, and how one looks at it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -7,7 +8,9 @@ import numpy as np
 
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
+from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.mounting.paths import By
+from modeviz.units import QuantityName
 from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import Road
@@ -144,7 +147,7 @@ class State:
     """The name of the set that all is compared with."""
     group: str = ""
     """The selected mount group, or none: ""."""
-    unit: str = "N/mm"
+    units: Mapping[QuantityName, str] = field(default_factory=lambda: dict(WRITTEN_UNITS))
     """In which rates are shown."""
     classic: bool = False
     """Whether the error of the classic method is shown beside."""

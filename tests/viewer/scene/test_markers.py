@@ -5,6 +5,7 @@ import pytest
 from small_vehicles import tyre, wheel
 from viser.transforms import SO3
 
+from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mount_group import MountGroup
@@ -21,6 +22,7 @@ from modeviz.viewer.scene.markers import (
 from modeviz.viewer.scene.stage import LIGHT
 
 BOUNDS = (MountRates(1.0, 1.0, 1.0), MountRates(1e6, 1e6, 1e6))
+UNITS = WRITTEN_UNITS
 RATES = MountRates(1.64e6, 1.21e6, 4.8e5)
 
 
@@ -30,13 +32,13 @@ def group(*names):
 
 
 def test_long_names_make_a_card_of_more_lines():
-    text = card_text(group("C1"), RATES, "N/mm", 0.1, f"yaw of the {'very ' * 12}long cab")
+    text = card_text(group("C1"), RATES, UNITS, 0.1, f"yaw of the {'very ' * 12}long cab")
     assert max(map(len, text.splitlines())) <= CARD_LETTERS
     assert len(text.splitlines()) == 5
 
 
 def test_card_names_the_group_its_sides_its_rates_and_its_share():
-    text = card_text(group("C1 left", "C1 right"), RATES, "N/mm", 0.234, "cab yaw")
+    text = card_text(group("C1 left", "C1 right"), RATES, UNITS, 0.234, "cab yaw")
     assert text == (
         "C1  cab front, left + right\n"
         "vertical 1640  lateral 1210  fore-aft 480 N/mm\n"
@@ -47,18 +49,18 @@ def test_card_names_the_group_its_sides_its_rates_and_its_share():
 def test_a_group_whose_label_is_its_name_is_named_once():
     """As an import names the groups of a table of mounts that has no labels."""
     same = replace(group("C1 left", "C1 right"), label="C1")
-    assert card_text(same, RATES, "N/mm", 0.1, "pitch").splitlines()[0] == "C1, left + right"
+    assert card_text(same, RATES, UNITS, 0.1, "pitch").splitlines()[0] == "C1, left + right"
     assert (same.title, same.meaning) == ("C1", "")
     assert (group("C1").title, group("C1").meaning) == ("C1  cab front", "cab front")
 
 
 def test_card_says_rates_in_the_unit_that_was_chosen():
-    text = card_text(group("C1 left"), RATES, "N/cm", 0.234, "cab yaw")
+    text = card_text(group("C1 left"), RATES, {**UNITS, "stiffness": "N/cm"}, 0.234, "cab yaw")
     assert text.splitlines()[1] == "vertical 16400  lateral 12100  fore-aft 4800 N/cm"
 
 
 def test_lone_mount_has_no_side():
-    assert card_text(group("C1"), RATES, "N/mm", 0.0, "pitch").splitlines()[0] == "C1  cab front"
+    assert card_text(group("C1"), RATES, UNITS, 0.0, "pitch").splitlines()[0] == "C1  cab front"
 
 
 @pytest.mark.parametrize(
@@ -109,7 +111,7 @@ def test_marks_take_their_size_from_the_vehicle(server, length):
     seat = ResponsePoint("seat", "cab", at[0])
     vehicle = Vehicle("v", stand, (ground,), (mounted,), response_points=(seat,))
     Markers(server.scene, vehicle, LIGHT, length, lambda _: None).show(
-        "C1", {"C1": RATES}, "N/mm", {"C1": 1.0}, "pitch", {}
+        "C1", {"C1": RATES}, UNITS, {"C1": 1.0}, "pitch", {}
     )
     nodes = server.scene._handle_from_node_name
     rubber, ring = nodes["/mounts/C1 left/rubber"], nodes["/mounts/C1 left/ring"]

@@ -71,7 +71,7 @@ LOOKS = [
     looks.CompareWith("Soft"),
     looks.Drive(road="rough", speed=25.0),
     looks.SelectGroup("B"),
-    looks.ChooseUnit("lbf/in"),
+    looks.ChooseUnit("stiffness", "lbf/in"),
     looks.ShowClassicError(True),
 ]
 

@@ -16,6 +16,7 @@ from modeviz.viewer.session.design import (
 from modeviz.viewer.session.state import first_state
 
 RATES = MountRates(8e5, 3e5, 4e5)
+GROUPS = {group.name: group for group in mounted_cabin().mount_groups}
 
 
 @pytest.fixture
@@ -25,31 +26,31 @@ def design():
 
 
 def test_a_rate_moves_alone(design):
-    moved = design.with_rate("B", "lateral", 1e5)
+    moved = design.with_rate(GROUPS["B"], "lateral", 1e5)
     assert moved.rates == {"A": RATES, "B": replace(RATES, lateral=1e5)}
 
 
 def test_linked_rates_keep_their_ratios(design):
-    moved = replace(design, linked=frozenset({"A"})).with_rate("A", "vertical", 4e5)
+    moved = replace(design, linked=frozenset({"A"})).with_rate(GROUPS["A"], "vertical", 4e5)
     assert moved.rates["A"] == MountRates(4e5, 1.5e5, 2e5)
     assert moved.rates["B"] == RATES
 
 
 def test_linked_rates_have_no_more_digits_than_a_box_shows(design):
-    moved = replace(design, linked=frozenset({"A"})).with_rate("A", "vertical", 8e5 / 7)
+    moved = replace(design, linked=frozenset({"A"})).with_rate(GROUPS["A"], "vertical", 8e5 / 7)
     assert moved.rates["A"] == MountRates(8e5 / 7, 42857.0, 57143.0)
 
 
 def test_a_linked_rate_at_zero_has_no_ratio_and_moves_alone(design):
     gone = replace(RATES, lateral=0.0)
     linked = replace(design, linked=frozenset({"A"}), rates={"A": gone, "B": RATES})
-    assert linked.with_rate("A", "lateral", 1e5).rates["A"] == replace(RATES, lateral=1e5)
+    assert linked.with_rate(GROUPS["A"], "lateral", 1e5).rates["A"] == replace(RATES, lateral=1e5)
 
 
 def test_a_locked_rate_stays_whatever_moves(design):
     locked = replace(design, locked=frozenset({("A", "lateral")}), linked=frozenset({"A"}))
-    assert locked.with_rate("A", "lateral", 1e5) == locked
-    assert locked.with_rate("A", "vertical", 4e5).rates["A"] == MountRates(4e5, 3e5, 2e5)
+    assert locked.with_rate(GROUPS["A"], "lateral", 1e5) == locked
+    assert locked.with_rate(GROUPS["A"], "vertical", 4e5).rates["A"] == MountRates(4e5, 3e5, 2e5)
     assert locked.with_rates({"A": MountRates(1e5, 1e5, 1e5)}).rates["A"].lateral == 3e5
 
 
@@ -64,7 +65,7 @@ def test_sets_are_the_vehicles_and_then_the_pinned_ones(design):
 def test_rates_are_called_after_the_set_they_are_of_or_the_next_trial(design):
     vehicle = mounted_cabin()
     assert variant_name(vehicle, design) == "Original"
-    moved = design.with_rate("A", "lateral", 1e5)
+    moved = design.with_rate(GROUPS["A"], "lateral", 1e5)
     assert variant_name(vehicle, moved) == "Trial 1"
     assert next_name(replace(design, variants={"Trial 1": {}, "Trial 3": {}})) == "Trial 2"
 

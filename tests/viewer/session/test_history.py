@@ -133,7 +133,7 @@ def test_changes_of_one_step_that_lead_all_the_way_back_leave_no_step(clock):
     [
         {"mode": "cab roll"},
         {"conditions": Conditions("rough", 25.0)},
-        {"unit": "lbf/in", "group": "B"},
+        {"units": {"stiffness": "lbf/in"}, "group": "B"},
         {"coloring": "displacement", "hidden": frozenset({"cab"})},
         {"load": "front left radial force", "decibels": False},
         {"against": "Soft", "overlaid": frozenset({"Soft"})},
@@ -171,9 +171,9 @@ def test_looks_after_a_decision_that_changed_them_stay_when_it_is_undone_and_don
     bench.look(against="Stiff")
     bench.history.undo()
     assert bench.state.against == "Stiff"
-    bench.look(unit="lbf/in")
+    bench.look(units={"stiffness": "lbf/in"})
     bench.history.redo()
-    assert (bench.state.against, bench.state.unit) == ("Stiff", "lbf/in")
+    assert (bench.state.against, bench.state.units) == ("Stiff", {"stiffness": "lbf/in"})
 
 
 def test_what_a_decision_changed_of_the_looks_is_undone_with_it_unless_it_was_changed_again():

@@ -65,9 +65,7 @@ def test_a_band_that_reaches_the_highest_frequency_has_no_upper_end(vehicle):
 
 def test_bounds_and_directions_are_those_of_the_group_that_is_shown(vehicle):
     softer = replace(SOFT, lateral=5e3)
-    plan = showing(vehicle, "B").with_group(
-        softest=softer, directions=frozenset({"lateral", "vertical"})
-    )
+    plan = showing(vehicle, "B").with_group(softest=softer, free=frozenset({"lateral", "vertical"}))
     found = designs(vehicle, plan)
     assert found["A"] is FIXED
     assert found["B"].bounds == (softer, STIFF)
@@ -77,7 +75,7 @@ def test_bounds_and_directions_are_those_of_the_group_that_is_shown(vehicle):
 
 
 def test_bounds_of_the_mount_group_are_left_to_it(vehicle):
-    plan = showing(vehicle, "B").with_group(directions=frozenset({"vertical"}))
+    plan = showing(vehicle, "B").with_group(free=frozenset({"vertical"}))
     assert designs(vehicle, plan)["B"].bounds is None
 
 

@@ -1,20 +1,22 @@
 """What there is to know of the selected mount group, and to do with it beyond its rates."""
 
 from collections.abc import Sequence
-from html import escape
 
 import viser
 
+from modeviz.report.rate_fields import direction, is_damping, sections
 from modeviz.text.wording import signed
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.handles import assign, mark
-from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
+from modeviz.viewer.page.html import block, named, row, span, table
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
 from modeviz.viewer.panels.mounts.placing import Placing
 from modeviz.viewer.panels.mounts.rows import row_label
+from modeviz.viewer.panels.mounts.signs import Signs
+from modeviz.viewer.scene.mount_looks import has_springs
 from modeviz.viewer.session.commands.decisions import LinkRates, SetLossFactor
 from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.session import Session
@@ -24,43 +26,22 @@ LOSS_STEP, LOSS_DECIMALS = 0.005, 3
 LARGEST_LOSS = 0.5
 """The end of the slider, unless a group's own is larger: about that of the most damping rubbers."""
 
-PADLOCK = (
-    '<svg viewBox="0 0 12 12" width="12" height="12"><path fill="none" stroke="currentColor" '
-    'stroke-width="1.2" d="{shackle}"/><rect x="2" y="5.6" width="8" height="5.4" rx="1" '
-    'fill="currentColor"/></svg>'
-)
-OPEN = PADLOCK.format(shackle="M3.8 5.6V3.6a2.2 2.2 0 0 1 4.2-.9")
-CLOSED = PADLOCK.format(shackle="M3.8 5.6V3.6a2.2 2.2 0 0 1 4.4 0v2")
-BACK = (
-    '<svg viewBox="0 0 12 12" width="12" height="12"><path fill="none" stroke="currentColor" '
-    'stroke-width="1.3" d="M2.2 6a3.9 3.9 0 1 0 1.3-2.9"/><path fill="currentColor" '
-    'd="M1.4 1.2l.4 3.5 3.2-1.4z"/></svg>'
-)
-
-
 FELT = "RMS acceleration of the first response point"
-
-LOCK, RESET, RESET_GROUP = range(0, 3), range(3, 6), 6
-"""The hidden buttons of the three directions, and the one of them all."""
-
-N_BUTTONS = 7
 
 
 class Details:
     """A table of what its rates do, locks and resets, its loss factor and whether ratios are kept."""
 
-    def __init__(
-        self, gui: viser.GuiApi, session: Session, group: MountGroup, buttons: HiddenButtons
-    ) -> None:
+    def __init__(self, gui: viser.GuiApi, session: Session, group: MountGroup, signs: Signs) -> None:
         """Builds them, out of sight; `show` brings those of the selected group out.
 
         Args:
             gui: where.
             session: what they change.
             group: whose they are.
-            buttons: `N_BUTTONS`, which act on the selected group.
+            signs: which act on the selected group.
         """
-        self._session, self._group, self._buttons = session, group, buttons
+        self._session, self._group, self._signs = session, group, signs
         self._is_felt = has_ride(session.vehicle)
         self._part = gui.add_folder(None, visible=False)
         with self._part:
@@ -73,12 +54,14 @@ class Details:
                 self._loss_factor(session.state),
                 marks=(),
                 hint=f"Damping of {group.name}: the part of the stiffness that loses energy",
+                visible=any(map(has_springs, group.mounts)),
             )
             assign(self._loss, precision=LOSS_DECIMALS)
             self._linked = gui.add_checkbox(
                 "Keep ratios",
                 self._is_linked(session.state),
-                hint="When one of these rates moves, the others move by the same factor",
+                hint=_linked_hint(group),
+                visible=len(group.fields) > 1,
             )
             placing = Placing(gui, session, group)
         self.bindings: tuple[Binding[State], ...] = (
@@ -123,32 +106,24 @@ class Details:
     def _header(self, state: State, base: MountRates, mode: str) -> Sequence[str]:
         reset = ""
         if state.design.rates[self._group.name] != base:
-            reset = self._sign(RESET_GROUP, BACK, f"Group back to {state.against}")
+            reset = self._signs.reset_group(state.against)
         felt = [f'<div title="{FELT}">{word} RMS</div>' for word in ("lat.", "vert.") if self._is_felt]
         return ("+10 %", named(mode, f"Frequency of {mode}"), *felt, "", reset)
 
     def _rows(self, state: State, base: MountRates, effects: Effects) -> list[str]:
-        rates = state.design.rates[self._group.name]
-        rows = []
-        for i, (field, direction) in enumerate(zip(RATE_FIELDS, DIRECTIONS, strict=True)):
-            key = self._group.name, field
-            is_changed = getattr(rates, field) != getattr(base, field)
-            shown = _cells(effects.get(key))[: 3 if self._is_felt else 1]
-            cells = (direction, *shown, self._lock(i, key in state.design.locked))
-            rows.append(row([*cells, self._reset(i, state.against) if is_changed else ""]))
+        fields, rows = self._group.fields, []
+        for kind, its in sections(fields):
+            rows += [row([span(kind, "dim")])] if kind else []
+            rows += [self._row(fields.index(f), f, state, base, effects) for f in its]
         return rows
 
-    def _lock(self, i: int, is_locked: bool) -> str:
-        if is_locked:
-            return self._sign(LOCK[i], CLOSED, "Locked: let it move again")
-        return span(self._sign(LOCK[i], OPEN, "Lock: only loading a set moves it then"), "dim")
-
-    def _reset(self, i: int, against: str) -> str:
-        return self._sign(RESET[i], BACK, f"Back to {against}")
-
-    def _sign(self, button: int, picture: str, meaning: str) -> str:
-        """A picture that presses a button."""
-        return self._buttons.label(button, f'<span title="{escape(meaning)}">{picture}</span>')
+    def _row(self, i: int, field: str, state: State, base: MountRates, effects: Effects) -> str:
+        key = self._group.name, field
+        is_changed = getattr(state.design.rates[self._group.name], field) != getattr(base, field)
+        shown = _cells(effects.get(key))[: 3 if self._is_felt else 1]
+        lock = self._signs.lock(i, key in state.design.locked)
+        reset = self._signs.reset(i, state.against) if is_changed else ""
+        return row([direction(field), *shown, lock, reset])
 
     def _loss_factor(self, state: State) -> float:
         return self._group.loss_factor_with(state.design.rates[self._group.name])
@@ -173,3 +148,10 @@ def _judged(percent: float | None) -> str:
         return span("–", "dim")
     kind = "dim" if abs(percent) < 0.05 else "good" if percent < 0 else "bad"
     return span(signed(percent, 1, " %"), kind)
+
+
+def _linked_hint(group: MountGroup) -> str:
+    """Return what becomes of the other rates of a group that keeps its ratios."""
+    kinds = {is_damping(field) for field in group.fields}
+    apart = ", dampers with dampers and springs with springs" if len(kinds) > 1 else ""
+    return f"When one of these rates moves, the others move by the same factor{apart}"

@@ -4,15 +4,18 @@ from html import escape
 
 import viser
 
+from modeviz.report.rate_fields import sections
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import RATE_FIELDS, Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.viewer.page.binding import show_all
 from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons
+from modeviz.viewer.page.html import block, span
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.details import Details
 from modeviz.viewer.panels.mounts.effects import Effects, in_a_sentence
 from modeviz.viewer.panels.mounts.rows import RateRow
+from modeviz.viewer.panels.mounts.signs import Signs
+from modeviz.viewer.scene.mount_looks import has_springs
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.session import Session
 
@@ -20,21 +23,26 @@ from modeviz.viewer.session.session import Session
 class GroupFolder:
     """The controls of one mount group."""
 
-    def __init__(
-        self, gui: viser.GuiApi, session: Session, group: MountGroup, buttons: HiddenButtons
-    ) -> None:
+    def __init__(self, gui: viser.GuiApi, session: Session, group: MountGroup, signs: Signs) -> None:
         """Builds them; arguments as of `Details`."""
-        self._group, write_back = group, WriteBack()
+        self._group = group
         self._folder = gui.add_folder(group.title)
         with self._folder:
             # The style sheet and the script know the folder by this.
             gui.add_html(f'<div class="mv-rates" data-group="{escape(group.name)}"></div>')
-            self._rows = {
-                field: RateRow(gui, session, group, field, write_back) for field in RATE_FIELDS
-            }
-            self._details = Details(gui, session, group, buttons)
+            self._rows = self._add_rows(gui, session)
+            self._details = Details(gui, session, group, signs)
         of_rows = [binding for row in self._rows.values() for binding in row.bindings]
         self._bindings = [*of_rows, *self._details.bindings]
+
+    def _add_rows(self, gui: viser.GuiApi, session: Session) -> dict[str, RateRow]:
+        """A row for each rate that is tuned; those about axes and those of dampers under a heading."""
+        rows, write_back = {}, WriteBack()
+        for kind, fields in sections(self._group.fields):
+            if kind:
+                gui.add_html(block(span(kind, "dim")))
+            rows |= {f: RateRow(gui, session, self._group, f, write_back) for f in fields}
+        return rows
 
     def follow(self) -> None:
         """Brings the controls after the newest state."""
@@ -50,9 +58,15 @@ class GroupFolder:
             is_old: whether the effects are those of rates that were.
         """
         name, state, mode = self._group.name, solved.state, solved.followed.name.spoken
-        share = f"{100 * solved.strain[name]:.0f} % of strain energy"
-        assign(self._folder, label=f"{self._group.title}  ·  {share}")
+        assign(self._folder, label=f"{self._group.title}  ·  {self._share(solved)}")
         for field, row in self._rows.items():
             effect = effects.get((name, field))
             row.show(state, compared, "" if effect is None else in_a_sentence(effect, mode))
         self._details.show(state, compared, effects, mode, is_old)
+
+    def _share(self, solved: Solved) -> str:
+        """Its part in the energy of the shown mode: of what springs hold or, without, dampers take."""
+        name, mode = self._group.name, solved.followed.mode
+        if any(map(has_springs, solved.now.vehicle.mount_group(name).mounts)):
+            return f"{100 * solved.strain[name]:.0f} % of strain energy"
+        return f"{100 * solved.now.dissipated_shares(mode)[name]:.0f} % of lost energy"

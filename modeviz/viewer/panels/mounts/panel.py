@@ -1,20 +1,28 @@
-"""The whole of the mounts: their unit, and a folder for each group."""
+"""The whole of the mounts: their units, and a folder for each group."""
 
 import viser
 
-from modeviz.vehicle.mount_rates import RATE_FIELDS
-from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.html import HiddenButtons
-from modeviz.viewer.panels.mounts.details import LOCK, N_BUTTONS, RESET
+from modeviz.report.rate_fields import quantity, tuned_fields
+from modeviz.units import QuantityName
+from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.panels.mounts.effects import Effects, effects
 from modeviz.viewer.panels.mounts.folder import GroupFolder
+from modeviz.viewer.panels.mounts.signs import Signs
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.commands.decisions import ResetGroups, ResetRate, ToggleLock
 from modeviz.viewer.session.commands.looks import ChooseUnit
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import compared_rates
 
-UNITS = ("N/mm", "N/cm")
+UNITS: dict[QuantityName, tuple[str, tuple[str, ...], str]] = {
+    "stiffness": ("Rates in", ("N/mm", "N/cm"), "The unit of all mount rates"),
+    "rotational_stiffness": (
+        "About axes in",
+        ("N m/rad", "N m/deg"),
+        "The unit of all rates about the axes of mounts",
+    ),
+    "damping": ("Damping in", ("N s/m", "N s/mm"), "The unit of the rates of all dampers"),
+}
+"""Of each quantity what its choice is called, what there is to choose, and its hint."""
 
 
 class MountsPanel:
@@ -24,14 +32,15 @@ class MountsPanel:
         """Builds the controls of all mount groups."""
         self._session = session
         self._effects: Effects = {}
-        self._unit = self._add_unit(gui)
-        buttons = HiddenButtons(gui, N_BUTTONS, self._press)
         groups = session.vehicle.mount_groups
-        self._folders = [GroupFolder(gui, session, group, buttons) for group in groups]
+        tuned = {quantity(field) for field in tuned_fields(groups)}
+        self._units = [self._add_unit(gui, of) for of in UNITS if of in tuned]
+        signs = Signs(gui, session)
+        self._folders = [GroupFolder(gui, session, group, signs) for group in groups]
 
     def show(self, solved: Solved) -> None:
         """Brings controls after the state, and what is for reading after an answer."""
-        self._unit.show()
+        show_all(self._units)
         for folder in self._folders:
             folder.follow()
         if solved.is_detailed:
@@ -47,19 +56,7 @@ class MountsPanel:
         for folder in self._folders:
             folder.show(solved, compared, self._effects, is_old=sensitivity is None)
 
-    def _add_unit(self, gui: viser.GuiApi) -> Binding:
-        session = self._session
-        unit = gui.add_dropdown(
-            "Rates in", UNITS, initial_value=session.state.unit, hint="The unit of all mount rates"
-        )
-        return Binding(unit, session, lambda s: s.unit, lambda value: session.do(ChooseUnit(value)))
-
-    def _press(self, button: int) -> None:
-        """Does what a sign in the table of the selected group says."""
-        group = self._session.state.group
-        if button in LOCK:
-            self._session.do(ToggleLock(group, RATE_FIELDS[button - LOCK.start]))
-        elif button in RESET:
-            self._session.do(ResetRate(group, RATE_FIELDS[button - RESET.start]))
-        else:
-            self._session.do(ResetGroups((group,)))
+    def _add_unit(self, gui: viser.GuiApi, of: QuantityName) -> Binding:
+        session, (label, units, hint) = self._session, UNITS[of]
+        unit = gui.add_dropdown(label, units, initial_value=session.state.units[of], hint=hint)
+        return Binding(unit, session, lambda s: s.units[of], lambda to: session.do(ChooseUnit(of, to)))

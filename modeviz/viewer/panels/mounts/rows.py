@@ -6,10 +6,11 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.files.schema.scaling import written
+from modeviz.report.rate_fields import direction, quantity, spoken
 from modeviz.text.wording import MINUS, sentence_case, signed
-from modeviz.units import factor
+from modeviz.units import QuantityName, factor
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.write_back import WriteBack
@@ -20,7 +21,7 @@ from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State, compared_rates
 
 STIFFEST = 1e9
-"""N/m: what is stiffer is rigid, or a slip of the finger."""
+"""N/m, or whatever it is in SI: what is stiffer is rigid, or a slip of the finger."""
 
 DECIMALS = 6
 """That a box shows at most."""
@@ -41,11 +42,12 @@ class RateRow:
             gui: where.
             session: what they change.
             group: whose rate.
-            field: which, one of `RATE_FIELDS`.
+            field: which, one of the group's own.
             write_back: of all rates of the group.
         """
         self._session, self._group, self._field = session, group, field
-        self._direction = DIRECTIONS[RATE_FIELDS.index(field)]
+        self._quantity: QuantityName = quantity(field)
+        self._direction = direction(field)
         self._travel = self._widest_travel()
         self._slider = gui.add_slider(
             sentence_case(self._direction),
@@ -55,7 +57,8 @@ class RateRow:
             initial_value=self._position(session.state),
             marks=(),
         )
-        self._number = gui.add_number(session.state.unit, self._in_unit(session.state), step=1.0)
+        shown = self._unit(session.state), self._in_unit(session.state)
+        self._number = gui.add_number(*shown, step=1.0)
         assign(self._number, precision=DECIMALS)
         self.bindings: tuple[Binding[State], ...] = (
             Binding(self._slider, session, self._position, self._slide, write_back),
@@ -70,15 +73,10 @@ class RateRow:
             compared: the rates compared with.
             effect: what a change of this rate does, a sentence or nothing.
         """
-        base = self._rate_in(compared)
+        base, unit = self._rate_in(compared), self._unit(state)
         is_locked = (self._group.name, self._field) in state.design.locked
-        in_unit = written(base, factor(state.unit, "stiffness"))
-        dynamic = self._group.dynamic
-        at = f" at {dynamic.reference_hz:g} Hz, which scales those at all others" if dynamic else ""
-        about = (
-            f"{self._group.title}, {self._direction} rate{at}, {state.unit}. "
-            f"{state.against}: {in_unit:g}."
-        )
+        in_unit = written(base, factor(unit, self._quantity))
+        about = f"{self._group.title}, {self._called}, {unit}. {state.against}: {in_unit:g}."
         locked = " Locked: loading a set is all that moves it." if is_locked else ""
         assign(
             self._slider,
@@ -89,8 +87,8 @@ class RateRow:
         mark(self._slider, self._travel.position(base) if self._travel.has(base) else None)
         assign(
             self._number,
-            label=state.unit,
-            hint=f"{about} Any rate from zero, which is no mount at all.{locked}",
+            label=unit,
+            hint=f"{about} Any rate from zero, which is none at all.{locked}",
             disabled=is_locked,
             step=step_of_box(in_unit),
         )
@@ -107,8 +105,19 @@ class RateRow:
     def _position(self, state: State) -> int:
         return self._travel.position(self._rate_in(state.design.rates))
 
+    def _unit(self, state: State) -> str:
+        return state.units[self._quantity]
+
     def _in_unit(self, state: State) -> float:
-        return written(self._rate_in(state.design.rates), factor(state.unit, "stiffness"))
+        return written(self._rate_in(state.design.rates), factor(self._unit(state), self._quantity))
+
+    @property
+    def _called(self) -> str:
+        """Which rate it is, and at which frequency if it depends on that."""
+        called, dynamic = f"{spoken(self._field)} rate", self._group.dynamic
+        if dynamic is None or self._quantity != "stiffness":
+            return called
+        return f"{called} at {dynamic.reference_hz:g} Hz, which scales those at all others"
 
     def _slide(self, position: int) -> None:
         compared = compared_rates(self._session.vehicle, self._session.state)
@@ -116,12 +125,12 @@ class RateRow:
         self._session.do(SetRate(self._group.name, self._field, rate))
 
     def _type(self, value: float) -> None:
-        unit = self._session.state.unit
-        per_unit = factor(unit, "stiffness")
+        unit = self._unit(self._session.state)
+        per_unit = factor(unit, self._quantity)
         if not 0 <= value * per_unit <= STIFFEST:
             found = f"{value:g}".replace("-", MINUS)
             raise ModevizError(
-                f"{self._group.name} {self._direction}: found {found} {unit}, "
+                f"{self._group.name} {spoken(self._field)}: found {found} {unit}, "
                 f"expected 0 to {STIFFEST / per_unit:.0f} {unit}"
             )
         self._session.do(SetRate(self._group.name, self._field, value * per_unit))

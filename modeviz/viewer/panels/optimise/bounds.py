@@ -1,5 +1,6 @@
-"""What a mount group may become: its free directions, bounds and ratios."""
+"""What a mount group may become: its free rates, bounds and ratios."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -7,9 +8,9 @@ from typing import Any
 import viser
 
 from modeviz.files.schema.scaling import written
+from modeviz.report.rate_fields import is_damping, quantity, spoken, tuned_fields
 from modeviz.text.wording import sentence_case
-from modeviz.units import factor
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS
+from modeviz.units import QuantityName, factor
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint, may_change_hint
 from modeviz.viewer.session.planning.group_plan import Ratios
@@ -40,10 +41,10 @@ class BoundsEditor:
                 lambda name: controls.put(shown_group=name),
                 "Whose limits are shown here",
             )
-            self._directions = Pills(
-                gui, "May change", [sentence_case(d) for d in DIRECTIONS], self._toggle
-            )
-            self._bounds = [self._bound(field, DIRECTIONS[i]) for i, field in enumerate(RATE_FIELDS)]
+            self._fields = tuned_fields(session.vehicle.mount_groups)
+            words = [sentence_case(spoken(field)) for field in self._fields]
+            self._free = Pills(gui, "May change", words, self._toggle)
+            self._bounds = [self._bound(field) for field in self._fields]
             controls.choose(
                 "Ratios",
                 RATIOS,
@@ -64,30 +65,36 @@ class BoundsEditor:
     def show(self, state: State, plan: Plan) -> None:
         """Brings the controls after the state."""
         self._controls.show()
-        for bound, direction in zip(self._bounds, DIRECTIONS, strict=True):
-            assign(bound, label=f"{sentence_case(direction)}, {state.unit}")
-        assign(self._limits, visible=plan.group.ratios == "limited")
-        pressed = [direction in plan.group.directions for direction in DIRECTIONS]
-        self._directions.show(pressed, [may_change_hint(on) for on in pressed])
         mounts = self._vehicle.mount_group(plan.shown_group)
+        for bound, field in zip(self._bounds, self._fields, strict=True):
+            label = f"{sentence_case(spoken(field))}, {state.units[quantity(field)]}"
+            assign(bound, label=label, visible=field in mounts.fields)
+        assign(self._limits, visible=plan.group.ratios == "limited")
+        pressed = {field: field in plan.group.free for field in self._fields}
+        self._free.show(
+            [pressed[field] if field in mounts.fields else None for field in self._fields],
+            [may_change_hint(on) for on in pressed.values()],
+        )
         assign(self._wrong, content=complaint(partial(plan.group.design, mounts)))
 
-    def _bound(self, field: str, direction: str) -> viser.GuiVector2Handle:
-        """Boxes for the softest and the stiffest of one rate."""
+    def _bound(self, field: str) -> viser.GuiVector2Handle:
+        """Boxes for the least and the most of one rate."""
 
         def read(state: State, plan: Plan) -> tuple[float, ...]:
-            ends, unit = (plan.group.softest, plan.group.stiffest), factor(state.unit, "stiffness")
+            unit = factor(state.units[quantity(field)], quantity(field))
+            ends = plan.group.softest, plan.group.stiffest
             return tuple(written(getattr(end, field), unit) for end in ends)
 
         def write(typed: tuple[float, float]) -> None:
-            self._controls.change(lambda state, plan: bounded(plan, field, typed, state.unit))
+            self._controls.change(lambda state, plan: bounded(plan, field, typed, state.units))
 
-        hint = f"The softest and the stiffest {direction} rate that a search may choose"
-        return self._controls.pair(sentence_case(direction), read, write, hint)
+        ends = "least and the most" if is_damping(field) else "softest and the stiffest"
+        hint = f"The {ends} {spoken(field)} rate that a search may choose"
+        return self._controls.pair(sentence_case(spoken(field)), read, write, hint)
 
     def _toggle(self, i: int) -> None:
         def toggled(_: State, plan: Plan) -> Plan:
-            return plan.with_group(directions=plan.group.directions ^ {DIRECTIONS[i]})
+            return plan.with_group(free=plan.group.free ^ {self._fields[i]})
 
         self._controls.change(toggled)
 
@@ -95,9 +102,11 @@ class BoundsEditor:
         self._controls.change(lambda _, plan: plan.with_group(**fields))
 
 
-def bounded(plan: Plan, field: str, typed: tuple[float, float], unit: str) -> Plan:
+def bounded(
+    plan: Plan, field: str, typed: tuple[float, float], units: Mapping[QuantityName, str]
+) -> Plan:
     """The plan with other bounds to a rate of the group that is shown; only what differs is changed."""
-    per_unit = factor(unit, "stiffness")
+    per_unit = factor(units[quantity(field)], quantity(field))
     ends = {"softest": typed[0], "stiffest": typed[1]}
     changed = {}
     for name, value in ends.items():

@@ -117,10 +117,12 @@ class Pills:
         self._buttons = HiddenButtons(gui, len(words), press)
         self._text = gui.add_html("")
 
-    def show(self, pressed: Sequence[bool], hints: Sequence[str]) -> None:
-        """Draws them, pressed or not, with what they mean."""
+    def show(self, pressed: Sequence[bool | None], hints: Sequence[str]) -> None:
+        """Draws them, pressed or not, with what they mean; those are left out that are neither."""
         pills = []
         for i, (word, on, hint) in enumerate(zip(self._words, pressed, hints, strict=True)):
+            if on is None:
+                continue
             text = f'<span title="{escape(hint)}">{escape(word)}</span>'
             state = " on" if on else ""
             pills.append(f'<div class="pill{state}">{self._buttons.label(i, text)}</div>')

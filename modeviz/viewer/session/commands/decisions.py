@@ -30,15 +30,15 @@ class SetRate(Command):
     field: str
     """Of `MountRates`."""
     rate: float
-    """N/m."""
+    """In SI."""
 
     @property
     def step(self) -> Hashable:
         return "rate", self.group, self.field
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
-        vehicle.mount_group(self.group)
-        design = state.design.with_rate(self.group, self.field, self.rate)
+        group = vehicle.mount_group(self.group)
+        design = state.design.with_rate(group, self.field, self.rate)
         return replace(state, design=design, group=self.group)
 
 

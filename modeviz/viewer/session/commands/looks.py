@@ -5,6 +5,7 @@ from typing import TypeVar
 
 from modeviz.analysis.results import Conditions
 from modeviz.mounting.paths import By
+from modeviz.units import QuantityName
 from modeviz.vehicle.decoupling import Axes
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -219,12 +220,13 @@ class SelectGroup(Command):
 
 @dataclass(frozen=True)
 class ChooseUnit(Command):
-    """Shows rates in another unit."""
+    """Shows rates of a quantity in another unit."""
 
+    quantity: QuantityName
     unit: str
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
-        return replace(state, unit=self.unit)
+        return replace(state, units={**state.units, self.quantity: self.unit})
 
 
 @dataclass(frozen=True)

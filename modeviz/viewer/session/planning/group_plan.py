@@ -6,10 +6,13 @@ from typing import Literal
 import numpy as np
 
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
 from modeviz.vehicle.problem import UNLIMITED, DesignGroup
 
 Ratios = Literal["limited", "fixed", "free"]
+
+CALLED: dict[str, str] = dict(zip(RATE_FIELDS, DIRECTIONS, strict=True))
+"""What a design group calls a field."""
 
 USUAL_RATIOS = (0.25, 0.8)
 """The paper's limits, for a group that had none."""
@@ -20,8 +23,8 @@ class GroupPlan:
     """A design group before anybody has looked whether it can be."""
 
     group: str
-    directions: frozenset[str]
-    """Of `DIRECTIONS`: which rates may change."""
+    free: frozenset[str]
+    """Of the group's fields: which rates may change."""
     softest: MountRates
     stiffest: MountRates
     ratios: Ratios
@@ -42,7 +45,7 @@ class GroupPlan:
             limits = UNLIMITED
         return DesignGroup(
             self.group,
-            tuple(d for d in DIRECTIONS if d in self.directions),
+            tuple(CALLED[field] for field in RATE_FIELDS if field in self.free),
             None if bounds == mounts.bounds else bounds,
             limits,
             self.ratios == "fixed",
@@ -56,7 +59,7 @@ def group_plan(mounts: MountGroup, design: DesignGroup) -> GroupPlan:
     is_free = np.isinf(limits[1])
     return GroupPlan(
         mounts.name,
-        frozenset(design.directions),
+        frozenset(field for field in RATE_FIELDS if CALLED[field] in design.directions),
         softest,
         stiffest,
         "fixed" if design.fixed_ratios else "free" if is_free else "limited",
