@@ -143,7 +143,11 @@ def small(tmp_path_factory) -> Mapping[str, str]:
         ("rigid", ["subframe"], ["mounts", "point", "miss"]),
         ("check", ["sheets"], ["file", "key", "words", "line", "left_out"]),
         ("engine", ["engine"], []),
-        ("optimise", ["cabin", "--starts", "1"], ["bodies", "change", "at_hz", "below_hz", "within"]),
+        (
+            "optimise",
+            ["cabin", "--starts", "1"],
+            ["bodies", "change", "at_hz", "below_hz", "within", "offset_mm", "angles_deg"],
+        ),
         ("optimise --front", ["cabin", "lateral against vertical", "--starts", "1"], []),
         ("scatter", ["cabin", "--samples", "20"], []),
     ],

@@ -53,7 +53,7 @@ def optimise_front(
         front = _found(how, trade_off, rates, token)
         record = front_record(problem, trade_off, front)
         keep(
-            lambda: _write(output, problem, trade_off, front, record) if output else None,
+            lambda: _write(output, front_csv(problem, trade_off, front), record) if output else None,
             lambda: print_result(record if json else front_table(problem, trade_off, front)),
         )
 
@@ -69,9 +69,8 @@ def _check_is_one_search(how: SearchOptions) -> None:
             raise ModevizError(f"--front is many searches here: expected it without --{option}")
 
 
-def _write(path: Path, problem: Problem, trade_off: TradeOff, front: Front, record: Record) -> None:
-    is_csv = rates_format(path) == "csv"
-    write_text(path, front_csv(problem, trade_off, front) if is_csv else json_text(record) + "\n")
+def _write(path: Path, as_csv: str, record: Record) -> None:
+    write_text(path, as_csv if rates_format(path) == "csv" else json_text(record) + "\n")
 
 
 def _found(how: SearchOptions, trade_off: TradeOff, rates: Rates, token: CancelToken) -> Front:

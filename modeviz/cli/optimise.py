@@ -27,6 +27,7 @@ from modeviz.cli.results import check_printable, keep, print_result
 from modeviz.cli.terminal import progress, say
 from modeviz.compute.cancel import CancelToken
 from modeviz.errors import ModevizError
+from modeviz.files import write_vehicle
 from modeviz.files.disk import check_writable
 from modeviz.files.rate_files import rates_format, write_rates
 from modeviz.optimise.run import BUDGET, Progress
@@ -44,6 +45,8 @@ class OptimiseOptions(VehicleOptions, ProblemOptions, ToleranceOptions, SpeedOpt
 
     output: Path | None = None
     """Where to write what is found, .json or .csv, if anywhere."""
+    folder: Path | None = None
+    """Where to write the vehicle with what is found, if anywhere."""
     goal: str | None = None
     """Instead of the problem's: one of `GoalKind`."""
     plain: bool = False
@@ -102,11 +105,13 @@ def optimise_rates(options: OptimiseOptions) -> None:
     vehicle, rates = options.read()
     problem = options.changed_problem(vehicle)
     speed = options.chosen_speed(vehicle)
-    output, json = options.output, options.json
+    output, folder, json = options.output, options.folder, options.json
     if output:
         rates_format(output)
         check_writable(output)
     if options.front:
+        if options.folder:
+            raise ModevizError("--front finds many designs: expected it without --folder")
         optimise_front(options.front, how, vehicle, problem, rates, speed, output, json)
         return
     search = prepare_search(vehicle, problem, rates, speed)
@@ -118,6 +123,7 @@ def optimise_rates(options: OptimiseOptions) -> None:
         told = optimum_record if json else optimum_table
         keep(
             lambda: write_rates(output, optimum.rates) if output else None,
+            lambda: write_vehicle(search.space.built(optimum.x), folder) if folder else None,
             lambda: print_result(told(problem, search, optimum)),
         )
 
@@ -135,7 +141,13 @@ def _tell(token: CancelToken, where: Progress) -> None:
 def _add_options(command: ArgumentParser) -> None:
     add_vehicle(command)
     command.add_argument(
-        "--output", type=Path, metavar="FILE", help="where to write what is found: .json or .csv"
+        "--output", type=Path, metavar="FILE", help="where to write rates that are found: .json or .csv"
+    )
+    command.add_argument(
+        "--folder",
+        type=Path,
+        metavar="FOLDER",
+        help="where to write the vehicle with all that is found, places of mounts too: new, or empty",
     )
     add_problem(command)
     command.add_argument(

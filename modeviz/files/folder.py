@@ -245,7 +245,8 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
 def _units(vehicle: Vehicle) -> dict[str, str]:
     """The units of the vehicle's file, without those of roads and loads which it does not have."""
     rare = {
-        "angle": False,  # local axes are written as vectors
+        # local axes are written as vectors
+        "angle": any(group.angles for problem in vehicle.problems for group in problem.groups),
         "roughness": any(road.roughness for road in vehicle.roads),
         "torque": any(load.torque.any() for case in vehicle.load_cases for load in case.loads),
     }

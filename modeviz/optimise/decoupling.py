@@ -33,6 +33,7 @@ OFFERED = 3
 class Decoupled:
     """A body whose modes are to be decoupled."""
 
+    asked: DecoupledBody
     held: HeldBody
     axes: Floats
     """(3, 3), as rows."""
@@ -72,6 +73,10 @@ class DecoupledModes:
         rows = (body_rows(body.held, body.axes, own) for body in self.bodies)
         return [body_modes(r, modes, k) for r in rows]
 
+    def of_vehicle(self, vehicle: Vehicle) -> "DecoupledModes":
+        """Return those of the vehicle with mounts elsewhere or more of them; as `prepare_modes`."""
+        return _decoupled_modes(vehicle, [body.asked for body in self.bodies])
+
     def by_rate(self, gradients: Floats, rates: Rates) -> Floats:
         """Return derivatives to each of `rate_variables` of what has them to every spring's rate."""
         shares: Floats = spring_shares(self.prepared, rates).real.astype(np.float64)
@@ -102,6 +107,9 @@ class Impurity(MinMax):
             for direction in body.motions
         ]
         return self._parts(found), -self.modes.by_rate(np.array(gradients), rates)
+
+    def of_vehicle(self, vehicle: Vehicle) -> "Impurity":
+        return Impurity(self.modes.of_vehicle(vehicle))
 
     def _parts(self, found: Sequence[BodyModes]) -> Floats:
         pure = [
@@ -157,6 +165,10 @@ class Shortfall:
             value += float(clipped @ clipped)
             gradient += 2 * clipped @ gradients
         return value, self.modes.by_rate(gradient, rates)
+
+    def of_vehicle(self, vehicle: Vehicle) -> "Shortfall":
+        """Return what is missing to the same, of the vehicle with mounts elsewhere or more of them."""
+        return Shortfall(self.modes.of_vehicle(vehicle), self.targets)
 
     def _value(self, found: Sequence[BodyModes]) -> float:
         total = 0.0
@@ -249,10 +261,14 @@ def prepare_decoupling(vehicle: Vehicle, problem: Problem) -> Impurity | Shortfa
                 f"depend on frequency; those of {group.name!r} do"
             )
     asked = problem.decoupling or (DecoupledBody(_main_body(vehicle, problem)),)
+    modes = _decoupled_modes(vehicle, asked)
+    return Impurity(modes) if problem.goal == "purity" else Shortfall(modes, vehicle.decoupling)
+
+
+def _decoupled_modes(vehicle: Vehicle, asked: Sequence[DecoupledBody]) -> DecoupledModes:
     top_hz = max(vehicle.highest_frequency, vehicle.decoupling.highest_frequency)
     prepared = prepare_modes(vehicle, top_hz)
-    modes = DecoupledModes(prepared, tuple(_decoupled(prepared, body) for body in asked))
-    return Impurity(modes) if problem.goal == "purity" else Shortfall(modes, vehicle.decoupling)
+    return DecoupledModes(prepared, tuple(_decoupled(prepared, body) for body in asked))
 
 
 def _main_body(vehicle: Vehicle, problem: Problem) -> str:
@@ -273,4 +289,4 @@ def _decoupled(prepared: PreparedModes, asked: DecoupledBody) -> Decoupled:
     axes = frame(held.part, asked.axes, crank)
     rows = body_rows(held, axes, prepared.basis.vectors)
     motions = tuple(MOTIONS.index(motion) for motion in asked.motions)
-    return Decoupled(held, axes, rows, motions, 3 + int(np.argmax(np.abs(axes @ crank))))
+    return Decoupled(asked, held, axes, rows, motions, 3 + int(np.argmax(np.abs(axes @ crank))))

@@ -41,22 +41,30 @@ class Deflections:
             (n_limits,), a part of the limit, below zero beyond it; and (n_limits, n_rates), per N/m, in
             the order of `rate_variables`.
         """
-        statics, settling = solve_statics(self.prepared, rates), self.prepared.settling(rates)
-        R, has_rate = self.prepared.system.mount_motions, self.prepared.springs.has_rate
+        settling, has_rate = self.prepared.settling(rates), self.prepared.springs.has_rate
         by_rate = has_rate / static_ratios(self.prepared.vehicle)[:, None]
         values, gradients = [], []
-        for limit, spring in zip(self.limits, self._springs, strict=True):
-            stretched = R @ statics.case(limit.load_case).motion
+        for limit, (spring, stretched) in zip(self.limits, self.stretched(rates), strict=True):
             d = float(stretched[spring])
             slopes = settling.by_stiffness(stretched)[spring] @ by_rate
             values.append(1 - abs(d) / limit.most - MARGIN)
             gradients.append(-np.sign(d) * slopes / limit.most)
         return np.array(values), np.array(gradients)
 
+    def of_vehicle(self, vehicle: Vehicle) -> "Deflections":
+        """Return the same limits of the vehicle with mounts elsewhere or more of them."""
+        return Deflections(prepare_statics(assemble(vehicle)), self.limits)
+
     def exact(self, rates: Rates) -> Floats:
         """Return the deflections of a vehicle that is made with these rates, (n_limits,), m."""
         vehicle = self.prepared.vehicle.with_rates(rates)
         return deflections_of(solve_statics(prepare_statics(assemble(vehicle)), {}), self.limits)
+
+    def stretched(self, rates: Rates) -> list[tuple[int, Floats]]:
+        """The spring of each limit, and the stretch of all mount springs in its load case."""
+        statics, R = solve_statics(self.prepared, rates), self.prepared.system.mount_motions
+        pairs = zip(self._springs, self.limits, strict=True)
+        return [(spring, R @ statics.case(limit.load_case).motion) for spring, limit in pairs]
 
     @property
     def _springs(self) -> list[int]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 
@@ -44,6 +44,10 @@ class Goal(Protocol):
         """Return the number and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
         ...
 
+    def of_vehicle(self, vehicle: Vehicle) -> Self:
+        """Return the same goal, weights too, of the vehicle with mounts elsewhere or more of them."""
+        ...
+
 
 @dataclass(frozen=True, eq=False)
 class LeastChange:
@@ -65,10 +69,18 @@ class LeastChange:
             np.array([getattr(every[v.group], v.direction) for v in variables])
             for every in (self.vehicle.all_rates(rates), self.base)
         )
-        factor = np.divide(k, k0, out=np.ones_like(k), where=(k > 0) & (k0 > 0))
-        log = np.log(factor)
+        log = np.log(np.divide(k, k0, out=np.ones_like(k), where=(k > 0) & (k0 > 0)))
         slope = np.divide(2 * log, k, out=np.zeros_like(k), where=k > 0)
-        return float(np.mean(log**2)), slope / len(k)
+        return float(log @ log) / self.n_rates, slope / self.n_rates
+
+    @property
+    def n_rates(self) -> int:
+        """How many differ from zero, one at least."""
+        return max(1, sum(k > 0 for rates in self.base.values() for k in rates.as_tuple()))
+
+    def of_vehicle(self, vehicle: Vehicle) -> "LeastChange":
+        """Return the same of the vehicle with more mounts, of no rate, which do not change."""
+        return LeastChange(vehicle, {**vehicle.rates, **self.base})
 
 
 def prepare_goal(vehicle: Vehicle, problem: Problem, base: Rates, speed: float) -> Goal:

@@ -121,6 +121,10 @@ class Integral:
             self, cases=tuple(replace(case, weight=factor * case.weight) for case, factor in pairs)
         )
 
+    def of_vehicle(self, vehicle: Vehicle) -> "Integral":
+        """Return the integral of the vehicle with mounts elsewhere or more of them; as `prepare`."""
+        return replace(self, prepared=prepare(vehicle))
+
     def _total(self, stiffness: Complexes) -> float:
         return float(self.near(stiffness).totals(stiffness[None])[0])
 

@@ -103,9 +103,9 @@ def group_limits(
     return limits
 
 
-def reach(variables: Sequence[DesignVariable], limits: Sequence[Limit]) -> tuple[Floats, Floats]:
+def reach(n_variables: int, limits: Sequence[Limit]) -> tuple[Floats, Floats]:
     """The least and the most that each number can be where all limits are met, which is possible."""
-    lower, upper = np.full(len(variables), -np.inf), np.full(len(variables), np.inf)
+    lower, upper = np.full(n_variables, -np.inf), np.full(n_variables, np.inf)
     for limit in limits:
         if len(limit.terms) == 1:
             _tighten(lower, upper, *limit.terms[0], limit.value)

@@ -59,6 +59,13 @@ class MountCase:
         n_springs = len(self.driven.prepared.basis.mount_stiffness)
         return self.weight * np.pad(self.selected.ravel(), (0, n_springs - self.selected.size))
 
+    def of(self, prepared: Prepared) -> "MountCase":
+        """Return the case of the vehicle with mounts elsewhere, or more of them, which do not count."""
+        vehicle = prepared.vehicle
+        selected = np.pad(self.selected, ((0, len(vehicle.mounts) - len(self.selected)), (0, 0)))
+        under = _under(prepared, vehicle.load(self.load.name), self.driven.speed)
+        return MountCase(under, selected, self.weight)
+
     def lines(self, stiffness: Complexes) -> Floats:
         """Lines that mount rates want, (n_lines,), Hz: closer where any mode is sharp.
 
@@ -107,6 +114,11 @@ class MountForceGoal:
         """Return the goal from the forces of the vehicle solved anew; raises as `solve_forces`."""
         return sum(self._exact(case, rates) for case in self.cases)
 
+    def of_vehicle(self, vehicle: Vehicle) -> "MountForceGoal":
+        """Return the goal of the vehicle with mounts elsewhere or more of them; raises as `prepare`."""
+        prepared = prepare(vehicle)
+        return MountForceGoal(tuple(case.of(prepared) for case in self.cases))
+
     def scaled(self, factors: Floats) -> "MountForceGoal":
         """Return the goal with other weights: each case's times a factor, (n_cases,)."""
         return replace(self, cases=_scaled(self.cases, factors))
@@ -114,13 +126,13 @@ class MountForceGoal:
     def _value(self, case: MountCase, rates: Rates) -> float:
         """What a case adds."""
         counts = case.counts
-        return sum(float((passed.power @ counts).sum()) for passed in _passed(case, rates))
+        return sum(float((passed.power @ counts).sum()) for passed in passed_on(case, rates))
 
     def _case(self, case: MountCase, rates: Rates) -> tuple[float, Complexes]:
         """What a case adds, and its derivatives to the complex rates of springs, (n_springs,)."""
         counts, value = case.counts, 0.0
         by_spring = np.zeros(len(counts), complex)
-        for passed in _passed(case, rates):
+        for passed in passed_on(case, rates):
             x, P = passed.stretch, passed.weighted
             pushed = (counts * passed.stiffness)[:, :, None] * P.swapaxes(1, 2)
             through = (passed.moved_by(pushed) * x).sum(axis=2)
@@ -140,7 +152,7 @@ class MountForceGoal:
 
 
 @dataclass(frozen=True, eq=False)
-class _Passed:
+class Passed:
     """What springs pass on at some lines with mount rates."""
 
     receptances: Receptances
@@ -152,8 +164,15 @@ class _Passed:
     """z, (n_lines, n_springs), N/m."""
     stretch: Complexes
     """x, (n_lines, n_springs, n_inputs)."""
+    spectrum: Complexes
+    """S, (n_lines, n_inputs, n_inputs), for sums over lines."""
     weighted: Complexes
     """P = S Fᴴ, (n_lines, n_inputs, n_springs)."""
+
+    @property
+    def stretched(self) -> Floats:
+        """X S xᴴ of each spring, (n_lines, n_springs)."""
+        return ((self.stretch @ self.spectrum) * self.stretch.conj()).sum(axis=2).real
 
     @property
     def power(self) -> Floats:
@@ -167,7 +186,7 @@ class _Passed:
         return replace(at, inputs=at.springs @ forces).stretches(self.at_reference)
 
 
-def _passed(case: MountCase, rates: Rates) -> Iterator[_Passed]:
+def passed_on(case: MountCase, rates: Rates) -> Iterator[Passed]:
     """What passes at the lines of the band, then at those between; raises as `solve`."""
     system = case.driven.prepared.system
     stiffness = case.driven.prepared.mount_stiffness(rates)
@@ -178,7 +197,7 @@ def _passed(case: MountCase, rates: Rates) -> Iterator[_Passed]:
         ratios, x = at.law.ratios(f), at.stretches(stiffness)
         z = stiffness * ratios + 2j * np.pi * f[:, None] * spring_damping(system)
         weighted = spectrum[own] @ (z[:, :, None] * x).conj().swapaxes(1, 2)
-        yield _Passed(at, stiffness, ratios, z, x, weighted)
+        yield Passed(at, stiffness, ratios, z, x, spectrum[own], weighted)
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,9 +235,20 @@ class TransmissibilityGoal:
             gradient = gradient + case.weight * (slope_above - above / below * slope_below) / below
         return value, gradient
 
+    def of_vehicle(self, vehicle: Vehicle) -> "TransmissibilityGoal":
+        """Return the goal of the vehicle with mounts elsewhere or more of them; raises as `prepare`."""
+        prepared = prepare(_with_end_points(vehicle))
+        return TransmissibilityGoal(tuple(case.of(prepared) for case in self.cases))
+
     def scaled(self, factors: Floats) -> "TransmissibilityGoal":
         """Return the goal with other weights: each case's times a factor, (n_cases,)."""
         return replace(self, cases=_scaled(self.cases, factors))
+
+    def mean_squares(self, case: MountCase, rates: Rates) -> Floats:
+        """Return those of all carried ends, then of all carrying ones, (2, n_mounts, 3)."""
+        every = replace(case, selected=np.ones_like(case.selected))
+        both = (end for end in self._ends(every, rates))
+        return np.array([_each(end, rates) for end in both]).reshape(2, -1, 3)
 
     def _ratio(self, case: MountCase, rates: Rates, exact: bool) -> float:
         carried, carrying = (
@@ -272,8 +302,12 @@ def prepare_mount_goal(vehicle: Vehicle, problem: Problem, speed: float) -> Moun
                     f"problem {problem.name!r}: mount {mount.name!r} stands on the ground, which has "
                     "no acceleration to become small; name mounts between bodies in a [[problem.mount]]"
                 )
-    ends = replace(vehicle, response_points=_end_points(vehicle), problems=())
-    return TransmissibilityGoal(_cases(prepare(ends), problem, targets, speed))
+    return TransmissibilityGoal(_cases(prepare(_with_end_points(vehicle)), problem, targets, speed))
+
+
+def _with_end_points(vehicle: Vehicle) -> Vehicle:
+    """Return a vehicle that is felt at the ends of its mounts."""
+    return replace(vehicle, response_points=_end_points(vehicle), problems=())
 
 
 def _end_points(vehicle: Vehicle) -> tuple[ResponsePoint, ...]:
@@ -294,10 +328,14 @@ def _cases(
     for target in targets:
         selected = _selected(vehicle, target)
         for load in _loads(vehicle, problem, target):
-            lines = load_lines(prepared, [(load, speed)]) if is_random(load) else None
-            under = driven(prepared, [load], speed, lines)
-            cases.append(MountCase(under, selected, target.weight))
+            cases.append(MountCase(_under(prepared, load, speed), selected, target.weight))
     return tuple(cases)
+
+
+def _under(prepared: Prepared, load: Load, speed: float) -> Driven:
+    """Return a vehicle under a load, at lines that hold what its spectrum says."""
+    lines = load_lines(prepared, [(load, speed)]) if is_random(load) else None
+    return driven(prepared, [load], speed, lines)
 
 
 def _loads(vehicle: Vehicle, problem: Problem, target: MountTarget) -> list[Load]:
@@ -320,6 +358,12 @@ def _selected(vehicle: Vehicle, target: MountTarget) -> Floats:
     rows = [i for i, mount in enumerate(vehicle.mounts) if mount in chosen]
     selected[np.ix_(rows, [AXIS[direction] for direction in target.directions])] = 1.0
     return selected
+
+
+def _each(end: Objective, rates: Rates) -> Floats:
+    """What each output of an objective with one term adds to it, (n_outputs,)."""
+    (term,) = end.terms
+    return term.squares(end.criterion.power(term, end.response(rates))).sum(axis=0)
 
 
 def _scaled(cases: Sequence[MountCase], factors: Floats) -> tuple[MountCase, ...]:

@@ -237,6 +237,13 @@ class Objective:
         """What makes F of responses."""
         return Criterion(self.driven.frequency_hz, self.terms)
 
+    def of_vehicle(self, vehicle: Vehicle) -> "Objective":
+        """Return the objective of the vehicle with mounts elsewhere or more of them; as `prepare`."""
+        prepared = prepare(vehicle, self.prepared.frequency_hz)
+        loads = tuple((vehicle.load(load.name), speed) for load, speed in self.loads)
+        driven = _driven(prepared, loads, self.outputs)
+        return replace(self, prepared=prepared, loads=loads, driven=driven)
+
     def scaled(self, factors: Floats) -> "Objective":
         """Return the objective with other weights: each case's times a factor, (n_cases,)."""
         terms = tuple(
@@ -280,10 +287,16 @@ def objective_on(
         _term(prepared, case, its[:, outputs], slice(*own))
         for case, its, own in zip(cases, weights, pairwise(ends), strict=True)
     )
+    return kind(prepared, _driven(prepared, loads, outputs), loads, outputs, terms)
+
+
+def _driven(
+    prepared: Prepared, loads: Sequence[tuple[Load, float]], outputs: NDArray[np.intp]
+) -> Receptances:
+    """Receptances of some outputs to some loads, one after the other."""
     receptances = prepared.receptances.with_outputs(outputs)
     inputs = _inputs(prepared, loads, receptances.mount_stiffness)
-    driven = receptances.driven(inputs.forces, inputs.ground)
-    return kind(prepared, driven, loads, outputs, terms)
+    return receptances.driven(inputs.forces, inputs.ground)
 
 
 def pattern_of(vehicle: Vehicle, case: LoadCase) -> Floats:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeviz.optimise.design_space import DesignSpace
-from modeviz.optimise.limits import SHEAR
+from modeviz.optimise.limits import SHEAR, Limit
 from modeviz.optimise.search import Search
 from modeviz.units import factor
 from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates, Rates
@@ -84,16 +84,17 @@ def _moved(space: DesignSpace, every: Rates) -> list[str]:
 
 
 def _past(space: DesignSpace, every: Rates) -> list[str]:
-    """The limits that rates do not keep."""
-    x = np.array([_log(space, every, v.group, v.lead) for v in space.variables])
-    excess = space.rows @ x - space.values
+    """The limits that rates do not keep, nor mounts where they were given."""
+    logarithms = [_log(space, every, v.group, v.lead) for v in space.variables]
+    excess = space.rows @ np.append(logarithms, space.places.to_x({})) - space.values
     each = zip(space.limits, excess.tolist(), strict=True)
-    return [f"past {limit.spoken}{_amount(by)}" for limit, by in each if by > SAME]
+    return [f"past {limit.spoken}{_amount(space, limit, by)}" for limit, by in each if by > SAME]
 
 
-def _amount(by: float) -> str:
-    """Return how far a rate or ratio is past its limit; nothing of one that is zero."""
-    return f" by {100 * np.expm1(by):.3g} %" if by < FAR else ""
+def _amount(space: DesignSpace, limit: Limit, by: float) -> str:
+    """Return how far a rate or ratio is past its limit; nothing of one that is zero, or of a place."""
+    is_place = limit.rate is not None and limit.rate >= space.n_rates
+    return "" if is_place or by >= FAR else f" by {100 * np.expm1(by):.3g} %"
 
 
 def _log(space: DesignSpace, every: Rates, group: str, field: str) -> float:

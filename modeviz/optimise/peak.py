@@ -66,6 +66,12 @@ class PeakCase:
         pattern = np.broadcast_to(self.selected, (len(lines), *self.selected.shape))
         return LoadCase(self.load, tuple(lines.tolist()), self.weight, pattern, self.target)
 
+    def of_vehicle(self, vehicle: Vehicle) -> "PeakCase":
+        """Return the same case of the vehicle with mounts elsewhere or more of them."""
+        if isinstance(self.load, Conditions):
+            return self
+        return replace(self, load=vehicle.harmonic_load(self.load.name))
+
     def parted(self, widest: float) -> "PeakCase":
         """Return the same cells, none wider than so many Hz."""
         counts = np.ceil(np.diff(self.edges) / widest - CLOSE).astype(int)
@@ -178,6 +184,12 @@ class PeakGoal(MinMax):
         return replace(
             self, cases=tuple(replace(case, weight=factor * case.weight) for case, factor in pairs)
         )
+
+    def of_vehicle(self, vehicle: Vehicle) -> "PeakGoal":
+        """Return the goal of the vehicle with mounts elsewhere or more of them; raises as `prepare`."""
+        f, top_hz = self.prepared.frequency_hz, self.prepared.basis.top_hz
+        prepared = prepare(vehicle, f, top_hz=top_hz, is_graded=True)
+        return replace(self, prepared=prepared, cases=tuple(c.of_vehicle(vehicle) for c in self.cases))
 
     def on(self, lines: Floats) -> Objective:
         """Return the goal of vehicles with these lines, found between them and their midpoints."""

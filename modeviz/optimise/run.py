@@ -1,7 +1,7 @@
 """Better mount rates for a problem: many starts or a global search, and why it ended."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.compute.runner import Runner
@@ -14,6 +14,7 @@ from modeviz.optimise.search import Search
 from modeviz.optimise.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.placement import Placements
 
 BUDGET = 5_000
 """Evaluations that a search may take, all starts together, besides those that choose these."""
@@ -49,6 +50,8 @@ class Progress:
     """How the best goal fell."""
     is_checking: bool = False
     """Whether the search is over and its best design now held against the full model."""
+    placements: Placements = field(default_factory=dict)
+    """Where the mounts of that design are, of those that are not where they were given."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +74,8 @@ class Optimum:
     """The end of the search from each start that was come to."""
     history: History = ()
     """How the best goal fell; of a robust search that of its own goal."""
+    placements: Placements = field(default_factory=dict)
+    """Where its mounts are, of those that are not where they were given."""
 
     @property
     def converged(self) -> bool:
@@ -210,9 +215,9 @@ def best_of(
         if reason == CANCELLED:
             raise SolveError(f"cancelled: {kept}")
         raise SolveError(f"{kept}: widen them, free more rates or take more starts")
-    rates = search.space.rates(best.x)
+    rates, placements = search.space.rates(best.x), search.space.placements(best.x)
     n_evaluations = sum(d.evaluations for d in descents)
-    tell(Progress(n_evaluations, rates, best.value, len(descents), n_starts, history, is_checking=True))
+    tell(Progress(n_evaluations, rates, best.value, len(descents), n_starts, history, True, placements))
     verification = verify((search,), best.x, (best.value,))
     return Optimum(
         x=best.x,
@@ -224,6 +229,7 @@ def best_of(
         verification=verification,
         descents=tuple(descents),
         history=history,
+        placements=placements,
     )
 
 
@@ -268,8 +274,19 @@ class _Account:
 
     def _tell_best(self, evaluations: int, number: int) -> None:
         if self._best is not None:
-            rates, value = self._search.space.rates(self._best), self._history[-1][1]
-            self._tell(Progress(evaluations, rates, value, number, self._n_starts, self._history))
+            space, value = self._search.space, self._history[-1][1]
+            rates, placements = space.rates(self._best), space.placements(self._best)
+            self._tell(
+                Progress(
+                    evaluations,
+                    rates,
+                    value,
+                    number,
+                    self._n_starts,
+                    self._history,
+                    placements=placements,
+                )
+            )
 
 
 def _descend(shared: tuple[Search, int], start: Floats) -> Descent:

@@ -1,11 +1,13 @@
 """A goal, the designs among which it is to become small, and how good one is."""
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from modeviz.analysis.latest import Latest
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.sensitivity import rate_variables
 from modeviz.errors import SolveError, located
@@ -13,18 +15,20 @@ from modeviz.optimise.deflections import Deflections, prepare_deflections
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import Goal, prepare_goal
 from modeviz.optimise.min_max import MinMax
+from modeviz.optimise.place_terms import change_of, goal_term, margin_terms
+from modeviz.optimise.probes import Probes
 from modeviz.optimise.windows import Windows, prepare_windows
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.placement import Placements, with_placements
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True, eq=False)
-class Search:
-    """A goal, and the designs among which it is to become small."""
+class Aims:
+    """What is sought of a vehicle whose mounts are somewhere, and what it has to keep to."""
 
-    space: DesignSpace
     goal: Goal
     windows: Windows | None = None
     deflections: Deflections | None = None
@@ -33,6 +37,30 @@ class Search:
     def kept(self) -> tuple[Windows | Deflections, ...]:
         """What designs have to keep to beside bounds and ratio limits."""
         return tuple(each for each in (self.windows, self.deflections) if each is not None)
+
+    def of_vehicle(self, vehicle: Vehicle) -> "Aims":
+        """Return the same of the vehicle with mounts elsewhere or more of them; raises as `prepare`."""
+        return Aims(
+            self.goal.of_vehicle(vehicle),
+            self.windows and self.windows.of_vehicle(vehicle),
+            self.deflections and self.deflections.of_vehicle(vehicle),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """A goal, and the designs among which it is to become small."""
+
+    space: DesignSpace
+    goal: Goal
+    """Of the vehicle with its mounts where they were given, as are the next two."""
+    windows: Windows | None = None
+    deflections: Deflections | None = None
+
+    @property
+    def kept(self) -> tuple[Windows | Deflections, ...]:
+        """What designs have to keep to beside bounds and ratio limits."""
+        return self._given.kept
 
     @property
     def kept_words(self) -> list[str]:
@@ -47,17 +75,26 @@ class Search:
         """
         rates = self.space.rates(x)
         with self._naming(x):
-            value, by_rate = self.goal.value_and_gradient(rates)
-            gradient = self._by_x(rates, by_rate)
+            goal = self._probing(x).goal
+            value, by_rate = goal.value_and_gradient(rates)
+            more, by_move = change_of(goal, self._moved(x))
+            gradient = self._by_x(rates, by_rate, goal_term(goal, rates, self._probes))
+            gradient[self.space.n_rates :] += by_move
             _check_finite(value, gradient)
-        return value, gradient
+        return value + more, gradient
 
     def value(self, x: Floats) -> float:
         """The goal of a design; raises as `evaluate`."""
         with self._naming(x):
-            value = self.goal.value(self.space.rates(x))
+            goal = self.at(x).goal
+            value = goal.value(self.space.rates(x)) + change_of(goal, self._moved(x))[0]
             _check_finite(value)
         return value
+
+    def exact_value(self, x: Floats) -> float:
+        """Return the goal of a design from the full model; raises as `Goal.exact_value`."""
+        goal = self.at(x).goal
+        return goal.exact_value(self.space.rates(x)) + change_of(goal, self._moved(x))[0]
 
     def parts(self, x: Floats) -> tuple[Floats, Floats]:
         """Return the parts of a `MinMax`, (n,), and their derivatives, (n, n_variables).
@@ -65,10 +102,11 @@ class Search:
         Raises:
             SolveError: as `evaluate`.
         """
-        assert isinstance(self.goal, MinMax)
         rates = self.space.rates(x)
         with self._naming(x):
-            parts, by_rate = self.goal.parts_and_gradients(rates)
+            goal = self._probing(x).goal
+            assert isinstance(goal, MinMax)
+            parts, by_rate = goal.parts_and_gradients(rates)
             gradients = self._by_x(rates, by_rate)
             _check_finite(float(parts.max()), gradients)
         return parts, gradients
@@ -80,9 +118,49 @@ class Search:
         """
         if not self.kept:
             return np.zeros(0), np.zeros((0, self.space.n_variables))
-        rates = self.space.rates(x)
-        values, by_rate = zip(*(each.margins(rates) for each in self.kept), strict=True)
-        return np.concatenate(values), self._by_x(rates, np.vstack(by_rate))
+        rates, found = self.space.rates(x), []
+        for each in self._probing(x).kept:
+            values, by_rate = each.margins(rates)
+            is_read = isinstance(each, Deflections)
+            term = margin_terms(each, rates, self._probes) if is_read else np.zeros(1)
+            found.append((values, self._by_x(rates, by_rate, term)))
+        values, slopes = zip(*found, strict=True)
+        return np.concatenate(values), np.vstack(slopes)
+
+    def at(self, x: Floats) -> Aims:
+        """What is sought of a design with its mounts where it has them, at any rates."""
+        placements = self.space.placements(x)
+        if not placements:
+            return self._given
+        vehicle = self.space.vehicle
+        return self._latest.get(
+            _key(placements), lambda: self._given.of_vehicle(with_placements(vehicle, placements))
+        )
+
+    def _probing(self, x: Floats) -> Aims:
+        """The same with probes about mounts, if any may be placed otherwise."""
+        if not self.space.places.variables:
+            return self.at(x)
+        placements = self.space.placements(x)
+        return self._latest_probing.get(
+            _key(placements), lambda: self._given.of_vehicle(self._probes.placed(placements))
+        )
+
+    @cached_property
+    def _given(self) -> Aims:
+        return Aims(self.goal, self.windows, self.deflections)
+
+    @cached_property
+    def _probes(self) -> Probes:
+        return Probes(self.space.vehicle, self.space.places, self.space.base)
+
+    @cached_property
+    def _latest(self) -> Latest[Aims]:
+        return Latest()
+
+    @cached_property
+    def _latest_probing(self) -> Latest[Aims]:
+        return Latest()
 
     @contextmanager
     def _naming(self, x: Floats) -> Iterator[None]:
@@ -92,10 +170,29 @@ class Search:
         except SolveError as error:
             raise SolveError(f"{error}; with {self.space.spoken(x)}") from None
 
-    def _by_x(self, rates: Rates, by_rate: Floats) -> Floats:
-        """Derivatives to x of what has derivatives to rates, (..., n_rates): dk = k dx."""
+    def _moved(self, x: Floats) -> Floats:
+        """How far mounts of a design are from where they were at first, parts of bounds' widths."""
+        places = self.space.places
+        return x[self.space.n_rates :] - places.to_x(places.base)
+
+    def _by_x(self, rates: Rates, by_rate: Floats, by_place: Floats | float = 0.0) -> Floats:
+        """Derivatives to x of what has derivatives to rates, (..., n_rates): dk = k dx.
+
+        Args:
+            rates: of a design.
+            by_rate: to those of probes, too, if there are any.
+            by_place: what is to be added of places, (..., n_places).
+        """
         k = [getattr(rates[v.group], v.direction) for v in rate_variables(self.space.vehicle)]
-        return (by_rate * k) @ self.space.members
+        by_x = (by_rate[..., : len(k)] * k) @ self.space.members
+        if self.space.places.variables:
+            by_place = by_place + by_rate[..., len(k) :] @ self._probes.by_place(rates)
+            by_x[..., self.space.n_rates :] = by_place * self.space.places.widths
+        return by_x
+
+
+def _key(placements: Placements) -> Hashable:
+    return frozenset(placements.items())
 
 
 def _check_finite(value: float, gradient: Floats | float = 0.0) -> None:
@@ -109,6 +206,7 @@ def prepare_search(
     rates: Rates,
     speed: float,
     locked: frozenset[tuple[str, str]] = frozenset(),
+    placements: Placements | None = None,
 ) -> Search:
     """The search for better rates that a problem asks for.
 
@@ -119,13 +217,15 @@ def prepare_search(
             measured.
         speed: on the roads, m/s.
         locked: rates, (group, field of `MountRates`), that may not change.
+        placements: where mounts are that may not be placed otherwise, and where others begin; None:
+            where they were given. The goal is normalised with all of them where they were given.
 
     Raises:
         VehicleError: as `prepare_goal`, `design_space` and `prepare_windows`.
         SolveError: as `prepare_goal`.
     """
     with located(f"problem {problem.name!r}"):
-        space = design_space(vehicle, problem.groups, rates, locked)
+        space = design_space(vehicle, problem.groups, rates, locked, placements)
     goal = prepare_goal(vehicle, problem, rates, speed)
     with located(f"problem {problem.name!r}"):
         windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None

@@ -1,7 +1,7 @@
 """Two goals for the same designs: what a problem wants small, on two sides."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from modeviz.optimise.search import Search, prepare_search
 from modeviz.optimise.verification import Verification, verify
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.placement import Placements
 from modeviz.vehicle.problem import VARIABLES, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -38,6 +39,8 @@ class ParetoPoint:
     """Of both goals."""
     verification: Verification | None = None
     """What the full model says of that goal which differs more; None before it is asked."""
+    placements: Placements = field(default_factory=dict)
+    """Where its mounts are, of those that are not where they were given."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +54,8 @@ class TradeOff:
     def compromise(self, x: Floats) -> ParetoPoint:
         """A design with what both goals are; raises as `Search.value`."""
         first, second = (search.value(x) for search in self.searches)
-        return ParetoPoint(x, self.searches[0].space.rates(x), (first, second))
+        space = self.searches[0].space
+        return ParetoPoint(x, space.rates(x), (first, second), placements=space.placements(x))
 
     def verified(self, design: ParetoPoint) -> ParetoPoint:
         """Return the same design with what the full model says of it."""
@@ -81,6 +85,10 @@ class Worse(MinMax):
         both = [goal.value_and_gradient(rates) for goal in self.goals]
         values, gradients = (np.array(part) for part in zip(*both, strict=True))
         return self.weights * values, self.weights[:, None] * gradients
+
+    def of_vehicle(self, vehicle: Vehicle) -> "Worse":
+        first, second = (goal.of_vehicle(vehicle) for goal in self.goals)
+        return replace(self, goals=(first, second))
 
     def _larger(self, values: Sequence[float]) -> float:
         return float(np.max(self.weights * values))

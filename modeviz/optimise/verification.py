@@ -41,20 +41,20 @@ def verify(searches: Sequence[Search], x: Floats, values: Sequence[float]) -> Ve
         values: its goals, as the searches found them; said is of that which differs most.
     """
     search = searches[0]
-    rates = search.space.rates(x)
+    rates, there = search.space.rates(x), search.at(x)
     frequency_hz, are_kept = np.zeros(0), True
-    if search.windows is not None:
-        frequency_hz = search.windows.exact_frequencies(rates)
-        pairs = zip(search.windows.windows, frequency_hz.tolist(), strict=True)
+    if there.windows is not None:
+        frequency_hz = there.windows.exact_frequencies(rates)
+        pairs = zip(there.windows.windows, frequency_hz.tolist(), strict=True)
         are_kept = all(window.allows(f) for window, f in pairs)
     deflection = np.zeros(0)
-    if search.deflections is not None:
-        deflection = search.deflections.exact(rates)
-        gives = zip(search.deflections.limits, deflection.tolist(), strict=True)
+    if there.deflections is not None:
+        deflection = there.deflections.exact(rates)
+        gives = zip(there.deflections.limits, deflection.tolist(), strict=True)
         are_kept = all(limit.allows(d) for limit, d in gives) and are_kept
-    gap = gap_if_solved(search.space.vehicle.with_rates(rates))
+    gap = gap_if_solved(search.space.built(x))
     try:
-        exact = [search.goal.exact_value(rates) for search in searches]
+        exact = [search.exact_value(x) for search in searches]
     except SolveError as error:
         return Verification(np.nan, np.nan, frequency_hz, are_kept, str(error), gap, deflection)
     differences = [_relative(value, own) for value, own in zip(values, exact, strict=True)]

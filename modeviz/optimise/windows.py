@@ -1,17 +1,18 @@
 """Frequency windows of modes as constraints c >= 0 of a search, with their derivatives."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from modeviz.analysis.modal_results import ModalResults, solve_modal
-from modeviz.analysis.preparation import PreparedModes
+from modeviz.analysis.preparation import PreparedModes, prepare_modes
 from modeviz.analysis.sensitivity import frequency_sensitivity
 from modeviz.errors import VehicleError, unknown
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import FrequencyWindow
+from modeviz.vehicle.vehicle import Vehicle
 
 MARGIN = 2e-6
 """How far within a window a search aims, relative to its ends; frequencies are within 4e-7 of exact."""
@@ -77,6 +78,10 @@ class Windows:
                 values.append(value)
                 gradients.append(slope * slopes[modes[closest]])
         return np.array(values), np.array(gradients).reshape(len(values), slopes.shape[1])
+
+    def of_vehicle(self, vehicle: Vehicle) -> "Windows":
+        """Return windows of the same modes where mounts are elsewhere, or there are more of them."""
+        return replace(self, prepared=prepare_modes(vehicle))
 
     def exact_frequencies(self, rates: Rates) -> Floats:
         """Return where the mode of each window is in the full eigenproblem, (n_windows,), Hz."""

@@ -8,6 +8,7 @@ from modeviz.optimise.outside import kept_ratios, outside_search
 from modeviz.optimise.pareto import Front, most_truncated
 from modeviz.optimise.trade_off import TradeOff
 from modeviz.report.optimum import objective_words, solved_from_scratch
+from modeviz.report.places import place_rows, placements_record
 from modeviz.report.rate_fields import listed_fields, spoken, with_unit, written_rate, written_unit
 from modeviz.report.records import Record, rates_record
 from modeviz.report.space import space_lines
@@ -21,10 +22,10 @@ def front_record(problem: Problem, trade_off: TradeOff, front: Front) -> Record:
     """Designs between two goals.
 
     `{"goal", "normalised", "between": [name, name], "original": [value, value], "designs": [{"values",
-    "rates": see rates_record, "truncation": see optimum_record}], "fixed_ratios": {group: {"lateral",
-    "fore_aft"}} to the vertical rate,
-    "outside": {"original": why it could not be found, [] if it could}, "converged", "reason",
-    "evaluations", "exact_difference": or null where the model as given cannot be solved so exactly}`.
+    "rates": see rates_record, "placements": see placements_record, "truncation": see optimum_record}],
+    "fixed_ratios": {group: {"lateral", "fore_aft"}} to the vertical rate, "outside": {"original": why
+    it could not be found, [] if it could}, "converged", "reason", "evaluations", "exact_difference": or
+    null where the model as given cannot be solved so exactly}`.
     """
     search = trade_off.searches[0]
     vehicle = search.space.vehicle
@@ -37,6 +38,7 @@ def front_record(problem: Problem, trade_off: TradeOff, front: Front) -> Record:
             {
                 "values": list(d.values),
                 "rates": rates_record(vehicle.with_rates(d.rates)),
+                "placements": placements_record(d.placements),
                 "truncation": gap_record(d.verification.gap if d.verification else None),
             }
             for d in front.designs
@@ -72,20 +74,22 @@ def front_table(problem: Problem, trade_off: TradeOff, front: Front) -> str:
         [
             table(header, goals),
             _rates_table(problem, trade_off, front),
+            *_places_table(trade_off, front),
             _ending(problem, trade_off, front),
         ]
     )
 
 
 def front_csv(problem: Problem, trade_off: TradeOff, front: Front) -> str:
-    """A row for each design: both goals, and the rates of groups that may change, with their units."""
+    """A row for each design: goals, the rates of groups that may change and places, with units."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    columns = _columns(problem, trade_off, front)
+    columns, placed = _columns(problem, trade_off, front), _places(trade_off, front)
     names = [f"{group} {spoken(field)}, {written_unit(field)}" for group, field, _ in columns]
-    writer.writerow(["design", *front.names, *names])
+    writer.writerow(["design", *front.names, *names, *(name for name, *_ in placed)])
     for i, design in enumerate(front.designs):
-        writer.writerow([i + 1, *design.values, *(values[i] for *_, values in columns)])
+        rates = (values[i] for *_, values in columns)
+        writer.writerow([i + 1, *design.values, *rates, *(row[i + 1] for row in placed)])
     return text.getvalue()
 
 
@@ -110,6 +114,17 @@ def _rates_table(problem: Problem, trade_off: TradeOff, front: Front) -> str:
         for group, field, values in _columns(problem, trade_off, front)
     ]
     return table(["rates, N/mm", *(str(i + 1) for i in range(len(front.designs)))], rows)
+
+
+def _places(trade_off: TradeOff, front: Front) -> list[list[str]]:
+    """A row for each place that was to choose: its name, then where mounts are in each design."""
+    return place_rows(trade_off.searches[0].space, *(design.placements for design in front.designs))
+
+
+def _places_table(trade_off: TradeOff, front: Front) -> list[str]:
+    rows = _places(trade_off, front)
+    header = ["places", *(str(i + 1) for i in range(len(front.designs)))]
+    return [table(header, rows)] if rows else []
 
 
 def _ending(problem: Problem, trade_off: TradeOff, front: Front) -> str:

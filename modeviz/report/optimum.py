@@ -7,6 +7,7 @@ from modeviz.optimise.goals import Goal
 from modeviz.optimise.outside import kept_ratios, outside_search
 from modeviz.optimise.run import Optimum
 from modeviz.optimise.search import Search
+from modeviz.report.places import place_rows, placements_record
 from modeviz.report.rate_fields import listed_fields, with_unit, written_rate
 from modeviz.report.records import Record, rates_record
 from modeviz.report.space import space_lines
@@ -39,13 +40,13 @@ def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record
 
     `{"goal", "normalised", "percentile": of the objective over parts that scatter or null, "objective":
     {"original", "found", "paper": of the problem's reference or null}, "rates": see rates_record,
-    "fixed_ratios": {group: {"lateral", "fore_aft"}} to the vertical rate, "outside": {"original",
-    "paper"}: why these could not be found, [] if they could, "converged", "reason", "evaluations",
-    "active_constraints": [{"name", "multiplier", "gain"}], "exact_difference": or null where the full
-    model as given cannot be solved exactly enough, "truncation": how much too high frequencies are with
-    these rates, the fields of dynamics.truncation_gap.TruncationGap, null if no body lacks residual
-    compliance}`; a gain is a part of what was found, from relaxing the limit
-    by 10 %.
+    "placements": of mounts that are not where they were given, see placements_record, "fixed_ratios":
+    {group: {"lateral", "fore_aft"}} to the vertical rate, "outside": {"original", "paper"}: why these
+    could not be found, [] if they could, "converged", "reason", "evaluations", "active_constraints":
+    [{"name", "multiplier", "gain"}], "exact_difference": or null where the full model as given cannot
+    be solved exactly enough, "truncation": how much too high frequencies are with these rates, the
+    fields of dynamics.truncation_gap.TruncationGap, null if no body lacks residual compliance}`; a gain
+    is a part of what was found, from relaxing the limit by 10 %.
     """
     vehicle = search.space.vehicle
     difference = optimum.verification.difference
@@ -56,6 +57,7 @@ def optimum_record(problem: Problem, search: Search, optimum: Optimum) -> Record
         "percentile": search.goal.percent if isinstance(search.goal, Robust) else None,
         "objective": _objective(problem, search, optimum),
         "rates": rates_record(vehicle.with_rates(optimum.rates)),
+        "placements": placements_record(optimum.placements),
         "fixed_ratios": kept_ratios(search.space),
         "outside": {"original": list(original), "paper": [text for why in paper for text in why]},
         "converged": optimum.converged,
@@ -73,6 +75,7 @@ def optimum_table(problem: Problem, search: Search, optimum: Optimum) -> str:
     """Rates and objective, original, found and of the reference; why it ended; limits it sits on."""
     parts = [
         _rates_table(problem, search, optimum),
+        _places_table(search, optimum),
         _ending(problem, search, optimum),
         _exactness(search, optimum),
         "\n".join(optimum_doubts(search, optimum)),
@@ -86,7 +89,7 @@ def optimum_doubts(search: Search, optimum: Optimum) -> list[str]:
     gap = optimum.verification.gap
     if gap is None:
         return []
-    vehicle = search.space.vehicle.with_rates(optimum.rates)
+    vehicle = search.space.built(optimum.x)
     return [f"at these rates {doubt}" for doubt in gap_doubts(gap, vehicle)]
 
 
@@ -127,6 +130,13 @@ def _rates_table(problem: Problem, search: Search, optimum: Optimum) -> str:
     values = [v for v in _objective(problem, search, optimum).values() if v is not None]
     rows.append(["objective", *_row(values)])
     return table(["rates, N/mm", "original", *(c for name in others for c in (name, ""))], rows)
+
+
+def _places_table(search: Search, optimum: Optimum) -> str:
+    """A row for each place that was to choose."""
+    space = search.space
+    rows = place_rows(space, space.places.base, optimum.placements)
+    return table(["places", "before", "found"], rows) if rows else ""
 
 
 def _row(values: list[float]) -> list[str]:

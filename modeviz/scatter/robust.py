@@ -124,6 +124,11 @@ def robust_search(search: Search, tolerance: Tolerance, percent: float = 95.0) -
             "the goal does not scatter with parts: a robust search needs one that is made of "
             "accelerations, such as accelerations, peak or rating"
         )
+    if search.space.places.variables:
+        raise SolveError(
+            "a robust search chooses rates alone: expected a problem without offset and angles; search "
+            "for places first, and go on from the vehicle with them"
+        )
     return replace(search, goal=robust(search.goal, tolerance, percent))
 
 

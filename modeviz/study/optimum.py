@@ -18,6 +18,7 @@ from modeviz.report.optimum import (
     optimum_table,
     solved_from_scratch,
 )
+from modeviz.report.places import place_rows
 from modeviz.report.records import Record
 from modeviz.study.displayed import Displayed
 from modeviz.study.notebook import block, charts, figure, paragraphs, rates_table
@@ -26,12 +27,14 @@ from modeviz.text.markup import table
 from modeviz.text.wording import percent_change, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import MountRates, Rates
+from modeviz.vehicle.placement import Placement
 from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OptimiseResult(Displayed):
-    """The best mount rates that were found, what they are worth and how the search ended.
+    """The best mount rates and places that were found, what they are worth and how the search ended.
 
     found = study.optimise("paper", starts=20)
     found.value / found.original
@@ -55,8 +58,18 @@ class OptimiseResult(Displayed):
         return dict(self.optimum.rates)
 
     @property
+    def placements(self) -> dict[str, Placement]:
+        """Where mounts are, by group, of those that were moved or turned."""
+        return dict(self.optimum.placements)
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """The vehicle with these rates and places; `write_vehicle` makes a folder of it."""
+        return self.search.space.built(self.optimum.x)
+
+    @property
     def value(self) -> float:
-        """The objective of these rates; smaller is better."""
+        """The objective of the design; smaller is better."""
         return self.optimum.value
 
     @property
@@ -98,7 +111,7 @@ class OptimiseResult(Displayed):
         return self.optimum.verification.gap
 
     def objective(self, rates: Rates) -> float:
-        """Return the objective of any rates.
+        """Return the objective of any rates, mounts being where they were given.
 
         Args:
             rates: of the groups that differ from the vehicle's own.
@@ -130,6 +143,7 @@ class OptimiseResult(Displayed):
             paragraphs(about, f"{self.reason} after {self.evaluations} evaluations{self._exactness}"),
             paragraphs(*optimum_doubts(self.search, self.optimum)),
             rates_table(vehicle, groups, {"original": vehicle.rates, "found": self.rates}),
+            self._places_table(),
             self._limits_table(),
             self._chart(),
         )
@@ -147,6 +161,12 @@ class OptimiseResult(Displayed):
         header = ["Limits it sits on", f"{100 * RELAXED:.0f} % wider would gain about"]
         rows = [[escape(limit.name), f"{100 * limit.gain:.1f} %"] for limit in self.limits]
         return table(header, rows)
+
+    def _places_table(self) -> str:
+        space = self.search.space
+        rows = place_rows(space, space.places.base, self.placements)
+        header = ["Places", "before", "found"]
+        return table(header, [[escape(name), *cells] for name, *cells in rows]) if rows else ""
 
     def _chart(self) -> str:
         """Return the chart of how the best objective fell; nothing where it did not."""

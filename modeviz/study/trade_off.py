@@ -17,7 +17,9 @@ from modeviz.text.markup import table, title
 from modeviz.text.wording import percent_change, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import MountRates
+from modeviz.vehicle.placement import Placement
 from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -70,6 +72,14 @@ class FrontResult(Displayed):
     def __getitem__(self, number: int) -> dict[str, MountRates]:
         """Return the rates of a design, of every mount group, by its place from zero."""
         return dict(self.front.designs[number].rates)
+
+    def vehicle(self, number: int) -> Vehicle:
+        """Return the vehicle with the rates and places of a design, by its place from zero."""
+        return self.trade_off.searches[0].space.built(self.front.designs[number].x)
+
+    def placements(self, number: int) -> dict[str, Placement]:
+        """Return where mounts of a design are, by group, of those that were moved or turned."""
+        return dict(self.front.designs[number].placements)
 
     def table(self) -> str:
         """Return both goals of each design, its rates, and why the search ended."""

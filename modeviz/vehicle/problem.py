@@ -1,6 +1,6 @@
 """A mount optimisation as data: which rates may change, within what, and what is to become small."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 import numpy as np
@@ -17,6 +17,7 @@ from modeviz.vehicle.mount_rates import (
     check_directions,
 )
 from modeviz.vehicle.mount_target import MountTarget
+from modeviz.vehicle.place_bounds import PlaceBounds, check_angles, check_offsets
 
 GoalKind = Literal[
     "accelerations",
@@ -62,11 +63,11 @@ UNLIMITED = (0.0, np.inf)
 
 @dataclass(frozen=True, eq=False)
 class DesignGroup:
-    """A mount group whose rates may change, the same on the left and the right."""
+    """A mount group whose rates and places may change, the same on the left and the right."""
 
     group: str
     directions: tuple[str, ...] = DIRECTIONS
-    """Which of its rates, of `DIRECTIONS`."""
+    """Which of its rates, of `DIRECTIONS`; none only of a group that may be placed otherwise."""
     bounds: tuple[MountRates, MountRates] | None = None
     """The softest and the stiffest; None: the mount group's."""
     ratio_limits: tuple[float, float] | None = None
@@ -74,10 +75,17 @@ class DesignGroup:
     `UNLIMITED`: none even if that has some."""
     fixed_ratios: bool = False
     """Whether all its rates keep their ratios to each other, whatever the limits."""
+    offsets: PlaceBounds = field(default_factory=dict)
+    """How far it may be moved along the vehicle's axes from where it was given, m."""
+    angles: PlaceBounds = field(default_factory=dict)
+    """How far it may be turned about them, rad, see `Placement`."""
 
     def __post_init__(self) -> None:
         where = f"design group {self.group!r}"
-        check_directions(where, self.directions)
+        if self.directions or not (self.offsets or self.angles):
+            check_directions(where, self.directions)
+        check_offsets(where, self.offsets)
+        check_angles(where, self.angles)
         if self.fixed_ratios and len(self.directions) < len(DIRECTIONS):
             raise VehicleError(
                 f"{where}: directions: found {', '.join(self.directions)} with fixed ratios, which "

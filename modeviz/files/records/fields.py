@@ -85,6 +85,7 @@ Frame = Annotated[tuple[Vector, ...], Meta(min_length=2, max_length=3), UNITLESS
 """Local axes as rows: all three, or x and y."""
 Angles = Annotated[Vector, Quantity("angle"), Turns(turn_vectors)]
 """About x, y and z."""
+AngleEnds = Annotated[tuple[Vector, Vector], Quantity("angle"), Turns(turn_vectors)]
 AngleOrder = Annotated[str, Turns(turn_order)]
 Motions = Annotated[bool | tuple[str, ...], Turns(turn_motions)]
 """Some of `MOTIONS`, or whether all."""

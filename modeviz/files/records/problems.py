@@ -7,7 +7,16 @@ import numpy as np
 from msgspec import Meta, field
 
 from modeviz.errors import VehicleError
-from modeviz.files.records.fields import Frequency, LowestFrequency, Name, Ratio, RatioLimits
+from modeviz.files.records.fields import (
+    AngleEnds,
+    Ends,
+    Frequency,
+    LowestFrequency,
+    Name,
+    Ratio,
+    RatioLimits,
+)
+from modeviz.files.records.place_ends import bounds_of, ends_of
 from modeviz.files.records.rates import RatesRecord
 from modeviz.files.records.record import Record, built
 from modeviz.files.schema.quantities import UNITLESS, FixedUnit, Quantity
@@ -42,6 +51,10 @@ class DesignGroupRecord(Record, kw_only=True):
     stiffest: RatesRecord | None = None
     ratio_limits: RatioLimits | Literal["none"] | None = None
     fixed_ratios: bool = False
+    offset: Ends | None = None
+    """The least and the most along x, y, z; an axis with twice zero is none to be moved along."""
+    angles: AngleEnds | None = None
+    """Likewise about x, y, z."""
 
     @classmethod
     def of(cls, group: DesignGroup) -> Self:
@@ -53,6 +66,8 @@ class DesignGroupRecord(Record, kw_only=True):
             stiffest=stiffest,
             ratio_limits=NO_LIMITS if group.ratio_limits == UNLIMITED else group.ratio_limits,
             fixed_ratios=group.fixed_ratios,
+            offset=ends_of(group.offsets),
+            angles=ends_of(group.angles),
         )
 
     def build(self) -> DesignGroup:
@@ -62,7 +77,15 @@ class DesignGroupRecord(Record, kw_only=True):
         elif self.softest or self.stiffest:
             raise VehicleError("softest and stiffest: found one of them, expected both or neither")
         limits = UNLIMITED if self.ratio_limits == NO_LIMITS else self.ratio_limits
-        return DesignGroup(self.group, self.directions, bounds, limits, self.fixed_ratios)
+        return DesignGroup(
+            self.group,
+            self.directions,
+            bounds,
+            limits,
+            self.fixed_ratios,
+            bounds_of(self.offset),
+            bounds_of(self.angles),
+        )
 
 
 MOST_FREQUENCIES = 10_000

@@ -1,0 +1,268 @@
+"""Offsets and angles of mounts as variables of a search: derivatives, and vehicles made anew."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from dynamic_mounts import MAXWELL, on_mounts
+from four_cylinder import four_cylinder
+from mounted_machine import FLAT, SLANTED
+
+from modeviz.errors import SolveError, VehicleError
+from modeviz.files import read_vehicle, write_vehicle
+from modeviz.optimise.goals import prepare_goal
+from modeviz.optimise.search import prepare_search
+from modeviz.scatter.robust import robust_search
+from modeviz.scatter.tolerance import Tolerance
+from modeviz.study.study import Study
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.connections import GROUND, Spring
+from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint
+from modeviz.vehicle.mount_target import MountTarget
+from modeviz.vehicle.placement import Placement, with_placements
+from modeviz.vehicle.problem import (
+    DeflectionLimit,
+    DesignGroup,
+    FrequencyWindow,
+    Performance,
+    Problem,
+)
+from modeviz.vehicle.progressive import ForceCurve
+
+MOVED = dict.fromkeys("xyz", (-0.03, 0.03))
+BAND = {"highest_frequency": 30.0, "frequency_step": 0.25}
+STEP = 1e-5
+"""Of a number: its derivatives are to be good to 1e-5 of the largest."""
+
+
+@cache
+def engine():
+    """A four-cylinder on a subframe, that something shakes."""
+    subframe = RigidBody(
+        "subframe", "frame", "subframe", 60.0, np.array([2.3, 0.0, 0.0]), 4 * np.eye(3)
+    )
+    bushings = Spring(
+        "bushings", "bushings", ("subframe", GROUND), np.tile([2.3, 0.0, 0.0], (2, 1)),
+        np.full(3, 2e6), rotational_stiffness=np.full(3, 5e5), loss_factor=0.05,
+    )  # fmt: skip
+    vehicle = four_cylinder(carrier="subframe", others=(subframe,), held=(bushings,))
+    return replace(
+        vehicle,
+        **BAND,
+        forces=(Force("shaker", "engine", np.array([2.3, 0.1, 0.3]), SLANTED, FLAT),),
+        response_points=(ResponsePoint("head", "engine", np.array([2.0, 0.1, 0.5])),),
+    )
+
+
+@cache
+def symmetric():
+    """An engine on two pairs of mounts of rubber, to a frame that stands on four, on shaken ground."""
+    vehicle = on_mounts(MAXWELL)
+    return replace(
+        vehicle,
+        **BAND,
+        forces=(Force("shaker", "engine", np.array([0.1, 0.0, 1.0]), SLANTED, 10.0),),
+        base_motions=(BaseMotion("floor", SLANTED, "acceleration", FLAT, ("F0", "F3")),),
+    )
+
+
+ENGINE = (
+    DesignGroup("M1", offsets={"x": (-0.03, 0.03), "y": (-0.01, 0.05)}),
+    DesignGroup("M2", ("vertical",), offsets={"z": (-0.02, 0.04)}, angles={"y": (-0.5, 0.5)}),
+)
+RUBBER = (
+    DesignGroup("E", (), offsets={"y": (-0.02, 0.03)}, angles={"x": (-0.4, 0.4)}),
+    DesignGroup("F", offsets={"y": (-0.02, 0.02)}),
+)
+SHAKEN = (Performance(np.linspace(5, 30, 4), roads=("shaker",)),)
+
+
+def design(search, seed=1):
+    """Some design well within its limits."""
+    spread = np.random.default_rng(seed).uniform(0.3, 0.7, search.space.n_variables)
+    return search.space.sampled(spread)
+
+
+def derivatives(function, x):
+    """∂f/∂x along the last axis, by central differences."""
+    steps = STEP * np.eye(len(x))
+    return np.stack(
+        [np.subtract(function(x + dx), function(x - dx)) / (2 * STEP) for dx in steps], axis=-1
+    )
+
+
+def search_of(vehicle, goal, groups=ENGINE, **fields):
+    fields = {"performance": SHAKEN, **fields}
+    return prepare_search(vehicle, Problem("p", groups, goal=goal, **fields), vehicle.rates, 20.0)
+
+
+def assert_derivatives_hold(search):
+    x, n_rates = design(search), search.space.n_rates
+    value, gradient = search.evaluate(x)
+    expected = derivatives(lambda places: search.value(np.append(x[:n_rates], places)), x[n_rates:])
+    assert value == pytest.approx(search.exact_value(x), rel=1e-5)
+    assert np.abs(gradient[n_rates:] - expected).max() < 1e-5 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize(
+    "goal",
+    ["accelerations", "peak", "rms", "iso 2631", "rating", "forces", "transmissibility", "purity",
+     "decoupling", "change"],
+)  # fmt: skip
+def test_derivatives_to_places_are_those_of_vehicles_made_anew(goal):
+    assert_derivatives_hold(search_of(engine(), goal))
+
+
+RUBBER_GOALS = {
+    "accelerations": {"performance": (Performance(np.array([8.0, 15.0]), wheel_loads=("shaker",)),)},
+    "rms": {"performance": (Performance(np.array([8.0]), roads=("floor",)),)},
+    "forces": {"mounts": (MountTarget(("E1", "F0"), ("vertical", "lateral"), ("floor", "shaker")),)},
+    "transmissibility": {
+        "mounts": (MountTarget(("E1", "E2"), ("vertical",), ("floor",)),),
+        "groups": (DesignGroup("E", (), offsets={"y": (-0.02, 0.03)}),),
+    },
+}
+
+
+@pytest.mark.parametrize("goal", RUBBER_GOALS)
+def test_mirrored_mounts_of_rubber_on_moving_ground_have_derivatives_too(goal):
+    fields = {"performance": (), "groups": RUBBER, **RUBBER_GOALS[goal]}
+    assert_derivatives_hold(search_of(symmetric(), goal, **fields))
+
+
+def test_windows_and_deflections_have_derivatives_to_places():
+    third = Study(engine()).modes()[3].name
+    search = search_of(
+        engine(), "purity",
+        windows=(FrequencyWindow(third, 5.0, 25.0),),
+        deflections=(
+            DeflectionLimit("M1", "vertical", 0.01), DeflectionLimit("M2", "fore-aft", 0.01),
+            DeflectionLimit("M3", "lateral", 0.01),
+        ),
+    )  # fmt: skip
+    x = design(search)
+    margins, slopes = search.margins(x)
+    expected = derivatives(lambda x: search.margins(x)[0], x)
+    assert len(margins) == 5
+    assert (np.abs(slopes - expected).max(axis=1) < 1e-5 * np.abs(expected).max(axis=1)).all()
+    windows, deflections = search.at(x).kept
+    built = search.space.built(x)
+    assert windows.exact_frequencies(search.space.rates(x))[0] == pytest.approx(
+        next(mode.frequency_hz for mode in Study(built).modes() if mode.name == third), rel=1e-6
+    )
+    assert deflections.exact(search.space.rates(x)) == pytest.approx(
+        [Study(built).static().results.cases[0].connections[name].deflection[axis]
+         for name, axis in (("M1", 2), ("M2", 0), ("M3", 1))], rel=1e-6,
+    )  # fmt: skip
+
+
+def test_a_design_is_worth_what_the_folder_written_with_it_is(tmp_path):
+    search = search_of(engine(), "rms")
+    x = design(search)
+    write_vehicle(search.space.built(x), tmp_path / "found")
+    anew = read_vehicle(tmp_path / "found")
+    problem = Problem("p", (DesignGroup("M1"),), goal="rms", performance=SHAKEN, is_normalised=False)
+    (there, own) = (prepare_goal(v, problem, v.rates, 20.0).exact_value({}) for v in (anew, engine()))
+    assert search.value(x) == pytest.approx(there / own, rel=1e-7)
+
+
+def test_moved_mounts_decouple_an_engine_that_rates_alone_cannot():
+    vehicle, groups = four_cylinder(), ("M1", "M2", "M3")
+    rates = Problem("rates", tuple(map(DesignGroup, groups)), goal="purity")
+    places = replace(rates, groups=tuple(DesignGroup(name, offsets=MOVED) for name in groups))
+    alone, found = (Study(vehicle).optimise(problem, 2) for problem in (rates, places))
+    print(alone.value, found.value, found.table())
+    assert found.value < 0.5 * alone.value
+    assert found.exact_difference < 1e-9
+    moved = np.abs([placed.offset for placed in found.placements.values()])
+    assert moved.max() <= 0.03 + 1e-12
+
+
+def test_the_goal_of_least_change_takes_moves_for_changes():
+    search = search_of(engine(), "change", performance=())
+    x = np.zeros(search.space.n_variables)
+    assert search.value(x) == 0
+    x[search.space.n_rates] = 0.4
+    assert search.value(x) == pytest.approx(0.4**2 / 9, rel=1e-12)
+
+
+def test_limits_that_a_place_sits_on_are_named():
+    problem = Problem("p", (DesignGroup("M1", (), offsets={"z": (-0.001, 0.001)}),), goal="purity")
+    found = Study(four_cylinder()).optimise(problem, 1)
+    assert [limit.name for limit in found.limits] in (
+        ["M1 offset z: upper bound"], ["M1 offset z: lower bound"],
+    )  # fmt: skip
+    assert "M1 offset z, mm" in found.table()
+    assert found.to_dict()["placements"]["M1"]["offset_mm"][2] == pytest.approx(
+        1e3 * found.placements["M1"].offset[2]
+    )
+
+
+def test_what_mounts_are_placed_like_already_is_where_a_search_begins():
+    given = {"M1": Placement((0.01, 0.0, 0.02)), "M3": Placement((0.0, 0.005, 0.0))}
+    problem = Problem("p", (DesignGroup("M1", (), offsets={"x": (-0.03, 0.03)}),), goal="purity")
+    vehicle = four_cylinder()
+    search = prepare_search(vehicle, problem, vehicle.rates, 20.0, placements=given)
+    x = search.space.to_x({})
+    assert search.space.placements(x) == given
+    own = prepare_goal(with_placements(vehicle, given), problem, vehicle.rates, 20.0)
+    assert search.value(x) == pytest.approx(own.value({}), rel=1e-12)
+
+
+def test_progressive_mounts_stay_where_they_are():
+    vehicle = four_cylinder()
+    first, *others = vehicle.mount_groups
+    curve = ForceCurve(np.array([-0.01, 0.0, 0.01]), np.array([-100.0, 0.0, 300.0]))
+    curved = replace(vehicle, mount_groups=(replace(first, curves={"vertical": curve}), *others))
+    problem = Problem("p", (DesignGroup("M2", offsets=MOVED),), goal="purity")
+    with pytest.raises(VehicleError, match=r"M1.* are progressive"):
+        prepare_search(curved, problem, curved.rates, 20.0)
+
+
+def test_a_robust_search_leaves_places_alone():
+    search = search_of(engine(), "rms")
+    with pytest.raises(SolveError, match="rates alone"):
+        robust_search(search, Tolerance())
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {"offsets": {"u": (0.0, 1.0)}}, {"offsets": {"x": (0.02, 0.01)}},
+        {"offsets": {"x": (0.0, np.inf)}}, {"angles": {"x": (-2.0, 0.0)}}, {"directions": ()},
+    ],
+)  # fmt: skip
+def test_bounds_of_places_that_cannot_be_are_refused(fields):
+    with pytest.raises(VehicleError, match="design group 'M1': "):
+        DesignGroup("M1", **fields)
+
+
+def test_bounds_of_places_are_written_and_read_in_any_axes(tmp_path):
+    group = DesignGroup(
+        "M1", (), offsets={"x": (-0.03, 0.01), "z": (0.0, 0.02)}, angles={"z": (-0.2, 0.3)}
+    )
+    vehicle = replace(four_cylinder(), problems=(Problem("p", (group,), goal="purity"),))
+    write_vehicle(vehicle, tmp_path / "a")
+    (read,) = read_vehicle(tmp_path / "a").problem("p").groups
+    assert read.directions == ()
+    for name in ("offsets", "angles"):
+        found, given = getattr(read, name), getattr(group, name)
+        assert found.keys() == given.keys()
+        for axis, ends in given.items():
+            assert found[axis] == pytest.approx(ends)
+    text = (tmp_path / "a" / "vehicle.toml").read_text()
+    forward = text.replace("name = ", 'axes = "x forward, y left, z up"\nname = ', 1)
+    (tmp_path / "a" / "vehicle.toml").write_text(forward)
+    (turned,) = read_vehicle(tmp_path / "a").problem("p").groups
+    assert turned.offsets["x"] == pytest.approx((-0.01, 0.03))
+    assert turned.angles["z"] == pytest.approx((-0.2, 0.3))
+
+
+def test_a_folder_of_a_design_leaves_its_mounts_the_same_room():
+    problem = Problem("p", (DesignGroup("M1", offsets={"x": (-0.03, 0.03)}),), goal="purity")
+    vehicle = replace(four_cylinder(), problems=(problem,))
+    search = prepare_search(vehicle, problem, vehicle.rates, 20.0)
+    x = search.space.to_x({}, {"M1": Placement((0.01, 0.0, 0.0))})
+    (group,) = search.space.built(x).problem("p").groups
+    assert group.offsets["x"] == pytest.approx((-0.04, 0.02))
