@@ -24,12 +24,12 @@ class RubberCurve:
     @property
     def stiffness(self) -> Floats:
         """The magnitude that a test rig tells, (n_freqs, 3), N/m."""
-        return np.abs(self.rates)
+        return np.asarray(np.abs(self.rates), np.float64)
 
     @property
     def loss_angle(self) -> Floats:
         """By how much the force leads, (n_freqs, 3), rad."""
-        return np.angle(self.rates)
+        return np.asarray(np.angle(self.rates), np.float64)
 
 
 def dynamic_groups(vehicle: Vehicle) -> tuple[MountGroup, ...]:

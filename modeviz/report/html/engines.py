@@ -67,9 +67,9 @@ def _engine(comparison: Comparison, prepared: Sequence[Prepared], engine: Engine
         ("forces of mounts, largest RMS", [run.force_rms.max(axis=0) for run in sets]),
     ):
         if vehicle.mounts:
-            mounts = [mount.name for mount in vehicle.mounts]
-            both = (force[:, :3] for force in forces)
-            yield f"<h3>{heading}: {what}, N</h3>{by_direction(comparison, mounts, *both, 2)}"
+            mounts, (before, after) = [mount.name for mount in vehicle.mounts], forces
+            told = by_direction(comparison, mounts, before[:, :3], after[:, :3], 2)
+            yield f"<h3>{heading}: {what}, N</h3>{told}"
 
 
 def _rows(results: EngineResults) -> Floats:
