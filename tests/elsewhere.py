@@ -1,7 +1,13 @@
-"""pyyeti, which is nobody's here: as it is imported it changes how NumPy prints, which is undone."""
+"""pyyeti's modules, which are nobody's here, imported as they are first used: that takes seconds.
+
+As pyyeti is imported it changes how NumPy prints, which is undone.
+"""
+
+from importlib import import_module
 
 import numpy as np
 
-with np.printoptions():
-    from pyyeti.nastran import bulk as bulk
-    from pyyeti.nastran import op4 as op4
+
+def __getattr__(name):
+    with np.printoptions():
+        return import_module(f"pyyeti.nastran.{name}")

@@ -3,9 +3,9 @@
 import io
 from pathlib import Path
 
+import elsewhere
 import pytest
 from bulk_data import bulk_data
-from elsewhere import bulk
 from many_mounts import many_mounts
 
 from modeviz.cli import main
@@ -17,7 +17,7 @@ NAMES = ("PBUSH", "CBUSH", "GRID", "CORD2R")
 
 
 def cards(text: str, name: str) -> list[list]:
-    return bulk.rdcards(io.StringIO(text), name, return_var="list", keep_name=True) or []
+    return elsewhere.bulk.rdcards(io.StringIO(text), name, return_var="list", keep_name=True) or []
 
 
 def whole(card: list) -> list:
