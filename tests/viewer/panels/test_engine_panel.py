@@ -1,24 +1,21 @@
 """A running engine on the page, over its speed: by order and in all, as it is solved anew."""
 
-import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from dynamic_mounts import on_mounts
+from opened_app import SOON, opened_app, text
 
 from modeviz.analysis.engine_results import solve_engine
 from modeviz.analysis.preparation import prepare
 from modeviz.study.conditions import on_even_road
 from modeviz.text.wording import significant
 from modeviz.vehicle.engine import Engine, EngineOrder
-from modeviz.viewer.app import App
-from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.commands.looks import LookAtEngine
 from modeviz.viewer.session.state import ForceCurve, ResponseCurve
 
-SOON = 60
 SPEEDS = np.linspace(10.0, 30.0, 5)
 TORQUE = np.tile([3.0, 0, 20.0, 120.0, 0, 0], (len(SPEEDS), 1))
 ORDERS = tuple(
@@ -29,17 +26,9 @@ QUIET = replace(on_mounts(None), forces=(), base_motions=())
 VEHICLE = replace(QUIET, engines=(FOUR,))
 
 
-def opened(vehicle):
-    shown, conditions = on_even_road(vehicle)
-    app = App(shown, shown.rates, conditions, open_server(port=0, token="open-sesame-open"))
-    app.start()
-    assert app.session.wait(SOON)
-    return app
-
-
 @pytest.fixture(scope="module")
 def app():
-    app = opened(VEHICLE)
+    app = opened_app(*on_even_road(VEHICLE))
     yield app
     app.close()
 
@@ -50,10 +39,6 @@ def tuned(app):
     app.session.do(SetRate("E", "vertical", 5e5))
     solved = app.session.wait_for_answer(SOON)
     return solved, solve_engine(prepare(VEHICLE), solved.state.design.rates, FOUR)
-
-
-def text(html):
-    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", html.content))
 
 
 def drawn(plot):
@@ -114,7 +99,7 @@ def test_one_of_several_engines_is_chosen():
     slow = Engine("two", "frame", np.array([0.0, 0.0, 0.5]), SPEEDS / 2, 5.0, (
         EngineOrder("two order 1", "two", 1.0, SPEEDS / 2, TORQUE),
     ))  # fmt: skip
-    app = opened(replace(QUIET, engines=(FOUR, slow), response_points=()))
+    app = opened_app(*on_even_road(replace(QUIET, engines=(FOUR, slow), response_points=())))
     try:
         assert app._engine._total._shown == (300.0, 1800.0)
         app.session.do(LookAtEngine(engine="two", curve=ForceCurve("F1", "x")))
@@ -126,7 +111,7 @@ def test_one_of_several_engines_is_chosen():
 
 
 def test_vehicles_without_an_engine_have_no_such_tab():
-    app = opened(QUIET)
+    app = opened_app(*on_even_road(QUIET))
     try:
         assert app._engine is None
     finally:

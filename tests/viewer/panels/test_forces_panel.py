@@ -8,6 +8,7 @@ import pytest
 from dynamic_mounts import on_mounts
 from mounted_cabin import mounted_cabin
 from mounted_machine import mounted_machine
+from opened_app import SOON, opened_app, text
 from session_commands import Alter
 
 from modeviz.analysis.results import Conditions
@@ -15,27 +16,15 @@ from modeviz.study.conditions import on_even_road
 from modeviz.study.study import Study
 from modeviz.text.wording import significant
 from modeviz.vehicle.engine import Engine, EngineOrder
-from modeviz.viewer.app import App
-from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.responses import Responses, curve_label
 from modeviz.viewer.session.state import ForceCurve, ResponseCurve
-
-SOON = 60
-
-
-def opened(vehicle, conditions):
-    server = open_server(port=0, token="open-sesame-open")
-    app = App(vehicle, vehicle.rates, conditions, server)
-    app.start()
-    assert app.session.wait(SOON)
-    return app
 
 
 @pytest.fixture(scope="module")
 def app():
     vehicle = mounted_machine()
-    app = opened(vehicle, Conditions("road", vehicle.speed))
+    app = opened_app(vehicle, Conditions("road", vehicle.speed))
     yield app
     app.close()
 
@@ -43,10 +32,6 @@ def app():
 @pytest.fixture
 def study():
     return Study(mounted_machine())
-
-
-def text(html):
-    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", html.content))
 
 
 def show(app, **changes):
@@ -148,7 +133,7 @@ def test_energy_has_what_the_shown_mode_loses_in_a_cycle(app):
 
 
 def test_tabs_that_have_nothing_to_say_are_not_there():
-    app = opened(*on_even_road(replace(mounted_cabin(), wheel_loads=())))
+    app = opened_app(*on_even_road(replace(mounted_cabin(), wheel_loads=())))
     try:
         assert app._forces is None
         assert app._paths is None
@@ -163,7 +148,7 @@ def test_forces_are_shown_under_the_orders_of_an_engine_that_nothing_else_shakes
     engine = Engine("four", "engine", np.array([0.1, 0.0, 0.95]), speeds, 12.5, orders)
     quiet = replace(on_mounts(None), forces=(), base_motions=(), response_points=())
     vehicle = replace(quiet, engines=(engine,))
-    app = opened(*on_even_road(vehicle))
+    app = opened_app(*on_even_road(vehicle))
     try:
         order = orders[1].name
         assert app.session.state.charts.load == orders[0].name
@@ -176,7 +161,7 @@ def test_forces_are_shown_under_the_orders_of_an_engine_that_nothing_else_shakes
 
 
 def test_forces_are_shown_without_anybody_who_feels_them():
-    app = opened(*on_even_road(replace(mounted_cabin(), response_points=())))
+    app = opened_app(*on_even_road(replace(mounted_cabin(), response_points=())))
     try:
         assert app.session.state.charts.load == "front left radial force"
         assert "Largest peak, N" in text(app._forces._content)

@@ -8,39 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from four_cylinder import FREQUENCIES, TORQUE_ROLL, four_cylinder, on_subframe
+from opened_app import SOON, text
 
 from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.rigid import body_axes, body_purity
-from modeviz.cli.options import RoadOptions
 from modeviz.errors import VehicleError
 from modeviz.files.records.decoupling import decoupling_text
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.mount_rates import MountRates
-from modeviz.viewer.app import App
-from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import ChangePlan, ChangeTargets, SetRate, TakeRates
 from modeviz.viewer.session.commands.looks import LookAtRigid
-
-SOON = 60
-
-
-@pytest.fixture
-def opened():
-    """Opens pages of vehicles without a road."""
-    apps = []
-
-    def open_page(vehicle):
-        vehicle, conditions = RoadOptions().shown(vehicle)
-        app = App(vehicle, vehicle.rates, conditions, open_server(port=0, token="open-sesame-open"))
-        apps.append(app)
-        app.start()
-        assert app.session.wait(SOON)
-        return app
-
-    yield open_page
-    for app in apps:
-        app.close()
 
 
 def done(app, *commands):
@@ -49,10 +27,6 @@ def done(app, *commands):
     solved = app.session.wait_for_answer(SOON)
     assert app.session.wait(SOON)
     return solved
-
-
-def text(html) -> str:
-    return re.sub(r"<[^>]*>", " ", html.content)
 
 
 def test_the_heat_map_has_every_mode_with_its_energy(opened):

@@ -6,30 +6,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from dynamic_mounts import HYDRAULIC, MAXWELL, measured, on_mounts
+from opened_app import SOON, opened_app
 
 from modeviz.analysis.results import Conditions
 from modeviz.analysis.rubber import rubber_curve
-from modeviz.viewer.app import App
-from modeviz.viewer.page.server import open_server
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.commands.looks import ChangeCharts, SelectGroup
 
-SOON = 60
 TABLE = replace(measured(HYDRAULIC, 25), amplitude=1e-4)
-
-
-def opened(vehicle):
-    server = open_server(port=0, token="open-sesame-open")
-    app = App(vehicle, vehicle.rates, Conditions("random", vehicle.speed), server)
-    app.start()
-    assert app.session.wait(SOON)
-    return app
 
 
 @pytest.fixture(scope="module")
 def app():
     engine, feet = on_mounts(TABLE).mount_groups
-    app = opened(replace(on_mounts(None), mount_groups=(engine, replace(feet, dynamic=MAXWELL))))
+    vehicle = replace(on_mounts(None), mount_groups=(engine, replace(feet, dynamic=MAXWELL)))
+    app = opened_app(vehicle, Conditions("random", vehicle.speed))
     yield app
     app.close()
 
@@ -75,7 +66,8 @@ def test_loss_angles_are_told_at_the_reference_and_at_the_cursor(app):
 
 
 def test_vehicles_whose_rates_no_frequency_changes_have_no_such_tab():
-    app = opened(on_mounts(None))
+    vehicle = on_mounts(None)
+    app = opened_app(vehicle, Conditions("random", vehicle.speed))
     try:
         assert app._rubber is None
     finally:

@@ -2,41 +2,18 @@
 
 import re
 from dataclasses import replace
-from html import unescape
 
 import numpy as np
 import pytest
 from engine_on_mounts import engine_on_mounts, limited_engine
+from opened_app import SOON, text
 from small_systems import block
 
-from modeviz.cli.options import RoadOptions
 from modeviz.text.wording import number
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.app import App
-from modeviz.viewer.page.server import open_server
 from modeviz.viewer.panels.statics import two_figures
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.commands.looks import ChangeMotion
-
-SOON = 60
-
-
-@pytest.fixture
-def opened():
-    """Opens pages of vehicles without a road."""
-    apps = []
-
-    def open_page(vehicle):
-        vehicle, conditions = RoadOptions().shown(vehicle)
-        app = App(vehicle, vehicle.rates, conditions, open_server(port=0, token="open-sesame-open"))
-        apps.append(app)
-        app.start()
-        assert app.session.wait(SOON)
-        return app
-
-    yield open_page
-    for app in apps:
-        app.close()
 
 
 def after(app, *commands):
@@ -51,10 +28,6 @@ def rows(app):
     found = re.findall(r"<tr[^>]*>(.*?)</tr>", app._static._content.content)
     cells = (re.split(r"</?t[dh][^>]*>", row)[1::2] for row in found)
     return [[re.sub(r"<[^>]*>", "", cell).strip() for cell in row] for row in cells]
-
-
-def text(html):
-    return unescape(re.sub(r"<[^>]*>", " ", html.content))
 
 
 def test_the_panel_has_the_sag_and_the_forces_of_the_first_case(opened):
