@@ -79,3 +79,8 @@ def _put(vehicle: Vehicle, absorber: Absorber) -> Vehicle:
         mount_groups=tuple(spring if g.name == spring.name else g for g in vehicle.mount_groups),
         notes=(*vehicle.notes, *missing_compliance(vehicle.bodies, bodies, absorber.name, moved)),
     )
+
+
+def carrying_bodies(vehicle: Vehicle) -> tuple[Body, ...]:
+    """Return the bodies on which absorbers may sit, and which are looked at: all but absorbers."""
+    return tuple(body for body in vehicle.bodies if body.role != "absorber")

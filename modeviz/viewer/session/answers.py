@@ -13,6 +13,8 @@ from modeviz.analysis.rigid import BodyAxes, body_axes, body_purity
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
 from modeviz.mounting.purity import Purity
+from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorbers import with_absorbers
 from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.cursor import CursorForces
@@ -101,6 +103,7 @@ class Answers:
         self._preparations = Preparations(vehicle)
         self._lock = threading.Lock()
         self._alterations = Alterations()
+        self._with_parts: tuple[tuple[Absorber, ...], Vehicle] = ((), vehicle)
         self.vehicle: Vehicle = vehicle
         """Altered as in the newest answer."""
         self.prepared: Prepared
@@ -137,6 +140,20 @@ class Answers:
         self._wheels, self._cursor, self._last = WheelResponses(), CursorForces(), None
         self._solve_named(state)
 
+    def with_parts(self, alterations: Alterations) -> Vehicle:
+        """Return the vehicle with the parts that alterations add, and no mount moved.
+
+        Raises:
+            VehicleError: as `with_absorbers`.
+        """
+        with self._lock:
+            absorbers, vehicle = self._with_parts
+        if absorbers != alterations.absorbers:
+            vehicle = with_absorbers(self._preparations.vehicle, alterations.absorbers)
+            with self._lock:
+                self._with_parts = alterations.absorbers, vehicle
+        return vehicle
+
     def rebase(self, state: State) -> Prepared:
         """Makes answers close to a state cheap; gives the vehicle prepared there."""
         with self._lock:
@@ -147,11 +164,6 @@ class Answers:
             if self.prepared is prepared:
                 self._drive = excitation
         return near
-
-    @property
-    def original(self) -> Vehicle:
-        """Without alterations."""
-        return self._preparations.vehicle
 
     def answer(
         self,

@@ -6,6 +6,8 @@ from itertools import count
 
 from modeviz.report.rate_fields import is_damping
 from modeviz.text.wording import sentence_case
+from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorber_parts import absorber_spring
 from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.mount_group import MountGroup
@@ -26,11 +28,17 @@ class Variant:
     """A pinned set of rates."""
 
     rates: Rates
-    """Of every mount group."""
+    """Of every mount group that there was when it was pinned."""
     number: int
     """Its own among the pinned sets while it lives: its colour goes by it."""
     placements: Placements = field(default_factory=dict)
     """Where mounts were with these rates, of the groups that were placed otherwise."""
+
+    def without_group(self, name: str) -> "Variant":
+        """Return it without all that it says of a mount group."""
+        rates = {group: rates for group, rates in self.rates.items() if group != name}
+        placements = {group: placed for group, placed in self.placements.items() if group != name}
+        return replace(self, rates=rates, placements=placements)
 
 
 @dataclass(frozen=True)
@@ -89,6 +97,26 @@ class Design:
         """Return it with the mounts of a group moved and turned otherwise."""
         return replace(self, alterations=self.alterations.with_placement(group, placement))
 
+    def with_absorber(self, absorber: Absorber) -> "Design":
+        """Return it with one more absorber, which the search may tune, or another of its name."""
+        spring = absorber_spring(absorber)
+        plan = self.plan and self.plan.with_mounts(spring, absorber.directions)
+        alterations = self.alterations.with_absorber(absorber)
+        rates = {**self.rates, absorber.name: spring.rates}
+        return replace(self, alterations=alterations, rates=rates, plan=plan)
+
+    def without_absorber(self, name: str) -> "Design":
+        """Return it without an absorber that was added, and without all that is said of its mounts."""
+        return replace(
+            self,
+            alterations=self.alterations.without_absorber(name),
+            rates={group: rates for group, rates in self.rates.items() if group != name},
+            variants={title: v.without_group(name) for title, v in self.variants.items()},
+            locked=frozenset(key for key in self.locked if key[0] != name),
+            linked=self.linked - {name},
+            plan=self.plan and self.plan.without_mounts(name),
+        )
+
     def with_variant(self, name: str, rates: Rates) -> "Design":
         """Return it with rates pinned, and where mounts are; in place of another by its number."""
         taken = {variant.number for variant in self.variants.values()}
@@ -114,14 +142,19 @@ def known_sets(vehicle: Vehicle) -> dict[str, Rates]:
 def named_sets(vehicle: Vehicle, design: Design) -> dict[str, NamedSet]:
     """Return every set that has a name: the vehicle's, mounts as in its file, then the pinned ones.
 
-    What is altered besides where mounts are is so with all of them.
+    What is altered besides where mounts are is so with all of them; groups that came after a set was
+    pinned have the vehicle's own rates in it.
     """
 
     def placed(rates: Rates, placements: Placements) -> NamedSet:
         return NamedSet(dict(rates), replace(design.alterations, placements=placements))
 
     known = {name: placed(rates, {}) for name, rates in known_sets(vehicle).items()}
-    pinned = {name: placed(each.rates, each.placements) for name, each in design.variants.items()}
+    own = vehicle.rates
+    pinned = {
+        name: placed({g: each.rates.get(g, rates) for g, rates in own.items()}, each.placements)
+        for name, each in design.variants.items()
+    }
     return {**known, **pinned}
 
 

@@ -8,7 +8,7 @@ from functools import partial
 
 from modeviz.analysis.preparation import Prepared
 from modeviz.errors import ModevizError
-from modeviz.vehicle.alterations import check_alterations
+from modeviz.vehicle.placement import check_placements
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Answers, Solved, asks_for_the_same
 from modeviz.viewer.session.commands.command import Command
@@ -110,9 +110,11 @@ class Session:
             VehicleError: it asks for what the vehicle does not have.
         """
         with self._lock:
-            state = command.apply(self.state, self.vehicle)
+            state = command.apply(self.state, self.with_parts_of(self.state))
             if state.design.alterations != self.state.design.alterations:
-                check_alterations(self._answers.original, state.design.alterations)
+                vehicle = self.with_parts_of(state)
+                check_placements(vehicle, state.design.alterations.placements)
+                state = state.with_known_parts(self.state.design, vehicle)
             self._history.put(state, command.step, command.within)
             self._submit()
 
@@ -123,6 +125,10 @@ class Session:
     def redo(self) -> None:
         """Takes the last undoing back."""
         self._go(self._history.redo)
+
+    def with_parts_of(self, state: State) -> Vehicle:
+        """Return the vehicle with the parts that a state adds, and its mounts as they were given."""
+        return self._answers.with_parts(state.design.alterations)
 
     def draw_again(self) -> None:
         """Asks for the present state once more: something else is to be drawn with it."""
@@ -170,7 +176,7 @@ class Session:
                 self._submit()
 
     def _settled(self, before: Design, state: State) -> State:
-        return state.with_known_sets(before, self.vehicle)
+        return state.with_known_parts(before, self.with_parts_of(state))
 
     def _submit(self) -> None:
         """Has the newest state answered and drawn, once the vehicle is prepared."""

@@ -152,6 +152,28 @@ class State:
     classic: bool = False
     """Whether the error of the classic method is shown beside."""
 
+    def with_known_parts(self, before: Design, vehicle: Vehicle) -> "State":
+        """Return it looking at what there is; arguments as of `with_known_sets`."""
+        groups, mounts, bodies = (
+            {part.name for part in parts}
+            for parts in (vehicle.mount_groups, vehicle.mounts, vehicle.bodies)
+        )
+        curves = tuple(
+            ResponseCurve(0, RIDE_DIRECTIONS[i % len(RIDE_DIRECTIONS)])
+            if isinstance(curve, ForceCurve) and curve.mount not in mounts
+            else curve
+            for i, curve in enumerate(self.charts.curves)
+        )
+        named = {group: rates for group, rates in self.motion.mode_rates.items() if group in groups}
+        looking = replace(
+            self,
+            motion=replace(self.motion, mode_rates=named),
+            group=self.group if self.group in groups else "",
+            charts=replace(self.charts, curves=curves),
+            look=replace(self.look, hidden=self.look.hidden & bodies),
+        )
+        return looking.with_known_sets(before, vehicle)
+
     def with_known_sets(self, before: Design, vehicle: Vehicle) -> "State":
         """Return it compared with, and overlaid by, sets that there are, by what they are called.
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.default_problem import problem_called, problems
+from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.problem import DesignGroup, FrequencyWindow, GoalKind, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.planning.group_plan import GroupPlan, group_plan
@@ -61,6 +62,19 @@ class Plan:
         """With something else in the group that is shown."""
         groups = (replace(g, **fields) if g is self.group else g for g in self.groups)
         return replace(self, groups=tuple(groups))
+
+    def with_mounts(self, mounts: MountGroup, directions: tuple[str, ...]) -> "Plan":
+        """With a mount group that came later, whose rates may change; one of its name as it was."""
+        if mounts.name in (group.group for group in self.groups):
+            return self
+        added = group_plan(mounts, DesignGroup(mounts.name, directions))
+        return replace(self, groups=(*self.groups, added), free=self.free | {mounts.name})
+
+    def without_mounts(self, name: str) -> "Plan":
+        """Without a mount group that is gone; the first is shown if that was."""
+        left = tuple(group for group in self.groups if group.group != name)
+        shown = left[0].group if self.shown_group == name else self.shown_group
+        return replace(self, groups=left, free=self.free - {name}, shown_group=shown)
 
     def with_load(self, **fields: Any) -> "Plan":
         """With something else in the accelerations that are shown."""
