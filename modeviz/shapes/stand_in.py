@@ -18,12 +18,15 @@ def drawn_mesh(body: Body) -> Mesh:
     """Return the mesh by which a body is drawn: its own, or of a rigid one without any a block.
 
     That lies along the vehicle's axes, whatever the products of inertia are: the principal axes of an
-    engine or a cab, whose moments hardly differ, would turn it as nobody has seen one.
+    engine or a cab, whose moments hardly differ, would turn it as nobody has seen one. An absorber's is
+    drawn above its place, where its spring is seen.
     """
     if body.mesh or not isinstance(body, RigidBody):
         return body.mesh
     vertices, faces = _block()
-    places = body.center_of_gravity + vertices * block_edges(body.mass, np.diag(body.inertia))
+    edges = block_edges(body.mass, np.diag(body.inertia))
+    lift = edges * [0, 0, body.role == "absorber"]
+    places = body.center_of_gravity + lift + vertices * edges
     return (MeshPart("block", places, faces, Material(COLOR)),)
 
 

@@ -34,6 +34,7 @@ class ChartsPanel:
         """Builds the charts; `show` fills them."""
         self._session = session
         self._ends = end_colors(dark)
+        self._vehicle = session.vehicle
         self._curves = curve_labels(session.vehicle)
         self._legend = gui.add_html("")
         self._choices: list[viser.GuiDropdownHandle[str]] = []
@@ -61,6 +62,7 @@ class ChartsPanel:
         state = solved.state
         lines = chart_lines(solved, responses, *self._ends)
         names = [state.against, *responses.overlaid, NOW]
+        self._offer(solved.now.prepared.vehicle)
         show_all(self._bindings)
         assign(self._legend, content=block(legend(lines, solved)))
         for curve, choice, plot, marked in zip(
@@ -77,6 +79,14 @@ class ChartsPanel:
             subject = curve, state.charts.load, state.conditions
             plot.show(subject, scale, lines, f, np.stack(levels), peaks_at.tolist(), between)
 
+    def _offer(self, vehicle: Vehicle) -> None:
+        """Offers the responses that there are of a vehicle, which may have other mounts by now."""
+        if vehicle is self._vehicle:
+            return
+        self._vehicle, self._curves = vehicle, curve_labels(vehicle)
+        for choice in self._choices:
+            assign(choice, options=tuple(self._curves))
+
     @property
     def names(self) -> tuple[str, ...]:
         """By which pages know the charts, top down."""
@@ -92,7 +102,8 @@ class ChartsPanel:
         )
 
         def read(state: State) -> str:
-            return curve_label(self._session.vehicle, state.charts.curves[i])
+            found = (label for label, curve in self._curves.items() if curve == state.charts.curves[i])
+            return next(found, choice.value)
 
         def write(label: str) -> None:
             self._session.do(ChooseCurve(i, self._curves[label]))

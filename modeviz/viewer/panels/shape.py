@@ -8,6 +8,7 @@ from modeviz.dynamics.components import ComponentModes, ComponentShare
 from modeviz.ride.participation import peak_lines
 from modeviz.text.axes import shown_hz
 from modeviz.text.wording import told_apart
+from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle
@@ -60,7 +61,7 @@ class ShapePanel:
         self._peaks = gui.add_button_group("Peaks", ("–",), hint="Where the first chart peaks, Hz")
         self._peaks_hz: dict[str, float] = {}
         self._peaks.on_click(lambda _: self._to_peak(self._peaks.value))
-        bodies = told_apart(session.vehicle.bodies)
+        bodies = told_apart(carrying_bodies(session.vehicle))
         labels = {name: label for label, name in bodies.items()}
         self._body = gui.add_dropdown(
             "Body",

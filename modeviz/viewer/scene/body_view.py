@@ -67,7 +67,7 @@ class DrawnBody:
         """Return a body of a vehicle, drawn at rest."""
         drawn = surface(drawn_mesh(body))
         is_rigid = isinstance(body, RigidBody)
-        is_sheet = body.role in SHEET_ROLES or not body.mesh
+        is_sheet = body.role in SHEET_ROLES or not (body.mesh or body.role == "absorber")
         return cls(
             driver,
             body.name,

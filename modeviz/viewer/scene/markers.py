@@ -109,6 +109,10 @@ class MountMarker:
         if not np.array_equal(mount.center, self._frame.position):
             self._frame.position = mount.center
 
+    def remove(self) -> None:
+        """Takes it out of the page."""
+        self._frame.remove()
+
     def on_click(self, callback: Callable[[], None]) -> None:
         """Calls back when the mount is clicked."""
         for piece in self._pieces:
@@ -168,6 +172,10 @@ class Card:
         assign(self._label, text=text)
         self.move(mount)
 
+    def remove(self) -> None:
+        """Takes it out of the page."""
+        self._frame.remove()
+
     def move(self, mount: Floats) -> None:
         """Hangs it where its mount is."""
         if not np.array_equal(mount, self._frame.position):
@@ -213,6 +221,15 @@ class Markers:
         labels += [f"{_point_path(point)}/name" for point in vehicle.response_points]
         labels += other_labels
         keep_apart(scene, labels, f"{CARD}/text", f"{CARD}/line", theme)
+
+    def remove(self) -> None:
+        """Takes all of them out of the page."""
+        for markers in self._mounts.values():
+            for marker in markers:
+                marker.remove()
+        for mark, _ in self._others:
+            mark.remove()
+        self._card.remove()
 
     def hide(self, bodies: Collection[str]) -> None:
         """Leaves out what hangs on nothing but bodies that are not drawn."""

@@ -12,6 +12,7 @@ from modeviz.shapes.motion import default_amplitude
 from modeviz.shapes.stand_in import drawn_mesh
 from modeviz.text.wording import within_sentence
 from modeviz.vehicle.arrays import Array
+from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.scene.body_view import DrawnBody
 from modeviz.viewer.scene.cameras import Cameras
@@ -52,7 +53,8 @@ class Scene:
             dark: whether the page is.
             on_select: called with the group of a clicked mount.
         """
-        theme = DARK if dark else LIGHT
+        theme = self._theme = DARK if dark else LIGHT
+        self._on_select = on_select
         self._vehicle, self._box = vehicle, box(vehicle)
         self._server = server
         self._stage = Stage(server.scene, self._box, theme)
@@ -60,9 +62,8 @@ class Scene:
         drawn = filter(drawn_mesh, vehicle.bodies)
         self._bodies = [DrawnBody.of(self.driver, body, theme) for body in drawn]
         self._axes = RigidAxesMarks(server.scene, vehicle, self._box.length)
-        self._markers = Markers(
-            server.scene, vehicle, theme, self._box.length, on_select, self._axes.label_names
-        )
+        self._markers = self._mark()
+        self._absorbers = {b.name: _at_rest(b) for b in vehicle.bodies if b.role == "absorber"}
         self._handle: MountHandle | None = None
         self._cameras = Cameras(server, self._box)
         self.exaggeration: float = 1.0
@@ -91,6 +92,43 @@ class Scene:
                 )
         self._cameras.frame(self._framed(solved))
 
+    def hold(self, given: Vehicle, altered: Vehicle) -> None:
+        """Has in it the bodies and mounts of another vehicle, which differs by absorbers.
+
+        Args:
+            given: with its mounts as they were given.
+            altered: with mounts and absorbers where they are.
+        """
+        if given is not self._vehicle:
+            groups = [group.name for group in self._vehicle.mount_groups]
+            self._vehicle = given
+            if groups != [group.name for group in given.mount_groups]:
+                with self._server.atomic():
+                    self._markers.remove()
+                    self._markers = self._mark()
+        wanted = {b.name: _at_rest(b) for b in altered.bodies if b.role == "absorber"}
+        if wanted == self._absorbers:
+            return
+        stale = {name for name, rest in self._absorbers.items() if wanted.get(name) != rest}
+        for body in [body for body in self._bodies if body.name in stale]:
+            body.remove()
+            self._bodies.remove(body)
+        new = wanted.keys() - (self._absorbers.keys() - stale)
+        added = [altered.body(name) for name in wanted if name in new]
+        self._bodies += [DrawnBody.of(self.driver, body, self._theme) for body in added]
+        self._absorbers = wanted
+
+    def _mark(self) -> Markers:
+        """Draws all marks of the vehicle."""
+        return Markers(
+            self._server.scene,
+            self._vehicle,
+            self._theme,
+            self._box.length,
+            self._on_select,
+            self._axes.label_names,
+        )
+
     def let_drag(
         self, on_drag: Callable[[Dragged], None], mistake: Callable[[Exception], None]
     ) -> None:
@@ -104,8 +142,8 @@ class Scene:
         if self._handle is None:
             return
         is_whole = state.motion.kind != "component"
-        if state.look.handle and is_whole and group in state.design.rates:
-            given = self._vehicle.mount_group(group)
+        groups = {group.name: group for group in self._vehicle.mount_groups}
+        if state.look.handle and is_whole and (given := groups.get(group)):
             self._handle.show(given, self._markers.carrier(group), alterations.placement(group))
         else:
             self._handle.hide()
@@ -214,3 +252,8 @@ class Scene:
     def look(self, client: viser.ClientHandle, view: str) -> None:
         """Turns a page's camera to one of `stage.VIEWS`."""
         self._cameras.look(client, view)
+
+
+def _at_rest(body: Body) -> tuple[float, ...]:
+    """Where a body is drawn and how large, as numbers: its centre of gravity and its mass."""
+    return (*map(float, body.center_of_gravity), body.mass)

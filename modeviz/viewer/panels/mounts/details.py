@@ -126,7 +126,8 @@ class Details:
         return row([direction(field), *shown, lock, reset])
 
     def _loss_factor(self, state: State) -> float:
-        return self._group.loss_factor_with(state.design.rates[self._group.name])
+        rates = state.design.rates.get(self._group.name, self._group.rates)
+        return self._group.loss_factor_with(rates)
 
     def _is_linked(self, state: State) -> bool:
         return self._group.name in state.design.linked

@@ -11,6 +11,7 @@ from modeviz.viewer.page.binding import show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, span
 from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.panels.mounts.absorber_form import AbsorberDetails
 from modeviz.viewer.panels.mounts.details import Details
 from modeviz.viewer.panels.mounts.effects import Effects, in_a_sentence
 from modeviz.viewer.panels.mounts.rows import RateRow
@@ -32,8 +33,11 @@ class GroupFolder:
             gui.add_html(f'<div class="mv-rates" data-group="{escape(group.name)}"></div>')
             self._rows = self._add_rows(gui, session)
             self._details = Details(gui, session, group, signs)
+            is_added = session.state.design.alterations.absorber(group.name) is not None
+            self._absorber = AbsorberDetails(gui, session, group) if is_added else None
         of_rows = [binding for row in self._rows.values() for binding in row.bindings]
-        self._bindings = [*of_rows, *self._details.bindings]
+        of_absorber = self._absorber.bindings if self._absorber else ()
+        self._bindings = [*of_rows, *self._details.bindings, *of_absorber]
 
     def _add_rows(self, gui: viser.GuiApi, session: Session) -> dict[str, RateRow]:
         """A row for each rate that is tuned; those about axes and those of dampers under a heading."""
@@ -63,6 +67,8 @@ class GroupFolder:
             effect = effects.get((name, field))
             row.show(state, compared, "" if effect is None else in_a_sentence(effect, mode))
         self._details.show(state, compared, effects, mode, is_old)
+        if self._absorber and (added := state.design.alterations.absorber(name)):
+            self._absorber.show(added.mass, state.design.rates[name])
 
     def _share(self, solved: Solved) -> str:
         """Its part in the energy of the shown mode: of what springs hold or, without, dampers take."""

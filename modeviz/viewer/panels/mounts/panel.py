@@ -5,6 +5,7 @@ import viser
 from modeviz.report.rate_fields import quantity, tuned_fields
 from modeviz.units import QuantityName
 from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.panels.mounts.absorber_form import AbsorberForm
 from modeviz.viewer.panels.mounts.effects import Effects, effects
 from modeviz.viewer.panels.mounts.folder import GroupFolder
 from modeviz.viewer.panels.mounts.signs import Signs
@@ -37,6 +38,7 @@ class MountsPanel:
         self._units = [self._add_unit(gui, of) for of in UNITS if of in tuned]
         signs = Signs(gui, session)
         self._folders = [GroupFolder(gui, session, group, signs) for group in groups]
+        self._form = AbsorberForm(gui, session)
 
     def show(self, solved: Solved) -> None:
         """Brings controls after the state, and what is for reading after an answer."""
@@ -55,6 +57,7 @@ class MountsPanel:
         compared = compared_rates(self._session.vehicle, solved.state)
         for folder in self._folders:
             folder.show(solved, compared, self._effects, is_old=sensitivity is None)
+        self._form.show(solved)
 
     def _add_unit(self, gui: viser.GuiApi, of: QuantityName) -> Binding:
         session, (label, units, hint) = self._session, UNITS[of]

@@ -100,7 +100,7 @@ class RateRow:
         return travel(softest, stiffest, [self._rate_in(rates) for rates in known])
 
     def _rate_in(self, rates: Rates) -> float:
-        return getattr(rates[self._group.name], self._field)
+        return getattr(rates.get(self._group.name, self._group.rates), self._field)
 
     def _position(self, state: State) -> int:
         return self._travel.position(self._rate_in(state.design.rates))

@@ -56,7 +56,7 @@ class PlanControls:
         called = {value: word for word, value in words.items()}
         first = called[self._now(read)]
         dropdown = self._gui.add_dropdown(label, tuple(words), initial_value=first, hint=hint)
-        self.bind(dropdown, lambda s, p: called[read(s, p)], lambda word: write(words[word]))
+        self.bind(dropdown, lambda s, p: called.get(read(s, p), first), lambda word: write(words[word]))
         return dropdown
 
     def check(self, label: str, read: Read, write: Write, hint: str) -> viser.GuiInputHandle[Any]:

@@ -7,6 +7,7 @@ import viser
 
 from modeviz.report.rigid import listed_modes
 from modeviz.text.wording import sentence_case, told_apart
+from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.decoupling import Axes
 from modeviz.viewer.page.binding import Binding, Read, Write, show_all
 from modeviz.viewer.page.handles import assign
@@ -41,7 +42,7 @@ class RigidPanel:
         self._bindings = [
             self._choice(
                 "Body",
-                told_apart(session.vehicle.bodies),
+                told_apart(carrying_bodies(session.vehicle)),
                 lambda state: state.rigid.body,
                 lambda body: session.do(LookAtRigid(body=body)),
                 "The body whose motion is told, of a flexible one that of its rigid part",

@@ -1,0 +1,249 @@
+"""Below the mount groups: an absorber to be added, and what one that was added weighs."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from html import escape
+
+import numpy as np
+import viser
+
+from modeviz.errors import ModevizError, VehicleError
+from modeviz.text.wording import number, significant, told_apart
+from modeviz.vehicle.absorbers import carrying_bodies
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
+from modeviz.viewer.page.binding import READ_WITHIN, Binding, Write, show_all
+from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.html import block, span
+from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.panels.mounts.absorber_draft import (
+    ALONG,
+    AbsorberDraft,
+    Proposal,
+    first_draft,
+    free_absorber_name,
+    in_mm,
+    placed_in_mm,
+    places,
+)
+from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.commands.absorbers import AddAbsorber, RemoveAbsorber, WeighAbsorber
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
+
+ELSEWHERE = "Another place"
+
+DECIMALS = 3
+
+HEAVIEST = 1e5
+"""kg: no absorber weighs more."""
+
+
+class AbsorberForm:
+    """Where an absorber is to sit, its mass and tuning, and the button that adds it."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session) -> None:
+        """Builds the controls, folded up."""
+        self._gui, self._session = gui, session
+        self._write_back = WriteBack()
+        labels = told_apart(carrying_bodies(session.vehicle))
+        called = {name: label for label, name in labels.items()}
+        self.state: AbsorberDraft = first_draft(session.vehicle, session.state.rigid.body)
+        self._proposal: Proposal | None = None
+        with gui.add_folder("Add an absorber", expand_by_default=False):
+            body = gui.add_dropdown(
+                "Body",
+                tuple(labels),
+                initial_value=called[self.state.body],
+                hint="What the absorber sits on: a mass on a spring, tuned to a mode",
+            )
+            self._at = gui.add_dropdown(
+                "At",
+                self._offered(),
+                initial_value=self._place_name(self.state),
+                hint="A response point, a mount's end or an attachment of the body, or its centre of "
+                "gravity; any other place by its coordinates",
+            )
+            place = gui.add_vector3(
+                "x y z, mm",
+                in_mm(self.state),
+                step=10.0,
+                hint="Along the vehicle's axes; on a flexible body near its nodes",
+            )
+            along = gui.add_dropdown(
+                "Along",
+                tuple(ALONG),
+                initial_value=self._along(self.state),
+                hint="In which directions of the vehicle it moves; along all others it goes along with "
+                "its body",
+            )
+            kilograms = self._number(
+                "Mass, kg",
+                lambda proposal: proposal.mass or 0.0,
+                lambda kg: self._put(replace(self.state, mass=kg)),
+                "5 % of what moves there in the mode shown, until it is typed",
+            )
+            percent = self._number(
+                "Mass, %",
+                lambda proposal: 100 * (proposal.share or 0.0),
+                self._take_share,
+                "Of what moves there in the mode shown: more takes down a wider peak",
+            )
+            self._text = gui.add_html("")
+            add = gui.add_button(
+                "Add absorber", hint="Its spring is then a mount group like the others"
+            )
+        add.on_click(lambda event: self._add(event.client))
+        self._bindings = [
+            Binding(
+                body,
+                self,
+                lambda draft: called[draft.body],
+                lambda label: self._put(first_draft(session.vehicle, labels[label])),
+            ),
+            Binding(self._at, self, self._place_name, self._take_place),
+            Binding(
+                place,
+                self,
+                in_mm,
+                lambda mm: self._put(placed_in_mm(self.state, mm)),
+                self._write_back,
+                typed=True,
+            ),
+            Binding(
+                along,
+                self,
+                self._along,
+                lambda word: self._put(replace(self.state, directions=ALONG[word])),
+            ),
+            kilograms,
+            percent,
+        ]
+
+    def show(self, solved: Solved) -> None:
+        """Tunes the draft to the mode that is shown."""
+        self._proposal = self.state.proposed(solved)
+        self._follow()
+
+    def _follow(self) -> None:
+        assign(self._at, options=self._offered())
+        show_all(self._bindings)
+        if self._proposal is not None:
+            assign(self._text, content=block(span(escape(self._words(self._proposal)), "dim")))
+
+    def _words(self, proposal: Proposal) -> str:
+        """What it would be tuned to, a sentence."""
+        if proposal.share is None:
+            return f"{proposal.mode} hardly moves this place along that; choose another."
+        try:
+            absorber = proposal.made(self._solved(), free_absorber_name(self._session.vehicle))
+        except ModevizError as error:
+            return str(error)
+        moved = significant(float(f"{proposal.moved:.3g}"))
+        return (
+            f"In {proposal.mode} {moved} kg move there. Tuned to {number(absorber.frequency_hz, 2)} "
+            f"Hz, {number(100 * absorber.damping_ratio, 1)} % of critical (Den Hartog)."
+        )
+
+    def _add(self, client: viser.ClientHandle | None) -> None:
+        try:
+            solved = self._solved()
+            name = free_absorber_name(self._session.vehicle)
+            self._session.do(AddAbsorber(self.state.proposed(solved).made(solved, name)))
+        except ModevizError as error:
+            if client:
+                client.add_notification(
+                    "Not possible", str(error), color="red", auto_close_seconds=READ_WITHIN
+                )
+
+    def _solved(self) -> Solved:
+        if self._session.answer is None:
+            raise ModevizError("nothing is solved yet: try again when the preparation is done")
+        return self._session.answer
+
+    def _put(self, draft: AbsorberDraft) -> None:
+        self.state = draft
+        if self._session.answer is not None:
+            self._proposal = draft.proposed(self._session.answer)
+        self._follow()
+
+    def _take_place(self, name: str) -> None:
+        found = places(self._session.vehicle, self.state.body).get(name)
+        if found is not None:
+            self._put(replace(self.state, position=found))
+
+    def _place_name(self, draft: AbsorberDraft) -> str:
+        known = places(self._session.vehicle, draft.body)
+        return next((name for name, place in known.items() if place == draft.position), ELSEWHERE)
+
+    def _take_share(self, percent: float) -> None:
+        moved = self._proposal.moved if self._proposal else float("inf")
+        if moved == float("inf"):
+            raise VehicleError("the mode shown hardly moves this place along that; choose another")
+        self._put(replace(self.state, mass=percent / 100 * moved))
+
+    def _offered(self) -> tuple[str, ...]:
+        return (*places(self._session.vehicle, self.state.body), ELSEWHERE)
+
+    def _along(self, draft: AbsorberDraft) -> str:
+        known = draft.directions or (self._proposal and self._proposal.directions)
+        return next((word for word, along in ALONG.items() if along == known), next(iter(ALONG)))
+
+    def _number(
+        self, label: str, read: Callable[[Proposal], float], write: Write, hint: str
+    ) -> Binding:
+        """A box for a number of the proposal."""
+
+        def shown(_: AbsorberDraft) -> float:
+            return round(read(self._proposal), DECIMALS) if self._proposal else 0.0
+
+        box = self._gui.add_number(label, shown(self.state), min=0.0, max=HEAVIEST, step=0.1, hint=hint)
+        assign(box, precision=DECIMALS)
+        return Binding(box, self, shown, write, self._write_back, typed=True)
+
+
+class AbsorberDetails:
+    """The mass of an absorber that was added, and the button that removes it."""
+
+    def __init__(self, gui: viser.GuiApi, session: Session, group: MountGroup) -> None:
+        """Builds them.
+
+        Args:
+            gui: where.
+            session: in which it was added.
+            group: its spring.
+        """
+        name = group.name
+
+        def mass(state: State) -> float:
+            absorber = state.design.alterations.absorber(name)
+            return absorber.mass if absorber else 0.0
+
+        box = gui.add_number(
+            "Mass, kg",
+            mass(session.state),
+            min=0.0,
+            max=HEAVIEST,
+            step=0.1,
+            hint=f"Of {name}; its rates go along, so that its frequency stays. No search changes it",
+        )
+        assign(box, precision=DECIMALS)
+        self._text = gui.add_html("")
+        remove = gui.add_button("Remove absorber", hint="And all that was said of its rates")
+        remove.on_click(lambda _: session.do(RemoveAbsorber(name)))
+        self.bindings: tuple[Binding[State], ...] = (
+            Binding(
+                box,
+                session,
+                mass,
+                lambda kg: session.do(WeighAbsorber(name, kg)),
+                WriteBack(),
+                typed=True,
+            ),
+        )
+
+    def show(self, mass: float, rates: MountRates) -> None:
+        """Says at which frequencies its mass moves on its spring, were its body still."""
+        found = {d: k for d, k in zip(DIRECTIONS, rates.as_tuple(), strict=True) if k}
+        told = (f"{number(np.sqrt(k / mass) / (2 * np.pi), 2)} Hz {d}" for d, k in found.items())
+        assign(self._text, content=block(span(f"On its spring {', '.join(told)}", "dim")))
