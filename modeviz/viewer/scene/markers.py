@@ -206,6 +206,7 @@ class Markers:
         """
         self._given = {group.name: group for group in vehicle.mount_groups}
         self._groups = dict(self._given)
+        self._placed: Placements = {}
         self._carded = ""
         self._mounts = {
             name: [MountMarker(scene, mount, group, length) for mount in group.mounts]
@@ -241,6 +242,9 @@ class Markers:
 
     def place(self, placements: Placements) -> None:
         """Draws the mounts where they are placed, and the card where its mount is."""
+        if placements == self._placed:
+            return
+        self._placed = placements
         for name, given in self._given.items():
             mounts = placed_mounts(given, placements.get(name, Placement()))
             self._groups[name] = replace(given, mounts=mounts)
