@@ -16,8 +16,6 @@ from modeviz.vehicle.vehicle import Vehicle
 
 ENDING = ".toml"
 
-UNITS = {"stiffness": WRITTEN_UNITS["stiffness"]}
-
 
 class ProblemFileRecord(FileRecord, kw_only=True):
     """The whole file."""
@@ -27,7 +25,18 @@ class ProblemFileRecord(FileRecord, kw_only=True):
 
 def problem_text(problem: Problem) -> str:
     """The file of a problem; all but its first table can be put into a vehicle.toml in N/mm."""
-    return to_toml(ProblemFileRecord(units=UNITS, problem=[ProblemRecord.of(problem)]))
+    return to_toml(ProblemFileRecord(units=_units(problem), problem=[ProblemRecord.of(problem)]))
+
+
+def _units(problem: Problem) -> dict[str, str]:
+    """The units of what a problem has."""
+    has_lengths = problem.deflections or any(group.offsets for group in problem.groups)
+    used = {
+        "stiffness": True,
+        "length": has_lengths,
+        "angle": any(group.angles for group in problem.groups),
+    }
+    return {name: WRITTEN_UNITS[name] for name in WRITTEN_UNITS if used.get(name)}
 
 
 def read_problem(path: Path | str, vehicle: Vehicle) -> Problem:

@@ -128,6 +128,7 @@ def places_of(
         _check_straight(vehicle)
     for name in dict.fromkeys(variable.group for variable in variables):
         _check_springs(vehicle.mount_group(name))
+        _check_between(vehicle, vehicle.mount_group(name))
     return Places(tuple(variables), placements or {})
 
 
@@ -178,3 +179,13 @@ def _check_springs(group: MountGroup) -> None:
                 f"offset and angles: mount {mount.name!r} has dampers or resists turning; expected "
                 "springs along its axes alone"
             )
+
+
+def _check_between(vehicle: Vehicle, group: MountGroup) -> None:
+    """Raises VehicleError where what hangs on mounts would have to move with them."""
+    names = {name for mount in group.mounts for name in mount.bodies}
+    if any(body.role == "absorber" for body in vehicle.bodies if body.name in names):
+        raise VehicleError(
+            f"offset and angles: {group.name!r} is an absorber, which moves with its mass; expected a "
+            "search over its rates alone"
+        )

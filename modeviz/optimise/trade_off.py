@@ -135,6 +135,7 @@ def prepare_trade_off(
     rates: Rates,
     speed: float,
     locked: frozenset[tuple[str, str]] = frozenset(),
+    placements: Placements | None = None,
 ) -> TradeOff:
     """Two goals out of one problem; arguments and errors as `prepare_search`.
 
@@ -142,7 +143,7 @@ def prepare_trade_off(
         VehicleError: the goal has no points and directions to choose from, or none is left of one.
     """
     first, second = (
-        prepare_search(vehicle, _restricted(vehicle, problem, side), rates, speed, locked)
+        prepare_search(vehicle, _restricted(vehicle, problem, side), rates, speed, locked, placements)
         for side in sides
     )
     names = sides[0].name, sides[1].name

@@ -17,6 +17,7 @@ from modeviz.viewer.panels.status import ALARMING, percent
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job
 from modeviz.viewer.tasks.front_task import Designs, FrontTask, Trade
+from modeviz.viewer.tasks.search_task import design_of
 
 FIND, CANCEL = "Find front", "Cancel"
 NOTHING = "Nothing"
@@ -96,7 +97,7 @@ class TradeOffPanel:
         for i, design in enumerate(designs):
             a, b = design.values
             hint = f"{first} {significant(a)}, {second} {significant(b)}: click to load"
-            is_present = design.rates == self._session.state.design.rates
+            is_present = (design.rates, design.placements) == design_of(self._session.state)
             place = f"left:{100 * float(across.place(a)):.1f}%;bottom:{100 * float(up.place(b)):.1f}%"
             point = self._points.label(i, f'<span title="{hint}"></span>')
             points.append(f'<div class="{"on" if is_present else ""}" style="{place}">{point}</div>')

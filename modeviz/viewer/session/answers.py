@@ -140,6 +140,11 @@ class Answers:
         self._wheels, self._cursor, self._last = WheelResponses(), CursorForces(), None
         self._solve_named(state)
 
+    @property
+    def original(self) -> Vehicle:
+        """Without alterations."""
+        return self._preparations.vehicle
+
     def with_parts(self, alterations: Alterations) -> Vehicle:
         """Return the vehicle with the parts that alterations add, and no mount moved.
 

@@ -117,6 +117,10 @@ class Design:
             plan=self.plan and self.plan.without_mounts(name),
         )
 
+    def with_placements(self, placements: Placements) -> "Design":
+        """Return it with all mounts but those of absorbers placed so."""
+        return replace(self, alterations=self.alterations.with_mounts(placements))
+
     def with_variant(self, name: str, rates: Rates) -> "Design":
         """Return it with rates pinned, and where mounts are; in place of another by its number."""
         taken = {variant.number for variant in self.variants.values()}

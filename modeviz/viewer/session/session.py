@@ -68,6 +68,11 @@ class Session:
         return self._answers.vehicle
 
     @property
+    def original(self) -> Vehicle:
+        """As in its file."""
+        return self._answers.original
+
+    @property
     def state(self) -> State:
         return self._history.state
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from modeviz.compute.cancel import CancelToken
 from modeviz.optimise.pareto import FrontProgress, find_front
 from modeviz.optimise.trade_off import ParetoPoint, Side, chosen_sides, prepare_trade_off, sides
+from modeviz.vehicle.alterations import altered
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import Problem
-from modeviz.viewer.session.commands.decisions import TakeRates
+from modeviz.viewer.session.commands.decisions import TakeDesign
 from modeviz.viewer.session.design import rate_sets
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
@@ -82,24 +83,26 @@ class FrontTask:
         self._task.cancel()
 
     def load(self, number: int) -> None:
-        """Takes over the rates of a design of the front, if there is one of that number."""
+        """Takes over a design of the front, if there is one of that number."""
         designs = self.job.found if self.job else None
         if designs and number < len(designs):
-            self._session.do(TakeRates(designs[number].rates))
+            self._session.do(TakeDesign(designs[number].rates, designs[number].placements))
 
     def _problem(self, state: State) -> Problem:
         assert state.design.plan is not None
         return planned(self._session.vehicle, state.design.plan)
 
     def _find(self, job: Job[Trade, Designs], token: CancelToken, tell: Tell) -> Designs:
-        trade, state, vehicle = job.asked, job.asked.state, self._session.vehicle
+        trade, state = job.asked, job.asked.state
+        alterations = state.design.alterations
         trade_off = prepare_trade_off(
-            vehicle,
+            altered(self._session.original, alterations.with_mounts({})),
             trade.problem,
             trade.sides,
             state.design.rates,
             state.conditions.speed,
             state.design.locked,
+            alterations.of_mounts,
         )
         token.check()
 

@@ -13,12 +13,14 @@ from modeviz.optimise.search import Search, prepare_search
 from modeviz.report.optimum import compared_outside
 from modeviz.scatter.searching import SearchOptions, find_best
 from modeviz.scatter.tolerance import Tolerance
+from modeviz.vehicle.alterations import Alterations, altered
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.placement import Placements
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
-from modeviz.viewer.session.commands.decisions import TakeRates
+from modeviz.viewer.session.commands.decisions import TakeDesign
 from modeviz.viewer.session.design import rate_sets
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.session.session import Session
@@ -40,6 +42,8 @@ class Sought:
     options: SearchOptions
     decoupling: Decoupling = USUAL
     """What modes of bodies on their mounts are held against."""
+    alterations: Alterations = field(default_factory=Alterations)
+    """With which it begins; where mounts are that no problem moves they stay."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +96,8 @@ class SearchStep(Command):
     sought: Sought
     rates: Rates
     """Of every group, to be taken over."""
+    placements: Placements
+    """Of all mounts, likewise."""
 
     @property
     def step(self) -> Hashable:
@@ -104,15 +110,16 @@ class SearchStep(Command):
 
 @dataclass(frozen=True, eq=False)
 class FollowSearch(SearchStep):
-    """Take over the design that a search is at, unless somebody moved a rate meanwhile."""
+    """Take over the design that a search is at, unless somebody moved a rate or a mount meanwhile."""
 
-    last: Rates
+    last: tuple[Rates, Placements]
     """The design that it was at before."""
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
-        if state.design.rates != self.last:
+        if design_of(state) != self.last:
             return state
-        return replace(state, design=replace(state.design, rates=self.rates))
+        design = replace(state.design, rates=self.rates).with_placements(self.placements)
+        return replace(state, design=design)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,8 +129,13 @@ class AcceptOptimum(SearchStep):
     def apply(self, state: State, vehicle: Vehicle) -> State:
         taken = rate_sets(vehicle, state.design)
         name = next(n for n in (f"Optimised {i}" for i in count(1)) if n not in taken)
-        design = state.design.with_variant(name, self.rates)
+        design = state.design.with_placements(self.placements).with_variant(name, self.rates)
         return replace(state, design=replace(design, rates=dict(self.rates)))
+
+
+def design_of(state: State) -> tuple[Rates, Placements]:
+    """Return what a search chooses of a state: its rates, and where its mounts are."""
+    return state.design.rates, state.design.alterations.of_mounts
 
 
 class SearchTask:
@@ -143,7 +155,7 @@ class SearchTask:
             report: told what is our mistake.
         """
         self._session, self._changed = session, changed
-        self._followed: Rates = {}
+        self._followed: tuple[Rates, Placements] = {}, {}
         self._task = BackgroundTask[SearchStatus]("search", self._find, self._tell, report)
 
     @property
@@ -168,6 +180,7 @@ class SearchTask:
             state.design.locked,
             options,
             state.design.decoupling,
+            state.design.alterations,
         )
         self._task.start(SearchStatus(sought))
 
@@ -190,18 +203,20 @@ class SearchTask:
     def accept(self) -> None:
         """Takes over the design that was found, and pins it as the first free of "Optimised 1" ..."""
         if (job := self.job) and job.found:
-            self._session.do(AcceptOptimum(job.asked, job.found.rates))
+            self._session.do(AcceptOptimum(job.asked, job.found.rates, job.found.placements))
 
     def go_back(self) -> None:
-        """Takes over the rates before the search again."""
+        """Takes over the rates and places before the search again."""
         if job := self.job:
-            self._session.do(TakeRates(job.asked.before))
+            self._session.do(TakeDesign(job.asked.before, job.asked.alterations.of_mounts))
 
     def _find(self, job: SearchStatus, token: CancelToken, tell: Tell) -> Optimum:
         """The best that is found; the session goes back to the rates before if there is none."""
-        sought = job.asked
-        vehicle = replace(self._session.vehicle, decoupling=sought.decoupling)
-        self._followed = sought.before
+        sought, placements = job.asked, job.asked.alterations.of_mounts
+        own = replace(self._session.original, decoupling=sought.decoupling)
+        vehicle = altered(own, sought.alterations.with_mounts({}))
+        before = sought.before, placements
+        self._followed = before
 
         def begin(search: Search, is_robust: bool) -> None:
             news = self._compared(sought.problem, search)
@@ -210,15 +225,17 @@ class SearchTask:
 
         def follow(progress: Progress) -> None:
             if progress.is_checking:  # nobody is to see this before the session is there
-                self._go_to(sought, progress.rates)
+                self._go_to(sought, (progress.rates, progress.placements))
             tell(at_once=progress.is_checking, progress=progress)
 
         try:
-            search = prepare_search(vehicle, sought.problem, sought.before, sought.speed, sought.locked)
+            search = prepare_search(
+                vehicle, sought.problem, sought.before, sought.speed, sought.locked, placements
+            )
             return find_best(search, sought.before, sought.options, token, follow, begin)[1]
         except Exception:
             if not token.is_cancelled:
-                self._go_to(sought, sought.before)
+                self._go_to(sought, before)
             raise
 
     def _compared(self, problem: Problem, search: Search) -> dict[str, object]:
@@ -235,12 +252,12 @@ class SearchTask:
         """Brings the session to the best design so far before somebody looks."""
         job = self.job
         if job and job.is_running and job.progress is not None:
-            self._go_to(job.asked, job.progress.rates)
+            self._go_to(job.asked, (job.progress.rates, job.progress.placements))
         self._changed()
 
-    def _go_to(self, sought: Sought, rates: Rates) -> None:
-        """Brings the session to rates, if it still has those that the search brought it to."""
+    def _go_to(self, sought: Sought, design: tuple[Rates, Placements]) -> None:
+        """Brings the session to a design, if it still has that which the search brought it to."""
         session = self._session
-        session.do(FollowSearch(sought, rates, self._followed))
-        if session.state.design.rates == rates:
-            self._followed = rates
+        session.do(FollowSearch(sought, *design, self._followed))
+        if design_of(session.state) == design:
+            self._followed = design

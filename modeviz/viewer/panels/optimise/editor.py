@@ -20,6 +20,7 @@ from modeviz.viewer.panels.modes import listed
 from modeviz.viewer.panels.optimise.accelerations import AccelerationsEditor
 from modeviz.viewer.panels.optimise.bounds import BoundsEditor
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, may_change_hint
+from modeviz.viewer.panels.optimise.places import PlacesEditor
 from modeviz.viewer.panels.optimise.summary import summary
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.planning.plan import Plan, plan_of, planned
@@ -76,6 +77,7 @@ class ProblemEditor:
                 "that differ is small, instead of the vehicle as drawn; takes some ten times as long",
             )
         self._bounds = BoundsEditor(gui, session)
+        self._places = PlacesEditor(gui, session)
         self._accelerations = AccelerationsEditor(gui, session, plan)
         save = gui.add_button_group(
             "Keep",
@@ -98,6 +100,7 @@ class ProblemEditor:
         self._pills.show([name in plan.free for name in self._groups], self._hints(plan))
         assign(self._summary, content=block(self._text(solved.state, plan)))
         self._bounds.show(state, plan)
+        self._places.show()
         self._accelerations.show(plan)
 
     def _text(self, state: State, plan: Plan) -> str:

@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from html import escape
 
 import viser
@@ -16,7 +17,7 @@ from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, t
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
-from modeviz.viewer.tasks.search_task import SearchStatus, SearchTask
+from modeviz.viewer.tasks.search_task import SearchStatus, SearchTask, design_of
 
 START, PAUSE, RESUME, CANCEL = "Start", "Pause", "Resume", "Cancel"
 ACCEPT, GO_BACK = "Accept", "Go back"
@@ -110,9 +111,10 @@ def offered(look: SearchStatus | None, state: State) -> tuple[str, ...]:
     """The buttons that have something to do."""
     if look is None or look.found is None:
         return OFFERED.get(look.stage, (START,)) if look else (START,)
-    found = look.found.rates
-    is_pinned = any(variant.rates == found for variant in state.design.variants.values())
-    is_present = state.design.rates == found
+    found = look.found.rates, look.found.placements
+    every, own = state.design.variants.values(), state.design.alterations
+    is_pinned = any((v.rates, replace(own, placements=v.placements).of_mounts) == found for v in every)
+    is_present = design_of(state) == found
     accept = () if is_pinned and is_present else (ACCEPT,)
     go_back = (GO_BACK,) if is_present and not is_pinned else ()
     return (START, *accept, *go_back)

@@ -7,7 +7,7 @@ from typing import Any
 
 from modeviz.text.wording import free_name
 from modeviz.vehicle.mount_rates import Rates
-from modeviz.vehicle.placement import Placement
+from modeviz.vehicle.placement import Placement, Placements
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import (
@@ -129,6 +129,18 @@ class TakeRates(Command):
     def apply(self, state: State, vehicle: Vehicle) -> State:
         vehicle.all_rates(self.rates)
         return _designed(state, rates={**state.design.rates, **self.rates})
+
+
+@dataclass(frozen=True)
+class TakeDesign(Command):
+    """Takes over the rates of some groups, locked ones too, and where all mounts are."""
+
+    rates: Rates
+    placements: Placements
+
+    def apply(self, state: State, vehicle: Vehicle) -> State:
+        taken = TakeRates(self.rates).apply(state, vehicle)
+        return replace(taken, design=taken.design.with_placements(self.placements))
 
 
 @dataclass(frozen=True)

@@ -5,14 +5,22 @@ from typing import Literal
 
 import numpy as np
 
+from modeviz.vehicle.local_axes import AXES
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
+from modeviz.vehicle.place_bounds import PlaceBounds
 from modeviz.vehicle.problem import UNLIMITED, DesignGroup
 
 Ratios = Literal["limited", "fixed", "free"]
 
 CALLED: dict[str, str] = dict(zip(RATE_FIELDS, DIRECTIONS, strict=True))
 """What a design group calls a field."""
+
+Range = tuple[float, float]
+PlaceRanges = tuple[Range, Range, Range]
+"""The least and the most along, or about, x, y and z."""
+
+NOWHERE: PlaceRanges = (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)
 
 USUAL_RATIOS = (0.25, 0.8)
 """The paper's limits, for a group that had none."""
@@ -31,6 +39,10 @@ class GroupPlan:
     """What holds lateral and fore-aft by vertical."""
     ratio_limits: tuple[float, float]
     """Where these are limited, the least and the most."""
+    offsets: PlaceRanges = NOWHERE
+    """How far its mounts may be moved along x, y, z, m; twice zero: not along that."""
+    angles: PlaceRanges = NOWHERE
+    """How far they may be turned about them, rad, likewise."""
 
     def design(self, mounts: MountGroup) -> DesignGroup:
         """Return the design group for a search; what is as in the mount group is left to that.
@@ -49,6 +61,8 @@ class GroupPlan:
             None if bounds == mounts.bounds else bounds,
             limits,
             self.ratios == "fixed",
+            _bounds(self.offsets),
+            _bounds(self.angles),
         )
 
 
@@ -64,4 +78,15 @@ def group_plan(mounts: MountGroup, design: DesignGroup) -> GroupPlan:
         stiffest,
         "fixed" if design.fixed_ratios else "free" if is_free else "limited",
         USUAL_RATIOS if is_free else limits,
+        _ranges(design.offsets),
+        _ranges(design.angles),
     )
+
+
+def _ranges(bounds: PlaceBounds) -> PlaceRanges:
+    x, y, z = (bounds.get(axis, (0.0, 0.0)) for axis in AXES)
+    return x, y, z
+
+
+def _bounds(ranges: PlaceRanges) -> PlaceBounds:
+    return {axis: ends for axis, ends in zip(AXES, ranges, strict=True) if any(ends)}
