@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modeviz.analysis.driven import Driven, driven
-from modeviz.analysis.mount_forces import along_vehicle, mount_forces
+from modeviz.analysis.mount_forces import along_vehicle, forces_of_mounts
 from modeviz.analysis.preparation import Prepared
 from modeviz.mounting.forces import N_MOTIONS
-from modeviz.mounting.levels import input_spectra
 from modeviz.ride.psd import harmonic_acceleration
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.engine import Engine
@@ -26,32 +25,89 @@ MOST_SPEEDS = 400
 
 
 @dataclass(frozen=True, eq=False)
-class EngineResults:
-    """Accelerations and forces of mounts while an engine runs at one speed after the other."""
+class RunningEngine:
+    """An engine in a prepared vehicle at some speeds: all that does not depend on mount rates."""
 
+    prepared: Prepared
     engine: Engine
     speed_hz: Floats
-    """(n_speeds,), revolutions of the crank per second."""
+    """(n_speeds,), rising, revolutions of the crank per second."""
     in_band: NDArray[np.bool_]
     """(n_speeds, n_orders): whether an order's frequency is in the vehicle's band."""
-    acceleration_g: Floats
-    """(n_speeds, n_orders, n_points, 3): peak x, y, z of each order, g; nan beyond the band."""
-    force: Complexes
-    """(n_speeds, n_orders, n_mounts, 6): of each order on the body that carries the mount, along and
-    about its own axes, N and N m; nan beyond the band."""
-    vehicle: Vehicle
+    orders: tuple[Driven, ...]
+    """The vehicle under each of them, at the frequencies that are in the band."""
+
+    def solve(self, rates: Rates) -> "EngineResults":
+        """What it does with other mount rates; arguments and errors as `solve_engine`."""
+        return EngineResults(self, self.prepared.mount_stiffness(rates))
+
+
+@dataclass(frozen=True, eq=False)
+class EngineResults:
+    """Accelerations and forces of mounts while an engine runs at one speed after the other.
+
+    Each is solved when it is asked for, which raises SolveError where with these rates an undamped
+    resonance lies on a frequency.
+    """
+
+    running: RunningEngine
+    stiffness: Complexes
+    """(n_springs,), complex rates at the reference, N/m."""
 
     @property
-    def rms(self) -> Floats:
-        """(n_speeds, n_points, 3): over time, of all orders in the band, g."""
-        return orders_rms(self.acceleration_g)
+    def engine(self) -> Engine:
+        return self.running.engine
+
+    @property
+    def vehicle(self) -> Vehicle:
+        return self.running.prepared.vehicle
+
+    @property
+    def speed_hz(self) -> Floats:
+        """(n_speeds,), revolutions of the crank per second."""
+        return self.running.speed_hz
+
+    @property
+    def in_band(self) -> NDArray[np.bool_]:
+        """(n_speeds, n_orders): whether an order's frequency is in the vehicle's band."""
+        return self.running.in_band
+
+    @cached_property
+    def acceleration_g(self) -> Floats:
+        """(n_speeds, n_orders, n_points, 3): peak x, y, z of each order, g; nan beyond the band."""
+        n_points = len(self.vehicle.response_points)
+        found = np.full((*self.in_band.shape, n_points, 3), np.nan)
+        for number, under in enumerate(self.running.orders):
+            inside, f = self._inside(number)
+            if f.size:
+                g = harmonic_acceleration(f, under.response(self.stiffness, f))
+                found[inside, number] = g.reshape(len(f), n_points, 3)
+        return found
+
+    @cached_property
+    def force(self) -> Complexes:
+        """(n_speeds, n_orders, n_mounts, 6): of each order on the body that carries the mount.
+
+        Along and about its own axes, N and N m; nan beyond the band.
+        """
+        found = np.full((*self.in_band.shape, len(self.vehicle.mounts), N_MOTIONS), np.nan, complex)
+        for number, under in enumerate(self.running.orders):
+            inside, f = self._inside(number)
+            if f.size:
+                found[inside, number] = forces_of_mounts(under, self.stiffness, f)[..., 0]
+        return found
 
     @cached_property
     def force_in_vehicle_axes(self) -> Complexes:
         """The same along and about the vehicle's axes."""
         return along_vehicle(self.vehicle, self.force)
 
-    @property
+    @cached_property
+    def rms(self) -> Floats:
+        """(n_speeds, n_points, 3): over time, of all orders in the band, g."""
+        return orders_rms(self.acceleration_g)
+
+    @cached_property
     def force_rms(self) -> Floats:
         """(n_speeds, n_mounts, 6): over time, of all orders in the band, along and about local axes."""
         return orders_rms(np.abs(self.force))
@@ -61,41 +117,15 @@ class EngineResults:
         """Which of the speeds is idle, or closest to it."""
         return int(np.argmin(np.abs(self.speed_hz - self.engine.idle_hz)))
 
+    def _inside(self, number: int) -> tuple[NDArray[np.bool_], Floats]:
+        """Speeds at which an order is in the band, (n_speeds,), and its frequencies there."""
+        inside = self.in_band[:, number]
+        return inside, self.engine.orders[number].order * self.speed_hz[inside]
+
 
 def orders_rms(peaks: Floats) -> Floats:
     """The RMS over time of all orders, (n_speeds, ...), of peaks of each, (n_speeds, n_orders, ...)."""
     return np.sqrt(np.nansum(peaks**2, axis=1) / 2)
-
-
-@dataclass(frozen=True, eq=False)
-class RunningEngine:
-    """An engine in a prepared vehicle at some speeds: all that does not depend on mount rates."""
-
-    prepared: Prepared
-    engine: Engine
-    speed_hz: Floats
-    """(n_speeds,), rising, revolutions of the crank per second."""
-    in_band: NDArray[np.bool_]
-    """(n_speeds, n_orders)."""
-    orders: tuple[Driven, ...]
-    """The vehicle under each of them."""
-
-    def solve(self, rates: Rates) -> EngineResults:
-        """What it does with other mount rates; arguments and errors as `solve_engine`."""
-        vehicle, stiffness = self.prepared.vehicle, self.prepared.mount_stiffness(rates)
-        n_points, n_mounts = len(vehicle.response_points), len(vehicle.mounts)
-        acceleration = np.full((*self.in_band.shape, n_points, 3), np.nan)
-        force = np.full((*self.in_band.shape, n_mounts, N_MOTIONS), np.nan, complex)
-        for number, (order, under) in enumerate(zip(self.engine.orders, self.orders, strict=True)):
-            inside = self.in_band[:, number]
-            f = order.order * self.speed_hz[inside]
-            if f.size:
-                g = harmonic_acceleration(f, under.response(stiffness, f))
-                acceleration[inside, number] = g.reshape(len(f), n_points, 3)
-                spectra = input_spectra(order, f, under.speed)
-                passed = mount_forces(under, stiffness, f, spectra, is_random=False)
-                force[inside, number] = passed.force[..., 0]
-        return EngineResults(self.engine, self.speed_hz, self.in_band, acceleration, force, vehicle)
 
 
 def running_engine(prepared: Prepared, engine: Engine, speed_hz: Floats | None = None) -> RunningEngine:
@@ -130,7 +160,6 @@ def solve_engine(
 
     Raises:
         VehicleError: a group that the vehicle does not have.
-        SolveError: with these rates an undamped resonance lies on a frequency.
     """
     return running_engine(prepared, engine, speed_hz).solve(rates)
 

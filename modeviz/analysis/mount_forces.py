@@ -118,6 +118,15 @@ def mount_forces(
     Raises:
         SolveError: with these rates an undamped resonance lies on a line.
     """
+    force = forces_of_mounts(drive, stiffness, lines)
+    return MountForces(drive.prepared.vehicle, spectra, is_random, force)
+
+
+def forces_of_mounts(drive: Driven, stiffness: Complexes, lines: Floats) -> Complexes:
+    """Return them along and about local axes, (n_lines, n_mounts, 6, n_inputs), N and N m.
+
+    Arguments and errors as of `mount_forces`.
+    """
     system = drive.prepared.system
     stretch = drive.stretches(stiffness, lines)
     there = drive.receptances.law.stiffness(stiffness, lines)
@@ -127,7 +136,7 @@ def mount_forces(
     force = np.zeros((len(lines), len(turns), N_MOTIONS, stretch.shape[2]), complex)
     force[:, :, :3] = by_spring[:, : 3 * len(turns)].reshape(len(lines), -1, 3, stretch.shape[2])
     force[:, :, 3:][:, turns] = by_spring[:, 3 * len(turns) :]
-    return MountForces(system.vehicle, spectra, is_random, force)
+    return force
 
 
 def force_weights(

@@ -134,11 +134,7 @@ class Results(ModalResults):
         return self.latest_forces.get(load, lambda: self._mount_forces(load))
 
     def running(self, engine: Engine) -> EngineResults:
-        """Return what one of the vehicle's engines does as it runs up.
-
-        Raises:
-            SolveError: with these rates an undamped resonance lies on a frequency.
-        """
+        """Return what one of the vehicle's engines does as it runs up."""
 
         def solve() -> EngineResults:
             prepared = self.prepared

@@ -84,10 +84,10 @@ class EnginePanel:
         try:
             names = (solved.state.against, *responses.overlaid, NOW)
             runs = [responses.run_up(name) for name in names]
+            levels = [order_peaks(run, curve) for run in runs]
         except ModevizError as error:
             assign(self._content, content=block(span(escape(str(error)), "dim")))
             return
-        levels = [order_peaks(run, curve) for run in runs]
         scale = Scale(peak_unit(curve), solved.state.charts.decibels, log_frequency=False)
         assign(self._choice, label=scale.quantity.unit_text(scale.decibels))
         self._draw_total(solved, responses, scale, runs[-1], levels)

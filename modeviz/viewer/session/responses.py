@@ -132,11 +132,7 @@ class Responses:
         return results.running(results.prepared.vehicle.engine(order.engine))
 
     def run_up(self, name: str) -> EngineResults:
-        """What the engine that is looked at does as it runs up, with a set's rates, or `NOW`.
-
-        Raises:
-            SolveError: with these rates an undamped resonance lies on a frequency.
-        """
+        """What the engine that is looked at does as it runs up, with a set's rates, or `NOW`."""
         results = self._results(name)
         return results.running(results.prepared.vehicle.engine(self._solved.state.engine.engine))
 
