@@ -227,6 +227,19 @@ def test_an_engine_from_csv_is_decoupled_by_other_rates_of_the_same_mounts():
     assert np.diff(hz).min() > 1.5
 
 
+def test_an_engine_from_csv_is_decoupled_further_with_its_mounts_moved_by_30_mm():
+    engine = example("09_engine_from_csv")
+    assert engine.in_place.value > 1e-4
+    assert engine.moved.value < 1e-9
+    assert all(max(map(abs, p.offset)) <= 0.03 + 1e-12 for p in engine.moved.placements.values())
+    body = engine.placed["engine"]
+    assert min(body.purity.values()) > 0.9699
+    hz = sorted(body.frequency_hz.values())
+    assert hz[0] > 4.999
+    assert hz[-1] < 30.001
+    assert np.diff(hz).min() > 1.4999
+
+
 def test_a_cab_on_softer_struts_bounces_slower_and_sags_further():
     """Against one mass on springs: √(k/m), m g/k under a load that stays."""
     cab = example("10_cab_on_struts")

@@ -29,6 +29,9 @@ from modeviz.vehicle.vehicle import Vehicle
 STEP = 1e-4
 """M: so far from a mount its probes are; any distance would do on rigid bodies."""
 
+OF_MOUNT = {"vertical": ("stiffness", 2), "lateral": ("stiffness", 1), "fore_aft": ("stiffness", 0)}
+"""The field of a mount, and the number in it, that each of `RATE_FIELDS` is, in their order."""
+
 QUARTER, EIGHTH = np.pi / 2, np.pi / 4
 
 
@@ -76,7 +79,7 @@ class Probe:
 
     def group(self, probed: MountGroup, loss_factor: float) -> MountGroup:
         """Return it where the mount is that it probes, of that group."""
-        none, some = (MountRates(*[rate] * len(RATE_FIELDS)) for rate in (0.0, 1.0))
+        none, some = (MountRates(**dict.fromkeys(RATE_FIELDS, rate)) for rate in (0.0, 1.0))
         still = dict.fromkeys(SHARED, np.zeros(3))
         mount = next(mount for mount in probed.mounts if mount.name == self.name)
         return replace(
@@ -122,8 +125,9 @@ class Probes:
         mounts = self.vehicle.with_rates(rates).mounts
         found = np.zeros((len(self.probes), len(RATE_FIELDS), len(self.places.variables)))
         for own, probe in zip(found, self.probes, strict=True):
-            fore_aft, lateral, vertical = mounts[probe.mount].stiffness
-            own[:, probe.number] = probe.shift.square * np.array([vertical, lateral, fore_aft])
+            mount = mounts[probe.mount]
+            k = np.array([getattr(mount, name)[axis] for name, axis in OF_MOUNT.values()])
+            own[:, probe.number] = probe.shift.square * k
         return found.reshape(-1, len(self.places.variables))
 
     @cached_property
