@@ -29,6 +29,7 @@ from modeviz.compute.cancel import CancelToken
 from modeviz.errors import ModevizError
 from modeviz.files import write_vehicle
 from modeviz.files.disk import check_writable
+from modeviz.files.folder import check_vehicle_folder
 from modeviz.files.rate_files import rates_format, write_rates
 from modeviz.optimise.run import BUDGET, Progress
 from modeviz.optimise.search import prepare_search
@@ -109,8 +110,10 @@ def optimise_rates(options: OptimiseOptions) -> None:
     if output:
         rates_format(output)
         check_writable(output)
+    if folder:
+        check_vehicle_folder(folder)
     if options.front:
-        if options.folder:
+        if folder:
             raise ModevizError("--front finds many designs: expected it without --folder")
         optimise_front(options.front, how, vehicle, problem, rates, speed, output, json)
         return

@@ -174,12 +174,17 @@ def write_vehicle(vehicle: Vehicle, folder: Path | str) -> None:
         VehicleError: the folder holds something else, or cannot be written.
     """
     folder = Path(folder)
+    check_vehicle_folder(folder)
+    replace_folder(folder, lambda new: _write_content(vehicle, new))
+
+
+def check_vehicle_folder(folder: Path) -> None:
+    """Raises VehicleError unless a vehicle may be written there, before the work for it begins."""
     if folder.exists() and not _replaceable(folder):
         raise VehicleError(
             f"{folder}: is not a vehicle folder and nothing else, so it is not overwritten; "
             "give a new or empty folder"
         )
-    replace_folder(folder, lambda new: _write_content(vehicle, new))
 
 
 def _replaceable(folder: Path) -> bool:

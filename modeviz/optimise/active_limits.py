@@ -23,9 +23,11 @@ class ActiveConstraint:
     name: str
     """As people say it: "C2 fore-aft: lower ratio limit"."""
     multiplier: float
-    """λ of the Lagrangian: the goal's loss for each unit that the limit's logarithm is moved."""
+    """λ of the Lagrangian: the goal's loss for each unit that the limit's logarithm is moved; of a
+    place's bound, for each width of its bounds."""
     gain: float
-    """What relaxing the limit by 10 % would take off the goal, a part of it, to first order."""
+    """What relaxing the limit by 10 %, of a place by 10 % of the width, would take off the goal, a part
+    of it, to first order."""
 
 
 def active_constraints(search: Search, x: Floats) -> tuple[ActiveConstraint, ...]:
@@ -36,7 +38,7 @@ def active_constraints(search: Search, x: Floats) -> tuple[ActiveConstraint, ...
     limits that depend on each other is one of several ways to share.
     """
     value, slopes = _slopes(search, x)
-    names, rows = _met(search, x)
+    names, rows, steps = _met(search, x)
     if not names:
         return ()
     # Of a min-max's largest parts the goal has a mean: as many more multipliers, whose sum is one.
@@ -46,8 +48,8 @@ def active_constraints(search: Search, x: Floats) -> tuple[ActiveConstraint, ...
     wanted = np.append(np.zeros(len(x)), size)
     multipliers, _ = nnls(np.vstack([limits, means]).T, wanted)
     found = [
-        ActiveConstraint(name, float(m), float(m * np.log(1 + RELAXED) / value) if value else 0.0)
-        for name, m in zip(names, multipliers[: len(names)], strict=True)
+        ActiveConstraint(name, float(m), float(m * step / value) if value else 0.0)
+        for name, m, step in zip(names, multipliers[: len(names)], steps, strict=True)
     ]
     return tuple(sorted(found, key=lambda c: -c.multiplier))
 
@@ -62,15 +64,17 @@ def _slopes(search: Search, x: Floats) -> tuple[float, Floats]:
     return float(largest), gradients[parts >= largest * (1 - ACTIVE)]
 
 
-def _met(search: Search, x: Floats) -> tuple[list[str], list[Floats]]:
-    """The limits that a design sits on, and the row of each."""
+def _met(search: Search, x: Floats) -> tuple[list[str], list[Floats], list[float]]:
+    """The limits that a design sits on, the row of each, and by how much 10 % relax it."""
     space = search.space
     on = np.flatnonzero(space.rows @ x - space.values > -ACTIVE)
     names = [space.limits[i].spoken for i in on]
-    rows = list(space.rows[on])
+    rows, factor = list(space.rows[on]), float(np.log(1 + RELAXED))
+    steps = [RELAXED if space.is_of_place(space.limits[i]) else factor for i in on]
     if search.kept:
         margins, slopes = search.margins(x)
         ends = np.flatnonzero(margins < ACTIVE)
         names += [search.kept_words[i] for i in ends]
         rows += list(-slopes[ends])
-    return names, rows
+        steps += [factor] * len(ends)
+    return names, rows, steps

@@ -121,6 +121,10 @@ class DesignSpace:
         """(n_limits,): which of them are between two numbers; the others bound one."""
         return np.array([len(limit.terms) == 2 for limit in self.limits], bool)
 
+    def is_of_place(self, limit: Limit) -> bool:
+        """Whether a limit bounds a place, in widths of its bounds, and not a rate or a ratio."""
+        return limit.rate is not None and limit.rate >= self.n_rates
+
     def spoken(self, x: Floats) -> str:
         """A design in a sentence: "C2 fore-aft 141 N/mm, E rates × 1.2, E offset z +12 mm"."""
         rates, per_mm = self.rates(x), factor("N/mm", "stiffness")

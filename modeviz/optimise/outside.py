@@ -93,8 +93,7 @@ def _past(space: DesignSpace, every: Rates) -> list[str]:
 
 def _amount(space: DesignSpace, limit: Limit, by: float) -> str:
     """Return how far a rate or ratio is past its limit; nothing of one that is zero, or of a place."""
-    is_place = limit.rate is not None and limit.rate >= space.n_rates
-    return "" if is_place or by >= FAR else f" by {100 * np.expm1(by):.3g} %"
+    return "" if space.is_of_place(limit) or by >= FAR else f" by {100 * np.expm1(by):.3g} %"
 
 
 def _log(space: DesignSpace, every: Rates, group: str, field: str) -> float:

@@ -1,5 +1,6 @@
 """Offsets and angles of mounts as variables of a search: derivatives, and vehicles made anew."""
 
+import json
 from dataclasses import replace
 from functools import cache
 
@@ -9,6 +10,7 @@ from dynamic_mounts import MAXWELL, on_mounts
 from four_cylinder import four_cylinder
 from mounted_machine import FLAT, SLANTED
 
+from modeviz.cli import main
 from modeviz.errors import SolveError, VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.optimise.goals import prepare_goal
@@ -193,6 +195,10 @@ def test_limits_that_a_place_sits_on_are_named():
     assert [limit.name for limit in found.limits] in (
         ["M1 offset z: upper bound"], ["M1 offset z: lower bound"],
     )  # fmt: skip
+    (limit,) = found.limits
+    wider = replace(problem, groups=(DesignGroup("M1", (), offsets={"z": (-0.0012, 0.0012)}),))
+    gained = 1 - Study(four_cylinder()).optimise(wider, 1).value / found.value
+    assert limit.gain == pytest.approx(gained, rel=0.05)
     assert "M1 offset z, mm" in found.table()
     assert found.to_dict()["placements"]["M1"]["offset_mm"][2] == pytest.approx(
         1e3 * found.placements["M1"].offset[2]
@@ -266,3 +272,26 @@ def test_a_folder_of_a_design_leaves_its_mounts_the_same_room():
     x = search.space.to_x({}, {"M1": Placement((0.01, 0.0, 0.0))})
     (group,) = search.space.built(x).problem("p").groups
     assert group.offsets["x"] == pytest.approx((-0.04, 0.02))
+
+
+def test_the_command_writes_the_vehicle_with_its_mounts_where_they_were_found(tmp_path, capsys):
+    problem = Problem("p", (DesignGroup("M1", offsets={"x": (-0.03, 0.03)}),), goal="purity")
+    write_vehicle(replace(four_cylinder(), problems=(problem,)), tmp_path / "given")
+    asked = ["optimise", str(tmp_path / "given"), "--starts", "1", "--json"]
+    assert main([*asked, "--folder", str(tmp_path / "found")]) == 0
+    record = json.loads(capsys.readouterr().out)
+    given, found = (read_vehicle(tmp_path / name) for name in ("given", "found"))
+    moved = 1e3 * (found.mounts[0].points - given.mounts[0].points)
+    assert moved == pytest.approx(np.tile(record["placements"]["M1"]["offset_mm"], (2, 1)), abs=1e-9)
+    assert abs(moved[0, 0]) > 1
+    assert prepare_goal(found, problem, found.rates, 20.0).value({}) == pytest.approx(
+        record["objective"]["found"], rel=1e-9
+    )
+
+
+def test_a_folder_that_is_something_else_is_refused_before_the_search(tmp_path, capsys):
+    write_vehicle(four_cylinder(), tmp_path / "given")
+    (tmp_path / "letter.txt").write_text("Dear")
+    asked = ["optimise", str(tmp_path / "given"), "--goal", "purity", "--folder", str(tmp_path)]
+    assert main(asked) == 2
+    assert "is not a vehicle folder" in capsys.readouterr().err
