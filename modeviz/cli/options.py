@@ -18,7 +18,7 @@ from modeviz.study.forces import loaded_forces
 from modeviz.study.searching import chosen_problem
 from modeviz.units import parse
 from modeviz.vehicle.mount_rates import Rates
-from modeviz.vehicle.placement import with_placements
+from modeviz.vehicle.placement import Placements, with_placements
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -36,6 +36,15 @@ class VehicleOptions:
     places: tuple[str, ...] = ()
     """Where mounts are, such as "C2=20,0,0 mm"."""
 
+    @property
+    def placements(self) -> Placements:
+        """Where mounts are to be; raises VehicleError if that cannot be read."""
+        return parse_placements(self.places)
+
+    def given(self) -> Vehicle:
+        """Return the vehicle as it is in its folder; raises VehicleError if that is wrong."""
+        return read_vehicle(self.vehicle or builtin_vehicle())
+
     def read(self) -> tuple[Vehicle, Rates]:
         """Return the vehicle with its own rates, and the rates chosen; says the notes on the vehicle.
 
@@ -43,11 +52,11 @@ class VehicleOptions:
             VehicleError: something is wrong in a file, there are no such rates, or mounts are to be
                 where they cannot.
         """
-        return self.with_rates(read_vehicle(self.vehicle or builtin_vehicle()))
+        return self.with_rates(self.given())
 
     def with_rates(self, vehicle: Vehicle) -> tuple[Vehicle, Rates]:
         """Return a vehicle with mounts where they are chosen, as `read`; says the notes on it."""
-        vehicle = with_placements(vehicle, parse_placements(self.places))
+        vehicle = with_placements(vehicle, self.placements)
         for note in vehicle.notes:
             remark(note)
         return vehicle, resolve_rates(vehicle, self.rates, self.settings)

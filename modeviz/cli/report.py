@@ -33,15 +33,18 @@ class ReportOptions(VehicleOptions, RoadOptions):
 
 def compare_rates(options: ReportOptions) -> None:
     """Solves with both sets of rates, checks the answer and writes the report."""
-    vehicle, rates = options.read()
-    base = RateSet(_name(options.against), resolve_rates(vehicle, options.against))
-    now = RateSet(_name(options.rates, bool(options.settings)), rates)
+    given = options.given()
+    vehicle, rates = options.with_rates(given)
+    base = RateSet(_name(options.against), resolve_rates(given, options.against))
+    is_changed = bool(options.settings or options.places)
+    now = RateSet(_name(options.rates, is_changed), rates, options.placements)
     conditions = options.ride(vehicle)
     check_writable(options.output)
     pictures = []
     if options.pictures and conditions is not None:
-        pictures = _pictures(vehicle, (base, now), conditions)
-    prepare = partial(prepare_telling, vehicle)
+        pictures = _pictures(given, (base, now), conditions)
+    vehicles = (given, vehicle) if options.places else (vehicle,)
+    prepare = [partial(prepare_telling, each) for each in vehicles]
     write_report(options.output, prepare, (base, now), conditions, pictures, Teller())
     print(f"{options.output}: {now.name} against {base.name}")
 

@@ -1,6 +1,6 @@
 """Two sets of rates of one vehicle, solved side by side."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from modeviz.analysis.modal_results import ModalResults, solve_modal
 from modeviz.analysis.mode_tracking import follow
@@ -12,6 +12,7 @@ from modeviz.errors import VehicleError
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import prepare_goal
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.placement import Placements
 from modeviz.vehicle.problem import UNSHAKEN, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -23,6 +24,8 @@ class RateSet:
     name: str
     rates: Rates
     """Of the groups that differ from the vehicle's own."""
+    placements: Placements = field(default_factory=dict)
+    """Where the mounts of groups are with them, if elsewhere."""
 
 
 @dataclass(frozen=True)

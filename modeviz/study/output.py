@@ -63,7 +63,7 @@ class StudyOutput:
         drawn = []
         if pictures and conditions is not None:
             drawn = report_pictures(vehicle, (base, now), conditions, self._tell)
-        prepare = self._tuned.prepared
+        prepare = [self._tuned.prepared]
         write_report(Path(path), prepare, (base, now), conditions, drawn, self._tell)
         return WrittenFile(Path(path))
 

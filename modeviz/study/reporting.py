@@ -16,7 +16,7 @@ from modeviz.study.telling import Tell
 
 def write_report(
     path: Path,
-    prepare: Callable[[], Prepared],
+    prepare: Sequence[Callable[[], Prepared]],
     sets: tuple[RateSet, RateSet],
     conditions: Conditions | None,
     pictures: Sequence[Picture],
@@ -26,7 +26,7 @@ def write_report(
 
     Args:
         path: of the file.
-        prepare: makes the vehicle ready.
+        prepare: makes the vehicle ready: that compared with and the other, if these are two.
         sets: what is compared with, and what is compared.
         conditions: road and speed; None for a vehicle without a road.
         pictures: what it begins with.
@@ -35,7 +35,8 @@ def write_report(
     Raises:
         ModevizError: it cannot be solved, or the file cannot be written.
     """
-    comparison = compare(prepare(), *sets, conditions)
+    ready = [each() for each in prepare]
+    comparison = compare(ready[-1], *sets, conditions, ready[0])
     page = report(comparison, date.today(), pictures, _checked(comparison, tell))
     write_text(path, page)
 

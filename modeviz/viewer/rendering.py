@@ -32,7 +32,7 @@ from modeviz.viewer.pictures.pictures import (
 from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import box, camera
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.commands.decisions import TakeRates
+from modeviz.viewer.session.commands.decisions import TakeDesign
 from modeviz.viewer.session.commands.looks import ChangeLook, SelectGroup, ShowMode
 from modeviz.viewer.session.design import variant_name
 from modeviz.viewer.session.notifications import Answered, Notification
@@ -154,6 +154,7 @@ def photographs(
         for done, (rate_set, solved) in enumerate(zip(sets, answers(), strict=True)):
             tell("drawing", done / len(sets))
             scene.show(solved)
+            scene.place(solved.state)
             studio.follow(scene.driver)
             studio.stand(wish.phase)
             movement = solved.movement
@@ -189,7 +190,7 @@ class Scenery:
         answers = []
         for rate_set in sets:
             with located(rate_set.name) if rate_set.name else nullcontext():
-                answers.append(self._answer(rate_set.rates, wish.mode))
+                answers.append(self._answer(rate_set, wish.mode))
         self.session.close()
         tell("opening", 0.0)
         return answers
@@ -199,8 +200,9 @@ class Scenery:
         self.session.close()
         self.server.stop()
 
-    def _answer(self, rates: Rates, mode: str) -> Solved:
-        self.session.do(TakeRates(self.session.vehicle.all_rates(rates)))
+    def _answer(self, rate_set: RateSet, mode: str) -> Solved:
+        rates = self.session.vehicle.all_rates(rate_set.rates)
+        self.session.do(TakeDesign(rates, rate_set.placements))
         if mode:
             self.session.do(ShowMode(mode))
         solved = self.session.wait_for_answer(PATIENCE)
@@ -213,6 +215,7 @@ class Scenery:
     def _hear(self, notification: Notification) -> None:
         if isinstance(notification, Answered):
             self.scene.show(notification.solved)
+            self.scene.place(notification.solved.state)
 
 
 @contextmanager

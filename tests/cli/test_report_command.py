@@ -90,6 +90,19 @@ def test_it_can_be_held_against_another_set(folder, tmp_path):
     assert document.tables["Mount rates"][2] == ["vertical", "200", "800", "+300.0 %"]
 
 
+def test_mounts_that_are_moved_are_held_against_the_vehicle_as_it_is(printed_json, folder, tmp_path):
+    output, place = tmp_path / "out.html", ["--place", "A=200,0,0 mm"]
+    assert main(["report", "--no-pictures", folder, *place, "--output", str(output)]) == 0
+    document = Document(output.read_text("utf-8"))
+    assert document.headings[0] == "cabin: original, changed against original"
+    rows = document.tables["Natural frequencies below 25 Hz"][2:]
+    for column, arguments in ((1, []), (2, place)):
+        modes = printed_json("modes", folder, *arguments)["modes"]
+        expected = [mode["frequency_hz"] for mode in modes if mode["frequency_hz"] < 25]
+        found = sorted(value(row[column]) for row in rows if row[column] != "–")
+        assert found == pytest.approx(expected, abs=0.0051)
+
+
 def test_a_vehicle_without_roads_and_loads_has_a_report_of_its_modes(folder, tmp_path):
     bare = replace(mounted_cabin(), roads=(), wheel_loads=(), response_points=())
     write_vehicle(bare, tmp_path / "bare")
