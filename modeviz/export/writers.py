@@ -9,6 +9,7 @@ from modeviz.export.arrays import body_file, modes_arrays
 from modeviz.export.axes import FileAxes
 from modeviz.export.bushes import bush_deck
 from modeviz.export.drawn import drawn_bodies
+from modeviz.export.folder import zipped_folder
 from modeviz.export.function_table import function_table
 from modeviz.export.functions import Functions, check_felt, frequency_responses, power_spectra
 from modeviz.export.glb import bodies_glb
@@ -171,7 +172,12 @@ def _as(endings: Iterable[str], make: Writer) -> dict[str, Writer]:
     return dict.fromkeys(endings, make)
 
 
+def _folder(solution: Solution, _: ExportOptions) -> bytes:
+    return zipped_folder(solution.vehicle)
+
+
 WHOLE: Mapping[str, Mapping[str, Writer]] = {
+    "vehicle": {".zip": _folder},
     "rates": {".csv": _rates_csv, ".json": _rates_json, **_as(DECKS, _deck)},
     "mounts": {".csv": _table, **_as(DECKS, _deck)},
     "modes": _of_modes(_real),

@@ -29,6 +29,7 @@ CONTENTS = {
     "Spectra on the road": "psd",
     "Frequency responses": "frf",
     "All bodies": "bodies",
+    "Vehicle folder": "vehicle",
 }
 """What can be written of any vehicle, by what it is called here."""
 
@@ -41,6 +42,7 @@ FORMATS = {
     "NumPy, NPZ": ".npz",
     "ParaView, VTU": ".vtu",
     "glTF, GLB": ".glb",
+    "Folder, ZIP": ".zip",
 }
 """The endings of files, by what their formats are called; of Nastran's one of several."""
 

@@ -90,5 +90,6 @@ def test_what_a_vehicle_lacks_is_not_offered():
         "Modes with damping",
         "Motion of the mode shown",
         "All bodies",
+        "Vehicle folder",
     }
     assert {"Cab", "Chassis"} <= offered
