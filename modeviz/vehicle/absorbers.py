@@ -72,12 +72,14 @@ def _put(vehicle: Vehicle, absorber: Absorber) -> Vehicle:
         return vehicle
     moved = [MovedMount(before, spring.mounts[0])]
     bodies = bodies_that_hold(vehicle, moved)
+    lacking = tuple(missing_compliance(vehicle.bodies, bodies, absorber.name, moved))
     return replace(
         vehicle,
         bodies=tuple(mass if body.name == mass.name else body for body in bodies),
         connections=tuple(guide if c.name == guide.name else c for c in vehicle.connections),
         mount_groups=tuple(spring if g.name == spring.name else g for g in vehicle.mount_groups),
-        notes=(*vehicle.notes, *missing_compliance(vehicle.bodies, bodies, absorber.name, moved)),
+        remarks=(*vehicle.remarks, *lacking),
+        notes=(*vehicle.notes, *lacking),
     )
 
 
