@@ -95,8 +95,8 @@ def chosen_load(vehicle: Vehicle, name: str | None) -> Load:
         return usual
     if name is None:
         raise ModevizError(
-            f"vehicle {vehicle.name!r} has no load: give its vehicle.toml a [[force]], a "
-            "[[base_motion]] or a [[tyre]] with stiffness along z, which can be driven over roads of "
+            f"vehicle {vehicle.name!r} has no load: give its vehicle.toml an [[engine]], a [[force]], "
+            "a [[base_motion]] or a [[tyre]] with stiffness along z, which can be driven over roads of "
             "ISO 8608"
         )
     load = vehicle.load(name)

@@ -14,10 +14,10 @@ def unfinished(vehicle: Vehicle) -> Iterator[str]:
         )
     elif not vehicle.mount_groups:
         yield "No rates can be tuned: give its vehicle.toml a [[mount_group]]."
-    if vehicle.usual_load is None and not vehicle.harmonic_loads:
+    if vehicle.usual_load is None and not (vehicle.harmonic_loads or vehicle.engines):
         yield (
             "Nothing shakes it, so there are no responses: give its vehicle.toml a [[tyre]] with "
-            "stiffness along z, which roads of ISO 8608 move, or a [[force]]."
+            "stiffness along z, which roads of ISO 8608 move, an [[engine]] or a [[force]]."
         )
     if not vehicle.response_points:
         yield "Nobody feels it: give its vehicle.toml a [[response_point]]."

@@ -175,7 +175,7 @@ def test_a_vehicle_without_loads_is_told_what_to_give(tmp_path, capsys):
     quiet = replace(machine, connections=untyred, forces=(), base_motions=(), roads=(), wheel_loads=())
     write_vehicle(quiet, tmp_path / "quiet")
     assert main(["forces", str(tmp_path / "quiet")]) == 2
-    assert "has no load: give its vehicle.toml a [[force]]" in capsys.readouterr().err
+    assert "has no load: give its vehicle.toml an [[engine]], a [[force]]" in capsys.readouterr().err
 
 
 def test_an_order_is_refused_where_the_engine_does_not_run():
