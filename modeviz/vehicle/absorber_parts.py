@@ -4,6 +4,7 @@ Its rates are tuned as those of all mounts are; the joint leaves it the directio
 no others.
 """
 
+from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -127,6 +128,8 @@ def _alike(one: Any, other: Any) -> bool:
         return type(one) is type(other) and all(
             _alike(getattr(one, n), getattr(other, n)) for n in names
         )
+    if isinstance(one, Mapping):
+        return one.keys() == other.keys() and all(_alike(one[key], other[key]) for key in one)
     if isinstance(one, tuple):
         return len(one) == len(other) and all(map(_alike, one, other))
     if isinstance(one, float | np.ndarray):

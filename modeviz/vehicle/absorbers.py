@@ -72,7 +72,8 @@ def _put(vehicle: Vehicle, absorber: Absorber) -> Vehicle:
         return vehicle
     moved = [MovedMount(before, spring.mounts[0])]
     bodies = bodies_that_hold(vehicle, moved)
-    lacking = tuple(missing_compliance(vehicle.bodies, bodies, absorber.name, moved))
+    where = f"absorber {absorber.name!r} sits"
+    lacking = tuple(missing_compliance(vehicle.bodies, bodies, where, moved))
     return replace(
         vehicle,
         bodies=tuple(mass if body.name == mass.name else body for body in bodies),

@@ -60,7 +60,7 @@ def check_moves(vehicle: Vehicle, moved: Sequence[MovedMount]) -> None:
 
 
 def missing_compliance(
-    before: Sequence[Body], after: Sequence[Body], group: str, moved: Sequence[MovedMount]
+    before: Sequence[Body], after: Sequence[Body], what: str, moved: Sequence[MovedMount]
 ) -> Iterator[str]:
     """Yield sentences on flexible bodies that give way too little where mounts are moved to.
 
@@ -70,7 +70,7 @@ def missing_compliance(
     Args:
         before: bodies.
         after: of `bodies_that_hold`.
-        group: what the mounts are called.
+        what: is there, with a verb: "mounts 'C1' are moved to".
         moved: the mounts.
     """
     for old, body in zip(before, after, strict=True):
@@ -79,18 +79,18 @@ def missing_compliance(
         ends = [(mount.after, new) for mount in moved for _, new in mount.ends_elsewhere(old)]
         if ends:
             missing = _missing(body, [place for _, place in ends])
-            yield from _lack(body.name, group, [mount for mount, _ in ends], missing)
+            yield from _lack(body.name, what, [mount for mount, _ in ends], missing)
 
 
-def _lack(body: str, group: str, mounts: Sequence[Mount], missing: Floats) -> Iterator[str]:
+def _lack(body: str, what: str, mounts: Sequence[Mount], missing: Floats) -> Iterator[str]:
     """Yield the sentence, unless hardly anything is missing, (n_mounts, 3), m/N along x, y and z."""
     softer = [m.stiffness * (m.axes**2 @ lack) for m, lack in zip(mounts, missing, strict=True)]
     if np.max(softer) > UNSAID:
         along = ", ".join(f"{1e6 * value:.2g}" for value in missing.max(axis=0))
         yield (
-            f"body {body!r} has no residual vectors of its own where mounts {group!r} are moved to: it "
-            f"gives way there by about {along} µm/N more along x, y and z than is computed (an "
-            f"estimate), up to {100 * np.max(softer):.2g} % of what these mounts do"
+            f"body {body!r} has no residual vectors of its own where {what}: it gives way "
+            f"there by about {along} µm/N more along x, y and z than is computed (an estimate), up to "
+            f"{100 * np.max(softer):.2g} % of what mounts do there"
         )
 
 

@@ -79,7 +79,7 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
         for name, mounts in moved.items()
         for note in (
             *_notes(name, placements[name]),
-            *missing_compliance(vehicle.bodies, bodies, name, mounts),
+            *missing_compliance(vehicle.bodies, bodies, f"mounts {name!r} are moved to", mounts),
         )
     ]
     return replace(placed, remarks=(*vehicle.remarks, *told), notes=(*vehicle.notes, *told))

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from small_systems import joined_beams
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.errors import VehicleError
@@ -123,3 +124,19 @@ def test_what_is_wrong_with_a_table_is_said_at_its_key(folder, old, new, key, wo
     (problem,) = survey(folder).problems
     assert problem.key.startswith(key)
     assert words in problem.words
+
+
+def test_on_a_flexible_body_it_sits_on_the_shapes_of_its_place(tmp_path):
+    """Between two nodes of a beam, 6 cm from one: as python puts it there, and as it is written."""
+    _, beams = joined_beams()
+    write_vehicle(beams, tmp_path / "beams")
+    table = TABLE.replace('"cab"', '"rear"').replace("[1.0, 0.2, 1.4]", "[3.06, 0.0, 0.0]")
+    add(tmp_path / "beams", table)
+    sits = replace(ROOF, body="rear", position=(3.06, 0.0, 0.0))
+    made, read = with_absorbers(beams, [sits]), read_vehicle(tmp_path / "beams")
+    write_vehicle(made, tmp_path / "made")
+    expected = assemble(made).stiffness
+    for vehicle in (read, read_vehicle(tmp_path / "made")):
+        np.testing.assert_allclose(assemble(vehicle).stiffness, expected, rtol=1e-6, atol=1e-3)
+    arm = replace(sits, position=(3.0, 0.0, 0.0))
+    assert not np.allclose(assemble(with_absorbers(beams, [arm])).stiffness, expected, rtol=1e-3)
