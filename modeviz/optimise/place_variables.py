@@ -115,8 +115,8 @@ def places_of(
         placements: what no group may change; None: all mounts are where they were given.
 
     Raises:
-        VehicleError: some mounts are progressive, or those that may be placed otherwise do more than
-            springs along their axes.
+        VehicleError: some mounts are progressive, modes have a damping of their own, or what may be
+            placed otherwise does more than springs along its axes.
     """
     variables = [
         PlaceVariable(group.group, kind, axis, bounds)
@@ -162,7 +162,12 @@ def _bounds(variable: PlaceVariable, number: int) -> list[Limit]:
 
 
 def _check_straight(vehicle: Vehicle) -> None:
-    """Raises VehicleError where moving one mount makes another stiffer."""
+    """Raises VehicleError where moving one mount makes another stiffer, or damps modes otherwise."""
+    if vehicle.mode_damping:
+        raise VehicleError(
+            "offset and angles: modes of the vehicle have a damping of their own, which would change "
+            "with them; expected a vehicle without [[mode_damping]]"
+        )
     for group in vehicle.mount_groups:
         if group.curves:
             raise VehicleError(

@@ -18,19 +18,20 @@ from functools import cached_property
 
 import numpy as np
 
+from modeviz.analysis.sensitivity import rate_variables
 from modeviz.optimise.place_variables import Kind, Places, PlaceVariable
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.loads import BaseMotion
 from modeviz.vehicle.mount_group import SHARED, MountGroup
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.vehicle.placement import Placement, Placements, mirrored_mounts, with_placements
 from modeviz.vehicle.vehicle import Vehicle
 
-STEP = 1e-4
+STEP = 1e-5
 """M: so far from a mount its probes are; any distance would do on rigid bodies."""
 
-OF_MOUNT = {"vertical": ("stiffness", 2), "lateral": ("stiffness", 1), "fore_aft": ("stiffness", 0)}
-"""The field of a mount, and the number in it, that each of `RATE_FIELDS` is, in their order."""
+AXIS = {"vertical": 2, "lateral": 1, "fore_aft": 0}
+"""Along which local axis each field of `MountRates` is."""
 
 QUARTER, EIGHTH = np.pi / 2, np.pi / 4
 
@@ -79,7 +80,7 @@ class Probe:
 
     def group(self, probed: MountGroup, loss_factor: float) -> MountGroup:
         """Return it where the mount is that it probes, of that group."""
-        none, some = (MountRates(**dict.fromkeys(RATE_FIELDS, rate)) for rate in (0.0, 1.0))
+        none, some = (MountRates(**dict.fromkeys(AXIS, rate)) for rate in (0.0, 1.0))
         still = dict.fromkeys(SHARED, np.zeros(3))
         mount = next(mount for mount in probed.mounts if mount.name == self.name)
         return replace(
@@ -123,12 +124,14 @@ class Probes:
         which has the vehicle's own first.
         """
         mounts = self.vehicle.with_rates(rates).mounts
-        found = np.zeros((len(self.probes), len(RATE_FIELDS), len(self.places.variables)))
-        for own, probe in zip(found, self.probes, strict=True):
-            mount = mounts[probe.mount]
-            k = np.array([getattr(mount, name)[axis] for name, axis in OF_MOUNT.values()])
-            own[:, probe.number] = probe.shift.square * k
-        return found.reshape(-1, len(self.places.variables))
+        probes = {probe.own_name: probe for probe in self.probes}
+        variables = rate_variables(self._probed)[len(rate_variables(self.vehicle)) :]
+        found = np.zeros((len(variables), len(self.places.variables)))
+        for row, variable in zip(found, variables, strict=True):
+            probe = probes[variable.group]
+            k = mounts[probe.mount].stiffness[AXIS[variable.direction]]
+            row[probe.number] = probe.shift.square * k
+        return found
 
     @cached_property
     def squares(self) -> Floats:

@@ -1,12 +1,15 @@
 """The motion of places on a body that are carried along by the nodes around them."""
 
 from collections.abc import Callable
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from modeviz.vehicle.arrays import Array, Floats
+
+F = TypeVar("F", np.float32, np.float64)
 
 N_CARRIERS = 8
 """How many nodes carry a place: those at the corners of the solid element around it."""
@@ -38,7 +41,7 @@ def carried_by_nodes(nodes: Floats, motions: Array, places: Floats) -> NDArray[n
         motions: (n_nodes, 6, n_coordinates), real: of the nodes in every coordinate.
         places: (n_places, 3), m.
     """
-    return coordinates_first(_mean_carried(nodes, motions, places, carried, 3))
+    return coordinates_first(_mean_carried(nodes, motions, places, carried, 3, np.float32))
 
 
 def motions_by_nodes(nodes: Floats, motions: Array, places: Floats) -> Floats:
@@ -49,7 +52,7 @@ def motions_by_nodes(nodes: Floats, motions: Array, places: Floats) -> Floats:
         motions: (n_nodes, 6, n_coordinates), real.
         places: (n_places, 3), m.
     """
-    return _mean_carried(nodes, motions, places, _all_carried, 6).astype(float)
+    return _mean_carried(nodes, motions, places, _all_carried, 6, np.float64)
 
 
 def carried(shapes: Array, offset: Floats) -> Array:
@@ -64,13 +67,21 @@ def _all_carried(shapes: Array, offset: Floats) -> Array:
 
 
 def _mean_carried(
-    nodes: Floats, motions: Array, places: Floats, carry: Callable[[Array, Floats], Array], n_rows: int
-) -> NDArray[np.float32]:
-    """What the nearest nodes make of each place, weighted, (n_places, n_rows, n_coordinates)."""
+    nodes: Floats,
+    motions: Array,
+    places: Floats,
+    carry: Callable[[Array, Floats], Array],
+    n_rows: int,
+    dtype: type[F],
+) -> NDArray[F]:
+    """What the nearest nodes make of each place, weighted, (n_places, n_rows, n_coordinates).
+
+    As exact as the type is, whatever that of the motions, so that it has derivatives to the places.
+    """
     nearest, weights = _carriers(nodes, places)
     used, rows = np.unique(nearest, return_inverse=True)
-    moved = _turned(nodes, motions, used)
-    total = np.zeros((len(places), n_rows, motions.shape[2]), np.float32)
+    moved = _turned(nodes, motions, used).astype(dtype)
+    total = np.zeros((len(places), n_rows, motions.shape[2]), dtype)
     for row, node, weight in zip(rows.reshape(nearest.shape).T, nearest.T, weights.T, strict=True):
         total += weight[:, None, None] * carry(moved[row], places - nodes[node])
     return total

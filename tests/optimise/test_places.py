@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from dynamic_mounts import MAXWELL, on_mounts
 from four_cylinder import four_cylinder
-from mounted_machine import FLAT, SLANTED
+from mounted_machine import FLAT, SLANTED, mounted_machine
 
 from modeviz.cli import main
 from modeviz.errors import SolveError, VehicleError
@@ -21,6 +21,7 @@ from modeviz.study.study import Study
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND, Spring
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint
+from modeviz.vehicle.mode_damping import ModeDamping
 from modeviz.vehicle.mount_target import MountTarget
 from modeviz.vehicle.placement import Placement, with_placements
 from modeviz.vehicle.problem import (
@@ -133,6 +134,21 @@ def test_mirrored_mounts_of_rubber_on_moving_ground_have_derivatives_too(goal):
     assert_derivatives_hold(search_of(symmetric(), goal, **fields))
 
 
+@pytest.mark.parametrize("goal", ["accelerations", "forces", "transmissibility"])
+def test_mounts_on_a_flexible_frame_have_derivatives_too(goal):
+    machine = mounted_machine()
+    first, *others = machine.mount_groups
+    plain = (replace(m, damping=np.zeros(3), rotational_stiffness=np.zeros(3)) for m in first.mounts)
+    groups = replace(first, mounts=tuple(plain)), *others
+    vehicle = replace(machine, **BAND, mount_groups=groups, mode_damping=())
+    target = MountTarget(("front",), loads=("firing",))
+    search = search_of(
+        vehicle, goal, (DesignGroup("E", (), offsets={"x": (-0.1, 0.1), "z": (-0.02, 0.02)}),),
+        performance=(Performance(np.array([9.0, 21.0]), wheel_loads=("firing",)),), mounts=(target,),
+    )  # fmt: skip
+    assert_derivatives_hold(search)
+
+
 def test_windows_and_deflections_have_derivatives_to_places():
     third = Study(engine()).modes()[3].name
     search = search_of(
@@ -224,6 +240,13 @@ def test_progressive_mounts_stay_where_they_are():
     problem = Problem("p", (DesignGroup("M2", offsets=MOVED),), goal="purity")
     with pytest.raises(VehicleError, match=r"M1.* are progressive"):
         prepare_search(curved, problem, curved.rates, 20.0)
+
+
+def test_modes_with_a_damping_of_their_own_keep_mounts_where_they_are():
+    damped = replace(four_cylinder(), mode_damping=(ModeDamping(0.2, 2),))
+    problem = Problem("p", (DesignGroup("M2", offsets=MOVED),), goal="purity")
+    with pytest.raises(VehicleError, match="a damping of their own"):
+        prepare_search(damped, problem, damped.rates, 20.0)
 
 
 def test_a_robust_search_leaves_places_alone():
