@@ -10,6 +10,8 @@ from modeviz.errors import VehicleError
 from modeviz.optimise.limits import Limit
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import AXES
 from modeviz.vehicle.mount_group import SHARED, MountGroup
 from modeviz.vehicle.place_bounds import PlaceBounds
@@ -126,9 +128,9 @@ def places_of(
     ]
     if variables:
         _check_straight(vehicle)
-    for name in dict.fromkeys(variable.group for variable in variables):
-        _check_springs(vehicle.mount_group(name))
-        _check_between(vehicle, vehicle.mount_group(name))
+    for variable in variables:
+        _check_springs(vehicle, variable)
+        _check_between(vehicle, vehicle.mount_group(variable.group))
     return Places(tuple(variables), placements or {})
 
 
@@ -176,13 +178,19 @@ def _check_straight(vehicle: Vehicle) -> None:
             )
 
 
-def _check_springs(group: MountGroup) -> None:
-    """Raises VehicleError where mounts damp or resist turning, of which no probe tells."""
-    for mount in group.mounts:
-        if any(getattr(mount, name).any() for name in SHARED):
+def _check_springs(vehicle: Vehicle, variable: PlaceVariable) -> None:
+    """Raises VehicleError where mounts damp or resist turning, of which no probe tells.
+
+    What resists the turning of rigid bodies does so wherever it sits.
+    """
+    for mount in vehicle.mount_group(variable.group).mounts:
+        bodies = (vehicle.body(name) for name in mount.bodies if name != GROUND)
+        is_rigid = all(isinstance(body, RigidBody) for body in bodies)
+        may_resist = variable.kind == "offset" and is_rigid
+        if any(getattr(mount, name).any() for name in (("damping",) if may_resist else SHARED)):
+            what = "dampers" if may_resist else "dampers or resists turning"
             raise VehicleError(
-                f"offset and angles: mount {mount.name!r} has dampers or resists turning; expected "
-                "springs along its axes alone"
+                f"{variable.spoken}: mount {mount.name!r} has {what}; expected springs along its axes"
             )
 
 

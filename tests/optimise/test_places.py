@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from dynamic_mounts import MAXWELL, on_mounts
 from four_cylinder import four_cylinder
+from mounted_cabin import twisted_cabin
 from mounted_machine import FLAT, SLANTED, mounted_machine
 
 from modeviz.cli import main
@@ -132,6 +133,15 @@ RUBBER_GOALS = {
 def test_mirrored_mounts_of_rubber_on_moving_ground_have_derivatives_too(goal):
     fields = {"performance": (), "groups": RUBBER, **RUBBER_GOALS[goal]}
     assert_derivatives_hold(search_of(symmetric(), goal, **fields))
+
+
+def test_what_resists_turning_may_be_moved_between_rigid_bodies():
+    vehicle = replace(twisted_cabin(), **BAND)
+    group = DesignGroup("A", (), offsets={"x": (-0.1, 0.1), "y": (-0.1, 0.1)})
+    shaken = (Performance(np.array([6.0, 14.0]), roads=("flat",)),)
+    assert_derivatives_hold(search_of(vehicle, "accelerations", (group,), performance=shaken))
+    with pytest.raises(VehicleError, match=r"A angle x: .* has dampers or resists"):
+        search_of(vehicle, "rms", (replace(group, angles={"x": (-0.1, 0.1)}),), performance=shaken)
 
 
 @pytest.mark.parametrize("goal", ["accelerations", "forces", "transmissibility"])
