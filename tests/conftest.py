@@ -30,9 +30,10 @@ def pytest_collection_modifyitems(items):
     of_browser = {path for path in n_tests if BROWSER in path.parents}
 
     def rank(item):
+        is_long = not LONG.isdisjoint(vars(item.module))
         if item.path in of_browser:
-            return True, -n_tests[item.path]
-        return False, not LONG.isdisjoint(vars(item.module))
+            return True, not is_long, -n_tests[item.path]
+        return False, is_long
 
     items.sort(key=rank)
 
