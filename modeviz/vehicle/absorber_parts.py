@@ -15,7 +15,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import MOTIONS, Mount, Spring
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 STEEL = 7850.0
@@ -72,8 +72,7 @@ def absorber_guide(absorber: Absorber) -> Spring:
 def _along(absorber: Absorber, frequency_hz: float) -> MountRates:
     """The rates with which it has a frequency along each of its directions; none along others."""
     rate = absorber.stiffness_at(frequency_hz)
-    moves = [direction in absorber.directions for direction in DIRECTIONS]
-    return MountRates(**{f: rate * is_free for f, is_free in zip(RATE_FIELDS, moves, strict=True)})
+    return MountRates(*(rate * (direction in absorber.directions) for direction in DIRECTIONS))
 
 
 def _ends(absorber: Absorber) -> tuple[str, str]:
