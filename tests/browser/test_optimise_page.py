@@ -166,6 +166,23 @@ def test_bounds_and_ratios_of_a_group_are_changed_on_the_page(app, page):
     assert b.fore_aft == 4e5
 
 
+def test_mounts_are_moved_by_a_search_within_bounds_of_the_page(app, page):
+    unfold(page, "Places of these mounts", "Move z, mm")
+    boxes(page, "Move z, mm").nth(0).fill("-20")
+    boxes(page, "Move z, mm").nth(1).fill("30")
+    wait_until(page, lambda: app.session.state.design.plan.group.offsets[2] == (-0.02, 0.03))
+    name = app.session.state.design.plan.shown_group
+    found = search(app, page)
+    wait_until(page, lambda: app.session.answer.now.rates == found.rates)
+    own, given = (v.mount_group(name).mounts for v in (app.session.answer.now.vehicle, mounted_cabin()))
+    moved = own[0].points[0, 2] - given[0].points[0, 2]
+    assert moved == pytest.approx(found.placements[name].offset[2])
+    assert -0.02 - 1e-12 <= moved <= 0.03 + 1e-12
+    assert abs(moved) > 1e-4
+    press(page, "Go back")
+    wait_until(page, lambda: not app.session.state.design.alterations.placements)
+
+
 def test_accelerations_are_changed_on_the_page(app, page):
     own = app.session.state.design.plan
     assert len(own.loads) == 2
