@@ -73,6 +73,6 @@ class GroupFolder:
     def _share(self, solved: Solved) -> str:
         """Its part in the energy of the shown mode: of what springs hold or, without, dampers take."""
         name, mode = self._group.name, solved.followed.mode
-        if any(map(has_springs, solved.now.vehicle.mount_group(name).mounts)):
+        if any(map(has_springs, self._group.with_rates(solved.now.rates[name]).mounts)):
             return f"{100 * solved.strain[name]:.0f} % of strain energy"
         return f"{100 * solved.now.dissipated_shares(mode)[name]:.0f} % of lost energy"
