@@ -8,14 +8,17 @@ import numpy as np
 import pytest
 from dynamic_mounts import MAXWELL, on_mounts
 from four_cylinder import four_cylinder
-from mounted_cabin import twisted_cabin
+from mounted_cabin import mounted_cabin, twisted_cabin
 from mounted_machine import FLAT, SLANTED, mounted_machine
 
 from modeviz.cli import main
 from modeviz.errors import SolveError, VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.optimise.goals import prepare_goal
+from modeviz.optimise.pareto import find_front
 from modeviz.optimise.search import prepare_search
+from modeviz.optimise.trade_off import prepare_trade_off, sides
+from modeviz.report.front import front_csv, front_record
 from modeviz.scatter.robust import robust_search
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.study.study import Study
@@ -199,8 +202,7 @@ def test_moved_mounts_decouple_an_engine_that_rates_alone_cannot():
     vehicle, groups = four_cylinder(), ("M1", "M2", "M3")
     rates = Problem("rates", tuple(map(DesignGroup, groups)), goal="purity")
     places = replace(rates, groups=tuple(DesignGroup(name, offsets=MOVED) for name in groups))
-    alone, found = (Study(vehicle).optimise(problem, 2) for problem in (rates, places))
-    print(alone.value, found.value, found.table())
+    alone, found = (Study(vehicle).optimise(problem, 1) for problem in (rates, places))
     assert found.value < 0.5 * alone.value
     assert found.exact_difference < 1e-9
     moved = np.abs([placed.offset for placed in found.placements.values()])
@@ -328,3 +330,21 @@ def test_a_folder_that_is_something_else_is_refused_before_the_search(tmp_path, 
     asked = ["optimise", str(tmp_path / "given"), "--goal", "purity", "--folder", str(tmp_path)]
     assert main(asked) == 2
     assert "is not a vehicle folder" in capsys.readouterr().err
+
+
+def test_a_front_has_designs_with_their_mounts_elsewhere():
+    group = DesignGroup("A", ("vertical",), offsets={"x": (-0.05, 0.05)})
+    shaken = (Performance(np.array([6.0, 14.0]), roads=("flat",)),)
+    problem = Problem("p", (group,), performance=shaken)
+    vehicle = replace(mounted_cabin(), **BAND)
+    pair = sides(vehicle, problem)["lateral against vertical"]
+    trade_off = prepare_trade_off(vehicle, problem, pair, vehicle.rates, 20.0)
+    front = find_front(trade_off, [vehicle.rates], n_designs=2, n_starts=1)
+    assert front.difference < 1e-9
+    moved = [design.placements["A"].offset[0] for design in front.designs]
+    assert max(map(abs, moved)) == pytest.approx(0.05)
+    record = front_record(problem, trade_off, front)
+    assert [d["placements"]["A"]["offset_mm"][0] for d in record["designs"]] == pytest.approx(
+        [1e3 * x for x in moved]
+    )
+    assert "A offset x, mm" in front_csv(problem, trade_off, front).splitlines()[0]
