@@ -37,6 +37,7 @@ DECISIONS = [
     decisions.PlaceMounts("B", "angles", (None, None, 0.1)),
     decisions.DragMounts("B", Placement((0.1, 0, 0)), 0),
     decisions.TakeRates({"A": RATES}),
+    decisions.TakeDesign({"A": RATES}, {"B": Placement((0, 0.1, 0))}),
     decisions.LinkRates("A", True),
     decisions.ToggleLock("A", "lateral"),
     decisions.Pin("Mine"),
