@@ -28,6 +28,9 @@ UNITS: Mapping[Kind, tuple[str, float]] = {
 }
 """In which people read them."""
 
+ALONG, ABOUT = ("vertical", "lateral", "fore_aft"), ("rx", "ry", "rz")
+"""The fields of `MountRates` that are springs along and about axes."""
+
 
 @dataclass(frozen=True)
 class PlaceVariable:
@@ -179,15 +182,19 @@ def _check_straight(vehicle: Vehicle) -> None:
 
 
 def _check_springs(vehicle: Vehicle, variable: PlaceVariable) -> None:
-    """Raises VehicleError where mounts damp or resist turning, of which no probe tells.
+    """Raises VehicleError where mounts damp or resist turning, or may come to, of which no probe tells.
 
     What resists the turning of rigid bodies does so wherever it sits.
     """
-    for mount in vehicle.mount_group(variable.group).mounts:
+    group = vehicle.mount_group(variable.group)
+    for mount in group.mounts:
         bodies = (vehicle.body(name) for name in mount.bodies if name != GROUND)
         is_rigid = all(isinstance(body, RigidBody) for body in bodies)
         may_resist = variable.kind == "offset" and is_rigid
-        if any(getattr(mount, name).any() for name in (("damping",) if may_resist else SHARED)):
+        tuned = {*group.fields} - {*ALONG, *(ABOUT if may_resist else ())}
+        if tuned or any(
+            getattr(mount, name).any() for name in (("damping",) if may_resist else SHARED)
+        ):
             what = "dampers" if may_resist else "dampers or resists turning"
             raise VehicleError(
                 f"{variable.spoken}: mount {mount.name!r} has {what}; expected springs along its axes"
