@@ -103,6 +103,11 @@ def spoken(quantity: QuantityName) -> str:
     return quantity.replace("_", " ")
 
 
+def si_unit(quantity: QuantityName) -> str:
+    """Return the first unit that is one of a quantity in SI."""
+    return next(unit for unit, value in UNITS[quantity].items() if value == 1.0)
+
+
 def factor(unit: str, quantity: QuantityName) -> float:
     """One `unit` of `quantity` in SI.
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeviz.vehicle.mount_rates import RATE_FIELDS
+from modeviz.vehicle.mount_rates import STIFFNESS_FIELDS
 
 
 def central_difference(function, at: float, step: float):
@@ -26,7 +26,7 @@ def rate_derivatives(function, rates) -> np.ndarray:
                 step=1e-3,
             )
             for group in rates
-            for name in RATE_FIELDS
+            for name in STIFFNESS_FIELDS
         ]
     )
 

@@ -148,7 +148,7 @@ class Driven:
     def _interpolated(self, lines: Floats, springs: NDArray[np.intp] | None) -> Receptances:
         """Return the same, found anew."""
         between = self.prepared.between
-        inputs = self._inputs(lines, between.known.mount_stiffness)
+        inputs = self._inputs(lines, between.known.present_at(lines))
         used = np.flatnonzero(inputs.forces.any(axis=(0, 2)))
         ground = inputs.ground if springs is None else inputs.ground[:, springs]
         return between.at(lines, springs, used).driven(inputs.forces[:, used], ground)

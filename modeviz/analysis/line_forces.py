@@ -13,9 +13,9 @@ from modeviz.analysis.mount_forces import spring_damping
 from modeviz.analysis.preparation import PreparedModes, softened
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.inputs import directions, opened
-from modeviz.dynamics.mount_rates import mount_stiffness, turning_axes
+from modeviz.dynamics.mount_rates import by_motion, rows_of_springs
 from modeviz.dynamics.reanalysis import Receptances, prepare_receptances
-from modeviz.mounting.forces import N_MOTIONS, Forces, acting_motions, ground_rows, pushes
+from modeviz.mounting.forces import Forces, acting_motions, ground_rows, pushes
 from modeviz.ride.excitation import Load
 from modeviz.vehicle.arrays import Complexes
 from modeviz.vehicle.mount_rates import Rates
@@ -54,7 +54,8 @@ class LineForces:
         force = np.zeros_like(self.ground)
         force[:, self.read] = others[:, : len(self.read)]
         z = at.law.stiffness(stiffness, at.frequency_hz) + 1j * omega * spring_damping(system)
-        force[:, spring_rows(system)] = z[:, :, None] * stretch
+        rows = rows_of_springs(system.vehicle)
+        force[:, rows] = by_motion(system.vehicle, z[:, :, None] * stretch)[:, rows]
         damping = 1j * omega * system.mode_damping[:, None] * others[:, len(self.read) :]
         f = np.array([self.frequency_hz])
         return Forces(system, f, force, self.ground, damping, self.loads)
@@ -80,22 +81,14 @@ def prepare_line(
     system = prepared.system_at(softened(prepared.all_rates(rates)))
     ground = ground_rows(system, load, f, speed)
     pushed, amplitudes = pushes(system, load, f, speed)
-    springs = spring_rows(system)
+    springs = rows_of_springs(system.vehicle)
     read = np.setdiff1d(np.flatnonzero(acting_motions(system)), springs)
     gaps = opened(system)[read]
     outputs = directions(system, gaps, system.mode_dampers)
     inputs = directions(system, gaps, pushed, system.mount_motions)
-    z = mount_stiffness(system.vehicle) + 2j * np.pi * frequency_hz * spring_damping(system)
-    driving = np.concatenate([ground[:, read], amplitudes, z[:, None] * ground[:, springs]], axis=1)
     found = prepare_receptances(system, f, outputs, inputs)
+    z = found.present[0] + 2j * np.pi * frequency_hz * spring_damping(system)
+    driving = np.concatenate([ground[:, read], amplitudes, z[:, None] * ground[:, springs]], axis=1)
     loads = (amplitudes.swapaxes(1, 2) @ pushed).swapaxes(1, 2)
     under = found.driven(driving, ground[:, springs])
     return LineForces(prepared.system, frequency_hz, under, read, ground, loads)
-
-
-def spring_rows(system: System) -> NDArray[np.intp]:
-    """Which motions of connections the mount springs are, (n_springs,)."""
-    turns = turning_axes(system.vehicle)
-    first = N_MOTIONS * np.arange(len(turns))[:, None]
-    along, about = first + np.arange(3), first + np.arange(3, N_MOTIONS)
-    return np.concatenate([along.ravel(), about[turns]])

@@ -76,8 +76,10 @@ class ModalResults:
 
     @cached_property
     def mount_rates(self) -> Floats:
-        """The real rate of every mount spring, (n_springs,), N/m and N m/rad, at the reference."""
-        return np.real(self.prepared.mount_stiffness(self.rates)).astype(np.float64)
+        """The real rate of every mount spring, (n_springs,), N/m and N m/rad, at the reference; of
+        dampers zero.
+        """
+        return self.prepared.real_rates(self.rates)
 
     @cached_property
     def kinetic_energy(self) -> Mapping[str, Floats]:

@@ -8,7 +8,7 @@ import numpy as np
 from modeviz.analysis.driven import Driven, driven
 from modeviz.analysis.preparation import Prepared
 from modeviz.dynamics.assembly import System
-from modeviz.dynamics.mount_rates import turning_axes
+from modeviz.dynamics.mount_rates import are_dampers, by_motion, constant_damping, rows_of_springs
 from modeviz.dynamics.resonances import resonances_at
 from modeviz.mounting.forces import N_MOTIONS
 from modeviz.mounting.levels import InputSpectra, input_spectra
@@ -131,12 +131,8 @@ def forces_of_mounts(drive: Driven, stiffness: Complexes, lines: Floats) -> Comp
     stretch = drive.stretches(stiffness, lines)
     there = drive.receptances.law.stiffness(stiffness, lines)
     z = there + 2j * np.pi * lines[:, None] * spring_damping(system)
-    by_spring = z[:, :, None] * stretch
-    turns = turning_axes(system.vehicle)
-    force = np.zeros((len(lines), len(turns), N_MOTIONS, stretch.shape[2]), complex)
-    force[:, :, :3] = by_spring[:, : 3 * len(turns)].reshape(len(lines), -1, 3, stretch.shape[2])
-    force[:, :, 3:][:, turns] = by_spring[:, 3 * len(turns) :]
-    return force
+    force = by_motion(system.vehicle, z[:, :, None] * stretch)
+    return force.reshape(len(lines), -1, N_MOTIONS, stretch.shape[2])
 
 
 def force_weights(
@@ -157,23 +153,17 @@ def force_weights(
         motion: one of `MOTIONS`.
         in_vehicle_axes: whether along or about the vehicle's axes, else the mount's own.
     """
-    turns = turning_axes(system.vehicle)
-    numbers = np.full((len(turns), N_MOTIONS), -1)
-    numbers[:, :3] = np.arange(3 * len(turns)).reshape(-1, 3)
-    numbers[:, 3:][turns] = np.arange(3 * len(turns), len(stiffness))
     start, axis = 3 * (motion in MOTIONS[3:]), MOTIONS.index(motion) % 3
     along = system.vehicle.mounts[mount].axes[:, axis] if in_vehicle_axes else np.eye(3)[axis]
     z = stiffness + 2j * np.pi * frequency_hz * spring_damping(system)
-    row = np.zeros(len(stiffness), complex)
-    for number, part in zip(numbers[mount, start : start + 3], along, strict=True):
-        if number >= 0:
-            row[number] = part * z[number]
-    return row
+    parts = np.zeros(N_MOTIONS * len(system.vehicle.mounts))
+    first = N_MOTIONS * mount + start
+    parts[first : first + 3] = along
+    return parts[rows_of_springs(system.vehicle)] * z
 
 
 def spring_damping(system: System) -> Floats:
-    """What damps beside each mount spring, (n_springs,), N s/m and N m s/rad."""
-    mounts = system.vehicle.mounts
-    along = np.array([m.damping for m in mounts]).reshape(-1)
-    about = np.array([m.rotational_damping for m in mounts]).reshape(-1, 3)
-    return np.concatenate([along, about[turning_axes(system.vehicle)]])
+    """What damps beside each mount spring and is not tuned, (n_springs,), N s/m and N m s/rad."""
+    vehicle = system.vehicle
+    beside = constant_damping(vehicle)[rows_of_springs(vehicle)]
+    return np.where(are_dampers(vehicle), 0.0, beside)

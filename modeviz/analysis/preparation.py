@@ -21,13 +21,19 @@ from modeviz.errors import of_file
 from modeviz.mounting.working_point import WorkingPoint, working_point
 from modeviz.ride.excitation import Load, excitation, input_directions, together
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.mount_rates import MountRates, Rates
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import DAMPING_FIELDS, RATE_FIELDS, MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 STIFFEST_BASE = 5e6
 """N/m: receptances are taken at no stiffer rates. From a rigid spring there is no way back to a soft
 one: what it lets through is the small difference of large numbers."""
 
+FIRMEST_BASE = 1e5
+"""N s/m: likewise, of dampers."""
+
+LEAST_DAMPER = 0.1
+"""Receptances are taken with dampers that damp at least this part of what they can."""
 
 NO_POLES = np.zeros(0, complex)
 
@@ -71,8 +77,12 @@ class PreparedModes:
         return self.vehicle.all_rates(rates)
 
     def mount_stiffness(self, rates: Rates) -> Complexes:
-        """Complex rates k (1 + jg) of every mount spring, (n_springs,); raises as `all_rates`."""
+        """Complex rates k (1 + jg) of every mount spring, (n_springs,); raises as `MountSprings`."""
         return self.springs.stiffness(rates)
+
+    def real_rates(self, rates: Rates) -> Floats:
+        """K of every mount spring, zero of dampers, (n_springs,), N/m and N m/rad; raises likewise."""
+        return self.basis.law.springs(self.mount_stiffness(rates)).real.astype(np.float64)
 
     @cached_property
     def springs(self) -> MountSprings:
@@ -130,10 +140,7 @@ class Prepared(PreparedModes):
         """Receptances of every output per unit of each input of some loads, see `ride.excitation`."""
         at = self.receptances
         inputs = together(
-            [
-                excitation(self.vehicle, load, at.frequency_hz, speed, at.mount_stiffness)
-                for load in loads
-            ]
+            [excitation(self.vehicle, load, at.frequency_hz, speed, at.present) for load in loads]
         )
         return at.driven(inputs.forces, inputs.ground)
 
@@ -185,7 +192,7 @@ def prepare(
     """A vehicle made ready for the modes and responses of any mount rates.
 
     Receptances are taken at the softest rates of every group's bounds, so that a change within the
-    bounds only ever adds springs, and nowhere above `STIFFEST_BASE`.
+    bounds only ever adds springs, and nowhere above `STIFFEST_BASE`; dampers see `LEAST_DAMPER`.
 
     Args:
         vehicle: with the rates that the basis and the classic method start from.
@@ -216,7 +223,7 @@ def _with_responses(
 ) -> Prepared:
     """Return what is ready for modes made ready for responses; arguments and errors as `prepare`."""
     vehicle = modal.vehicle
-    softest = modal.system_at(softened({g.name: g.bounds[0] for g in vehicle.mount_groups}))
+    softest = modal.system_at(softened({g.name: _base(g) for g in vehicle.mount_groups}))
     inputs = input_directions(softest)
     points = [softest.motion(p.body, p.position)[:3] for p in vehicle.response_points]
     outputs = np.vstack([np.zeros((0, softest.n_dofs)), *points])
@@ -240,10 +247,16 @@ def _with_responses(
 
 
 def softened(rates: Rates) -> dict[str, MountRates]:
-    """Return the same rates, but none above `STIFFEST_BASE`."""
+    """Return the same rates, but none above `STIFFEST_BASE`, and no damper above `FIRMEST_BASE`."""
+    most = {f: FIRMEST_BASE if f in DAMPING_FIELDS else STIFFEST_BASE for f in RATE_FIELDS}
     return {
-        group: MountRates(
-            *(min(rate, STIFFEST_BASE) for rate in r.as_tuple()), loss_factor=r.loss_factor
-        )
+        group: replace(r, **{f: min(k, most[f]) for f, k in r.of(RATE_FIELDS).items()})
         for group, r in rates.items()
     }
+
+
+def _base(group: MountGroup) -> MountRates:
+    """Return the softest rates of a group, but dampers that damp: without, a resonance may be sharp."""
+    softest, firmest = group.bounds
+    least = {f: LEAST_DAMPER * c for f, c in firmest.of(DAMPING_FIELDS).items()}
+    return replace(softest, **{f: max(c, getattr(softest, f)) for f, c in least.items()})

@@ -227,7 +227,8 @@ class Results(ModalResults):
         there = law.stiffness(prepared.mount_stiffness(self.rates), frequency_hz)
         inputs = excitation(prepared.vehicle, load, frequency_hz, self.conditions.speed, there)
         actions = prepared.input_directions.T @ inputs.forces
-        moved, change = led(system, actions), there - prepared.basis.mount_stiffness
+        own = law.at_reference.stiffness(prepared.basis.mount_stiffness, frequency_hz)
+        moved, change = led(system, actions), there - own
         pull = system.mount_motions.T @ (change[:, :, None] * (system.mount_motions @ moved))
         return forces_on_rest(system, frequency_hz, actions) - pull, moved
 

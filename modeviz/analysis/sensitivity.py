@@ -12,7 +12,7 @@ from modeviz.dynamics.resonances import resonances_at
 from modeviz.ride.psd import averaged_acceleration_psd, mean_square, rms
 from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.mount_rates import RATE_FIELDS, Rates
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -26,8 +26,8 @@ class RateVariable:
 
 
 def rate_variables(vehicle: Vehicle) -> tuple[RateVariable, ...]:
-    """Every rate of every mount group: vertical, lateral and fore-aft of the first, and so on."""
-    return tuple(RateVariable(g.name, name) for g in vehicle.mount_groups for name in RATE_FIELDS)
+    """Every tuned rate of every mount group: of the first in the order of `RATE_FIELDS`, and so on."""
+    return tuple(RateVariable(g.name, name) for g in vehicle.mount_groups for name in g.fields)
 
 
 def spring_shares(prepared: PreparedModes, rates: Rates) -> Complexes:

@@ -125,7 +125,7 @@ def optimise_rates(options: OptimiseOptions) -> None:
             say("")
         told = optimum_record if json else optimum_table
         keep(
-            lambda: write_rates(output, optimum.rates) if output else None,
+            lambda: write_rates(output, optimum.rates, vehicle) if output else None,
             lambda: write_vehicle(search.space.built(optimum.x), folder) if folder else None,
             lambda: print_result(told(problem, search, optimum)),
         )

@@ -44,8 +44,8 @@ class System:
     """Rows (6 n_connections, n_dofs): how each of `vehicle.all_connections` is stretched and turned
     along its local axes, see `relative_motion`."""
     mount_stiffness: Complexes
-    """(n_springs,), N/m and N m/rad: the complex rates of mount springs that the matrices have; where
-    these depend on frequency, those at the reference, see `at`."""
+    """(n_springs,), N/m, N m/rad and N s/m: the complex rates of mount springs that the matrices have;
+    where these depend on frequency, those at the reference, see `at`."""
     rigid_joints: RigidJoints | None = None
     """What is held without a spring; None without a rigid joint."""
     mode_dampers: Floats = field(default_factory=lambda: np.zeros((0, 0)))
@@ -156,8 +156,8 @@ class System:
         law = spring_law(self.vehicle)
         if law.is_constant:
             return self
-        there = law.stiffness(self.mount_stiffness, np.array([frequency_hz]))[0]
-        return self.with_springs(there - self.mount_stiffness)
+        springs = law.springs(self.mount_stiffness)
+        return self.with_springs(law.stiffness(springs, np.array([frequency_hz]))[0] - springs)
 
     def with_constant_rates(self) -> "System":
         """The same system at one frequency, but with mounts that keep their rates at all others."""
@@ -170,11 +170,16 @@ class System:
         Args:
             change: (n_springs,), of complex rates, N/m.
         """
-        R = self.mount_motions
+        R, law = self.mount_motions, spring_law(self.vehicle)
+        springs = law.springs(change)
+        damping = self.damping
+        if law.has_dampers:
+            damping = damping + (R.T * law.dampers(change)) @ R
         return replace(
             self,
-            stiffness=self.stiffness + (R.T * change.real) @ R,
-            structural_damping=self.structural_damping + (R.T * change.imag) @ R,
+            damping=damping,
+            stiffness=self.stiffness + (R.T * springs.real) @ R,
+            structural_damping=self.structural_damping + (R.T * springs.imag) @ R,
             mount_stiffness=self.mount_stiffness + change,
         )
 

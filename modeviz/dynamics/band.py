@@ -61,12 +61,12 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
     Raises:
         SolveError: a spring so stiff that rounding drowns the slow modes.
     """
-    at_top = _change(basis, stiffness, np.array([basis.top_hz]))[0].real
+    at_top = basis.change(stiffness, np.array([basis.top_hz]))[0].real
     _check_resolved(basis, at_top)
     solution = _solution(basis, stiffness, method)
     omega, stretch = np.sqrt(np.maximum(solution.omega_squared, 0.0)), solution.stretch
     f = omega / (2 * np.pi)
-    change = _change(basis, stiffness, f)
+    change = basis.change(stiffness, f)
     dispersion = 1 - _stiffening(basis, stiffness, f, stretch)
     root = np.sqrt(np.multiply.outer(dispersion, dispersion))
     viscous = solution.damping / root
@@ -80,13 +80,8 @@ def band_modes(basis: EnrichedBasis, stiffness: Complexes, method: Method = "enr
         missed(n_counted + solution.n_against, solution.omega_squared, basis.top),
     )
     modes = Modes(f, solution.shapes, damping_ratio(omega, np.diag(viscous), np.diag(structural)))
-    springs = change + basis.mount_stiffness
+    springs = basis.law.stiffness(stiffness, f)
     return BandModes(modes, viscous, structural, springs, dispersion, trust, solution.ritz)
-
-
-def _change(basis: EnrichedBasis, stiffness: Complexes, frequency_hz: Floats) -> Complexes:
-    """Δ of complex rates at frequencies, (n_freqs or 1, n_springs), N/m."""
-    return basis.law.stiffness(stiffness, frequency_hz) - basis.mount_stiffness
 
 
 def _mean_of_both(loss: Floats, stretch: Floats) -> Floats:
@@ -99,7 +94,7 @@ def _stiffening(
     basis: EnrichedBasis, stiffness: Complexes, frequency_hz: Floats, stretch: Floats
 ) -> Floats:
     """φᵀ ∂K/∂ω² φ of each mode, (n_modes,), with ∂/∂ω² = 1/(8π²f) ∂/∂f; zero for what moves freely."""
-    slopes = (stiffness * basis.law.slopes(frequency_hz)).real
+    slopes = (basis.law.springs(stiffness) * basis.law.slopes(frequency_hz)).real
     rising = np.sum(slopes.T * stretch**2, axis=0)
     f = np.maximum(frequency_hz, RESOLVED_HZ)
     return np.where(frequency_hz > RESOLVED_HZ, rising / (8 * np.pi**2 * f), 0.0)
@@ -115,13 +110,13 @@ def modes_above(basis: EnrichedBasis, stiffness: Complexes, band: BandModes) -> 
         stiffness: (n_springs,), complex rates, N/m.
         band: its modes at these rates.
     """
-    change = _change(basis, stiffness, np.array([basis.top_hz]))[0]
+    change = basis.change(stiffness, np.array([basis.top_hz]))[0]
     R = basis.spring_motions
     omega_squared, y = band.ritz or np.linalg.eigh(basis.stiffness + (R.T * change.real) @ R)
     n_band = len(band.modes.frequency_hz)
     omega, y = np.sqrt(np.maximum(omega_squared[n_band:], 0.0)), y[:, n_band:]
     structural = _quadratic(basis.structural_damping, y) + change.imag @ (R @ y) ** 2
-    ratio = damping_ratio(omega, _quadratic(basis.damping, y), structural)
+    ratio = damping_ratio(omega, _quadratic(basis.damping_at(stiffness), y), structural)
     return Modes(omega / (2 * np.pi), y, ratio)
 
 
@@ -130,7 +125,7 @@ def natural_frequencies(basis: EnrichedBasis, stiffness: Complexes) -> Floats:
 
     At other mount rates; cheaper than `band_modes`, without shapes; arguments as there.
     """
-    change = _change(basis, stiffness, np.array([basis.top_hz]))[0].real
+    change = basis.change(stiffness, np.array([basis.top_hz]))[0].real
     _check_resolved(basis, change)
     if basis.law.is_constant:
         R = basis.spring_motions
@@ -195,7 +190,7 @@ def _ritz(basis: EnrichedBasis, stiffness: Complexes, n: int) -> _Solution:
     else:
         omega_squared, y, n_against = own_modes(pencil, basis.top)
     stretch = pencil.motions @ y
-    change = _change(basis, stiffness, np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)).real
+    change = basis.change(stiffness, np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)).real
     inside = basis.stiffness[:, :n] @ y + basis.spring_motions.T @ (change.T * stretch)
     inside[:n] -= omega_squared * y
     outside = basis.remainder[:, :n] @ y + basis.spring_remainder @ (change.T * stretch)
@@ -204,7 +199,7 @@ def _ritz(basis: EnrichedBasis, stiffness: Complexes, n: int) -> _Solution:
         omega_squared,
         basis.vectors[:, :n] @ y,
         stretch,
-        y.T @ basis.damping[:n, :n] @ y,
+        y.T @ basis.damping_at(stiffness)[:n, :n] @ y,
         y.T @ basis.structural_damping[:n, :n] @ y,
         np.hypot(np.linalg.norm(inside, axis=0), np.linalg.norm(outside, axis=0)),
         _amplification(basis, omega_squared)
@@ -240,7 +235,7 @@ def _exact(basis: EnrichedBasis, stiffness: Complexes) -> _Solution:
     else:
         omega_squared, y, n_against = own_modes(pencil, basis.top)
     stretch = pencil.motions @ y
-    change = _change(basis, stiffness, np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)).real
+    change = basis.change(stiffness, np.sqrt(np.maximum(omega_squared, 0.0)) / (2 * np.pi)).real
     forces = pencil.stiffness @ y + pencil.motions.T @ (change.T * stretch)
     unbalanced = forces - omega_squared * (M @ y)
     residual = np.linalg.norm(
@@ -252,7 +247,7 @@ def _exact(basis: EnrichedBasis, stiffness: Complexes) -> _Solution:
         omega_squared,
         phi,
         stretch,
-        phi.T @ system.damping @ phi,
+        phi.T @ system.damping @ phi + (stretch.T * basis.damping_change(stiffness)) @ stretch,
         phi.T @ system.structural_damping @ phi,
         residual,
         gap_error(omega_squared, residual),

@@ -78,6 +78,29 @@ class EnrichedBasis:
         """How rates depend on frequency."""
         return spring_law(self.system.vehicle)
 
+    def change(self, stiffness: Complexes, frequency_hz: Floats) -> Complexes:
+        """Return Δ of the springs' complex rates, none of dampers, (n_freqs or 1, n_springs), N/m.
+
+        Args:
+            stiffness: (n_springs,), complex rates at the reference, N/m.
+            frequency_hz: (n_freqs,).
+        """
+        law = self.law
+        if law.is_constant:
+            return law.springs(stiffness - self.mount_stiffness)[None]
+        return law.stiffness(law.springs(stiffness), frequency_hz) - law.springs(self.mount_stiffness)
+
+    def damping_change(self, stiffness: Complexes) -> Floats:
+        """Return Δc of the dampers that are tuned, (n_springs,), N s/m; of springs zero."""
+        return self.law.dampers(stiffness - self.mount_stiffness)
+
+    def damping_at(self, stiffness: Complexes) -> Floats:
+        """Return VᵀCV with complex rates, (n_springs,), N/m."""
+        if not self.law.has_dampers:
+            return self.damping
+        R = self.spring_motions
+        return self.damping + (R.T * self.damping_change(stiffness)) @ R
+
     @property
     def n_bytes(self) -> int:
         """The memory that the arrays take."""

@@ -115,17 +115,18 @@ def _sharpened(
     nonlinear eigenvalue problem", SIAM Journal on Numerical Analysis 10(4), 1973).
     """
     R, n, law = basis.spring_motions, len(y), basis.law
+    C, springs = basis.damping_at(stiffness), law.springs(stiffness)
     base = basis.stiffness + 1j * basis.structural_damping
     bordered = np.zeros((n + 1, n + 1), complex)
     bordered[n, :n] = y.conj()
     kept = np.append(np.zeros(n), np.linalg.norm(y) ** 2)
     for _ in range(MAX_STEPS):
         f = np.array([root / (2j * np.pi)])
-        change = law.stiffness(stiffness, f)[0] - basis.mount_stiffness
-        slope = stiffness * law.slopes(f)[0] / (2j * np.pi)
+        change = basis.change(stiffness, f)[0]
+        slope = springs * law.slopes(f)[0] / (2j * np.pi)
         K = base + (R.T * change) @ R
-        bordered[:n, :n] = K + root * basis.damping + root**2 * np.eye(n)
-        bordered[:n, n] = 2 * root * y + basis.damping @ y + R.T @ (slope * (R @ y))
+        bordered[:n, :n] = K + root * C + root**2 * np.eye(n)
+        bordered[:n, n] = 2 * root * y + C @ y + R.T @ (slope * (R @ y))
         solution: Complexes = np.asarray(np.linalg.solve(bordered, kept), complex)
         y, step = solution[:n], complex(solution[n])
         root += step

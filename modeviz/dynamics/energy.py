@@ -6,6 +6,7 @@ import numpy as np
 
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.modes import RESOLVED_HZ
+from modeviz.dynamics.mount_rates import by_motion
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 
@@ -53,9 +54,8 @@ def _group_energy(
     """The connection groups and twice the strain energy of each, (n_groups, n_modes), J."""
     k = np.repeat(system.connection_stiffness[:, None], shapes.shape[1], axis=1)
     if mount_stiffness is not None:
-        n_mounts, n_modes = len(system.vehicle.mounts), shapes.shape[1]
-        along = np.broadcast_to(mount_stiffness[: 3 * n_mounts], (3 * n_mounts, n_modes))
-        k.reshape(-1, 6, n_modes)[:n_mounts, :3] = along.reshape(n_mounts, 3, n_modes)
+        of_mounts = by_motion(system.vehicle, mount_stiffness.T)
+        k[: of_mounts.shape[1]] = of_mounts.T
     stretch = k * np.abs(system.connection_motions @ shapes) ** 2
     by_connection = stretch.reshape(-1, 6, shapes.shape[1]).sum(axis=1)
     group_of = [connection.group for connection in system.vehicle.all_connections]

@@ -79,7 +79,7 @@ def reduced(receptances: Receptances, stiffness: Complexes) -> Reduced:
         SolveError: with rates of a set an undamped resonance lies on a frequency.
     """
     middle, f = receptances.modified(stiffness[0]), receptances.frequency_hz
-    rates = np.abs(stiffness[0])
+    rates = np.abs(middle.law.stiffness(stiffness[0], f[len(f) // 2 :])[0])
     scale = np.sqrt(np.maximum(rates, SOFTEST * rates.max()))
     changes = _changes(middle.law, f, stiffness, stiffness[0])
     lines = tuple(_line(middle, i, change, scale) for i, change in enumerate(changes))
@@ -90,10 +90,10 @@ def _changes(
     law: SpringLaw, frequency_hz: Floats, stiffness: Complexes, base: Complexes
 ) -> Iterator[Complexes]:
     """Return the changes of sets of rates, (n_sets, n_springs), from others, frequency by frequency."""
-    ratios = law.ratios(frequency_hz)
-    return (
-        stiffness * ratio - base for ratio in np.broadcast_to(ratios, (len(frequency_hz), len(base)))
-    )
+    shape = len(frequency_hz), len(base)
+    ratios = np.broadcast_to(law.ratios(frequency_hz), shape)
+    present = np.broadcast_to(law.at_reference.stiffness(base, frequency_hz), shape)
+    return (stiffness * ratio - there for ratio, there in zip(ratios, present, strict=True))
 
 
 def _line(middle: Receptances, i: int, changes: Complexes, scale: Floats) -> _Line:

@@ -103,8 +103,7 @@ def _guesses(basis: EnrichedBasis) -> Floats:
 
 def _change(basis: EnrichedBasis, stiffness: Complexes, frequency_hz: float) -> Floats:
     """Δ at a frequency, (n_springs,), N/m."""
-    there = basis.law.stiffness(stiffness, np.array([frequency_hz]))[0]
-    return np.asarray((there - basis.mount_stiffness).real, np.float64)
+    return np.asarray(basis.change(stiffness, np.array([frequency_hz]))[0].real, np.float64)
 
 
 def own_modes(pencil: Pencil, top: float) -> tuple[Floats, Floats, int]:

@@ -35,11 +35,11 @@ def ritz_poles(basis: EnrichedBasis, stiffness: Complexes) -> tuple[Complexes, C
     """
     R, n = basis.spring_motions, len(basis.stiffness)
     scale = 2 * np.pi * basis.top_hz
-    change = stiffness - basis.mount_stiffness
+    change = basis.law.springs(stiffness - basis.mount_stiffness)
     pencil = np.zeros((2 * n, 2 * n), complex)
     pencil[:n, n:] = np.eye(n)
     K = basis.stiffness + 1j * basis.structural_damping + (R.T * change) @ R
-    pencil[n:, :n], pencil[n:, n:] = K / scale**2, 1j * basis.damping / scale
+    pencil[n:, :n], pencil[n:, n:] = K / scale**2, 1j * basis.damping_at(stiffness) / scale
     solution = np.linalg.eig(pencil)
     poles: Complexes = np.asarray(solution.eigenvalues, complex)
     y: Complexes = np.asarray(solution.eigenvectors, complex)

@@ -42,14 +42,14 @@ BLOCK = 2**22
 class Receptances:
     """Receptances among a vehicle's mount springs, outputs and inputs, at some mount rates.
 
-    These are the same at all frequencies; those asked for are rates at a reference, of which the law
-    makes what they are at each frequency.
+    These are the same at all frequencies, but dampers resist with jωc; those asked for are rates at a
+    reference, of which the law makes what they are at each frequency.
     """
 
     frequency_hz: Floats
     """(n_freqs,)."""
     mount_stiffness: Complexes
-    """(n_springs,), N/m: the complex rates at which they hold."""
+    """(n_springs,), N/m, and N s/m of dampers: the complex rates at which they hold."""
     springs: Complexes
     """(n_freqs, n_springs, n_springs): stretch of each spring per unit force along another."""
     outputs: Complexes
@@ -88,7 +88,7 @@ class Receptances:
             SolveError: with these rates an undamped resonance lies on a frequency.
         """
         columns = np.dstack([self.springs, self.outputs, self.inputs])
-        change = (stiffness - self.mount_stiffness)[None]
+        change = self.law.at_reference.stiffness(stiffness - self.mount_stiffness, self.frequency_hz)
         changed, forces = self._forces(change, columns, pole)
         self._add_forces(columns, changed, forces)
         n_springs, n_outputs = self.outputs.shape[1:]
@@ -98,9 +98,18 @@ class Receptances:
         )
         return Receptances(self.frequency_hz, stiffness, springs, outputs, inputs, direct, self.law)
 
+    @cached_property
+    def present(self) -> Complexes:
+        """The complex rates at which they hold, (n_freqs or 1, n_springs), N/m."""
+        return self.present_at(self.frequency_hz)
+
+    def present_at(self, frequency_hz: Floats) -> Complexes:
+        """The same at other frequencies."""
+        return self.law.at_reference.stiffness(self.mount_stiffness, frequency_hz)
+
     def change(self, stiffness: Complexes) -> Complexes:
         """Return Δ of rates at the reference, (n_freqs or 1, n_springs), N/m."""
-        return self.law.stiffness(stiffness, self.frequency_hz) - self.mount_stiffness
+        return self.law.stiffness(stiffness, self.frequency_hz) - self.present
 
     def changed(self, stiffness: Complexes) -> NDArray[np.intp]:
         """Return the springs whose rates are other ones, by their numbers."""
@@ -150,7 +159,7 @@ class Receptances:
         for sets in _blocks(len(stiffness), 16 * n_springs**2):
             for i, f in enumerate(self.frequency_hz):
                 rates = stiffness[sets] * ratios[min(i, len(ratios) - 1)]
-                change = (rates - self.mount_stiffness) * u**2
+                change = (rates - self.present[min(i, len(self.present) - 1)]) * u**2
                 weight = 1 / (1 + np.abs(change))
                 scale = change * weight
                 A = self.springs[i] / np.multiply.outer(u, u) * scale[:, None]

@@ -96,13 +96,13 @@ def resonances_at(basis: EnrichedBasis, stiffness: Complexes) -> Resonances:
     if not basis.law.is_constant:
         band = band_modes(basis, stiffness)
         return resonances(band.modes, band.damping, band.structural_damping)
-    change = stiffness - basis.mount_stiffness
+    change = basis.law.springs(stiffness - basis.mount_stiffness)
     R = basis.spring_motions
     omega_squared, y = np.linalg.eigh(basis.stiffness + (R.T * change.real) @ R)
     y = y[:, omega_squared < basis.top]
     omega = np.sqrt(np.maximum(omega_squared[: y.shape[1]], 0.0))
     stretch = R @ y
-    viscous = y.T @ basis.damping @ y
+    viscous = y.T @ basis.damping_at(stiffness) @ y
     structural = y.T @ basis.structural_damping @ y + (stretch.T * change.imag) @ stretch
     ratio = damping_ratio(omega, np.diag(viscous), np.diag(structural))
     return resonances(Modes(omega / (2 * np.pi), basis.vectors @ y, ratio), viscous, structural)

@@ -6,13 +6,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.mount_rates import turning_axes
-from modeviz.vehicle.arrays import Array, Complexes
+from modeviz.dynamics.mount_rates import are_dampers, turning_axes
+from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.dynamic_rates import DynamicRates
 from modeviz.vehicle.vehicle import Vehicle
 
 CONSTANT = -1
 """The column of a spring whose rate no frequency changes."""
+
+VISCOUS = -2
+"""The column of a damper: its rate is c, and it resists as a spring of the stiffness jωc."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,17 +28,40 @@ class SpringLaw:
     rubbers: tuple[DynamicRates, ...]
     """Each once."""
     columns: NDArray[np.intp]
-    """(n_springs,): 3 times the number of its rubber plus its axis, or `CONSTANT`."""
+    """(n_springs,): 3 times the number of its rubber plus its axis, `CONSTANT` or `VISCOUS`."""
 
-    @property
+    @cached_property
     def is_constant(self) -> bool:
-        """Whether no rate depends on frequency."""
+        """Whether no spring's rate depends on frequency; that of dampers does not count."""
         return not self.depends.any()
 
     @cached_property
     def depends(self) -> NDArray[np.bool_]:
-        """Which springs have rates that depend on frequency, (n_springs,)."""
-        return self.columns != CONSTANT
+        """Which springs have rates that depend on frequency, (n_springs,); no damper does."""
+        return self.columns >= 0
+
+    @cached_property
+    def are_dampers(self) -> NDArray[np.bool_]:
+        """Which of them are dampers, (n_springs,)."""
+        return self.columns == VISCOUS
+
+    @cached_property
+    def has_dampers(self) -> bool:
+        """Whether any of them is."""
+        return bool(self.are_dampers.any())
+
+    @cached_property
+    def at_reference(self) -> "SpringLaw":
+        """The same of springs that keep the rates of reference at all frequencies."""
+        return SpringLaw((), np.where(self.depends, CONSTANT, self.columns))
+
+    def springs(self, rates: Complexes) -> Complexes:
+        """Return rates at the reference, (..., n_springs), with zero in place of dampers'."""
+        return np.where(self.are_dampers, 0.0, rates) if self.has_dampers else rates
+
+    def dampers(self, rates: Complexes) -> Floats:
+        """Return the c of rates, (..., n_springs), with zero in place of springs'."""
+        return np.where(self.are_dampers, rates.real, 0.0).astype(np.float64)
 
     def of(self, springs: NDArray[np.intp] | NDArray[np.bool_]) -> "SpringLaw":
         """Return that of some springs."""
@@ -47,17 +73,19 @@ class SpringLaw:
 
     def ratios(self, frequency_hz: Array) -> Array:
         """Return complex rates in parts of those at the reference, (n_freqs or 1, n_springs)."""
-        if self.is_constant:
+        if self.is_constant and not self.has_dampers:
             return np.ones((1, len(self.columns)))
         values = [rubber.ratios(frequency_hz) for rubber in self.rubbers]
-        return np.hstack([*values, np.ones((len(frequency_hz), 1))])[:, self.columns]
+        f = np.asarray(frequency_hz)[:, None]
+        return np.hstack([*values, 2j * np.pi * f, np.ones_like(f)])[:, self.columns]
 
     def slopes(self, frequency_hz: Array) -> Array:
         """Return the derivatives of `ratios`, (n_freqs or 1, n_springs), 1/Hz."""
-        if self.is_constant:
+        if self.is_constant and not self.has_dampers:
             return np.zeros((1, len(self.columns)))
         values = [rubber.ratio_slopes(frequency_hz) for rubber in self.rubbers]
-        return np.hstack([*values, np.zeros((len(frequency_hz), 1))])[:, self.columns]
+        one = np.ones((len(frequency_hz), 1))
+        return np.hstack([*values, 2j * np.pi * one, 0 * one])[:, self.columns]
 
     def stiffness(self, at_reference: Complexes, frequency_hz: Array) -> Complexes:
         """Return complex rates, (n_freqs or 1, n_springs), from those at the reference."""
@@ -85,4 +113,7 @@ def spring_law(vehicle: Vehicle) -> SpringLaw:
     """Return the law of a vehicle's mount springs, in the order of `mount_stiffness`."""
     law, turns = connection_law(vehicle), turning_axes(vehicle)
     columns = law.columns.reshape(-1, 6)[: len(turns)]
-    return replace(law, columns=np.concatenate([columns[:, :3].ravel(), columns[:, 3:][turns]]))
+    dampers = np.full(np.count_nonzero(are_dampers(vehicle)), VISCOUS)
+    return replace(
+        law, columns=np.concatenate([columns[:, :3].ravel(), columns[:, 3:][turns], dampers])
+    )

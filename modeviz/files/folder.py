@@ -236,7 +236,10 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         force=[ForceRecord.of(f, spectra.get(f.name, "")) for f in vehicle.forces],
         base_motion=[BaseMotionRecord.of(m, spectra.get(m.name, "")) for m in vehicle.base_motions],
         rates={
-            name: {group: RateSetRecord.of(r) for group, r in rates.items()}
+            name: {
+                group: RateSetRecord.of(r, vehicle.mount_group(group).fields)
+                for group, r in rates.items()
+            }
             for name, rates in vehicle.rate_sets.items()
         },
         mode_damping=[ModeDampingRecord.of(damping) for damping in vehicle.mode_damping],

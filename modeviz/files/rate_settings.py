@@ -9,7 +9,7 @@ from modeviz.files.rate_files import read_rates
 from modeviz.files.records.rates import RateSetRecord
 from modeviz.files.schema.quantities import quantity_of
 from modeviz.units import parse, parse_number
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, Rates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, RATE_NAMES, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 ORIGINAL = "original"
@@ -60,10 +60,10 @@ def rate_field(name: str, rates: Rates) -> tuple[str, str]:
         )
     if group not in rates:
         raise VehicleError(unknown("mount group", group, rates))
-    spoken = key.replace("_", "-")
-    if key != LOSS_FACTOR and spoken not in DIRECTIONS:
-        raise VehicleError(unknown("direction", key, (*DIRECTIONS, LOSS_FACTOR)))
-    return group, key if key == LOSS_FACTOR else RATE_FIELDS[DIRECTIONS.index(spoken)]
+    field = key.replace("-", "_")
+    if field not in (*RATE_FIELDS, LOSS_FACTOR):
+        raise VehicleError(unknown("direction", key, (*RATE_NAMES.values(), LOSS_FACTOR)))
+    return group, field
 
 
 def resolve_rates(vehicle: Vehicle, choice: str, settings: Iterable[str] = ()) -> Rates:

@@ -20,23 +20,23 @@ from modeviz.files.untold_units import note_untold_units
 from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.dynamic_rates import RateTable
-from modeviz.vehicle.mount_rates import RATE_FIELDS
+from modeviz.vehicle.mount_rates import STIFFNESS_FIELDS
 
 SIZES = ("stiffness", "ratio", "storage")
 LOSSES = ("loss_angle", "loss_factor", "loss")
 AMPLITUDE = "amplitude"
 
 QUANTITIES = (*SIZES, *LOSSES)
-COLUMNS = (*QUANTITIES, *(f"{d}_{q}" for d in RATE_FIELDS for q in QUANTITIES), AMPLITUDE)
+COLUMNS = (*QUANTITIES, *(f"{d}_{q}" for d in STIFFNESS_FIELDS for q in QUANTITIES), AMPLITUDE)
 """All that a table may have beside its frequencies."""
 
-WRITTEN = (FREQUENCY, *(f"{d}_{part} (N/m)" for d in RATE_FIELDS for part in ("storage", "loss")))
+WRITTEN = (FREQUENCY, *(f"{d}_{part} (N/m)" for d in STIFFNESS_FIELDS for part in ("storage", "loss")))
 
 TOLD_IN: Mapping[str, QuantityName] = {
     AMPLITUDE: "length",
     **{
         prefix + name: "stiffness"
-        for prefix in ("", *(f"{d}_" for d in RATE_FIELDS))
+        for prefix in ("", *(f"{d}_" for d in STIFFNESS_FIELDS))
         for name in ("stiffness", "storage", "loss")
     },
 }
@@ -48,7 +48,7 @@ PER_RADIAN: Mapping[str, float] = {"deg": pi / 180, "°": pi / 180, "degrees": p
 RIGHT_ANGLE = pi / 2
 
 AXES = (2, 1, 0)
-"""Of `RATE_FIELDS` among x, y, z."""
+"""Of `STIFFNESS_FIELDS` among x, y, z."""
 
 
 @dataclass(frozen=True)
@@ -87,12 +87,12 @@ def read_rate_table(
         note_untold_units(path.name, table.units, TOLD_IN, conventions, note)
         rows, taken = _of_amplitude(table.rows, amplitude, factors)
         f = _rising(rows)
-        columns = {d: _of_direction(d, table.units) for d in RATE_FIELDS}
+        columns = {d: _of_direction(d, table.units) for d in STIFFNESS_FIELDS}
         known = {d: _rates(rows, own, factors) for d, own in columns.items() if own}
         with_loss = [known[d] for d, own in columns.items() if own and own.loss]
         loss_factor = _loss_factor(np.interp(reference_hz, f, with_loss[0])) if with_loss else 0.0
         rates = np.full((len(f), 3), 1 + 1j * loss_factor)
-        for axis, direction in zip(AXES, RATE_FIELDS, strict=True):
+        for axis, direction in zip(AXES, STIFFNESS_FIELDS, strict=True):
             own = columns[direction]
             if own:
                 lossless = 1.0 if own.loss else 1 + 1j * loss_factor
@@ -116,7 +116,7 @@ def _loss_factor(rate: complex) -> float:
 
 def _check_header(units: Mapping[str, str]) -> None:
     """Raises VehicleError for columns that do not go together."""
-    found = [d for d in RATE_FIELDS if _of_direction(d, units)]
+    found = [d for d in STIFFNESS_FIELDS if _of_direction(d, units)]
     if not found:
         raise VehicleError(f"found {listed(units)}, expected stiffness, ratio or storage beside them")
 
@@ -147,7 +147,7 @@ def _of_direction(direction: str, units: Mapping[str, str]) -> _Columns | None:
 
 def _factor(name: str, unit: str, conventions: Conventions) -> float:
     """One of a column in SI: N/m, rad or m; one of what has no unit."""
-    kind = next((q for q in QUANTITIES if name in (q, *(f"{d}_{q}" for d in RATE_FIELDS))), name)
+    kind = next((q for q in QUANTITIES if name in (q, *(f"{d}_{q}" for d in STIFFNESS_FIELDS))), name)
     with located(f"column {name}"):
         match kind:
             case "stiffness" | "storage" | "loss":

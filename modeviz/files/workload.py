@@ -7,6 +7,7 @@ import numpy as np
 from modeviz.files.limits import check_size
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.connections import GROUND, Connection
+from modeviz.vehicle.mount_rates import OTHER_FIELDS
 from modeviz.vehicle.vehicle import Vehicle
 
 MOST_NUMBERS = 50_000_000
@@ -82,13 +83,17 @@ class Counts:
 def counted(vehicle: Vehicle) -> Counts:
     """Return how many a vehicle has of what multiplies."""
     joints = 3 * len(vehicle.added_masses) + sum(map(_n_joined, vehicle.all_connections))
-    turning = sum(int(np.count_nonzero(m.rotational_stiffness)) for m in vehicle.mounts)
+    others = sum(
+        int(np.count_nonzero(mount.rotational_stiffness)) + len(set(group.fields) & {*OTHER_FIELDS})
+        for group in vehicle.mount_groups
+        for mount in group.mounts
+    )
     flexible = [body for body in vehicle.bodies if isinstance(body, FlexibleBody)]
     n_rigid = len(vehicle.bodies) - len(flexible)
     top = (2 * np.pi * vehicle.highest_frequency) ** 2
     return Counts(
         lines=len(vehicle.frequency_hz),
-        springs=3 * len(vehicle.mounts) + turning,
+        springs=3 * len(vehicle.mounts) + others,
         outputs=3 * len(vehicle.response_points),
         inputs=6 * len(vehicle.tyres) + len(vehicle.forces) + 3 * _n_moved(vehicle),
         loads=len(vehicle.harmonic_loads),

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.dynamics.assembly import System, all_coefficients, modal_coefficients
-from modeviz.dynamics.mount_rates import turning_axes
+from modeviz.dynamics.assembly import System, modal_coefficients
+from modeviz.dynamics.mount_rates import by_motion, constant_damping
 from modeviz.mounting.forces import N_MOTIONS, Forces, connection_rates
 from modeviz.mounting.free_bodies import body_motions
 from modeviz.mounting.levels import InputSpectra
@@ -105,8 +105,8 @@ def dissipated_energy(
         system: what vibrates.
         shapes: (n_dofs, n_modes).
         frequency_hz: (n_modes,).
-        mount_stiffness: complex rates of every mount spring, (n_modes or 1, n_springs), in place of its
-            own.
+        mount_stiffness: complex rates of every mount spring there, (n_modes or 1, n_springs), jωc of
+            dampers, in place of its own.
 
     Returns:
         (n_modes,) by name.
@@ -137,11 +137,7 @@ def _loss(system: System, omega: Floats, mount_stiffness: Complexes | None) -> F
     z = np.array(connection_rates(system, omega).imag, np.float64)
     if mount_stiffness is None:
         return z
-    turns, n_modes = turning_axes(system.vehicle), len(omega)
-    n = len(turns)
-    viscous = np.multiply.outer(omega, all_coefficients(system.vehicle)[1, : N_MOTIONS * n])
-    structural = (z[:, : N_MOTIONS * n] - viscous).reshape(n_modes, n, N_MOTIONS)
-    structural[:, :, :3] = mount_stiffness[:, : 3 * n].imag.reshape(len(mount_stiffness), n, 3)
-    structural[:, :, 3:][:, turns] = mount_stiffness[:, 3 * n :].imag
-    z[:, : N_MOTIONS * n] = viscous + structural.reshape(n_modes, -1)
+    of_springs = by_motion(system.vehicle, mount_stiffness.imag)
+    n = of_springs.shape[1]
+    z[:, :n] = np.multiply.outer(omega, constant_damping(system.vehicle)[:n]) + of_springs
     return z

@@ -22,7 +22,7 @@ from modeviz.dynamics.assembly import System
 from modeviz.dynamics.motions import rigid_coordinates
 from modeviz.dynamics.mount_rates import (
     MountSprings,
-    mount_stiffness,
+    elastic_stiffness,
     rows_of_springs,
     static_ratios,
 )
@@ -132,7 +132,7 @@ class PreparedStatics:
         Raises:
             VehicleError: a group that the vehicle does not have.
         """
-        unloaded = self.springs.unloaded(rates) / static_ratios(self.vehicle)
+        unloaded = self.springs.elastic(rates) / static_ratios(self.vehicle)
         return Settling(self.laws, unloaded, self.base, self.between_springs)
 
 
@@ -150,8 +150,8 @@ def prepare_statics(system: System, cases: Sequence[LoadCase] | None = None) -> 
             `solve_modes`.
     """
     vehicle = system.vehicle
-    own = mount_stiffness(vehicle).real
-    stiffest = MountSprings(vehicle).unloaded({g.name: g.bounds[1] for g in vehicle.mount_groups})
+    own = elastic_stiffness(vehicle)
+    stiffest = MountSprings(vehicle).elastic({g.name: g.bounds[1] for g in vehicle.mount_groups})
     k0 = np.where(own > 0, own, stiffest) / static_ratios(vehicle)
     standing = system.with_springs((k0 - own).astype(complex))
     free = free_motions_of(standing)

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from modeviz.dynamics.assembly import is_rigid
-from modeviz.dynamics.mount_rates import rows_of_springs
+from modeviz.dynamics.mount_rates import are_dampers, rows_of_springs
 from modeviz.errors import SolveError, VehicleError, quoted, unknown
 from modeviz.mounting.settling import Settling
 from modeviz.mounting.static_system import HeldCase, PreparedStatics, RefusedCase
@@ -135,12 +135,13 @@ def _forces(prepared: PreparedStatics, x: Floats, of_mounts: Floats) -> Floats:
         of_mounts: (n_springs, n_cases), with which the mounts resist.
     """
     system, vehicle = prepared.system, prepared.vehicle
-    rows = rows_of_springs(vehicle)
+    springs = ~are_dampers(vehicle)
+    rows, of_mounts = rows_of_springs(vehicle)[springs], of_mounts[springs]
     resisting = system.connection_stiffness[:, None] * (system.connection_motions @ x)
     change = of_mounts - resisting[rows]
     resisting[rows] = of_mounts
     if system.rigid_joints is not None:
-        left = prepared.forces - system.stiffness @ x - system.mount_motions.T @ change
+        left = prepared.forces - system.stiffness @ x - system.mount_motions[springs].T @ change
         resisting[is_rigid(vehicle)] += system.rigid_joints.led.T @ left
     return -resisting
 

@@ -1,6 +1,6 @@
 """How stiffly a body is held by its connections: their other ends still, or on all that is elastic."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from modeviz.dynamics.assembly import System
 from modeviz.dynamics.modes import RESOLVED_HZ, Modes, solve_modes
-from modeviz.dynamics.mount_rates import mount_stiffness, mounts_of_springs
+from modeviz.dynamics.mount_rates import elastic_stiffness, mounts_of_springs
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.spring_law import constant_law
 from modeviz.errors import SolveError
@@ -17,7 +17,7 @@ from modeviz.mounting.rigid_part import RigidPart, rigid_parts
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import LIGHT_ROLES, Body, Role
 from modeviz.vehicle.connections import GROUND, MOTIONS, Connection
-from modeviz.vehicle.mount_rates import MountRates
+from modeviz.vehicle.mount_rates import ROTATIONAL_FIELDS, STIFFNESS_FIELDS, MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 FREE = (2 * np.pi * RESOLVED_HZ) ** 2
@@ -183,7 +183,7 @@ def mounted_bodies(system: System) -> MountedBodies:
     return MountedBodies(
         Receptances(
             np.zeros(1),
-            mount_stiffness(firm.vehicle).real.astype(complex),
+            elastic_stiffness(firm.vehicle).astype(complex),
             G[:, :n_springs, :n_springs],
             to_bodies,
             to_bodies,
@@ -212,9 +212,8 @@ def _firm(vehicle: Vehicle) -> dict[str, MountRates]:
 
     So nothing moves freely that a mount can hold: from a spring there is a way to none, but none back.
     """
+    springs = (*STIFFNESS_FIELDS, *ROTATIONAL_FIELDS)
     return {
-        g.name: MountRates(
-            *(own or most for own, most in zip(g.rates.as_tuple(), g.bounds[1].as_tuple(), strict=True))
-        )
+        g.name: replace(g.rates, **{f: getattr(g.rates, f) or getattr(g.bounds[1], f) for f in springs})
         for g in vehicle.mount_groups
     }

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from modeviz.errors import VehicleError
 from modeviz.units import factor
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, STIFFNESS_FIELDS, MountRates
 
 SAME = 1e-12
 """Limits that leave one rate only may cross by such a part, which is rounding."""
@@ -36,7 +36,7 @@ def check_ratios(
         ratios: the least and the most that a rate may be of the vertical one.
         bounds: the softest and the stiffest rates.
         base: the rates that others keep.
-        free: of `RATE_FIELDS`: what may change.
+        free: of `STIFFNESS_FIELDS`: what may change.
 
     Raises:
         VehicleError: there are none.
@@ -62,7 +62,7 @@ def _reach(
 ) -> dict[str, tuple[float, float]]:
     """Return the ends of the vertical rate and of those whose ratio can change; zero has none."""
     ends = {}
-    for field, direction in zip(RATE_FIELDS, DIRECTIONS, strict=True):
+    for field, direction in zip(STIFFNESS_FIELDS, DIRECTIONS, strict=True):
         softest, kept, stiffest = (getattr(rates, field) for rates in (bounds[0], base, bounds[1]))
         if kept and ("vertical" in (field, *free) or field in free):
             ends[direction] = (softest, stiffest) if field in free else (kept, kept)

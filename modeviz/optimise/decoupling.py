@@ -54,8 +54,8 @@ class DecoupledModes:
 
     def at(self, rates: Rates) -> list[BodyModes]:
         """Return those of each body; raises as `solve_modal`."""
-        basis, k = self.prepared.basis, self.prepared.mount_stiffness(rates).real.astype(np.float64)
-        change = k - basis.mount_stiffness.real
+        basis, k = self.prepared.basis, self.prepared.real_rates(rates)
+        change = k - basis.law.springs(basis.mount_stiffness).real
         R = basis.spring_motions
         squares, y = np.linalg.eigh(basis.stiffness + (R.T * change) @ R)
         n_known = int(np.searchsorted(squares, REACH**2 * basis.top))
@@ -65,7 +65,7 @@ class DecoupledModes:
     def exactly_at(self, rates: Rates) -> list[BodyModes]:
         """Return the same from the full eigenproblem."""
         system = self.prepared.system_at(rates)
-        k = self.prepared.mount_stiffness(rates).real.astype(np.float64)
+        k = self.prepared.real_rates(rates)
         found = solve_modes(system, below_hz=REACH * self.prepared.basis.top_hz)
         stretch = system.mount_motions @ found.shapes
         modes = BasisModes(found.omega_n_squared, found.shapes, stretch, len(found.frequency_hz))
@@ -79,8 +79,8 @@ class DecoupledModes:
 
     def by_rate(self, gradients: Floats, rates: Rates) -> Floats:
         """Return derivatives to each of `rate_variables` of what has them to every spring's rate."""
-        shares: Floats = spring_shares(self.prepared, rates).real.astype(np.float64)
-        return gradients @ shares
+        law, shares = self.prepared.basis.law, spring_shares(self.prepared, rates)
+        return gradients @ law.springs(shares.T).real.T.astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)

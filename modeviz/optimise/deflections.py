@@ -41,7 +41,7 @@ class Deflections:
             (n_limits,), a part of the limit, below zero beyond it; and (n_limits, n_rates), per N/m, in
             the order of `rate_variables`.
         """
-        settling, has_rate = self.prepared.settling(rates), self.prepared.springs.has_rate
+        settling, has_rate = self.prepared.settling(rates), self.prepared.springs.has_stiffness
         by_rate = has_rate / static_ratios(self.prepared.vehicle)[:, None]
         values, gradients = [], []
         for limit, (spring, stretched) in zip(self.limits, self.stretched(rates), strict=True):

@@ -14,9 +14,8 @@ from modeviz.analysis.sensitivity import RateVariable, rate_variables
 from modeviz.errors import VehicleError
 from modeviz.optimise.limits import DesignVariable, Limit, group_limits, group_variables, reach
 from modeviz.optimise.place_variables import Places, places_of, seen_from
-from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import MountRates, Rates, spoken_rate
 from modeviz.vehicle.placement import Placements, with_placements
 from modeviz.vehicle.problem import DesignGroup
 from modeviz.vehicle.vehicle import Vehicle
@@ -50,11 +49,11 @@ class DesignSpace:
 
     def rates(self, x: Floats) -> dict[str, MountRates]:
         """The rates of every group of a design."""
-        factors = np.exp(self.members @ x).reshape(-1, len(RATE_FIELDS))
-        return {
-            name: MountRates(*np.multiply(r.as_tuple(), f).tolist(), loss_factor=r.loss_factor)
-            for (name, r), f in zip(self.base.items(), factors, strict=True)
-        }
+        factors: dict[str, dict[str, float]] = {group: {} for group in self.base}
+        changed = np.exp(self.members @ x).tolist()
+        for rate, by in zip(rate_variables(self.vehicle), changed, strict=True):
+            factors[rate.group][rate.direction] = by
+        return {group: rates.scaled(factors[group]) for group, rates in self.base.items()}
 
     def placements(self, x: Floats) -> Placements:
         """Where the mounts of a design are, of those that are not where they were given."""
@@ -127,11 +126,11 @@ class DesignSpace:
 
     def spoken(self, x: Floats) -> str:
         """A design in a sentence: "C2 fore-aft 141 N/mm, E rates × 1.2, E offset z +12 mm"."""
-        rates, per_mm = self.rates(x), factor("N/mm", "stiffness")
+        rates = self.rates(x)
         texts = [
             f"{v.spoken} × {np.exp(step):.3g}"
             if len(v.fields) > 1
-            else f"{v.spoken} {_rate(rates, v.group, v.lead) / per_mm:.4g} N/mm"
+            else f"{v.spoken} {spoken_rate(rates[v.group], v.lead)}"
             for v, step in zip(self.variables, x[: self.n_rates], strict=True)
         ]
         return ", ".join([*texts, *self.places.spoken(x[self.n_rates :])])
@@ -174,7 +173,8 @@ def design_space(
     variables: list[DesignVariable] = []
     limits: list[Limit] = []
     for group in groups:
-        mounts, own = vehicle.mount_group(group.group), group_variables(group, locked)
+        mounts = vehicle.mount_group(group.group)
+        own = group_variables(group, mounts, locked)
         limits += group_limits(group, mounts, every[group.group], own, len(variables))
         variables += own
     places = places_of(vehicle, groups, placements)

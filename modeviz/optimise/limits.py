@@ -7,12 +7,13 @@ import numpy as np
 
 from modeviz.errors import VehicleError
 from modeviz.optimise.contradiction import SAME, check_ratios
+from modeviz.units import si_unit
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import RATE_NAMES, RATE_QUANTITIES, STIFFNESS_FIELDS, MountRates
 from modeviz.vehicle.problem import DesignGroup
 
-VERTICAL, *SHEAR = RATE_FIELDS
+VERTICAL, *SHEAR = STIFFNESS_FIELDS
 """The ratios of the others to the vertical rate are limited."""
 
 
@@ -62,16 +63,18 @@ class Limit:
         return tuple((number, sign) for number, sign in both if number is not None)
 
 
-def group_variables(group: DesignGroup, locked: frozenset[tuple[str, str]]) -> list[DesignVariable]:
+def group_variables(
+    group: DesignGroup, mounts: MountGroup, locked: frozenset[tuple[str, str]]
+) -> list[DesignVariable]:
     """The numbers that may be chosen in a group, vertical first; see `design_space`."""
     free = [
         field
-        for field, direction in zip(RATE_FIELDS, DIRECTIONS, strict=True)
-        if direction in group.directions and (group.group, field) not in locked
+        for field in mounts.fields
+        if RATE_NAMES[field] in group.directions and (group.group, field) not in locked
     ]
-    if group.fixed_ratios:
-        return [DesignVariable(group.group, RATE_FIELDS)] if len(free) == len(RATE_FIELDS) else []
-    return [DesignVariable(group.group, (field,)) for field in free]
+    together = [STIFFNESS_FIELDS] if group.fixed_ratios and set(STIFFNESS_FIELDS) <= set(free) else []
+    alone = [field for field in free if not (group.fixed_ratios and field in STIFFNESS_FIELDS)]
+    return [DesignVariable(group.group, fields) for fields in (*together, *((f,) for f in alone))]
 
 
 def group_limits(
@@ -94,7 +97,7 @@ def group_limits(
         VehicleError: a rate of zero, or bounds that no rates meet with fixed or limited ratios.
     """
     numbered = dict(enumerate(variables, first))
-    bounds = group.bounds or mounts.bounds
+    bounds = group.bounds_in(mounts.bounds)
     limits = _bounds(bounds, base, numbered)
     ratios = group.ratio_limits or mounts.ratio_limits
     if ratios and not group.fixed_ratios:
@@ -185,8 +188,8 @@ def _rate(group: str, rates: MountRates, field: str, what: str = "rate") -> floa
     rate = getattr(rates, field)
     if rate <= 0:
         raise VehicleError(
-            f"{_spoken(group, field)}: {what}: found 0 N/m, expected more than zero, for a search goes "
-            "by factors"
+            f"{_spoken(group, field)}: {what}: found 0 {si_unit(RATE_QUANTITIES[field])}, expected "
+            "more than zero, for a search goes by factors"
         )
     return rate
 
@@ -197,4 +200,4 @@ def _log(ratio: float) -> float:
 
 
 def _spoken(group: str, field: str) -> str:
-    return f"{group} {DIRECTIONS[RATE_FIELDS.index(field)]}"
+    return f"{group} {RATE_NAMES[field]}"

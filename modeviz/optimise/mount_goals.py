@@ -11,7 +11,7 @@ from modeviz.analysis.mount_forces import spring_damping
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import AXIS, Conditions
 from modeviz.analysis.sensitivity import spring_shares
-from modeviz.dynamics.mount_rates import rows_of_springs
+from modeviz.dynamics.mount_rates import are_dampers, by_motion, rows_of_springs
 from modeviz.dynamics.reanalysis import Receptances
 from modeviz.dynamics.resonances import resonances_at
 from modeviz.dynamics.spacing import placed_lines
@@ -55,9 +55,17 @@ class MountCase:
 
     @property
     def counts(self) -> Floats:
-        """What the square of each spring's force counts, (n_springs,): those about axes nothing."""
-        n_springs = len(self.driven.prepared.basis.mount_stiffness)
-        return self.weight * np.pad(self.selected.ravel(), (0, n_springs - self.selected.size))
+        """What the square of each spring's force counts, (n_springs,): those about axes nothing.
+
+        Dampers that are tuned have the force of the spring beside them, with which it counts.
+        """
+        counts = np.pad(self.selected, ((0, 0), (0, 3))).ravel()
+        return self.weight * counts[rows_of_springs(self.driven.prepared.vehicle)]
+
+    @property
+    def once(self) -> Floats:
+        """The same, with nothing for these dampers."""
+        return np.where(are_dampers(self.driven.prepared.vehicle), 0.0, self.counts)
 
     def of(self, prepared: Prepared) -> "MountCase":
         """Return the case of the vehicle with mounts elsewhere, or more of them, which do not count."""
@@ -125,8 +133,8 @@ class MountForceGoal:
 
     def _value(self, case: MountCase, rates: Rates) -> float:
         """What a case adds."""
-        counts = case.counts
-        return sum(float((passed.power @ counts).sum()) for passed in passed_on(case, rates))
+        once = case.once
+        return sum(float((passed.power @ once).sum()) for passed in passed_on(case, rates))
 
     def _case(self, case: MountCase, rates: Rates) -> tuple[float, Complexes]:
         """What a case adds, and its derivatives to the complex rates of springs, (n_springs,)."""
@@ -137,7 +145,7 @@ class MountForceGoal:
             pushed = (counts * passed.stiffness)[:, :, None] * P.swapaxes(1, 2)
             through = (passed.moved_by(pushed) * x).sum(axis=2)
             own = counts * (x * P.swapaxes(1, 2)).sum(axis=2)
-            value += float((passed.power @ counts).sum())
+            value += float((passed.power @ case.once).sum())
             by_spring += 2 * (passed.ratios * (own - through)).sum(axis=0)
         return value, by_spring
 
@@ -148,7 +156,7 @@ class MountForceGoal:
         forces = solve_forces(system, case.load, lines, case.driven.speed).force
         F = forces[:, rows_of_springs(prepared.vehicle)]
         power = ((F @ case.spectrum(lines)) * F.conj()).sum(axis=2).real
-        return float((power @ case.counts).sum())
+        return float((power @ case.once).sum())
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,6 +174,8 @@ class Passed:
     """x, (n_lines, n_springs, n_inputs)."""
     spectrum: Complexes
     """S, (n_lines, n_inputs, n_inputs), for sums over lines."""
+    force: Complexes
+    """F, (n_lines, n_springs, n_inputs): of all springs together that resist a spring's motion."""
     weighted: Complexes
     """P = S Fᴴ, (n_lines, n_inputs, n_springs)."""
 
@@ -177,8 +187,7 @@ class Passed:
     @property
     def power(self) -> Floats:
         """F S Fᴴ of each spring, (n_lines, n_springs)."""
-        F = self.stiffness[:, :, None] * self.stretch
-        return (F * self.weighted.swapaxes(1, 2)).sum(axis=2).real
+        return (self.force * self.weighted.swapaxes(1, 2)).sum(axis=2).real
 
     def moved_by(self, forces: Complexes) -> Complexes:
         """Return G f, how forces in springs stretch them, (n_lines, n_springs, n_columns)."""
@@ -196,8 +205,9 @@ def passed_on(case: MountCase, rates: Rates) -> Iterator[Passed]:
         f = at.frequency_hz
         ratios, x = at.law.ratios(f), at.stretches(stiffness)
         z = stiffness * ratios + 2j * np.pi * f[:, None] * spring_damping(system)
-        weighted = spectrum[own] @ (z[:, :, None] * x).conj().swapaxes(1, 2)
-        yield Passed(at, stiffness, ratios, z, x, spectrum[own], weighted)
+        F = by_motion(system.vehicle, z[:, :, None] * x)[:, rows_of_springs(system.vehicle)]
+        weighted = spectrum[own] @ F.conj().swapaxes(1, 2)
+        yield Passed(at, stiffness, ratios, z, x, spectrum[own], F, weighted)
 
 
 @dataclass(frozen=True, eq=False)

@@ -295,7 +295,7 @@ def _driven(
 ) -> Receptances:
     """Receptances of some outputs to some loads, one after the other."""
     receptances = prepared.receptances.with_outputs(outputs)
-    inputs = _inputs(prepared, loads, receptances.mount_stiffness)
+    inputs = _inputs(prepared, loads, receptances.present)
     return receptances.driven(inputs.forces, inputs.ground)
 
 

@@ -5,15 +5,12 @@ import numpy as np
 from modeviz.optimise.design_space import DesignSpace
 from modeviz.optimise.limits import SHEAR, Limit
 from modeviz.optimise.search import Search
-from modeviz.units import factor
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates, Rates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, RATE_NAMES, MountRates, Rates, spoken_rate
 
 SAME = 1e-6
 """Relative: rates are read and written in other units, and are not more alike than that."""
 
 FAR = np.log(1e6)
-
-SPOKEN: dict[str, str] = dict(zip(RATE_FIELDS, DIRECTIONS, strict=True))
 
 
 def kept_ratios(space: DesignSpace) -> dict[str, dict[str, float]]:
@@ -61,21 +58,20 @@ def _moved(space: DesignSpace, every: Rates) -> list[str]:
     """Return what differs of what a search keeps: ratios, rates and loss factors."""
     fixed = kept_ratios(space)
     free = {(v.group, field) for v in space.variables for field in v.fields}
-    per_mm = factor("N/mm", "stiffness")
     found = []
     for group, base in space.base.items():
         now, kept = every[group], fixed.get(group, {})
         ratios = _ratios(now)
         found += [
-            f"{group} {SPOKEN[field]} is {ratios[field]:.4g} of vertical, kept at {ratio:.4g}"
+            f"{group} {RATE_NAMES[field]} is {ratios[field]:.4g} of vertical, kept at {ratio:.4g}"
             for field, ratio in kept.items()
             if _differ(ratios[field], ratio)
         ]
         found += [
-            f"{group} {SPOKEN[field]} is {a / per_mm:.4g} N/mm, kept at {b / per_mm:.4g}"
+            f"{group} {RATE_NAMES[field]} is {spoken_rate(now, field)}, kept at "
+            f"{spoken_rate(base, field).partition(' ')[0]}"
             for field in RATE_FIELDS
-            if (group, field) not in free
-            and _differ(a := getattr(now, field), b := getattr(base, field))
+            if (group, field) not in free and _differ(getattr(now, field), getattr(base, field))
         ]
         loss = [_loss(space, group, r) for r in (now, base)]
         if _differ(*loss):

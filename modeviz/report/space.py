@@ -3,7 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 from modeviz.optimise.design_space import DesignSpace
-from modeviz.optimise.outside import SPOKEN, kept_ratios
+from modeviz.optimise.outside import kept_ratios
+from modeviz.vehicle.mount_rates import RATE_NAMES
 
 FEW = 3
 """So many reasons are given; the rest is counted."""
@@ -12,7 +13,7 @@ FEW = 3
 def ratio_words(space: DesignSpace) -> str:
     """The ratios that a search keeps, "E lateral 0.314 and fore-aft 0.5 of vertical"; "" if none."""
     kept = {
-        group: " and ".join(f"{SPOKEN[field]} {ratio:.4g}" for field, ratio in ratios.items())
+        group: " and ".join(f"{RATE_NAMES[field]} {ratio:.4g}" for field, ratio in ratios.items())
         for group, ratios in kept_ratios(space).items()
     }
     return "; ".join(f"{group} {ratios} of vertical" for group, ratios in kept.items())

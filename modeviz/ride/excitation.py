@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeviz.dynamics.assembly import System, connection_coefficients
+from modeviz.dynamics.assembly import System, all_coefficients, is_rigid
 from modeviz.dynamics.inputs import directions
+from modeviz.dynamics.mount_rates import by_motion, constant_damping, rows_of_springs
 from modeviz.dynamics.spring_law import spring_law
 from modeviz.errors import VehicleError
 from modeviz.ride.roads import (
@@ -112,12 +113,14 @@ def excitation(
             forces[:, slots.engines[load.engine], 0] = load.at(f)
         case BaseMotion():
             motions = ground_motions(vehicle, load, f, speed)
-            for connection in vehicle.moved_connections(load):
-                along = motions[connection.name][:, :, 0]
-                springs = _springs(vehicle, connection)
-                z = _dynamic_stiffness(connection, f, mount_stiffness[..., springs])
-                forces[:, slots.moved[connection.name], 0] = z * along
-                ground[:, springs, 0] = along[:, : springs.stop - springs.start]
+            z = _dynamic_stiffness(vehicle, f, mount_stiffness)
+            rows = rows_of_springs(vehicle)
+            for i, connection in enumerate(vehicle.all_connections):
+                if connection.name in motions:
+                    along = motions[connection.name][:, :, 0]
+                    forces[:, slots.moved[connection.name], 0] = z[:, i] * along
+                    own = np.flatnonzero((rows >= 6 * i) & (rows < 6 * i + 3))
+                    ground[:, own, 0] = along[:, rows[own] - 6 * i]
     return Excitation(forces, ground)
 
 
@@ -260,26 +263,20 @@ def _check_led(system: System, motion: BaseMotion) -> None:
         )
 
 
-def _springs(vehicle: Vehicle, connection: Connection) -> slice:
-    """The slice of the mount springs along the axes of a connection, empty if it is no mount."""
-    names = [mount.name for mount in vehicle.mounts]
-    if connection.name not in names:
-        return slice(0, 0)
-    first = 3 * names.index(connection.name)
-    return slice(first, first + 3)
+def _dynamic_stiffness(vehicle: Vehicle, frequency_hz: Floats, mount_stiffness: Complexes) -> Complexes:
+    """Complex k (1 + jg) + jωc of connections along their axes, (n_freqs, n_connections, 3), N/m.
 
-
-def _dynamic_stiffness(
-    connection: Connection, frequency_hz: Floats, mount_stiffness: Complexes
-) -> Complexes:
-    """Complex k (1 + jg) + jωc along the local axes, (n_freqs, 3), N/m; of a mount with rates given.
-
-    One along an axis in which it is rigid, for there the motion itself is what it does.
+    Mounts have the rates given. One along an axis in which it is rigid, for there the motion itself is
+    what it does.
     """
-    k, c, g = (part[:3] for part in connection_coefficients(connection))
-    stiffness = mount_stiffness if mount_stiffness.size else k * (1 + 1j * g)
-    is_rigid = np.isin(MOTIONS[:3], connection.rigid)
-    return np.where(is_rigid, 1.0, stiffness + 2j * np.pi * frequency_hz[:, None] * c)
+    k, _, g = all_coefficients(vehicle)
+    omega = 2 * np.pi * frequency_hz[:, None]
+    z = k * (1 + 1j * g) + 1j * omega * constant_damping(vehicle)
+    of_mounts = by_motion(vehicle, np.atleast_2d(mount_stiffness))
+    n = of_mounts.shape[1]
+    z[:, :n] += of_mounts - (k * (1 + 1j * g))[:n]
+    z[:, is_rigid(vehicle)] = 1.0
+    return z.reshape(len(z), -1, 6)[:, :, :3]
 
 
 def _peak(load: Force | BaseMotion) -> float:

@@ -119,7 +119,7 @@ class StudyRates(Displayed):
         Raises:
             VehicleError: the name ends otherwise, or it cannot be written.
         """
-        write_rates(Path(path), self._rates)
+        write_rates(Path(path), self._rates, self._vehicle)
         return Path(path)
 
     def table(self) -> str:

@@ -6,6 +6,7 @@ centre, to which rigid arms carry the motion of both ends: so a rigid motion of 
 nothing, and what pulls one body pulls the other back along the same line.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, Self, get_args
 
@@ -121,10 +122,18 @@ class Mount(Connection):
 
     tangent: Floats = field(default_factory=lambda: np.ones(3))
     """(3,): how many times as stiff along its axes it is at its working point as unloaded."""
+    given: Mapping[str, Floats] = field(default_factory=dict)
+    """What its group gave it, by attribute; anything else than that is its own."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
         frozen(self, "tangent", self.tangent, (3,))
+
+    def has_own(self, attribute: str) -> bool:
+        """Whether one of what a group gives, as "damping", is its own."""
+        value = getattr(self, attribute)
+        given = self.given.get(attribute)
+        return bool(value.any()) if given is None else not np.array_equal(value, given)
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.iso_8608 import USUAL_ROAD
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS
+from modeviz.vehicle.mount_rates import RATE_NAMES
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -63,8 +63,8 @@ def default_problem(vehicle: Vehicle) -> Problem:
 
 def _design_group(group: MountGroup) -> DesignGroup | None:
     """The rates of a group by which a search can go, in factors; None if there is none."""
-    own, softest = group.rates.as_tuple(), group.bounds[0].as_tuple()
-    free = [d for d, k, low in zip(DIRECTIONS, own, softest, strict=True) if k > 0 and low > 0]
+    own, softest = (rates.of(group.fields) for rates in (group.rates, group.bounds[0]))
+    free = [RATE_NAMES[field] for field in group.fields if own[field] > 0 and softest[field] > 0]
     return DesignGroup(group.name, tuple(free)) if free else None
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
@@ -9,7 +10,17 @@ from modeviz.errors import VehicleError, unknown
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.dynamic_rates import DynamicRates
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates, check_bounds
+from modeviz.vehicle.mount_rates import (
+    DIRECTIONS,
+    OTHER_FIELDS,
+    RATE_NAMES,
+    ROTATIONAL_FIELDS,
+    Bounds,
+    MountRates,
+    check_bounds,
+    spoken_rate,
+    tuned_fields,
+)
 from modeviz.vehicle.progressive import ForceCurve
 
 USUAL_STATIC_RATIO = 1.3
@@ -22,6 +33,9 @@ SHARED = ("rotational_stiffness", "damping", "rotational_damping")
 """What a mount has from its group unless it has its own."""
 
 
+GroupKind = Literal["mount", "damper", "spring"]
+
+
 @dataclass(frozen=True, eq=False)
 class MountGroup:
     """Mounts that are tuned together, because they are the same part."""
@@ -32,14 +46,15 @@ class MountGroup:
     """What a person calls it, "cab front"."""
     rates: MountRates
     loss_factor: float
-    bounds: tuple[MountRates, MountRates]
-    """The softest and the stiffest that can be made."""
+    bounds: Bounds
+    """The softest and the stiffest that can be made; what is the same in both is not tuned."""
     mounts: tuple[Mount, ...]
     """Where they are; their stiffness is the group's."""
     ratio_limits: tuple[float, float] | None = None
     """The least and the most that lateral and fore-aft rates may be of the vertical one."""
     rotational_stiffness: Floats = field(default_factory=lambda: np.zeros(3))
-    """(3,) about the local x, y, z of each mount that has none of its own, N m/rad; not tuned."""
+    """(3,) about the local x, y, z of each mount that has none of its own, N m/rad; not tuned, as what
+    follows, and zero where the rates have what is."""
     damping: Floats = field(default_factory=lambda: np.zeros(3))
     """(3,) viscous, along its axes, likewise, N s/m."""
     rotational_damping: Floats = field(default_factory=lambda: np.zeros(3))
@@ -53,6 +68,8 @@ class MountGroup:
     rate by its static ratio."""
     dynamic: DynamicRates | None = None
     """How the rates along the axes of each depend on frequency; None: not at all."""
+    kind: GroupKind = "mount"
+    """What its members are in files and to people."""
 
     def __post_init__(self) -> None:
         for name in SHARED:
@@ -65,7 +82,8 @@ class MountGroup:
                 f"mount group {self.name!r}: found a loss factor in its rates or bounds, expected it "
                 "as the group's own"
             )
-        check_bounds(f"mount group {self.name!r}", self.bounds, may_be_same=True)
+        check_bounds(f"mount group {self.name!r}", self.bounds)
+        self._check_shared()
         if self.ratio_limits is not None and not 0 <= self.ratio_limits[0] < self.ratio_limits[1]:
             raise VehicleError(
                 f"mount group {self.name!r}: ratio_limits: found {self.ratio_limits}, expected the "
@@ -92,11 +110,31 @@ class MountGroup:
                     "expected the least first, zero or below, and the most, zero or above"
                 )
 
+    def _check_shared(self) -> None:
+        """Raises VehicleError where a rate is in the wrong place, or in two."""
+        shared = *self.rotational_stiffness, *self.damping[::-1]
+        for name, rate in zip(OTHER_FIELDS, shared, strict=True):
+            attribute = "rotational_stiffness" if name in ROTATIONAL_FIELDS else "damping"
+            if rate and name in self.fields:
+                raise VehicleError(
+                    f"mount group {self.name!r}: {attribute}: found beside {RATE_NAMES[name]} among "
+                    "its rates, expected one of them"
+                )
+        self._check_tuned(self.rates, "; any other belongs into rotational_stiffness or damping")
+
+    def _check_tuned(self, rates: MountRates, otherwise: str = "") -> None:
+        """Raises VehicleError for a rate about an axis, or damping, that is not tuned."""
+        for name in OTHER_FIELDS:
+            if getattr(rates, name) and name not in self.fields:
+                raise VehicleError(
+                    f"mount group {self.name!r}: {RATE_NAMES[name]}: found {spoken_rate(rates, name)}, "
+                    f"expected a rate that is tuned, whose softest and stiffest differ{otherwise}"
+                )
+
     @property
     def fields(self) -> tuple[str, ...]:
         """Those of `RATE_FIELDS` that are tuned."""
-        softest, stiffest = self.bounds
-        return tuple(f for f in RATE_FIELDS if getattr(softest, f) < getattr(stiffest, f))
+        return tuned_fields(self.bounds)
 
     @property
     def meaning(self) -> str:
@@ -110,13 +148,19 @@ class MountGroup:
 
     def _tuned(self, mount: Mount) -> Mount:
         """A mount with what its group has, and its own where it has that."""
-        shared = {name: getattr(self, name) for name in SHARED if not getattr(mount, name).any()}
+        values = {
+            "rotational_stiffness": self.rotational_stiffness + self.rates.rotational(),
+            "damping": self.damping + self.rates.damping(),
+            "rotational_damping": self.rotational_damping,
+        }
+        given = {name: value for name, value in values.items() if not mount.has_own(name)}
         return replace(
             mount,
             group=self.name,
             stiffness=mount.tangent * self.rates.local(),
             loss_factor=self.loss_factor,
-            **shared,
+            given=given,
+            **given,
         )
 
     def loss_factor_with(self, rates: MountRates) -> float:
@@ -124,11 +168,20 @@ class MountGroup:
         return self.loss_factor if rates.loss_factor is None else rates.loss_factor
 
     def plain(self, rates: MountRates) -> MountRates:
-        """The rates with a loss factor only if it is not the group's own."""
+        """The rates with a loss factor only if it is not the group's own.
+
+        Raises:
+            VehicleError: a rate about an axis, or damping, that is not tuned.
+        """
+        self._check_tuned(rates)
         is_own = rates.loss_factor == self.loss_factor
         return replace(rates, loss_factor=None) if is_own else rates
 
     def with_rates(self, rates: MountRates) -> "MountGroup":
-        """The group with other rates; a loss factor among them becomes its own."""
+        """The group with other rates; a loss factor among them becomes its own.
+
+        Raises:
+            VehicleError: a rate about an axis, or damping, that is not tuned.
+        """
         loss_factor = self.loss_factor_with(rates)
         return replace(self, rates=replace(rates, loss_factor=None), loss_factor=loss_factor)

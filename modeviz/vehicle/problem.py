@@ -1,6 +1,6 @@
 """A mount optimisation as data: which rates may change, within what, and what is to become small."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
 import numpy as np
@@ -11,8 +11,10 @@ from modeviz.vehicle.decoupling import DecoupledBody
 from modeviz.vehicle.load_cases import STANDING
 from modeviz.vehicle.mount_rates import (
     DIRECTIONS,
+    OTHER_FIELDS,
+    RATE_NAMES,
     RIDE_DIRECTIONS,
-    MountRates,
+    Bounds,
     check_bounds,
     check_directions,
 )
@@ -57,6 +59,9 @@ MOUNTED: tuple[GoalKind, ...] = ("forces", "transmissibility")
 UNFELT: tuple[GoalKind, ...] = (*UNSHAKEN, *MOUNTED)
 """Goals that need nobody to feel anything."""
 
+EVERY_RATE = tuple(RATE_NAMES.values())
+"""What of a mount group may change, as people call it."""
+
 UNLIMITED = (0.0, np.inf)
 """Ratio limits that hold nothing."""
 
@@ -66,10 +71,11 @@ class DesignGroup:
     """A mount group whose rates and places may change, the same on the left and the right."""
 
     group: str
-    directions: tuple[str, ...] = DIRECTIONS
-    """Which of its rates, of `DIRECTIONS`; none only of a group that may be placed otherwise."""
-    bounds: tuple[MountRates, MountRates] | None = None
-    """The softest and the stiffest; None: the mount group's."""
+    directions: tuple[str, ...] = EVERY_RATE
+    """Which of its tuned rates, of `EVERY_RATE`; none only of a group that may be placed otherwise."""
+    bounds: Bounds | None = None
+    """The softest and the stiffest; None: the mount group's, as those of a rate about an axis or of
+    damping that both have as zero."""
     ratio_limits: tuple[float, float] | None = None
     """The least and the most that lateral and fore-aft may be of vertical; None: the mount group's,
     `UNLIMITED`: none even if that has some."""
@@ -80,19 +86,33 @@ class DesignGroup:
     angles: PlaceBounds = field(default_factory=dict)
     """How far it may be turned about them, rad, see `Placement`."""
 
+    def bounds_in(self, group: Bounds) -> Bounds:
+        """The softest and the stiffest of every rate.
+
+        Args:
+            group: those of the mount group.
+        """
+        if self.bounds is None:
+            return group
+        unsaid = [f for f in OTHER_FIELDS if not any(getattr(rates, f) for rates in self.bounds)]
+        softest, stiffest = (
+            replace(own, **theirs.of(unsaid)) for own, theirs in zip(self.bounds, group, strict=True)
+        )
+        return softest, stiffest
+
     def __post_init__(self) -> None:
         where = f"design group {self.group!r}"
         if self.directions or not (self.offsets or self.angles):
-            check_directions(where, self.directions)
+            check_directions(where, self.directions, EVERY_RATE)
         check_offsets(where, self.offsets)
         check_angles(where, self.angles)
-        if self.fixed_ratios and len(self.directions) < len(DIRECTIONS):
+        if self.fixed_ratios and not set(DIRECTIONS) <= set(self.directions):
             raise VehicleError(
                 f"{where}: directions: found {', '.join(self.directions)} with fixed ratios, which "
                 "change all rates together; expected all directions or no fixed ratios"
             )
         if self.bounds is not None:
-            check_bounds(where, self.bounds, may_be_same=True)
+            check_bounds(where, self.bounds)
         low, high = self.ratio_limits or UNLIMITED
         if (low, high) != UNLIMITED and not (0 <= low <= high < np.inf and high > 0):
             raise VehicleError(

@@ -11,10 +11,10 @@ from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.mode_tracking import follow, solve_followed
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.dynamics.tracking import EQUAL, MAJORITY
-from modeviz.vehicle.mount_rates import RATE_FIELDS
+from modeviz.vehicle.mount_rates import STIFFNESS_FIELDS
 
 GROUPS = ("F", "C1", "C2", "E", "T")
-RATES = [(group, field) for group in GROUPS for field in RATE_FIELDS]
+RATES = [(group, field) for group in GROUPS for field in STIFFNESS_FIELDS]
 FACTORS = np.geomspace(0.1, 10, 25)
 
 

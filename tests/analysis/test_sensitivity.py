@@ -15,7 +15,7 @@ from modeviz.analysis.sensitivity import (
     ride_sensitivity,
     spring_shares,
 )
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import STIFFNESS_FIELDS, MountRates
 
 FLAT = Conditions("flat", 20.0)
 RATES = {"A": MountRates(2e5, 1e5, 3e5, loss_factor=0.4), "B": MountRates(9e5, 4e5, 2e5)}
@@ -35,14 +35,14 @@ def differences(function):
             step=1e-3,
         )
         for group in RATES
-        for name in RATE_FIELDS
+        for name in STIFFNESS_FIELDS
     ]
     return np.stack(every, axis=-1)
 
 
 def test_variables_are_every_rate_of_every_group():
     assert rate_variables(mounted_cabin()) == tuple(
-        RateVariable(g, n) for g in "AB" for n in RATE_FIELDS
+        RateVariable(g, n) for g in "AB" for n in STIFFNESS_FIELDS
     )
 
 

@@ -14,7 +14,7 @@ from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.vehicle.alterations import Alterations, altered
-from modeviz.vehicle.mount_rates import RATE_FIELDS
+from modeviz.vehicle.mount_rates import STIFFNESS_FIELDS
 from modeviz.viewer.session.commands.decisions import Load, SetRate
 
 SOLVE_S = 60
@@ -97,7 +97,7 @@ def test_sliders_that_move_at_the_same_time_are_all_heard(app, page):
     for direction in DIRECTIONS:
         thumb(page, "A", direction).wait_for()
     page.evaluate(ALL_TO_THE_END, "A")
-    wait_until(page, lambda: [rate(app, "A", field) for field in RATE_FIELDS] == [1e7, 1e7, 1e7])
+    wait_until(page, lambda: [rate(app, "A", field) for field in STIFFNESS_FIELDS] == [1e7, 1e7, 1e7])
 
 
 def test_a_number_with_decimals_is_taken_in_full_and_undone_at_once(app, page):

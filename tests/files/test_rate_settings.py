@@ -33,7 +33,7 @@ def test_setting_changes_one_value_of_one_group(text, expected):
     ("text", "words"),
     [
         ("C2.lateral=131 N/mm", "unknown mount group 'C2': there are C1"),
-        ("C1.sideways=131 N/mm", "there are vertical, lateral, fore-aft, loss_factor"),
+        ("C1.sideways=131 N/mm", "there are vertical, lateral, fore-aft, rx, ry, rz"),
         ("C1.loss_factor=0.2 N/mm", "found '0.2 N/mm', expected a number without a unit"),
         ("C1.loss_factor=20 %", "found '20 %', expected a number without a unit"),
         ("C1.loss_factor=-0.2", "loss_factor: found -0.2, expected zero or more"),

@@ -13,7 +13,7 @@ from modeviz.errors import VehicleError
 from modeviz.optimise.design_space import design_space
 from modeviz.optimise.run import optimise, search_globally
 from modeviz.optimise.starts import start_points
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import STIFFNESS_FIELDS, MountRates
 from modeviz.vehicle.problem import DesignGroup
 
 START = MountRates(8e5, 3e5, 4e5)
@@ -155,7 +155,7 @@ def test_a_locked_rate_locks_a_group_of_fixed_ratios():
     assert {v.group for v in space.variables} == {"A"}
 
 
-@pytest.mark.parametrize("kept", RATE_FIELDS)
+@pytest.mark.parametrize("kept", STIFFNESS_FIELDS)
 def test_ratios_to_a_rate_that_is_kept_are_limited_too(kept):
     locked = frozenset({("A", kept)})
     space = design_space(mounted_cabin(), (replace(LIMITED, bounds=None),), locked=locked)
@@ -196,7 +196,7 @@ SOFT_SIDES = MountRates(2e5, 1e3, 1e3), MountRates(4e6, 4e4, 1e6)
     ("group", "base", "locked", "words"),
     [
         (DesignGroup("C"), None, [], "unknown mount group 'C': there are A, B"),
-        (LIMITED, None, RATE_FIELDS, "nothing may change: every rate of the problem is locked"),
+        (LIMITED, None, STIFFNESS_FIELDS, "nothing may change: every rate of the problem is locked"),
         # Lateral at most 40 N/mm is below a quarter of the softest vertical, 50 N/mm.
         (
             replace(LIMITED, bounds=SOFT_SIDES),
@@ -256,7 +256,7 @@ def test_a_space_without_designs_is_refused_with_the_rate(group, base, locked, w
     assert str(caught.value).startswith(words)
 
 
-@pytest.mark.parametrize("kept", RATE_FIELDS)
+@pytest.mark.parametrize("kept", STIFFNESS_FIELDS)
 def test_a_kept_rate_of_zero_limits_no_ratio(kept):
     base = {"A": replace(START, **{kept: 0.0})}
     space = design_space(mounted_cabin(), (LIMITED,), base, frozenset({("A", kept)}))

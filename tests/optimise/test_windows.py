@@ -9,7 +9,7 @@ from modeviz.analysis.sensitivity import frequency_sensitivity
 from modeviz.dynamics.naming import ModeName
 from modeviz.errors import VehicleError
 from modeviz.optimise.windows import MARGIN, prepare_windows
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import STIFFNESS_FIELDS, MountRates
 from modeviz.vehicle.problem import FrequencyWindow
 
 YAW_HZ = 10.675
@@ -47,11 +47,11 @@ def test_their_derivatives_are_central_differences(prepared):
     windows = windows_of(prepared, (9.0, 12.0), (11.0, 14.0, False), (8.0, 9.0, False))
     values, gradients = windows.margins(RATES)
     assert values.shape == (4,)
-    for i, (group, name) in enumerate((g, n) for g in RATES for n in RATE_FIELDS):
+    for i, (group, name) in enumerate((g, n) for g in RATES for n in STIFFNESS_FIELDS):
         k = getattr(RATES[group], name)
 
         def margins(rate, group=group, name=name):
-            fields = {n: getattr(RATES[group], n) for n in RATE_FIELDS} | {name: rate}
+            fields = {n: getattr(RATES[group], n) for n in STIFFNESS_FIELDS} | {name: rate}
             return windows.margins({**RATES, group: MountRates(**fields)})[0]
 
         expected = central_difference(margins, k, step=1e-3)

@@ -32,7 +32,7 @@ from modeviz.files.records.fields import (
     VerticalRange,
 )
 from modeviz.files.records.progressive import CurveRecord, GroupRatesRecord
-from modeviz.files.records.rates import RatesRecord
+from modeviz.files.records.rates import RatesRecord, bounds_of
 from modeviz.files.records.record import Record, built, said, tuples
 from modeviz.files.schema.axes import whole_frame
 from modeviz.files.schema.quantities import UNITLESS
@@ -155,13 +155,13 @@ class MountGroupRecord(Record, kw_only=True):
             rates=GroupRatesRecord.of(group.rates),
             loss_factor=group.loss_factor,
             dynamic=group.dynamic and DynamicRecord.of(group.dynamic, rate_file),
-            softest=RatesRecord.of(group.bounds[0]),
-            stiffest=RatesRecord.of(group.bounds[1]),
+            softest=RatesRecord.of(group.bounds[0], group.fields),
+            stiffest=RatesRecord.of(group.bounds[1], group.fields),
             ratio_limits=group.ratio_limits,
             static_ratio=group.static_ratio,
             travel=TravelRecord.of(group.travel),
             curve=[CurveRecord.of(direction, curve) for direction, curve in group.curves.items()],
-            mount=[MountRecord.of(_own(mount, group)) for mount in group.mounts],
+            mount=[MountRecord.of(_own(mount)) for mount in group.mounts],
             **{name: tuples(getattr(group, name)) for name in SHARED},
         )
 
@@ -176,23 +176,21 @@ class MountGroupRecord(Record, kw_only=True):
         loss_factor = dynamic.loss_factor if dynamic and self.loss_factor is None else self.loss_factor
         if loss_factor is None:
             raise FaultsError(Fault("loss_factor", "missing"))
-        softest, stiffest = usual_bounds(rates)
         return MountGroup(
             self.name,
             self.label or self.name,
             rates,
             loss_factor,
-            (
-                self.softest.build() if self.softest else softest,
-                self.stiffest.build() if self.stiffest else stiffest,
-            ),
+            bounds_of(self.softest, self.stiffest, usual_bounds(rates)),
             tuple(Mount(group=self.name, **mount.arguments()) for mount in self.mount),
             self.ratio_limits,
             static_ratio=self.static_ratio,
             travel=self.travel.build() if self.travel else {},
             curves=curves,
             dynamic=dynamic,
-            **{name: np.array(getattr(self, name)) for name in SHARED},
+            rotational_stiffness=np.array(self.rotational_stiffness),
+            damping=np.array(self.damping),
+            rotational_damping=np.array(self.rotational_damping),
         )
 
     def _curves(self, source: Source) -> dict[str, ForceCurve]:
@@ -202,9 +200,9 @@ class MountGroupRecord(Record, kw_only=True):
         return dict(zip((curve.direction for curve in self.curve), curves, strict=True))
 
 
-def _own(mount: Mount, group: MountGroup) -> Mount:
+def _own(mount: Mount) -> Mount:
     """A mount with nothing that it has from its group."""
-    shared = [name for name in SHARED if np.array_equal(getattr(mount, name), getattr(group, name))]
+    shared = [name for name in SHARED if not mount.has_own(name)]
     return replace(mount, **dict.fromkeys(shared, np.zeros(3)))
 
 

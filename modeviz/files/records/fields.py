@@ -45,6 +45,7 @@ Inertia = Annotated[
 ]
 
 Rate = Annotated[float, Meta(ge=0), Quantity("stiffness")]
+RotationalRate = Annotated[float, Meta(ge=0), Quantity("rotational_stiffness")]
 DampingRate = Annotated[float, Meta(ge=0), Quantity("damping")]
 Stiffness = Annotated[Vector, Quantity("stiffness"), Turns(turn_rates)]
 RotationalStiffness = Annotated[Vector, Quantity("rotational_stiffness"), Turns(turn_rates)]

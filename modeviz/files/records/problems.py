@@ -27,6 +27,7 @@ from modeviz.vehicle.load_cases import STANDING
 from modeviz.vehicle.mount_rates import DIRECTIONS, RIDE_DIRECTIONS
 from modeviz.vehicle.mount_target import MountTarget
 from modeviz.vehicle.problem import (
+    EVERY_RATE,
     UNLIMITED,
     DeflectionLimit,
     DesignGroup,
@@ -46,7 +47,7 @@ class DesignGroupRecord(Record, kw_only=True):
     depending: ClassVar[frozenset[str]] = frozenset(("softest", "stiffest"))
 
     group: Name
-    directions: tuple[str, ...] = DIRECTIONS
+    directions: tuple[str, ...] = EVERY_RATE
     softest: RatesRecord | None = None
     stiffest: RatesRecord | None = None
     ratio_limits: RatioLimits | Literal["none"] | None = None

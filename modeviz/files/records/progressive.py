@@ -9,11 +9,12 @@ from msgspec import Meta
 from modeviz.errors import Fault, FaultsError, VehicleError, at_key
 from modeviz.files.force_curves import read_force_curve
 from modeviz.files.records.fields import Rate
+from modeviz.files.records.rates import OtherRatesRecord
 from modeviz.files.records.record import Record, tuples
 from modeviz.files.schema.quantities import Quantity
 from modeviz.files.source import Source
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, OTHER_FIELDS, STIFFNESS_FIELDS, MountRates
 from modeviz.vehicle.progressive import ForceCurve, not_rising
 
 Points = Annotated[tuple[float, ...], Meta(min_length=2, max_length=10_000)]
@@ -63,7 +64,7 @@ class CurveRecord(Record, kw_only=True):
         return np.array(self.deflection), np.array(self.force)
 
 
-class GroupRatesRecord(Record, kw_only=True):
+class GroupRatesRecord(OtherRatesRecord, kw_only=True):
     """[mount_group.rates]: the rates of its mounts, unloaded where they are progressive."""
 
     vertical: Rate | None = None
@@ -73,15 +74,16 @@ class GroupRatesRecord(Record, kw_only=True):
 
     @classmethod
     def of(cls, rates: MountRates) -> Self:
-        return cls(vertical=rates.vertical, lateral=rates.lateral, fore_aft=rates.fore_aft)
+        others = {field: rate for field, rate in rates.of(OTHER_FIELDS).items() if rate}
+        return cls(**rates.of(STIFFNESS_FIELDS), **others)
 
     def build(self, curves: Mapping[str, ForceCurve], static_ratio: float) -> MountRates:
         """The rates: those given, or those with which the curves are as they stand."""
         found: list[float] = []
-        for key, direction in zip(RATE_FIELDS, DIRECTIONS, strict=True):
+        for key, direction in zip(STIFFNESS_FIELDS, DIRECTIONS, strict=True):
             given: float | None = getattr(self, key)
             if given is None and direction not in curves:
                 words = "missing; only a direction that has a [[mount_group.curve]] needs none"
                 raise FaultsError(Fault(key, words))
             found.append(static_ratio * curves[direction].rate if given is None else given)
-        return MountRates(*found)
+        return MountRates(*found, **self.others)

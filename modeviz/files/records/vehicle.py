@@ -34,7 +34,7 @@ from modeviz.files.records.loads import (
     WheelLoadRecord,
 )
 from modeviz.files.records.problems import ProblemRecord
-from modeviz.files.records.rates import RateSetRecord
+from modeviz.files.records.rates import RateSetRecord, rate_set
 from modeviz.files.records.record import FileRecord, Record, built, tuples
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
@@ -168,25 +168,20 @@ class VehicleRecord(FileRecord, kw_only=True):
         forces = built(self.force, "force", lambda r: r.build(source))
         base_motions = built(self.base_motion, "base_motion", lambda r: r.build(source))
         engines = built(self.engine, "engine", lambda r: r.build(source, by_name))
+        mount_groups = built(self.mount_group, "mount_group", lambda r: r.build(source))
         source.check_lines()
         vehicle = Vehicle(
             name=self.name,
             bodies=(*flexible, *rigid, *source.stand_ins, *map(absorber_mass, near)),
             connections=(*chain(*connections), *map(absorber_guide, near)),
-            mount_groups=(
-                *built(self.mount_group, "mount_group", lambda r: r.build(source)),
-                *map(absorber_spring, near),
-            ),
+            mount_groups=(*mount_groups, *map(absorber_spring, near)),
             added_masses=built(self.added_mass, "added_mass", AddedMassRecord.build),
             response_points=built(self.response_point, "response_point", ResponsePointRecord.build),
             roads=roads,
             wheel_loads=built(self.wheel_load, "wheel_load", WheelLoadRecord.build),
             forces=forces,
             base_motions=base_motions,
-            rate_sets={
-                name: {group: rates.build() for group, rates in groups.items()}
-                for name, groups in self.rates.items()
-            },
+            rate_sets={name: rate_set(groups, mount_groups) for name, groups in self.rates.items()},
             problems=built(self.problem, "problem", ProblemRecord.build),
             speed=self.speed or USUAL_SPEED,
             highest_frequency=self.highest_frequency,

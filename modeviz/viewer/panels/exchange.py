@@ -43,7 +43,7 @@ class ExchangePanel:
             return
         state, vehicle = self._session.state, self._session.vehicle
         name = file_name(f"{vehicle.name} {variant_name(vehicle, state.design)}", file_format)
-        content = rates_text(state.design.rates, file_format).encode()
+        content = rates_text(state.design.rates, file_format, vehicle).encode()
         event.client.send_file_download(name, content, save_immediately=True)
 
     def _read(self, file: viser.UploadedFile, event: viser.GuiEvent) -> None:

@@ -7,14 +7,11 @@ import numpy as np
 
 from modeviz.vehicle.local_axes import AXES
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, RATE_NAMES, MountRates
 from modeviz.vehicle.place_bounds import PlaceBounds
-from modeviz.vehicle.problem import UNLIMITED, DesignGroup
+from modeviz.vehicle.problem import EVERY_RATE, UNLIMITED, DesignGroup
 
 Ratios = Literal["limited", "fixed", "free"]
-
-CALLED: dict[str, str] = dict(zip(RATE_FIELDS, DIRECTIONS, strict=True))
-"""What a design group calls a field."""
 
 Range = tuple[float, float]
 PlaceRanges = tuple[Range, Range, Range]
@@ -57,7 +54,7 @@ class GroupPlan:
             limits = UNLIMITED
         return DesignGroup(
             self.group,
-            tuple(CALLED[field] for field in RATE_FIELDS if field in self.free),
+            self._directions(mounts),
             None if bounds == mounts.bounds else bounds,
             limits,
             self.ratios == "fixed",
@@ -65,15 +62,21 @@ class GroupPlan:
             _bounds(self.angles),
         )
 
+    def _directions(self, mounts: MountGroup) -> tuple[str, ...]:
+        """What may change, as a design group calls it."""
+        if self.free >= {*mounts.fields}:
+            return EVERY_RATE
+        return tuple(RATE_NAMES[field] for field in RATE_FIELDS if field in self.free)
+
 
 def group_plan(mounts: MountGroup, design: DesignGroup) -> GroupPlan:
     """A design group as it is, for the page to change."""
-    softest, stiffest = design.bounds or mounts.bounds
+    softest, stiffest = design.bounds_in(mounts.bounds)
     limits = design.ratio_limits or mounts.ratio_limits or UNLIMITED
     is_free = np.isinf(limits[1])
     return GroupPlan(
         mounts.name,
-        frozenset(field for field in RATE_FIELDS if CALLED[field] in design.directions),
+        frozenset(field for field in mounts.fields if RATE_NAMES[field] in design.directions),
         softest,
         stiffest,
         "fixed" if design.fixed_ratios else "free" if is_free else "limited",
