@@ -13,7 +13,7 @@ from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS
+from modeviz.vehicle.mount_rates import DAMPING_FIELDS, DIRECTIONS, ROTATIONAL_FIELDS
 from modeviz.vehicle.vehicle import Vehicle
 
 AXES = ("x", "y", "z")
@@ -49,6 +49,7 @@ def _cells(group: MountGroup, mount: Mount, axes: FileAxes) -> Iterator[tuple[st
     yield "loss_factor", mount.loss_factor
     yield from _with_unit("softest_{}", "stiffness", softest)
     yield from _with_unit("stiffest_{}", "stiffness", stiffest)
+    yield from _other_bounds(group, axes)
     for name, ends in zip(TRAVEL, axes.ranges(_travel(group)), strict=True):
         yield from _with_unit(f"{name}_{{}}", "length", ends)
     yield STATIC_RATIO, group.static_ratio
@@ -56,6 +57,18 @@ def _cells(group: MountGroup, mount: Mount, axes: FileAxes) -> Iterator[tuple[st
     yield from _plain("x_axis_{}", frame[0])
     yield from _plain("z_axis_{}", frame[2])
     yield "elastic_center", mount.elastic_center
+
+
+def _other_bounds(group: MountGroup, axes: FileAxes) -> Iterator[tuple[str, str | float]]:
+    """The bounds of rates about axes and of dampers, where they are tuned."""
+    for what, quantity, fields in (
+        ("r{}", "rotational_stiffness", ROTATIONAL_FIELDS),
+        ("c_{}", "damping", DAMPING_FIELDS[::-1]),
+    ):
+        tuned = axes.rates(np.array([field in group.fields for field in fields], float)) > 0
+        for which, bound in zip(("softest", "stiffest"), group.bounds, strict=True):
+            values = axes.rates(np.array([getattr(bound, field) for field in fields]))
+            yield from _with_unit(f"{which}_{what}", quantity, np.where(tuned, values, np.nan))
 
 
 def _travel(group: MountGroup) -> Floats:

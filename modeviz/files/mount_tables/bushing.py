@@ -65,8 +65,21 @@ class Bushing:
         frozen(self, "axes", self.axes, (3, 3))
 
     @property
+    def others(self) -> Floats:
+        """Rates about its axes and of its dampers along them, (6,) of `limits.OTHERS`."""
+        return np.concatenate([self.stiffness[3:], self.damping[:3]])
+
+    @property
+    def is_tuned(self) -> bool:
+        """Whether it is one of a group that has something to tune."""
+        tuned = self.stiffness[:3].any() or not np.isnan(self.limits.others).all()
+        return bool(self.group and tuned and not self.rigid)
+
+    @property
     def bounds(self) -> tuple[Floats, Floats]:
         """The softest and the stiffest rates along x, y, z, (3,) each, the usual ones if not given."""
+        if not self.stiffness[:3].any() and np.isnan([self.softest, self.stiffest]).all():
+            return np.zeros(3), np.zeros(3)
         usual = usual_bounds(MountRates(*self.stiffness[:3]))  # three numbers, whatever they are called
         low, high = (
             np.where(np.isnan(bound), other.as_tuple(), bound)

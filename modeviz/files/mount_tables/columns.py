@@ -49,6 +49,10 @@ def _kinds() -> Iterator[tuple[str, Kind]]:
     for direction in (*AXES, *NAMED):
         for what in ("k", "softest", "stiffest"):
             yield f"{what}_{direction}", "stiffness"
+    for axis in AXES:
+        for what in ("softest", "stiffest"):
+            yield f"{what}_r{axis}", "rotational_stiffness"
+            yield f"{what}_c_{axis}", "damping"
         for what in TRAVEL:
             yield f"{what}_{direction}", "length"
     for axis in AXES:

@@ -7,9 +7,13 @@ import numpy as np
 from modeviz.errors import VehicleError
 from modeviz.files.headed_table import TableLine
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.local_axes import AXES
 
 TRAVEL = ("least_travel", "most_travel")
 """What columns begin with of how far the first end may go from the second, then along which axis."""
+
+OTHERS = (*(f"r{axis}" for axis in AXES), *(f"c_{axis}" for axis in AXES))
+"""What columns of bounds end with that are not along an axis' springs: about axes, and of dampers."""
 
 STATIC_RATIO, RATIOS = "static_ratio", ("least_ratio", "most_ratio")
 
@@ -24,11 +28,14 @@ class GroupLimits:
     """Rates by those under a load that stays; not a number where it is not said, as the ratios."""
     ratios: tuple[float, float] = (np.nan, np.nan)
     """The least and the most that other rates may be of the vertical one."""
+    others: Floats = field(default_factory=lambda: np.full((2, len(OTHERS)), np.nan))
+    """(2, 6): the softest and the stiffest of `OTHERS`; not numbers of what is not tuned."""
 
     @property
     def are_said(self) -> bool:
         """Whether anything is."""
-        return not np.isnan([*self.travel.flat, self.static_ratio, *self.ratios]).all()
+        said = *self.travel.flat, self.static_ratio, *self.ratios, *self.others.flat
+        return not np.isnan(said).all()
 
 
 def check_travel(line: TableLine, columns: tuple[str, str], ends: tuple[float, float]) -> None:
@@ -47,6 +54,27 @@ def check_travel(line: TableLine, columns: tuple[str, str], ends: tuple[float, f
             raise VehicleError(f"{line.where(column)}: found {line.text(column)}, expected {expected}")
     if ends == (0.0, 0.0):
         raise VehicleError(f"{line.where(columns[1])}: found no travel at all, expected some")
+
+
+def read_others(line: TableLine) -> Floats:
+    """Return the bounds of `OTHERS`, (2, 6), not numbers where a line has none.
+
+    Raises:
+        VehicleError: only one of both is said, or the softest is not below the stiffest.
+    """
+    found = np.full((2, len(OTHERS)), np.nan)
+    for i, what in enumerate(OTHERS):
+        columns = f"softest_{what}", f"stiffest_{what}"
+        low, high = (line.number(column, 0) for column in columns)
+        for column, value, other in zip(columns, (low, high), (high, low), strict=True):
+            if value is None and other is not None:
+                raise VehicleError(f"{line.where(column)}: empty, expected the other bound too")
+        if low is not None and high is not None:
+            if low >= high:
+                words = f"found {line.text(columns[1])}, expected more than the softest"
+                raise VehicleError(f"{line.where(columns[1])}: {words}")
+            found[:, i] = low, high
+    return found
 
 
 def read_ratios(line: TableLine) -> tuple[float, float]:

@@ -16,6 +16,7 @@ from modeviz.files.mount_tables.limits import (
     TRAVEL,
     GroupLimits,
     check_travel,
+    read_others,
     read_ratios,
     read_static_ratio,
 )
@@ -88,11 +89,12 @@ class MountLine(TableLine):
         for axis, low, high in zip(AXES, *travel.tolist(), strict=True):
             least, most = (self._column(which, axis) for which in TRAVEL)
             check_travel(self, (least, most), (low, high))
-        static_ratio, ratios = read_static_ratio(self), read_ratios(self)
+        static_ratio, ratios, others = read_static_ratio(self), read_ratios(self), read_others(self)
         return GroupLimits(
             groups.travel if np.isnan(travel).all() else travel,
             groups.static_ratio if np.isnan(static_ratio) else static_ratio,
             groups.ratios if np.isnan(ratios).all() else ratios,
+            groups.others if np.isnan(others).all() else others,
         )
 
     def _check_same(self, bushing: Bushing, before: Mapping[str, Bushing]) -> None:
@@ -117,7 +119,7 @@ class MountLine(TableLine):
         """Raises VehicleError for a bound that is given here and on the wrong side of the other."""
         for axis, low, high in zip(AXES, *bushing.bounds, strict=True):
             softest, stiffest = (self._column(which, axis) for which in ("softest", "stiffest"))
-            if low < high:
+            if low < high or low == high == bushing.stiffness[AXES.index(axis)]:
                 continue
             if self.text(softest):
                 words = f"less than the stiffest, {self._written(softest, high)}"

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError, quoted
 from modeviz.files.mount_tables.bushing import Bushing
+from modeviz.files.mount_tables.others import OtherRate, tuned_others, untuned_others
 from modeviz.files.mount_tables.same_part import difference
 from modeviz.files.records.connections import (
     ConnectionRecord,
@@ -53,7 +54,7 @@ def connection_tables(
     dampers: list[Record] = []
     for bushing in bushings:
         is_spring = bushing.stiffness.any() or bushing.rigid
-        if bushing.group and bushing.stiffness[:3].any() and not bushing.rigid:
+        if bushing.group and bushing.is_tuned:
             groups.setdefault(bushing.group, []).append(bushing)
         elif bushing.limits.are_said:
             raise VehicleError(
@@ -110,19 +111,27 @@ def _group(
     for other in lot:
         _check_same(other, first)
         _check_way(other, joined[other.name])
-    limits = first.limits
-    softest, stiffest = _bounds(first, named)
+    limits, tuned = first.limits, tuned_others(first, named)
+    softest, stiffest = _bounds(first, named, tuned)
+    others = {field: rate for field, (rate, _, _) in tuned.items()}
     return MountGroupRecord(
         name=name,
-        rates=GroupRatesRecord(**_rates(first.stiffness[:3], named)),
+        rates=GroupRatesRecord(**_rates(first.stiffness[:3], named), **others),
         loss_factor=first.loss_factor,
         softest=softest,
         stiffest=stiffest,
         ratio_limits=None if np.isnan(limits.ratios).all() else limits.ratios,
         static_ratio=USUAL_STATIC_RATIO if np.isnan(limits.static_ratio) else limits.static_ratio,
         travel=_travel(limits.travel, named),
-        mount=[MountRecord(name=b.name, **said(MountRecord, _placed(b, joined[b.name]))) for b in lot],
+        mount=[MountRecord(name=b.name, **said(MountRecord, _mount(b, joined[b.name]))) for b in lot],
+        **untuned_others(first),
     )
+
+
+def _mount(bushing: Bushing, joined: Joined) -> dict[str, object]:
+    """What a mount of a group has of its own: nothing of what its group is tuned in."""
+    placed = _placed(bushing, joined)
+    return {key: value for key, value in placed.items() if key not in untuned_others(bushing)}
 
 
 def _check_same(other: Bushing, first: Bushing) -> None:
@@ -157,9 +166,13 @@ def _rates(stiffness: Floats, named: Mapping[str, str]) -> dict[str, float]:
     return {name: float(stiffness[AXES.index(named[name])]) for name in named}
 
 
-def _bounds(bushing: Bushing, named: Mapping[str, str]) -> list[RatesRecord | None]:
+def _bounds(
+    bushing: Bushing, named: Mapping[str, str], tuned: Mapping[str, OtherRate]
+) -> list[RatesRecord | None]:
     """The softest and the stiffest rates of a group, where they are given."""
-    given = bushing.softest, bushing.stiffest
-    if np.isnan(given).all():
+    if np.isnan([bushing.softest, bushing.stiffest]).all() and not tuned:
         return [None, None]
-    return [RatesRecord(**_rates(bound, named)) for bound in bushing.bounds]
+    return [
+        RatesRecord(**_rates(bound, named), **{field: other[1 + i] for field, other in tuned.items()})
+        for i, bound in enumerate(bushing.bounds)
+    ]

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from modeviz.files.mount_tables.bushing import Bushing
-from modeviz.files.mount_tables.limits import RATIOS, STATIC_RATIO, TRAVEL
+from modeviz.files.mount_tables.limits import OTHERS, RATIOS, STATIC_RATIO, TRAVEL
 from modeviz.vehicle.local_axes import AXES
 
 SAME = 1e-9
@@ -34,6 +34,10 @@ def _values(bushing: Bushing) -> Iterator[tuple[str, float]]:
     }
     for what, values in of_axes.items():
         yield from ((f"{what}_{axis}", float(v)) for axis, v in zip(AXES, values, strict=False))
+    for what, bounds, rate in zip(OTHERS, limits.others.T.tolist(), bushing.others, strict=True):
+        yield from zip((f"softest_{what}", f"stiffest_{what}"), bounds, strict=True)
+        if not np.isnan(bounds).all():
+            yield what if what.startswith("c_") else f"k_{what}", float(rate)
     yield "loss_factor", bushing.loss_factor
     yield STATIC_RATIO, limits.static_ratio
     yield from zip(RATIOS, limits.ratios, strict=True)
