@@ -250,3 +250,16 @@ def test_a_cab_on_softer_struts_bounces_slower_and_sags_further():
     assert cab.soft["sag, m"] / cab.drawn["sag, m"] == pytest.approx(2, rel=0.02)
     assert cab.soft["force of a strut, N RMS"] < 0.75 * cab.drawn["force of a strut, N RMS"]
     assert cab.soft["seat, vertical, g RMS"] < 0.75 * cab.drawn["seat, vertical, g RMS"]
+
+
+def test_dampers_of_about_half_the_critical_damping_leave_the_seat_quietest():
+    """(1 + 4ζ²)/ζ of an oscillator on a base that shakes alike at all frequencies is least at 1/2."""
+    cab = example("10_cab_on_struts")
+    assert cab.damped["bounce, damping ratio"] == pytest.approx(0.5, abs=0.15)
+    assert cab.damped["seat, vertical, g RMS"] < 0.95 * cab.drawn["seat, vertical, g RMS"]
+    assert cab.damped["bounce, Hz"] == pytest.approx(cab.drawn["bounce, Hz"], rel=1e-9)
+    assert cab.damped["sag, m"] == pytest.approx(cab.drawn["sag, m"], rel=1e-9)
+    shaken = list(cab.shaken.values())
+    least = shaken.index(min(shaken))
+    assert shaken[: least + 1] == sorted(shaken[: least + 1], reverse=True)
+    assert shaken[least:] == sorted(shaken[least:])

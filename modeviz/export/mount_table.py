@@ -18,6 +18,12 @@ from modeviz.vehicle.vehicle import Vehicle
 
 AXES = ("x", "y", "z")
 
+OTHER_BOUNDS: tuple[tuple[str, QuantityName, tuple[str, ...]], ...] = (
+    ("r{}", "rotational_stiffness", ROTATIONAL_FIELDS),
+    ("c_{}", "damping", DAMPING_FIELDS[::-1]),
+)
+"""What columns of bounds end with, their quantity, and the rates along or about x, y and z."""
+
 
 def mount_table(vehicle: Vehicle) -> bytes:
     """Return the mounts as comma-separated text in UTF-8, a line each, in the axes of its file."""
@@ -61,10 +67,7 @@ def _cells(group: MountGroup, mount: Mount, axes: FileAxes) -> Iterator[tuple[st
 
 def _other_bounds(group: MountGroup, axes: FileAxes) -> Iterator[tuple[str, str | float]]:
     """The bounds of rates about axes and of dampers, where they are tuned."""
-    for what, quantity, fields in (
-        ("r{}", "rotational_stiffness", ROTATIONAL_FIELDS),
-        ("c_{}", "damping", DAMPING_FIELDS[::-1]),
-    ):
+    for what, quantity, fields in OTHER_BOUNDS:
         tuned = axes.rates(np.array([field in group.fields for field in fields], float)) > 0
         for which, bound in zip(("softest", "stiffest"), group.bounds, strict=True):
             values = axes.rates(np.array([getattr(bound, field) for field in fields]))

@@ -5,7 +5,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.units import QuantityName, factor
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import (
+    DAMPING_FIELDS,
+    RATE_FIELDS,
+    RATE_NAMES,
+    RATE_QUANTITIES,
+    ROTATIONAL_FIELDS,
+    MountRates,
+)
 
 QUANTITIES: tuple[QuantityName, ...] = ("stiffness", "rotational_stiffness", "damping")
 """Those of rates, in the order of `RATE_FIELDS`."""
@@ -20,25 +27,24 @@ HEADINGS: dict[QuantityName, str] = {
 
 def quantity(field: str) -> QuantityName:
     """Return the quantity of a field of `MountRates` that is a rate."""
-    return QUANTITIES[RATE_FIELDS.index(field) // 3]
+    return RATE_QUANTITIES[field]
 
 
 def is_damping(field: str) -> bool:
     """Return whether a rate is that of a damper."""
-    return quantity(field) == "damping"
+    return field in DAMPING_FIELDS
 
 
 def spoken(field: str) -> str:
-    """Return what a person calls a rate: "fore-aft", "about x", "lateral damping"."""
-    if quantity(field) == "rotational_stiffness":
-        return f"about {field[1:]}"
-    damping, direction = is_damping(field), field.removeprefix("damping_").replace("_", "-")
-    return f"{direction} damping" if damping else direction
+    """Return what a person calls a rate: "fore-aft", "rx", "damping-vertical"."""
+    return RATE_NAMES[field]
 
 
 def direction(field: str) -> str:
     """Return along or about what a rate is: "fore-aft", "about x"."""
-    return spoken(field).removesuffix(" damping")
+    if field in ROTATIONAL_FIELDS:
+        return f"about {field[1:]}"
+    return spoken(field).removeprefix("damping-")
 
 
 def sections(fields: Sequence[str]) -> list[tuple[str, tuple[str, ...]]]:
@@ -48,7 +54,7 @@ def sections(fields: Sequence[str]) -> list[tuple[str, tuple[str, ...]]]:
 
 
 def with_unit(field: str, units: Mapping[QuantityName, str] = WRITTEN_UNITS) -> str:
-    """Return what a rate is called, with its unit unless it is along an axis: "about x, N m/rad"."""
+    """Return what a rate is called, with its unit unless it is along an axis: "rx, N m/rad"."""
     of = quantity(field)
     return spoken(field) if of == "stiffness" else f"{spoken(field)}, {units[of]}"
 

@@ -48,7 +48,7 @@ TOGGLE = """(group) => document.querySelector(`.mv-rates[data-group="${group}"]`
 IS_OPEN = """(group) => {
   const marker = document.querySelector(`.mv-rates[data-group="${group}"]`);
   const folder = marker?.closest(".mantine-Paper-root");
-  return Boolean(folder && folder.getBoundingClientRect().height > 80);
+  return Boolean(folder && folder.getBoundingClientRect().height > 55);
 }"""
 
 

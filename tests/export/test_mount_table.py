@@ -6,6 +6,7 @@ from io import StringIO
 
 import numpy as np
 import pytest
+from cab_on_struts import cab_on_struts
 from many_mounts import many_mounts
 from turned_vehicles import turned_folder
 
@@ -65,3 +66,22 @@ def test_every_number_stands_below_its_unit():
     assert [first[f"k_{axis} [N/mm]"] for axis in "xyz"] == ["400.0", "300.0", "800.0"]
     assert (first["softest_z [N/mm]"], first["stiffest_z [N/mm]"]) == ("10.0", "10000.0")
     assert first["loss_factor"] == "0.15"
+
+
+def test_bounds_of_rates_about_axes_and_of_dampers_are_read_again_in_any_axes(tmp_path):
+    """Also of dampers alone, which without bounds are not tuned."""
+    cab = replace(cab_on_struts(tmp_path / "cab"), base_motions=())
+    for i, words in enumerate(AXES):
+        before = read_vehicle(turned_folder(tmp_path / f"all {i}", cab, words))
+        (tmp_path / "again.csv").write_bytes(mount_table(before))
+        folder = turned_folder(tmp_path / f"bare {i}", bare(cab), words)
+        assert main(["import", str(tmp_path / "again.csv"), "--output", str(folder)]) == 0
+        after = read_vehicle(folder)
+        for one, other in zip(before.mount_groups, after.mount_groups, strict=True):
+            assert other.fields == one.fields
+            for own, its in zip((one.rates, *one.bounds), (other.rates, *other.bounds), strict=True):
+                found = [getattr(its, field) for field in one.fields]
+                assert found == pytest.approx([getattr(own, field) for field in one.fields], rel=1e-9)
+            for a, b in zip(one.mounts, other.mounts, strict=True):
+                assert b.damping == pytest.approx(a.damping, rel=1e-9)
+                assert b.rotational_stiffness == pytest.approx(a.rotational_stiffness, rel=1e-9)

@@ -828,3 +828,18 @@ def test_units_that_cannot_be_added_are_asked_for(tmp_path, capsys):
     path = written(tmp_path / "m.csv", [HEADER, ROW])
     assert main(["import", str(path), "--output", str(folder)]) == 2
     assert 'write stiffness = "N/mm" into it' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("bounds", "words"),
+    [
+        (("400", ""), "line 2, column stiffest_c_z [N s/m]: empty, expected the other bound too"),
+        (("900", "400"), "line 2, column stiffest_c_z [N s/m]: found 400, expected more than"),
+    ],
+)
+def test_bounds_of_a_damper_are_two_and_in_order(bounds, words, tmp_path):
+    header = [*HEADER, "c_z [N s/m]", "softest_c_z [N s/m]", "stiffest_c_z [N s/m]"]
+    line = ["D", "cab", "frame", "0", "0", "0", "0", "0", "0", "800", *bounds]
+    with pytest.raises(VehicleError) as error:
+        read(written(tmp_path / "mounts.csv", [header, line]))
+    assert words in str(error.value)

@@ -49,14 +49,13 @@ def _kinds() -> Iterator[tuple[str, Kind]]:
     for direction in (*AXES, *NAMED):
         for what in ("k", "softest", "stiffest"):
             yield f"{what}_{direction}", "stiffness"
-    for axis in AXES:
-        for what in ("softest", "stiffest"):
-            yield f"{what}_r{axis}", "rotational_stiffness"
-            yield f"{what}_c_{axis}", "damping"
         for what in TRAVEL:
             yield f"{what}_{direction}", "length"
     for axis in AXES:
         yield f"angle_{axis}", "angle"
+        for what in ("softest", "stiffest"):
+            yield f"{what}_r{axis}", "rotational_stiffness"
+            yield f"{what}_c_{axis}", "damping"
     yield "loss_factor", "ratio"
     for name in ("elastic_center", *EXACT):
         yield name, "number"

@@ -1,6 +1,7 @@
 """Rates of the mounts of a table that are not along the axes of their springs, where they are tuned."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ def tuned_others(bushing: Bushing, named: Mapping[str, str]) -> dict[str, OtherR
     return found
 
 
-def untuned_others(bushing: Bushing) -> dict[str, object]:
+def untuned_others(bushing: Bushing) -> dict[str, Any]:
     """Return what the group of a bushing has beside what is tuned, by its key, where something is."""
     tuned = ~np.isnan(bushing.limits.others[0])
     rest = np.where(tuned, 0.0, bushing.others)
