@@ -41,7 +41,7 @@ def _parse(value: str) -> tuple[str, tuple[float, ...]]:
             "expected GROUP=X,Y,Z UNIT, as in C1=20,0,-10 mm (moved) or C1=0,5,0 deg (turned)"
         )
     *numbers, unit = map(str.strip, found.groups())
-    quantity = next((q for q in FIELDS if unit in UNITS[q]), None)
+    quantity: QuantityName | None = next((q for q in FIELDS if unit in UNITS[q]), None)
     if quantity is None:
         known = listed(name for q in FIELDS for name in UNITS[q])
         raise VehicleError(f"found the unit {quoted(unit)}, expected one of {known}")
