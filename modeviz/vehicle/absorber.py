@@ -7,7 +7,7 @@ import numpy as np
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
-from modeviz.vehicle.mount_rates import check_directions
+from modeviz.vehicle.mount_rates import USUAL_RANGE, check_directions
 from modeviz.vehicle.placement import Placement
 
 
@@ -35,6 +35,9 @@ class Absorber:
     """rad, about x, then y, then z, by which these are turned out of the vehicle's."""
     frequency_range: tuple[float, float] | None = None
     """Hz, the lowest and the highest to which it can be tuned; None: half its own, and twice it."""
+    damping_range: tuple[float, float] | None = None
+    """The lowest and the highest damping ratio, at its frequency; None: a quarter of its own, and four
+    times it."""
 
     def __post_init__(self) -> None:
         where = f"absorber {self.name!r}"
@@ -57,11 +60,22 @@ class Absorber:
             raise VehicleError(
                 f"{where}: frequency_range: found {low:g} to {high:g} Hz, expected the lower one first"
             )
+        low, high = self.tuned_damping_ratio
+        if not (0 <= low <= high < np.inf):
+            raise VehicleError(
+                f"{where}: damping_range: found {low:g} to {high:g}, expected the lower one first"
+            )
 
     @property
     def tuned_hz(self) -> tuple[float, float]:
         """Hz, the lowest and the highest to which it can be tuned."""
         return self.frequency_range or (self.frequency_hz / 2, 2 * self.frequency_hz)
+
+    @property
+    def tuned_damping_ratio(self) -> tuple[float, float]:
+        """The lowest and the highest damping ratio to which it can be tuned."""
+        own = self.damping_ratio
+        return self.damping_range or (own / USUAL_RANGE, USUAL_RANGE * own)
 
     def stiffness_at(self, frequency_hz: float) -> float:
         """M (2πf)², N/m: the spring with which it has a frequency."""
@@ -69,8 +83,12 @@ class Absorber:
 
     @property
     def damping(self) -> float:
-        """2ζ m 2πf, N s/m."""
-        return 2 * self.damping_ratio * self.mass * 2 * np.pi * self.frequency_hz
+        """N s/m, along each of its directions."""
+        return self.damping_with(self.damping_ratio)
+
+    def damping_with(self, damping_ratio: float) -> float:
+        """2ζ m 2πf, N s/m: the damper with which it has a damping ratio."""
+        return 2 * damping_ratio * self.mass * 2 * np.pi * self.frequency_hz
 
     @property
     def axes(self) -> Floats:

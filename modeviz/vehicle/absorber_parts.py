@@ -6,6 +6,7 @@ no others.
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import MOTIONS, Mount, Spring
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
+from modeviz.vehicle.mount_rates import DAMPING_FIELDS, DIRECTIONS, STIFFNESS_FIELDS, MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
 STEEL = 7850.0
@@ -43,15 +44,15 @@ def absorber_mass(absorber: Absorber) -> RigidBody:
 
 def absorber_spring(absorber: Absorber) -> MountGroup:
     """Return the spring of an absorber as a group of one mount; it sags as it vibrates, by m g/k."""
-    low, high = absorber.tuned_hz
+    softest, stiffest = map(partial(_along, absorber), absorber.tuned_hz, absorber.tuned_damping_ratio)
+    rates = _along(absorber, absorber.frequency_hz, absorber.damping_ratio)
     return MountGroup(
         absorber.name,
         absorber.name,
-        _along(absorber, absorber.frequency_hz),
+        rates,
         absorber.loss_factor,
-        (_along(absorber, low), _along(absorber, high)),
+        (softest, stiffest),
         (Mount(absorber.name, absorber.name, _ends(absorber), _points(absorber), axes=absorber.axes),),
-        damping=np.array([absorber.damping * (d in absorber.directions) for d in DIRECTIONS[::-1]]),
         static_ratio=1.0,
     )
 
@@ -69,10 +70,15 @@ def absorber_guide(absorber: Absorber) -> Spring:
     )
 
 
-def _along(absorber: Absorber, frequency_hz: float) -> MountRates:
-    """The rates with which it has a frequency along each of its directions; none along others."""
-    rate = absorber.stiffness_at(frequency_hz)
-    return MountRates(*(rate * (direction in absorber.directions) for direction in DIRECTIONS))
+def _along(absorber: Absorber, frequency_hz: float, damping_ratio: float) -> MountRates:
+    """The rates with which it has a frequency and damping along its directions; none along others."""
+    along = np.array([direction in absorber.directions for direction in DIRECTIONS])
+    stiffness = absorber.stiffness_at(frequency_hz) * along
+    damping = absorber.damping_with(damping_ratio) * along
+    return MountRates(
+        **dict(zip(STIFFNESS_FIELDS, stiffness.tolist(), strict=True)),
+        **dict(zip(DAMPING_FIELDS, damping.tolist(), strict=True)),
+    )
 
 
 def _ends(absorber: Absorber) -> tuple[str, str]:
@@ -100,9 +106,12 @@ def _with_spring(vehicle: Vehicle, group: MountGroup) -> Absorber | None:
     k = max(group.rates.as_tuple())
     if not (isinstance(mass, RigidBody) and mass.role == "absorber" and guide and k):
         return None
+    every = group.bounds[0], group.rates, group.bounds[1]
     low, frequency, high = (
-        float(np.sqrt(max(rates.as_tuple()) / mass.mass) / (2 * np.pi))
-        for rates in (group.bounds[0], group.rates, group.bounds[1])
+        float(np.sqrt(max(rates.as_tuple()) / mass.mass) / (2 * np.pi)) for rates in every
+    )
+    softest, damping, stiffest = (
+        max(rates.damping()) / (2 * float(np.sqrt(k * mass.mass))) for rates in every
     )
     x, y, z = mount.center.tolist()
     absorber = Absorber(
@@ -111,10 +120,11 @@ def _with_spring(vehicle: Vehicle, group: MountGroup) -> Absorber | None:
         (x, y, z),
         mass.mass,
         frequency,
-        float(group.damping.max() / (2 * np.sqrt(k * mass.mass))),
+        damping,
         group.loss_factor,
         tuple(d for d in DIRECTIONS if MOTIONS[2 - DIRECTIONS.index(d)] not in guide.rigid),
         frequency_range=(low, high),
+        damping_range=(softest, stiffest),
     )
     own = absorber_mass(absorber), absorber_spring(absorber), absorber_guide(absorber)
     return absorber if _alike(own, (mass, group, guide)) else None

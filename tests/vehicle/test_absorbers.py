@@ -112,6 +112,12 @@ def test_its_parts_are_a_body_a_mount_group_with_its_rate_and_a_guide():
     group = vehicle.mount_group("roof")
     assert group.rates.vertical == pytest.approx(6.0 * (2 * np.pi * 12.0) ** 2)
     assert group.rates.lateral == group.rates.fore_aft == 0
+    critical = 2 * 6.0 * 2 * np.pi * 12.0
+    assert group.rates.damping() == (0, 0, pytest.approx(0.1 * critical))
+    assert group.fields == ("vertical", "damping_vertical")
+    softest, stiffest = group.bounds
+    assert softest.damping_vertical == pytest.approx(0.1 * critical / 4)
+    assert stiffest.damping_vertical == pytest.approx(4 * 0.1 * critical)
     assert vehicle.body("roof mass").role == "absorber"
     assert vehicle.connections[-1].rigid == ("x", "y", "rx", "ry", "rz")
     assert [g.name for g in vehicle.mount_groups] == ["A", "B", "roof"]
@@ -127,6 +133,7 @@ def test_its_parts_are_a_body_a_mount_group_with_its_rate_and_a_guide():
         ({"directions": ()}, "expected some of vertical, lateral, fore-aft"),
         ({"position": (0.0, np.nan, 0.0)}, "position: found"),
         ({"frequency_range": (9.0, 9.0)}, "frequency_range: found 9 to 9 Hz, expected the lower one"),
+        ({"damping_range": (0.2, 0.1)}, "damping_range: found 0.2 to 0.1, expected the lower one"),
     ],
 )
 def test_what_no_absorber_is_is_said(fields, words):

@@ -24,6 +24,8 @@ class AbsorberRecord(Record, kw_only=True):
     directions: tuple[str, ...] = ("vertical",)
     frequency_range: Annotated[tuple[float, float], FixedUnit("Hz")] | None = None
     """Within which it can be tuned; half its frequency to twice it, if not given."""
+    damping_range: tuple[Ratio, Ratio] | None = None
+    """Likewise its damping ratio; a quarter of it to four times it, if not given."""
 
     @classmethod
     def of(cls, absorber: Absorber) -> Self:
@@ -37,6 +39,7 @@ class AbsorberRecord(Record, kw_only=True):
             "loss_factor": absorber.loss_factor,
             "directions": absorber.directions,
             "frequency_range": absorber.frequency_range,
+            "damping_range": absorber.damping_range,
         }
         return cls(**said(cls, fields))
 
@@ -52,4 +55,5 @@ class AbsorberRecord(Record, kw_only=True):
             self.loss_factor,
             self.directions,
             frequency_range=self.frequency_range,
+            damping_range=self.damping_range,
         )

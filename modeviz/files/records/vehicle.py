@@ -168,13 +168,14 @@ class VehicleRecord(FileRecord, kw_only=True):
         forces = built(self.force, "force", lambda r: r.build(source))
         base_motions = built(self.base_motion, "base_motion", lambda r: r.build(source))
         engines = built(self.engine, "engine", lambda r: r.build(source, by_name))
-        mount_groups = built(self.mount_group, "mount_group", lambda r: r.build(source))
+        given = built(self.mount_group, "mount_group", lambda r: r.build(source))
+        mount_groups = (*given, *map(absorber_spring, near))
         source.check_lines()
         vehicle = Vehicle(
             name=self.name,
             bodies=(*flexible, *rigid, *source.stand_ins, *map(absorber_mass, near)),
             connections=(*chain(*connections), *map(absorber_guide, near)),
-            mount_groups=(*mount_groups, *map(absorber_spring, near)),
+            mount_groups=mount_groups,
             added_masses=built(self.added_mass, "added_mass", AddedMassRecord.build),
             response_points=built(self.response_point, "response_point", ResponsePointRecord.build),
             roads=roads,

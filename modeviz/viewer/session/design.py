@@ -100,7 +100,7 @@ class Design:
     def with_absorber(self, absorber: Absorber) -> "Design":
         """Return it with one more absorber, which the search may tune, or another of its name."""
         spring = absorber_spring(absorber)
-        plan = self.plan and self.plan.with_mounts(spring, absorber.directions)
+        plan = self.plan and self.plan.with_mounts(spring)
         alterations = self.alterations.with_absorber(absorber)
         rates = {**self.rates, absorber.name: spring.rates}
         return replace(self, alterations=alterations, rates=rates, plan=plan)

@@ -63,13 +63,16 @@ def test_a_table_gives_the_parts_that_python_gives(folder):
 
 def test_a_vehicle_is_written_with_tables_of_its_absorbers_as_they_are_tuned(tmp_path):
     made = with_absorbers(mounted_cabin(), [ROOF, ROLL])
-    stiffer = replace(made.rates["roof"], vertical=1.5 * made.rates["roof"].vertical)
-    made = made.with_rates({"roof": stiffer})
+    tuned = made.rates["roof"].scaled({"vertical": 1.5, "damping_vertical": 3.0})
+    made = made.with_rates({"roof": tuned})
     write_vehicle(made, tmp_path / "v")
     tables = tomllib.loads((tmp_path / "v" / "vehicle.toml").read_text("utf-8"))
     assert [table["name"] for table in tables["absorber"]] == ["roof", "roll"]
     assert tables["absorber"][0]["frequency"] == pytest.approx(12.0 * np.sqrt(1.5))
     assert tables["absorber"][0]["frequency_range"] == pytest.approx([6.0, 24.0])
+    ratio = 0.1 / np.sqrt(1.5)  # of what is critical at that frequency
+    assert tables["absorber"][0]["damping_ratio"] == pytest.approx(3 * ratio)
+    assert tables["absorber"][0]["damping_range"] == pytest.approx([ratio / 4, 4 * ratio])
     assert "directions" not in tables["absorber"][0]
     assert tables["absorber"][1]["directions"] == ["lateral", "fore-aft"]
     assert [table["name"] for table in tables["rigid_body"]] == ["cab", "chassis"]
@@ -78,6 +81,10 @@ def test_a_vehicle_is_written_with_tables_of_its_absorbers_as_they_are_tuned(tmp
         np.testing.assert_allclose(
             getattr(assemble(read), name), getattr(assemble(made), name), rtol=1e-12, atol=1e-12
         )
+    for one, other in zip(read.mount_groups, made.mount_groups, strict=True):
+        assert one.fields == other.fields
+        for bound, its in zip(one.bounds, other.bounds, strict=True):
+            assert bound.damping() == pytest.approx(its.damping(), rel=1e-12)
 
 
 def test_what_one_table_does_not_say_is_written_as_parts(tmp_path):
@@ -95,7 +102,11 @@ def test_what_one_table_does_not_say_is_written_as_parts(tmp_path):
 def test_sets_of_rates_and_problems_know_its_group(folder):
     set_of_it = "[rates.softer.roof]\nvertical = 9000\nlateral = 0\nfore_aft = 0\n"
     add(folder, TABLE + set_of_it)
-    assert read_vehicle(folder).rate_sets["softer"]["roof"].vertical == 9e6
+    read = read_vehicle(folder)
+    assert read.rate_sets["softer"]["roof"].vertical == 9e6
+    damping = read.rates["roof"].damping_vertical
+    assert damping > 0
+    assert read.rate_sets["softer"]["roof"].damping_vertical == damping
 
 
 @pytest.mark.parametrize(
@@ -112,6 +123,7 @@ def test_sets_of_rates_and_problems_know_its_group(folder):
         ),
         ("mass = 6", 'mass = 6\ndirections = ["up"]', "absorber[0]", "unknown direction 'up'"),
         ("mass = 6", "mass = 6\nfrequency_range = [9, 3]", "absorber[0]", "found 9 to 3 Hz"),
+        ("mass = 6", "mass = 6\ndamping_range = [0.2, 0.1]", "absorber[0]", "found 0.2 to 0.1"),
         ('name = "roof"', 'name = "A"', "absorber[0]", "there twice"),
     ],
 )

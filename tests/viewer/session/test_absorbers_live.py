@@ -12,6 +12,7 @@ from modeviz.analysis.results import Conditions, solve
 from modeviz.errors import VehicleError
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.absorbers import with_absorbers
+from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.viewer.session.commands.absorbers import AddAbsorber, RemoveAbsorber, WeighAbsorber
 from modeviz.viewer.session.commands.decisions import (
     AddVariant,
@@ -24,7 +25,7 @@ from modeviz.viewer.session.commands.decisions import (
 )
 from modeviz.viewer.session.commands.looks import ChooseCurve, CompareWith, ShowMode
 from modeviz.viewer.session.design import rate_sets
-from modeviz.viewer.session.state import ForceCurve, ResponseCurve
+from modeviz.viewer.session.state import ForceCurve, ResponseCurve, first_state
 
 FLAT = Conditions("flat", 20.0)
 ROOF = Absorber("roof", "cab", (1.0, 0.2, 1.4), 6.0, 12.0, 0.1)
@@ -46,6 +47,7 @@ def assert_as_fresh(session, vehicle):
 def test_an_added_absorber_is_tuned_and_moved_as_a_mount_and_gives_what_a_fresh_solve_gives(session):
     session.do(AddAbsorber(ROOF))
     session.do(SetRate("roof", "vertical", 3e4))
+    session.do(SetRate("roof", "damping_vertical", 250.0))
     session.do(SetRate("A", "vertical", 5e5))
     session.do(PlaceMounts("roof", "offset", (0.3, None, None)))
     moved = replace(ROOF, position=(1.3, 0.2, 1.4))
@@ -78,6 +80,16 @@ def test_added_and_removed_nothing_is_left_of_it(session):
     assert left == pinned.variants
     for name in ("rates", "locked", "linked", "plan", "alterations"):
         assert getattr(session.state.design, name) == getattr(before, name)
+
+
+def test_a_search_may_change_its_rate_and_its_damping():
+    problem = Problem("ride", (DesignGroup("A"),), (Performance(np.array([5.0]), ("flat",)),))
+    vehicle = replace(mounted_cabin(), problems=(problem,))
+    plan = first_state(vehicle, vehicle.rates, FLAT).design.with_absorber(ROOF).plan
+    assert plan is not None
+    *_, roof = plan.groups
+    assert (roof.group, roof.free) == ("roof", {"vertical", "damping_vertical"})
+    assert "roof" in plan.free
 
 
 def test_adding_and_removing_are_undone_and_redone(session):

@@ -243,7 +243,14 @@ class AbsorberDetails:
         )
 
     def show(self, mass: float, rates: MountRates) -> None:
-        """Says at which frequencies its mass moves on its spring, were its body still."""
-        found = {d: k for d, k in zip(DIRECTIONS, rates.as_tuple(), strict=True) if k}
-        told = (f"{number(np.sqrt(k / mass) / (2 * np.pi), 2)} Hz {d}" for d, k in found.items())
-        assign(self._text, content=block(span(f"On its spring {', '.join(told)}", "dim")))
+        """Says how its mass moves on its spring, were its body still."""
+        every = zip(DIRECTIONS, rates.as_tuple(), reversed(rates.damping()), strict=True)
+        told = (_motion(mass, k, c, direction) for direction, k, c in every if k)
+        assign(self._text, content=block(span(f"On its spring {'; '.join(told)}", "dim")))
+
+
+def _motion(mass: float, stiffness: float, damping: float, direction: str) -> str:
+    """At which frequency, and with how much damping."""
+    frequency_hz = np.sqrt(stiffness / mass) / (2 * np.pi)
+    of_critical = damping / (2 * np.sqrt(stiffness * mass))
+    return f"{number(frequency_hz, 2)} Hz {direction}, {number(100 * of_critical, 1)} % of critical"

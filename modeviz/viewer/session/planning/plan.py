@@ -63,11 +63,11 @@ class Plan:
         groups = (replace(g, **fields) if g is self.group else g for g in self.groups)
         return replace(self, groups=tuple(groups))
 
-    def with_mounts(self, mounts: MountGroup, directions: tuple[str, ...]) -> "Plan":
+    def with_mounts(self, mounts: MountGroup) -> "Plan":
         """With a mount group that came later, whose rates may change; one of its name as it was."""
         if mounts.name in (group.group for group in self.groups):
             return self
-        added = group_plan(mounts, DesignGroup(mounts.name, directions))
+        added = group_plan(mounts, DesignGroup(mounts.name))
         return replace(self, groups=(*self.groups, added), free=self.free | {mounts.name})
 
     def without_mounts(self, name: str) -> "Plan":
