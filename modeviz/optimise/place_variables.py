@@ -14,7 +14,7 @@ from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import AXES
 from modeviz.vehicle.mount_group import SHARED, MountGroup
-from modeviz.vehicle.place_bounds import PlaceBounds
+from modeviz.vehicle.place_bounds import FARTHEST, PlaceBounds
 from modeviz.vehicle.placement import Placement, Placements
 from modeviz.vehicle.problem import DesignGroup, Problem
 from modeviz.vehicle.vehicle import Vehicle
@@ -143,9 +143,17 @@ def _bounds_by_axis(group: DesignGroup, kind: Kind) -> Iterator[tuple[int, tuple
 
 
 def seen_from(problem: Problem, placements: Placements) -> Problem:
-    """Return a problem whose bounds of offsets leave the same places, for mounts that were moved so."""
+    """Return a problem whose bounds leave the same places, for mounts that were placed so.
+
+    Exactly of offsets and of turns about one axis; turns about several do not add up, so that what is
+    left is the same near where the mounts are, and no more than may be asked for.
+    """
     groups = tuple(
-        replace(group, offsets=_from(group.offsets, placements[group.group].offset))
+        replace(
+            group,
+            offsets=_from(group.offsets, placements[group.group].offset),
+            angles=_from(group.angles, placements[group.group].angles, FARTHEST),
+        )
         if group.group in placements
         else group
         for group in problem.groups
@@ -153,9 +161,14 @@ def seen_from(problem: Problem, placements: Placements) -> Problem:
     return replace(problem, groups=groups)
 
 
-def _from(bounds: PlaceBounds, moved: Sequence[float]) -> PlaceBounds:
+def _from(bounds: PlaceBounds, moved: Sequence[float], most: float = np.inf) -> PlaceBounds:
+    """Bounds from where mounts were placed, but no farther than so much; none of an axis all beyond."""
     by_axis: dict[str, float] = dict(zip(AXES, moved, strict=True))
-    return {axis: (low - by_axis[axis], high - by_axis[axis]) for axis, (low, high) in bounds.items()}
+    ends = {
+        axis: (max(low - by_axis[axis], -most), min(high - by_axis[axis], most))
+        for axis, (low, high) in bounds.items()
+    }
+    return {axis: (low, high) for axis, (low, high) in ends.items() if low < high}
 
 
 def _bounds(variable: PlaceVariable, number: int) -> list[Limit]:

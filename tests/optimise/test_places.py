@@ -17,6 +17,7 @@ from modeviz.files import read_vehicle, write_vehicle
 from modeviz.optimise.goals import prepare_goal
 from modeviz.optimise.pareto import find_front
 from modeviz.optimise.search import prepare_search
+from modeviz.optimise.place_variables import seen_from
 from modeviz.optimise.trade_off import prepare_trade_off, sides
 from modeviz.report.front import front_csv, front_record
 from modeviz.scatter.robust import robust_search
@@ -304,13 +305,15 @@ def test_a_folder_of_a_design_leaves_its_mounts_the_same_room():
     problem = Problem("p", (DesignGroup("M1", offsets={"x": (-0.03, 0.03)}),), goal="purity")
     vehicle = replace(four_cylinder(), problems=(problem,))
     search = prepare_search(vehicle, problem, vehicle.rates, 20.0)
-    x = search.space.to_x({}, {"M1": Placement((0.01, 0.0, 0.0))})
-    (group,) = search.space.built(x).problem("p").groups
+    found = Placement((0.01, 0.0, 0.0), (0.0, -0.2, 0.0))
+    built = search.space.built(search.space.to_x({}, {"M1": found}))
+    (group,) = built.problem("p").groups
     assert group.offsets["x"] == pytest.approx((-0.04, 0.02))
 
 
 def test_the_command_writes_the_vehicle_with_its_mounts_where_they_were_found(tmp_path, capsys):
-    problem = Problem("p", (DesignGroup("M1", offsets={"x": (-0.03, 0.03)}),), goal="purity")
+    group = DesignGroup("M1", offsets={"x": (-0.03, 0.03)}, angles={"y": (-0.5, 1.5)})
+    problem = Problem("p", (group,), goal="purity")
     write_vehicle(replace(four_cylinder(), problems=(problem,)), tmp_path / "given")
     asked = ["optimise", str(tmp_path / "given"), "--starts", "1", "--json"]
     assert main([*asked, "--folder", str(tmp_path / "found")]) == 0
@@ -348,3 +351,16 @@ def test_a_front_has_designs_with_their_mounts_elsewhere():
         [1e3 * x for x in moved]
     )
     assert "A offset x, mm" in front_csv(problem, trade_off, front).splitlines()[0]
+    assert group.angles["y"] == pytest.approx((-0.3, np.pi / 2))
+    farthest, again = (
+        with_placements(v, {"M1": Placement(angles=(0.0, angle, 0.0))})
+        for v, angle in ((vehicle, -0.5), (built, group.angles["y"][0]))
+    )
+    assert again.mounts[0].axes == pytest.approx(farthest.mounts[0].axes, abs=1e-12)
+
+
+def test_a_folder_of_a_design_has_no_bounds_of_angles_out_of_reach():
+    group = DesignGroup("M1", angles={"y": (-1.5, -1.0), "z": (-0.1, 0.1)})
+    turned = {"M1": Placement(angles=(0.0, 1.2, 0.0))}
+    (left,) = seen_from(Problem("p", (group,), goal="purity"), turned).groups
+    assert left.angles == {"z": (-0.1, 0.1)}
