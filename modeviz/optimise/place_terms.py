@@ -6,6 +6,7 @@ read elsewhere, all else as it is.
 
 import numpy as np
 
+from modeviz.dynamics.mount_rates import by_motion
 from modeviz.optimise.deflections import Deflections
 from modeviz.optimise.goals import Goal, LeastChange
 from modeviz.optimise.mount_goals import (
@@ -61,11 +62,12 @@ def margin_terms(limits: Deflections, rates: Rates, probes: Probes) -> Floats:
 
 
 def _force_term(case: MountCase, rates: Rates, probes: Probes) -> Floats:
-    """Σ w |z_i|² ∂|x_i|²/∂p of the mounts that count."""
+    """Σ w |z_i|² ∂|x_i|²/∂p of the mounts that count, z of a spring and the damper beside it."""
     n_mounts, n_probes, n_places = probes.squares.shape
     counts, found = case.weight * case.selected[:n_mounts], np.zeros(n_places)
     for passed in passed_on(case, rates):
-        own = np.square(np.abs(passed.stiffness[:, : 3 * n_mounts])).reshape(-1, n_mounts, 3)
+        z = by_motion(case.driven.prepared.vehicle, passed.stiffness)
+        own = np.square(np.abs(z)).reshape(len(z), -1, 6)[:, :n_mounts, :3]
         along = passed.stretched[:, 3 * n_mounts : 3 * (n_mounts + n_probes)].reshape(-1, n_probes, 3)
         read = np.einsum("fia,fpa->iap", own, along, optimize=True)
         found += np.einsum("ia,iap,ipv->v", counts, read, probes.squares)

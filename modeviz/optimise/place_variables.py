@@ -13,7 +13,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import AXES
-from modeviz.vehicle.mount_group import SHARED, MountGroup
+from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.place_bounds import FARTHEST, PlaceBounds
 from modeviz.vehicle.placement import Placement, Placements
 from modeviz.vehicle.problem import DesignGroup, Problem
@@ -27,9 +27,6 @@ UNITS: Mapping[Kind, tuple[str, float]] = {
     "angles": ("°", factor("deg", "angle")),
 }
 """In which people read them."""
-
-ALONG, ABOUT = ("vertical", "lateral", "fore_aft"), ("rx", "ry", "rz")
-"""The fields of `MountRates` that are springs along and about axes."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +118,7 @@ def places_of(
 
     Raises:
         VehicleError: some mounts are progressive, modes have a damping of their own, or what may be
-            placed otherwise does more than springs along its axes.
+            placed otherwise damps turning.
     """
     variables = [
         PlaceVariable(group.group, kind, axis, bounds)
@@ -132,7 +129,7 @@ def places_of(
     if variables:
         _check_straight(vehicle)
     for variable in variables:
-        _check_springs(vehicle, variable)
+        _check_turning_dampers(vehicle, variable)
         _check_between(vehicle, vehicle.mount_group(variable.group))
     return Places(tuple(variables), placements or {})
 
@@ -194,23 +191,18 @@ def _check_straight(vehicle: Vehicle) -> None:
             )
 
 
-def _check_springs(vehicle: Vehicle, variable: PlaceVariable) -> None:
-    """Raises VehicleError where mounts damp or resist turning, or may come to, of which no probe tells.
+def _check_turning_dampers(vehicle: Vehicle, variable: PlaceVariable) -> None:
+    """Raises VehicleError where mounts damp turning, of which no probe tells.
 
-    What resists the turning of rigid bodies does so wherever it sits.
+    What damps the turning of rigid bodies does so wherever it sits.
     """
-    group = vehicle.mount_group(variable.group)
-    for mount in group.mounts:
+    for mount in vehicle.mount_group(variable.group).mounts:
         bodies = (vehicle.body(name) for name in mount.bodies if name != GROUND)
         is_rigid = all(isinstance(body, RigidBody) for body in bodies)
-        may_resist = variable.kind == "offset" and is_rigid
-        tuned = {*group.fields} - {*ALONG, *(ABOUT if may_resist else ())}
-        if tuned or any(
-            getattr(mount, name).any() for name in (("damping",) if may_resist else SHARED)
-        ):
-            what = "dampers" if may_resist else "dampers or resists turning"
+        if mount.rotational_damping.any() and not (variable.kind == "offset" and is_rigid):
             raise VehicleError(
-                f"{variable.spoken}: mount {mount.name!r} has {what}; expected springs along its axes"
+                f"{variable.spoken}: mount {mount.name!r} has rotational damping; expected none, or "
+                "offsets alone between rigid bodies"
             )
 
 

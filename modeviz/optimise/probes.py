@@ -1,15 +1,16 @@
 """Mounts without rates beside those that may be placed otherwise, which tell what that would do.
 
-A mount with rows R adds Rᵀ k R to the stiffness. On rigid bodies R is affine in an offset, and in the
-sine and cosine of an angle, so that Rᵀ k R is quadratic in the one and a trigonometric polynomial of
-degree two in the other. Their derivatives are sums over few places elsewhere,
+A mount with rows R adds Rᵀ k R to the stiffness, and its dampers Rᵀ c R to the damping. On rigid bodies
+R is affine in an offset, and in the sine and cosine of an angle, so that both are quadratic in the one
+and a trigonometric polynomial of degree two in the other. Their derivatives are sums over few places
+elsewhere,
 
     ∂(RᵀkR)/∂p = Σ w_s R_sᵀ k R_s
 
 exactly (for an angle: G. E. Crooks, "Gradients of parameterized quantum gates using the parameter-shift
 rule and gate decomposition", 2019, has the same sum). So a goal that has derivatives to the rates of
-mounts without rates at these places has one to the place: Σ w_s k ∂F/∂k_s. On flexible bodies too that
-is exact where their shapes are linear between the places.
+mounts without rates at these places has one to the place: Σ w_s (k ∂F/∂k_s + c ∂F/∂c_s). On flexible
+bodies too that is exact where their shapes are linear between the places.
 """
 
 from collections.abc import Iterator, Sequence
@@ -21,17 +22,29 @@ import numpy as np
 from modeviz.analysis.sensitivity import rate_variables
 from modeviz.optimise.place_variables import Kind, Places, PlaceVariable
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.loads import BaseMotion
 from modeviz.vehicle.mount_group import SHARED, MountGroup
-from modeviz.vehicle.mount_rates import MountRates, Rates
+from modeviz.vehicle.mount_rates import (
+    DAMPING_FIELDS,
+    OTHER_FIELDS,
+    ROTATIONAL_FIELDS,
+    STIFFNESS_FIELDS,
+    MountRates,
+    Rates,
+)
 from modeviz.vehicle.placement import Placement, Placements, mirrored_mounts, with_placements
 from modeviz.vehicle.vehicle import Vehicle
 
 STEP = 1e-5
 """M: so far from a mount its probes are; any distance would do on rigid bodies."""
 
-AXIS = {"vertical": 2, "lateral": 1, "fore_aft": 0}
-"""Along which local axis each field of `MountRates` is."""
+READ: dict[str, tuple[str, int]] = {
+    **{field: ("stiffness", axis) for axis, field in enumerate(reversed(STIFFNESS_FIELDS))},
+    **{field: ("rotational_stiffness", axis) for axis, field in enumerate(ROTATIONAL_FIELDS)},
+    **{field: ("damping", axis) for axis, field in enumerate(reversed(DAMPING_FIELDS))},
+}
+"""The attribute of a mount, and which of its three numbers, that each field of `MountRates` is."""
 
 QUARTER, EIGHTH = np.pi / 2, np.pi / 4
 
@@ -80,14 +93,17 @@ class Probe:
 
     def group(self, probed: MountGroup, loss_factor: float) -> MountGroup:
         """Return it where the mount is that it probes, of that group."""
-        none, some = (MountRates(**dict.fromkeys(AXIS, rate)) for rate in (0.0, 1.0))
-        still = dict.fromkeys(SHARED, np.zeros(3))
         mount = next(mount for mount in probed.mounts if mount.name == self.name)
+        others = [f for f in OTHER_FIELDS if f in probed.fields or rate_of(mount, f)]
+        none, some = (
+            MountRates(**dict.fromkeys((*STIFFNESS_FIELDS, *others), rate)) for rate in (0.0, 1.0)
+        )
+        still = dict.fromkeys(SHARED, np.zeros(3))
         return replace(
             probed,
             name=self.own_name,
             label=self.own_name,
-            mounts=(replace(mount, name=self.own_name, **still),),
+            mounts=(replace(mount, name=self.own_name, given={}, **still),),
             rates=none,
             loss_factor=loss_factor,
             bounds=(none, some),
@@ -100,6 +116,12 @@ class Probe:
         value = self.variable.of(placements) + self.shift.step
         placed = self.variable.put(placements, value)[self.variable.group]
         return placed.mirrored if self.is_mirrored else placed
+
+
+def rate_of(mount: Mount, field: str) -> float:
+    """Return what a mount has of one of `RATE_FIELDS`, whether that is tuned or its own."""
+    attribute, axis = READ[field]
+    return float(getattr(mount, attribute)[axis])
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +140,7 @@ class Probes:
         return with_placements(self._probed, {**placements, **own})
 
     def by_place(self, rates: Rates) -> Floats:
-        """∂(rate of a probe)/∂(place), (n_probe_rates, n_places): N/m per m or rad.
+        """∂(rate of a probe)/∂(place), (n_probe_rates, n_places): N/m, or other, per m or rad.
 
         What its rate would be counted for. In the order of `rate_variables` of the placed vehicle,
         which has the vehicle's own first.
@@ -129,8 +151,8 @@ class Probes:
         found = np.zeros((len(variables), len(self.places.variables)))
         for row, variable in zip(found, variables, strict=True):
             probe = probes[variable.group]
-            k = mounts[probe.mount].stiffness[AXIS[variable.direction]]
-            row[probe.number] = probe.shift.square * k
+            rate = rate_of(mounts[probe.mount], variable.direction)
+            row[probe.number] = probe.shift.square * rate
         return found
 
     @cached_property

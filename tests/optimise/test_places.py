@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from cab_on_struts import cab_on_struts
 from dynamic_mounts import MAXWELL, on_mounts
 from four_cylinder import four_cylinder
 from mounted_cabin import mounted_cabin, twisted_cabin
@@ -16,8 +17,8 @@ from modeviz.errors import SolveError, VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.optimise.goals import prepare_goal
 from modeviz.optimise.pareto import find_front
-from modeviz.optimise.search import prepare_search
 from modeviz.optimise.place_variables import seen_from
+from modeviz.optimise.search import prepare_search
 from modeviz.optimise.trade_off import prepare_trade_off, sides
 from modeviz.report.front import front_csv, front_record
 from modeviz.scatter.robust import robust_search
@@ -139,22 +140,64 @@ def test_mirrored_mounts_of_rubber_on_moving_ground_have_derivatives_too(goal):
     assert_derivatives_hold(search_of(symmetric(), goal, **fields))
 
 
-def test_what_resists_turning_may_be_moved_between_rigid_bodies():
+def test_what_resists_turning_may_be_moved_and_turned():
     vehicle = replace(twisted_cabin(), **BAND)
-    group = DesignGroup("A", (), offsets={"x": (-0.1, 0.1), "y": (-0.1, 0.1)})
+    group = DesignGroup("A", (), offsets={"x": (-0.1, 0.1)}, angles={"x": (-0.4, 0.4)})
     shaken = (Performance(np.array([6.0, 14.0]), roads=("flat",)),)
     assert_derivatives_hold(search_of(vehicle, "accelerations", (group,), performance=shaken))
-    with pytest.raises(VehicleError, match=r"A angle x: .* has dampers or resists"):
-        search_of(vehicle, "rms", (replace(group, angles={"x": (-0.1, 0.1)}),), performance=shaken)
+
+
+def test_what_damps_turning_may_be_moved_between_rigid_bodies_alone():
+    first, *others = engine().mount_groups
+    damped = replace(
+        engine(), mount_groups=(replace(first, rotational_damping=np.full(3, 5.0)), *others)
+    )
+    moved = DesignGroup("M1", (), offsets={"x": (-0.1, 0.1), "y": (-0.1, 0.1)})
+    assert_derivatives_hold(search_of(damped, "accelerations", (moved,)))
+    with pytest.raises(VehicleError, match=r"M1 angle x: mount 'M1' has rotational damping"):
+        search_of(damped, "rms", (replace(moved, angles={"x": (-0.1, 0.1)}),))
+
+
+@pytest.fixture(scope="module")
+def cab(tmp_path_factory):
+    """A cab on struts whose dampers are tuned along z, those in front with some of their own across."""
+    vehicle = cab_on_struts(tmp_path_factory.mktemp("cab") / "cab")
+    front, *others = vehicle.mount_groups
+    across = replace(front, damping=np.array([900.0, 700.0, 0.0]))
+    shaker = Force("shaker", "cab", np.array([-0.3, -0.4, 1.6]), SLANTED, 10.0)
+    return replace(
+        vehicle, highest_frequency=12.0, frequency_step=0.25, mount_groups=(across, *others),
+        forces=(shaker,),
+    )  # fmt: skip
+
+
+STRUTS = (
+    DesignGroup(
+        "F", ("vertical", "damping-vertical"), offsets={"y": (-0.1, 0.1)}, angles={"x": (-0.5, 0.5)}
+    ),
+    DesignGroup("D", ("damping-vertical",), offsets={"x": (-0.1, 0.2)}),
+)
+CAB_GOALS = {
+    "accelerations": {"performance": (Performance(np.array([2.0, 8.0]), wheel_loads=("shaker",)),)},
+    "peak": {"performance": (Performance(np.array([1.0, 6.0]), roads=("shaking frame",)),)},
+    "rms": {"performance": (Performance(np.array([8.0]), roads=("shaking frame",)),)},
+    "forces": {
+        "mounts": (MountTarget(loads=("shaking frame", "shaker")),),
+        "performance": (),
+    },
+    "purity": {"performance": ()},
+}
+
+
+@pytest.mark.parametrize("goal", CAB_GOALS)
+def test_struts_whose_dampers_are_tuned_or_their_own_have_derivatives_too(cab, goal):
+    assert_derivatives_hold(search_of(cab, goal, STRUTS, **CAB_GOALS[goal]))
 
 
 @pytest.mark.parametrize("goal", ["accelerations", "forces"])
 def test_mounts_on_a_flexible_frame_have_derivatives_too(goal):
     machine = mounted_machine()
-    first, *others = machine.mount_groups
-    plain = (replace(m, damping=np.zeros(3), rotational_stiffness=np.zeros(3)) for m in first.mounts)
-    groups = replace(first, mounts=tuple(plain)), *others
-    vehicle = replace(machine, **BAND, mount_groups=groups, mode_damping=())
+    vehicle = replace(machine, **BAND, mode_damping=())
     target = MountTarget(("front",), loads=("firing",))
     search = search_of(
         vehicle, goal, (DesignGroup("E", (), offsets={"x": (-0.1, 0.1), "z": (-0.02, 0.02)}),),
@@ -208,6 +251,16 @@ def test_moved_mounts_decouple_an_engine_that_rates_alone_cannot():
     assert found.exact_difference < 1e-9
     moved = np.abs([placed.offset for placed in found.placements.values()])
     assert moved.max() <= 0.03 + 1e-12
+
+
+def test_struts_are_moved_where_the_seat_is_shaken_least(cab):
+    group = DesignGroup("F", (), offsets={"x": (-0.4, 0.4)})
+    search = search_of(cab, "accelerations", (group,), **CAB_GOALS["accelerations"])
+    found = Study(cab).optimise(Problem("p", (group,), **CAB_GOALS["accelerations"]), 1)
+    tried = [search.value(np.array([part])) for part in np.linspace(-0.5, 0.5, 9)]
+    assert found.value <= min(tried) * (1 + 1e-6)
+    assert found.value < 0.99
+    assert found.exact_difference < 1e-6
 
 
 def test_the_goal_of_least_change_takes_moves_for_changes():
@@ -302,18 +355,31 @@ def test_bounds_of_places_are_written_and_read_in_any_axes(tmp_path):
 
 
 def test_a_folder_of_a_design_leaves_its_mounts_the_same_room():
-    problem = Problem("p", (DesignGroup("M1", offsets={"x": (-0.03, 0.03)}),), goal="purity")
+    group = DesignGroup("M1", offsets={"x": (-0.03, 0.03)}, angles={"y": (-0.5, 1.5)})
+    problem = Problem("p", (group,), goal="purity")
     vehicle = replace(four_cylinder(), problems=(problem,))
     search = prepare_search(vehicle, problem, vehicle.rates, 20.0)
     found = Placement((0.01, 0.0, 0.0), (0.0, -0.2, 0.0))
     built = search.space.built(search.space.to_x({}, {"M1": found}))
     (group,) = built.problem("p").groups
     assert group.offsets["x"] == pytest.approx((-0.04, 0.02))
+    assert group.angles["y"] == pytest.approx((-0.3, np.pi / 2))
+    farthest, again = (
+        with_placements(v, {"M1": Placement(angles=(0.0, angle, 0.0))})
+        for v, angle in ((vehicle, -0.5), (built, group.angles["y"][0]))
+    )
+    assert again.mounts[0].axes == pytest.approx(farthest.mounts[0].axes, abs=1e-12)
+
+
+def test_a_folder_of_a_design_has_no_bounds_of_angles_out_of_reach():
+    group = DesignGroup("M1", angles={"y": (-1.5, -1.0), "z": (-0.1, 0.1)})
+    turned = {"M1": Placement(angles=(0.0, 1.2, 0.0))}
+    (left,) = seen_from(Problem("p", (group,), goal="purity"), turned).groups
+    assert left.angles == {"z": (-0.1, 0.1)}
 
 
 def test_the_command_writes_the_vehicle_with_its_mounts_where_they_were_found(tmp_path, capsys):
-    group = DesignGroup("M1", offsets={"x": (-0.03, 0.03)}, angles={"y": (-0.5, 1.5)})
-    problem = Problem("p", (group,), goal="purity")
+    problem = Problem("p", (DesignGroup("M1", offsets={"x": (-0.03, 0.03)}),), goal="purity")
     write_vehicle(replace(four_cylinder(), problems=(problem,)), tmp_path / "given")
     asked = ["optimise", str(tmp_path / "given"), "--starts", "1", "--json"]
     assert main([*asked, "--folder", str(tmp_path / "found")]) == 0
@@ -351,16 +417,3 @@ def test_a_front_has_designs_with_their_mounts_elsewhere():
         [1e3 * x for x in moved]
     )
     assert "A offset x, mm" in front_csv(problem, trade_off, front).splitlines()[0]
-    assert group.angles["y"] == pytest.approx((-0.3, np.pi / 2))
-    farthest, again = (
-        with_placements(v, {"M1": Placement(angles=(0.0, angle, 0.0))})
-        for v, angle in ((vehicle, -0.5), (built, group.angles["y"][0]))
-    )
-    assert again.mounts[0].axes == pytest.approx(farthest.mounts[0].axes, abs=1e-12)
-
-
-def test_a_folder_of_a_design_has_no_bounds_of_angles_out_of_reach():
-    group = DesignGroup("M1", angles={"y": (-1.5, -1.0), "z": (-0.1, 0.1)})
-    turned = {"M1": Placement(angles=(0.0, 1.2, 0.0))}
-    (left,) = seen_from(Problem("p", (group,), goal="purity"), turned).groups
-    assert left.angles == {"z": (-0.1, 0.1)}
