@@ -83,6 +83,11 @@ class MountGroup:
                 "as the group's own"
             )
         check_bounds(f"mount group {self.name!r}", self.bounds)
+        if not self.fields:
+            raise VehicleError(
+                f"mount group {self.name!r}: bounds: found the same softest and stiffest rates, "
+                "expected some that differ; a [[spring]] or [[damper]] is not tuned"
+            )
         self._check_shared()
         if self.ratio_limits is not None and not 0 <= self.ratio_limits[0] < self.ratio_limits[1]:
             raise VehicleError(

@@ -17,7 +17,12 @@ from modeviz.dynamics.modes import solve_modes
 from modeviz.dynamics.mount_rates import MountSprings, mount_stiffness
 from modeviz.dynamics.response import direct_response
 from modeviz.ride.excitation import generalised_forces
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.connections import GROUND, Mount
+from modeviz.vehicle.loads import BaseMotion, ResponsePoint
+from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import MountRates
+from modeviz.vehicle.vehicle import Vehicle
 
 F = np.arange(1.0, 40.5, 0.5)
 
@@ -97,3 +102,24 @@ def test_frequency_sensitivities_are_finite_differences():
     assert not found[dampers].any()
     springs = np.logical_not(dampers)
     assert relative_to_largest(found[springs], expected[springs], over=1).max() < 1e-5
+
+
+@pytest.mark.parametrize("c", [0.0, 150.0, 900.0])
+def test_a_block_on_a_spring_and_a_tuned_damper_moves_as_the_closed_form_says(c):
+    m, k, own = 50.0, 2e5, MountRates(2e5, 1e5, 1e5, damping_vertical=300.0)
+    bounds = MountRates(1e4, 1e4, 1e4), MountRates(1e6, 1e6, 1e6, damping_vertical=3000.0)
+    block = RigidBody("block", "other", "block", m, np.zeros(3), np.eye(3))
+    mount = Mount(
+        "mount", "M", ("block", GROUND), np.zeros((2, 3)), rotational_stiffness=np.full(3, 1e4)
+    )
+    vehicle = Vehicle(
+        "block", (block,), (), (MountGroup("M", "M", own, 0.0, bounds, (mount,)),),
+        response_points=(ResponsePoint("seat", "block", np.zeros(3)),),
+        base_motions=(BaseMotion("floor", np.array([0.0, 0.0, 1.0]), "displacement", 1e-3),),
+    )  # fmt: skip
+    drive = driven(prepare(vehicle, F, is_graded=False), vehicle.harmonic_loads, 20.0)
+    rates = {"M": replace(own, damping_vertical=c)}
+    found = drive.response(drive.prepared.mount_stiffness(rates), F)[:, 2, 0]
+    omega = 2 * np.pi * F
+    expected = 1e-3 * (k + 1j * omega * c) / (k + 1j * omega * c - m * omega**2)
+    np.testing.assert_allclose(found, expected, rtol=1e-9)

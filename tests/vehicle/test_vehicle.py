@@ -90,7 +90,7 @@ def refused(value, **changes) -> str:
         (GROUP, {"bounds": (RATES, replace(RATES, loss_factor=0.2))}, "expected it as the group's own"),
         (GROUP, {"mounts": ()}, "has no mounts"),
         (GROUP, {"loss_factor": NAN}, "loss_factor: found nan"),
-        (GROUP, {"bounds": (RATES, RATES)}, "bounds: vertical: found 0.001 to 0.001 N/mm"),
+        (GROUP, {"bounds": (RATES, RATES)}, "bounds: found the same softest and stiffest rates"),
         (GROUP, {"ratio_limits": (0.8, 0.25)}, "ratio_limits: found (0.8, 0.25)"),
         (GROUP, {"ratio_limits": (NAN, 1.0)}, "ratio_limits: found (nan, 1.0)"),
         (ROAD, {"speed": 0}, "speed: found 0 m/s"),

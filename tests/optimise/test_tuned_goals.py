@@ -1,0 +1,48 @@
+"""Derivatives of goals to rotational rates and dampers that are tuned, against finite differences."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from differences import central_difference, relative_to_largest
+from tuned_vehicle import OTHER, tuned_vehicle
+
+from modeviz.analysis.sensitivity import rate_variables
+from modeviz.optimise.goals import prepare_goal
+from modeviz.vehicle.decoupling import DecoupledBody
+from modeviz.vehicle.mount_target import MountTarget
+from modeviz.vehicle.problem import DesignGroup, Performance, Problem
+
+TARGET = MountTarget(("E0", "F1", "S0"), loads=("shaker", "floor"))
+SHAKEN = Performance(np.array([4.0, 7.5, 12.0, 21.0]), wheel_loads=("shaker", "floor"))
+BODIES = (DecoupledBody("engine"),)
+PARTS = {
+    "forces": {"mounts": (TARGET,)},
+    "accelerations": {"performance": (SHAKEN,)},
+    "decoupling": {"decoupling": BODIES},
+}
+
+
+@pytest.mark.parametrize(
+    "goal", [pytest.param(g, marks=pytest.mark.slow) if g == "forces" else g for g in PARTS]
+)
+def test_derivatives_are_those_of_finite_differences(goal):
+    vehicle, rates = replace(tuned_vehicle(), highest_frequency=24.0, frequency_step=0.5), OTHER
+    groups = tuple(DesignGroup(group.name) for group in vehicle.mount_groups)
+    wanted = prepare_goal(vehicle, Problem("p", groups, goal=goal, **PARTS[goal]), vehicle.rates, 20.0)
+    _, gradient = wanted.value_and_gradient(rates)
+    expected = [
+        central_difference(
+            lambda k, v=v: wanted.value(
+                {**rates, v.group: replace(rates[v.group], **{v.direction: k})}
+            ),
+            getattr(rates[v.group], v.direction),
+            step=1e-3,
+        )
+        for v in rate_variables(vehicle)
+        if getattr(rates[v.group], v.direction)
+    ]
+    moves = [bool(getattr(rates[v.group], v.direction)) for v in rate_variables(vehicle)]
+    k = np.array([getattr(rates[v.group], v.direction) for v in rate_variables(vehicle)])[moves]
+    scaled = k * np.array(gradient)[moves], k * np.array(expected)
+    assert relative_to_largest(*scaled, over=0).max() < 1e-5
