@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from small_meshes import BAR, STEEL, bar, plate
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, kind_of
 from modeviz.fem.mesh import FiniteElementMesh, PointMass, ShellSection
 
 
@@ -23,7 +23,7 @@ from modeviz.fem.mesh import FiniteElementMesh, PointMass, ShellSection
     ],
 )
 def test_impossible_section_is_refused_by_the_name_of_its_field(section, field, value):
-    with pytest.raises(VehicleError, match=f"{type(section).__name__}: {field}: found"):
+    with pytest.raises(VehicleError, match=f"^{kind_of(section)}: {field}: found"):
         replace(section, **{field: value})
 
 
