@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal
 
 import numpy as np
 
@@ -31,9 +30,6 @@ Travel = Mapping[str, tuple[float, float]]
 
 SHARED = ("rotational_stiffness", "damping", "rotational_damping")
 """What a mount has from its group unless it has its own."""
-
-
-GroupKind = Literal["mount", "damper", "spring"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +64,6 @@ class MountGroup:
     rate by its static ratio."""
     dynamic: DynamicRates | None = None
     """How the rates along the axes of each depend on frequency; None: not at all."""
-    kind: GroupKind = "mount"
-    """What its members are in files and to people."""
 
     def __post_init__(self) -> None:
         for name in SHARED:
