@@ -206,9 +206,10 @@ class FlexibleBody:
     def rigid_fit(self) -> RigidFit:
         """The rigid motions closest to its rigid modes."""
         shapes = np.array([a.shapes for a in self.attachments]).reshape(-1, 6, self.n_modes)
-        positions = np.array([a.position for a in self.attachments]).reshape(-1, 3)
         n = self.n_rigid
-        return fit_rigid(positions, shapes[:, :, :n], self.nodes, self.shapes[:, :, :n].astype(float))
+        return fit_rigid(
+            self._positions, shapes[:, :, :n], self.nodes, self.shapes[:, :, :n].astype(float)
+        )
 
     @property
     def mass(self) -> float:
@@ -247,7 +248,12 @@ class FlexibleBody:
             raise VehicleError(
                 f"body {self.name!r} has no attachment, so nothing can be connected to it"
             )
-        return min(self.attachments, key=lambda a: float(np.linalg.norm(a.position - position)))
+        return self.attachments[int(np.linalg.norm(self._positions - position, axis=1).argmin())]
+
+    @cached_property
+    def _positions(self) -> Floats:
+        """Where its attachments are, (n_attachments, 3), m."""
+        return np.array([a.position for a in self.attachments]).reshape(-1, 3)
 
     def truncated(self, n_modes: int, residual_vectors: bool = False) -> "FlexibleBody":
         """The body in its lowest `n_modes` normal modes, rigid ones included.
