@@ -121,6 +121,12 @@ class System:
         T = self._freedom
         return matrix if T is None else T.T @ matrix @ T
 
+    @cached_property
+    def condensed_equations(self) -> tuple[Floats, Floats, Complexes]:
+        """M, C and K + jK_g for the motions that rigid joints leave, (n_free, n_free) each."""
+        K = self.stiffness + 1j * self.structural_damping
+        return self.condensed(self.mass), self.condensed(self.damping), self.condensed(K)
+
     def condensed_rows(self, rows: Array) -> Array:
         """R T, (n_rows, n_free): rows that read the motions that rigid joints leave."""
         return rows if self._freedom is None else rows @ self._freedom

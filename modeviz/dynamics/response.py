@@ -52,12 +52,12 @@ def direct_shape(system: System, frequency_hz: float, forces: Complexes, outputs
         SolveError: as `direct_response`.
     """
     system, omega = system.at(frequency_hz), 2 * np.pi * frequency_hz
-    K = system.stiffness + 1j * system.structural_damping
-    Z = system.condensed(K - omega**2 * system.mass + 1j * omega * system.damping)
+    M, C, K = system.condensed_equations
+    Z = K - omega**2 * M + 1j * omega * C
     on_rest = forces_on_rest(system, frequency_hz, forces)
     directions = system.condensed_rows(np.vstack([on_rest.T, outputs], dtype=complex)).T
     x = _solve(Z, directions, frequency_hz)
-    parts = np.abs(system.condensed(K)) + omega**2 * np.abs(system.condensed(system.mass))
+    parts = np.abs(K) + omega**2 * np.abs(M)
     check_accuracy(parts, x, directions.T @ x, frequency_hz, DIRECT_ACCURACY)
     return led(system, forces) + system.expanded(x[:, : forces.shape[1]])
 
