@@ -11,7 +11,7 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.attachments_elsewhere import attachment_elsewhere, check_reach
 from modeviz.vehicle.bodies import Attachment, Body, FlexibleBody
 from modeviz.vehicle.carriers import SAME_PLACE
-from modeviz.vehicle.connections import Mount, Tyre
+from modeviz.vehicle.connections import Connection, Mount, Tyre
 from modeviz.vehicle.residual_estimate import estimate_residuals
 from modeviz.vehicle.rigid import rigid_motions
 from modeviz.vehicle.vehicle import Vehicle
@@ -26,6 +26,16 @@ class MovedMount:
 
     before: Mount
     after: Mount
+
+    @property
+    def shift(self) -> Floats:
+        """How far it was moved, (3,), m."""
+        return self.after.center - self.before.center
+
+    def guided(self, joint: Connection) -> Connection:
+        """Return a joint of the same bodies moved and turned as the mount was."""
+        turn = self.before.axes.T @ self.after.axes
+        return replace(joint, points=joint.points + self.shift, axes=joint.axes @ turn)
 
     def ends_elsewhere(self, body: FlexibleBody) -> Iterator[tuple[Floats, Floats]]:
         """Yield where it held on to a body, (3,), and where it does now, if that has no attachment."""

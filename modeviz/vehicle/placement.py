@@ -1,6 +1,6 @@
 """Where mounts sit and how they are turned, other than they were given, on both sides alike."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -72,8 +72,9 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
         else group
         for group in vehicle.mount_groups
     )
-    bodies = bodies_that_hold(vehicle, [mount for mounts in moved.values() for mount in mounts])
-    placed = replace(vehicle, bodies=bodies, mount_groups=groups)
+    every = [mount for mounts in moved.values() for mount in mounts]
+    bodies = bodies_that_hold(vehicle, every)
+    whole = _with_whole_absorbers(replace(vehicle, bodies=bodies, mount_groups=groups), every)
     told = [
         note
         for name, mounts in moved.items()
@@ -82,7 +83,30 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
             *missing_compliance(vehicle.bodies, bodies, f"mounts {name!r} are moved to", mounts),
         )
     ]
-    return replace(placed, remarks=(*vehicle.remarks, *told), notes=(*vehicle.notes, *told))
+    return replace(whole, remarks=(*vehicle.remarks, *told), notes=(*vehicle.notes, *told))
+
+
+def _with_whole_absorbers(placed: Vehicle, moved: Sequence[MovedMount]) -> Vehicle:
+    """Return a vehicle in which masses and guides of absorbers go where their springs do."""
+    springs = {mount.after.bodies[0]: mount for mount in moved}
+    of_absorbers = {
+        body.name: springs[body.name]
+        for body in placed.bodies
+        if body.role == "absorber" and body.name in springs
+    }
+    if not of_absorbers:
+        return placed
+    bodies = tuple(
+        replace(body, center_of_gravity=body.center_of_gravity + of_absorbers[body.name].shift)
+        if body.name in of_absorbers
+        else body
+        for body in placed.bodies
+    )
+    connections = tuple(
+        of_absorbers[guide.bodies[0]].guided(guide) if guide.bodies[0] in of_absorbers else guide
+        for guide in placed.connections
+    )
+    return replace(placed, bodies=bodies, connections=connections)
 
 
 def check_placements(vehicle: Vehicle, placements: Placements) -> None:

@@ -15,6 +15,7 @@ from modeviz.vehicle.absorber import Absorber, den_hartog
 from modeviz.vehicle.absorbers import with_absorbers
 from modeviz.vehicle.bodies import AddedMass, RigidBody
 from modeviz.vehicle.connections import GROUND, Spring
+from modeviz.vehicle.placement import Placement, with_placements
 from modeviz.vehicle.vehicle import Vehicle
 
 MASS, MAIN_HZ, RATIO = 100.0, 10.0, 0.05
@@ -147,3 +148,15 @@ def test_an_absorber_on_no_body_or_of_a_taken_name_is_refused():
         with_absorbers(mounted_cabin(), [replace(ROOF, body="roof rack")])
     with pytest.raises(VehicleError, match="'A'"):
         with_absorbers(mounted_cabin(), [replace(ROOF, name="A")])
+
+
+@pytest.mark.parametrize("directions", [("vertical",), ("vertical", "lateral")])
+def test_an_absorber_of_a_vehicle_is_placed_as_a_whole(directions):
+    absorber = replace(ROOF, directions=directions)
+    placement = Placement(offset=(0.1, -0.2, 0.05), angles=(0.2, -0.1, 0.3))
+    moved = with_placements(with_absorbers(mounted_cabin(), [absorber]), {"roof": placement})
+    made_there = with_absorbers(mounted_cabin(), [absorber.placed(placement)])
+    found, expected = (solve_modes(assemble(v), 40.0).frequency_hz for v in (moved, made_there))
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    at = solve_modes(assemble(with_absorbers(mounted_cabin(), [absorber])), 40.0).frequency_hz
+    assert np.abs(found / at - 1).max() > 1e-4
