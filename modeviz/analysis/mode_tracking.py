@@ -29,12 +29,22 @@ class Followed:
     """From the modes of `base` to those of `now`."""
 
 
-def solve_followed(prepared: PreparedModes, rates: Rates, method: Method = "enriched") -> Followed:
+def solve_followed(
+    prepared: PreparedModes,
+    rates: Rates,
+    method: Method = "enriched",
+    given: PreparedModes | None = None,
+) -> Followed:
     """The modes with other mount rates, and which they are of those with the vehicle's own.
 
-    Arguments and errors as `analysis.modal_results.solve_modal`.
+    Args:
+        prepared: as of `analysis.modal_results.solve_modal`, as are rates, method and errors.
+        rates: likewise.
+        method: likewise.
+        given: the vehicle with its mounts where they were, if they are elsewhere.
     """
-    base, now = (solve_modal(prepared, r, method) for r in ({}, rates))
+    base = solve_modal(given or prepared, {}, method)
+    now = solve_modal(prepared, rates, method)
     return Followed(base, now, follow(base, now))
 
 

@@ -30,9 +30,11 @@ def print_modes(options: ModesOptions) -> None:
     check_printable()
     if not (options.below > 0 and math.isfinite(options.below)):
         raise ModevizError(f"--below: found {options.below:g} Hz, expected more than zero")
-    vehicle, rates = options.read()
-    prepared = prepare_modes(vehicle, max(options.below, vehicle.highest_frequency))
-    followed = solve_followed(prepared, rates, options.method)
+    given = options.given()
+    vehicle, rates = options.with_rates(given)
+    top_hz = max(options.below, vehicle.highest_frequency)
+    original = prepare_modes(given, top_hz) if options.places else None
+    followed = solve_followed(prepare_modes(vehicle, top_hz), rates, options.method, original)
     print_result((modes_record if options.json else modes_table)(followed, options.below))
 
 

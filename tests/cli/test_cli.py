@@ -92,6 +92,10 @@ def test_modes_with_mounts_elsewhere_are_those_of_the_vehicle_with_these(capsys,
     expected = solve_modes(assemble(with_placements(mounted_cabin(), placed)), below_hz=40.0)
     found = [mode["frequency_hz"] for mode in record["modes"]]
     assert found == pytest.approx(expected.frequency_hz, rel=1e-9)
+    given = solve_modes(assemble(mounted_cabin()), below_hz=40.0).frequency_hz
+    assert np.abs(found / given - 1).max() > 1e-4
+    originally = [mode["frequency_hz"] for mode in record["original"]]
+    assert originally == pytest.approx(given, rel=1e-9)
 
 
 def test_wheels_json_has_a_response_for_every_load(printed_json, folder):
