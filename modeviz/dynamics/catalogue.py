@@ -41,8 +41,13 @@ class Shares:
 
     @property
     def is_one(self) -> bool:
-        """Whether the vehicle is a single unit, such as an engine on its mounts."""
-        return len(self.units) == 1 and not self.axles
+        """Whether the vehicle is a single unit, such as an engine on its mounts, but for absorbers."""
+        return len(self.carriers) == 1 and not self.axles
+
+    @property
+    def carriers(self) -> list[int]:
+        """The numbers of the units that are no absorbers."""
+        return [i for i, unit in enumerate(self.units) if unit.bodies[0].role != "absorber"]
 
     def of_role(self, role: Role) -> tuple[str, Floats] | None:
         """The word for the unit of a role and its rigid shares, (6, n_modes); None if there is none."""
@@ -54,10 +59,9 @@ class Shares:
 def named_motions(shares: Shares) -> dict[str, Floats]:
     """The score (n_modes,) of every mode in each named motion the vehicle can have."""
     if shares.is_one:
-        word = shares.units[0].word
-        motions = dict(
-            zip((f"{word} {motion}" for motion in MOTION_WORDS), shares.rigid[0], strict=True)
-        )
+        (only,) = shares.carriers
+        words = (f"{shares.units[only].word} {motion}" for motion in MOTION_WORDS)
+        motions = dict(zip(words, shares.rigid[only], strict=True))
         return {**motions, **_frame_motions(shares)}
     scores = {name: s * shares.ride for name, s in _ride_motions(shares).items()}
     for motions in (_wheel_motions, _frame_motions, _body_motions):

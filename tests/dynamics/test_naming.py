@@ -6,12 +6,15 @@ import numpy as np
 import pytest
 from builtin_truck import builtin_truck
 from cars import car, link, rigid
+from engine_on_mounts import engine_on_mounts
 from mounted_cabin import mounted_cabin
 from oracles import Beam
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import Modes, solve_modes
 from modeviz.dynamics.naming import ModeName, name_modes, prepare_names
+from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorbers import with_absorbers
 from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -147,3 +150,16 @@ def test_axles_that_are_alike_are_called_the_same_however_arithmetic_rounds():
 def test_a_name_for_less_than_half_of_the_mode_is_spoken_as_a_guess():
     assert ModeName("cab yaw", 0.49).spoken == "~cab yaw"
     assert ModeName("cab yaw", 0.5).spoken == "cab yaw"
+
+
+def test_an_engine_keeps_its_name_with_an_absorber_on_it():
+    alone = engine_on_mounts()
+    (body,) = alone.bodies
+    at = tuple(body.center_of_gravity.tolist())
+    absorber = Absorber("small", body.name, at, 0.02 * body.mass, 30.0, 0.1)
+    before, after = (
+        [mode.name for mode in name_modes(prepare_names(system), solve_modes(system))]
+        for system in map(assemble, (alone, with_absorbers(alone, [absorber])))
+    )
+    assert set(before) < set(after)
+    assert len(after) == len(before) + 1
