@@ -16,7 +16,7 @@ class Tolerance:
     """How far a part may be from its drawing, as a fraction of what stands there; 0 is as drawn."""
 
     rates: float = 0.15
-    """Of the three rates of a mount, which its hardness moves together."""
+    """Of the stiffness of a mount, all of which its hardness moves together; dampers are as drawn."""
     loss_factor: float = 0.30
 
     def __post_init__(self) -> None:
@@ -43,9 +43,11 @@ class Parts:
     mounts: NDArray[np.intp]
     """(n_springs,): the number of each spring's mount."""
     rates: Floats
-    """(n_springs,), N/m: k as drawn."""
+    """(n_springs,), N/m and N m/rad: k as drawn; of dampers c, N s/m."""
     loss_factor: Floats
     """(n_springs,): g as drawn."""
+    are_rubber: NDArray[np.bool_]
+    """(n_springs,): those that are no dampers."""
     tolerance: Tolerance
 
     @property
@@ -59,14 +61,14 @@ class Parts:
         return hardness * (1 + 1j * self.loss_factor * loss)
 
     def stiffness(self, deviations: Floats) -> Complexes:
-        """Complex rates of every mount spring, N/m; arguments as `factor`."""
+        """Complex rates of every mount spring, in the units of `rates`; arguments as `factor`."""
         return self.rates * self.factor(deviations)
 
     def slopes(self, deviations: Floats) -> Complexes:
         """The derivatives of `stiffness` of one vehicle, (n_springs, n_deviations)."""
         hardness, loss = self._factors(deviations)
         t, g = self.tolerance, self.loss_factor
-        to_hardness = t.rates * self.rates * (1 + 1j * g * loss)
+        to_hardness = t.rates * self.are_rubber * self.rates * (1 + 1j * g * loss)
         to_loss = 1j * t.loss_factor * self.rates * hardness * g
         own = self.mounts[:, None] == np.arange(len(self.names))
         return np.hstack([to_hardness[:, None] * own, to_loss[:, None] * own])
@@ -82,7 +84,7 @@ class Parts:
         hardness, loss = np.split(deviations, 2, axis=-1)
         t = self.tolerance
         return (
-            (1 + t.rates * hardness)[..., self.mounts],
+            1 + t.rates * self.are_rubber * hardness[..., self.mounts],
             (1 + t.loss_factor * loss)[..., self.mounts],
         )
 
@@ -93,4 +95,5 @@ def scattered_parts(prepared: PreparedModes, rates: Rates, tolerance: Tolerance)
     names = tuple(mount.name for mount in prepared.vehicle.mounts)
     mounts = prepared.springs.mounts
     loss_factor = prepared.springs.loss(rates).imag.astype(np.float64)
-    return Parts(names, mounts, stiffness.real.astype(np.float64), loss_factor, tolerance)
+    are_rubber = ~prepared.basis.law.are_dampers
+    return Parts(names, mounts, stiffness.real.astype(np.float64), loss_factor, are_rubber, tolerance)

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin, twisted_cabin
@@ -33,6 +35,23 @@ def test_a_harder_mount_has_all_its_rates_higher_and_no_other_mount_changes(part
     assert parts.names[1] == "A 0.5"
     np.testing.assert_allclose(ratio[3:6], 1.1, rtol=1e-12)
     np.testing.assert_allclose(np.delete(ratio, [3, 4, 5]), 1, rtol=1e-12)
+
+
+def test_tuned_dampers_are_as_drawn_however_hard_the_rubber():
+    vehicle = mounted_cabin()
+    group = vehicle.mount_groups[0]
+    softest, stiffest = (
+        replace(b, damping_vertical=c) for b, c in zip(group.bounds, (50, 5e3), strict=True)
+    )
+    damped = replace(
+        group, rates=replace(group.rates, damping_vertical=500.0), bounds=(softest, stiffest)
+    )
+    prepared = prepare_modes(replace(vehicle, mount_groups=(damped, *vehicle.mount_groups[1:])))
+    parts, are_dampers = scattered_parts(prepared, {}, TOLERANCE), prepared.basis.law.are_dampers
+    deviations = np.ones(parts.n_deviations)
+    ratio = parts.stiffness(deviations)[are_dampers] / 500.0
+    np.testing.assert_allclose(ratio, np.ones(len(group.mounts)), rtol=8 * EPSILON)
+    assert not parts.slopes(deviations)[are_dampers].any()
 
 
 def test_a_mount_of_more_loss_is_as_stiff(parts):
