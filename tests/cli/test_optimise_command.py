@@ -34,7 +34,7 @@ from modeviz.viewer.session.planning.plan import first_plan, planned
 
 KEYS = {
     "goal", "normalised", "percentile", "objective", "rates", "converged", "reason", "evaluations",
-    "active_constraints", "exact_difference", "truncation", "fixed_ratios", "outside",
+    "active_constraints", "exact_difference", "truncation", "fixed_ratios", "outside", "placements",
 }  # fmt: skip
 
 
@@ -296,9 +296,9 @@ def test_a_signal_that_is_ignored_stays_so(monkeypatch, printed_json, cabin, end
 
 
 def test_a_signal_while_results_are_written_waits(monkeypatch, printed_json, cabin, tmp_path):
-    def interrupted(path, rates):
+    def interrupted(*arguments):
         signal.raise_signal(signal.SIGTERM)
-        write_rates(path, rates)
+        write_rates(*arguments)
 
     monkeypatch.setattr(command, "write_rates", interrupted)
     path = tmp_path / "rates.json"
@@ -309,7 +309,7 @@ def test_a_signal_while_results_are_written_waits(monkeypatch, printed_json, cab
 
 @pytest.mark.parametrize("options", [[], ["--front", "lateral against vertical"]])
 def test_what_cannot_be_written_at_the_end_is_printed(monkeypatch, capsys, cabin, tmp_path, options):
-    def full(path, _):
+    def full(path, *_):
         raise VehicleError(f"{path}: cannot be written (No space left on device)")
 
     monkeypatch.setattr(command, "write_rates", full)

@@ -67,24 +67,6 @@ def rate_set(records: Mapping[str, RateSetRecord], groups: Iterable[MountGroup])
     return {name: record.build_for(own.get(name, none)) for name, record in records.items()}
 
 
-class TunedRatesRecord(OtherRatesRecord, kw_only=True):
-    """The bounds of some rates."""
-
-    vertical: Rate | None = None
-    lateral: Rate | None = None
-    fore_aft: Rate | None = None
-
-    @classmethod
-    def of(cls, rates: MountRates, tuned: Iterable[str]) -> Self:
-        return cls(**rates.of(tuned))
-
-    @property
-    def said(self) -> dict[str, float]:
-        """Those of `RATE_FIELDS` that are said."""
-        along = {field: getattr(self, field) for field in STIFFNESS_FIELDS}
-        return {**{field: rate for field, rate in along.items() if rate is not None}, **self.others}
-
-
 def bounds_of(softest: RatesRecord | None, stiffest: RatesRecord | None, usual: Bounds) -> Bounds:
     """The bounds that are said, the usual ones where they are not.
 
