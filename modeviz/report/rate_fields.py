@@ -74,7 +74,7 @@ def written_rate(rates: MountRates, field: str) -> float:
     return getattr(rates, field) / factor(written_unit(field), quantity(field))
 
 
-def tuned_fields(groups: Iterable[MountGroup]) -> tuple[str, ...]:
+def fields_of_groups(groups: Iterable[MountGroup]) -> tuple[str, ...]:
     """Return those of `RATE_FIELDS` that are tuned in one of some groups."""
     tuned = {field for group in groups for field in group.fields}
     return tuple(field for field in RATE_FIELDS if field in tuned)

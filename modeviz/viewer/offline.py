@@ -11,7 +11,7 @@ import viser
 
 from modeviz.report.charts import BASE, Curve, line_chart
 from modeviz.report.charts import NOW as NOW_COLOR
-from modeviz.report.rate_fields import direction, quantity, sections, tuned_fields
+from modeviz.report.rate_fields import direction, fields_of_groups, quantity, sections
 from modeviz.text.axes import Axis, shown_hz
 from modeviz.text.wording import signed
 from modeviz.units import factor
@@ -134,7 +134,7 @@ def _modes(solved: Solved) -> str:
 def _rates(solved: Solved) -> str:
     """The rates that are tuned, a table for each quantity."""
     groups = solved.now.prepared.vehicle.mount_groups
-    return "".join(_rate_table(solved, *section) for section in sections(tuned_fields(groups)))
+    return "".join(_rate_table(solved, *section) for section in sections(fields_of_groups(groups)))
 
 
 def _rate_table(solved: Solved, kind: str, fields: Sequence[str]) -> str:

@@ -10,7 +10,7 @@ from modeviz.export.bushes import bush_deck
 from modeviz.files.folder import read_vehicle, write_vehicle
 from modeviz.files.rate_files import parse_rates, rates_text
 from modeviz.formats.component import UNIT_SYSTEMS
-from modeviz.report.rate_fields import listed_fields, sections, tuned_fields
+from modeviz.report.rate_fields import fields_of_groups, listed_fields, sections
 from modeviz.report.records import rates_record
 from modeviz.study.study import Study
 from modeviz.viewer.session.design import Design
@@ -43,7 +43,7 @@ def test_a_record_has_what_is_tuned_beside_the_rates_along_axes(tuned):
 
 
 def test_rates_stand_under_what_they_are(cab):
-    fields = tuned_fields(cab.mount_groups)
+    fields = fields_of_groups(cab.mount_groups)
     assert sections(fields) == [
         ("", ("vertical", "lateral", "fore_aft")),
         ("Rotation", ("rz",)),

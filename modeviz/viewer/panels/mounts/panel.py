@@ -2,7 +2,7 @@
 
 import viser
 
-from modeviz.report.rate_fields import quantity, tuned_fields
+from modeviz.report.rate_fields import fields_of_groups, quantity
 from modeviz.units import QuantityName
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.panels.mounts.absorber_form import AbsorberForm
@@ -34,7 +34,7 @@ class MountsPanel:
         self._session = session
         self._effects: Effects = {}
         groups = session.vehicle.mount_groups
-        tuned = {quantity(field) for field in tuned_fields(groups)}
+        tuned = {quantity(field) for field in fields_of_groups(groups)}
         self._units = [self._add_unit(gui, of) for of in UNITS if of in tuned]
         signs = Signs(gui, session)
         self._folders = [GroupFolder(gui, session, group, signs) for group in groups]

@@ -8,7 +8,7 @@ from typing import Any
 import viser
 
 from modeviz.files.schema.scaling import written
-from modeviz.report.rate_fields import is_damping, quantity, spoken, tuned_fields
+from modeviz.report.rate_fields import fields_of_groups, is_damping, quantity, spoken
 from modeviz.text.wording import sentence_case
 from modeviz.units import QuantityName, factor
 from modeviz.viewer.page.handles import assign
@@ -41,7 +41,7 @@ class BoundsEditor:
                 lambda name: controls.put(shown_group=name),
                 "Whose limits are shown here",
             )
-            self._fields = tuned_fields(session.vehicle.mount_groups)
+            self._fields = fields_of_groups(session.vehicle.mount_groups)
             words = [sentence_case(spoken(field)) for field in self._fields]
             self._free = Pills(gui, "May change", words, self._toggle)
             self._bounds = [self._bound(field) for field in self._fields]
