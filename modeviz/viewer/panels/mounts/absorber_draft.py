@@ -40,9 +40,6 @@ class AbsorberDraft:
     """None: the one along which the place moves most."""
     mass: float | None = None
     """kg; None: `USUAL_SHARE` of what moves."""
-    frequency_hz: float | None = None
-    """None: by `den_hartog`, as the damping ratio."""
-    damping_ratio: float | None = None
 
     def proposed(self, solved: Solved) -> "Proposal":
         """Return it tuned to the mode of an answer, as far as it follows it."""
@@ -85,13 +82,10 @@ class Proposal:
         draft = self.draft
         if self.mass is None:
             raise VehicleError(f"absorber {name!r}: mass: missing, for {self.mode} hardly moves there")
-        if draft.frequency_hz is None or draft.damping_ratio is None:
-            now, mode = solved.now, solved.followed.mode
-            place = np.array(draft.position)
-            tuned = tuned_absorber(now, mode, name, draft.body, place, self.mass, self.directions)
-            hz, ratio = _rounded(tuned.frequency_hz), _rounded(tuned.damping_ratio)
-        else:
-            hz, ratio = draft.frequency_hz, draft.damping_ratio
+        now, mode = solved.now, solved.followed.mode
+        place = np.array(draft.position)
+        tuned = tuned_absorber(now, mode, name, draft.body, place, self.mass, self.directions)
+        hz, ratio = _rounded(tuned.frequency_hz), _rounded(tuned.damping_ratio)
         return Absorber(
             name, draft.body, draft.position, self.mass, hz, ratio, directions=self.directions
         )
