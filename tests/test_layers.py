@@ -24,6 +24,7 @@ LAYERS = [
     {"optimise"},
     {"scatter"},
     {"report", "export"},
+    {"journal"},
     {"viewer", "viewer.session"},
     {"viewer.tasks", "viewer.page"},
     {"viewer.scene"},

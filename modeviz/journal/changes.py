@@ -1,0 +1,188 @@
+"""The changes of a session: written as they are accepted, and what can be undone read back."""
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, field
+from sqlite3 import Connection
+from typing import Literal
+
+from modeviz.journal.contents import content, drop_unheld, put_content
+from modeviz.journal.tuning import Tuning
+
+LONGEST = 500
+"""So many changes of a session can be undone after a restart."""
+
+Kind = Literal["step", "longer", "back", "undo", "redo"]
+"""A "step" can be undone; a "longer" one is the last step that goes on, as while dragging; one that
+leads "back" to where the last step began leaves no step. The others undo the last step, or redo the
+last that was undone."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One thing that a change changed, in engineers' words and units."""
+
+    what: str
+    """Such as "C2.lateral"."""
+    before: str
+    """Such as "131 N/mm"; empty for what was not there."""
+    after: str
+
+
+@dataclass(frozen=True)
+class Change:
+    """Something that a session accepted."""
+
+    kind: Kind
+    title: str
+    """What was done, such as "Set C2.lateral"."""
+    before: str
+    """The state before the step that it is or belongs to, as text."""
+    after: str
+    """The state after that step; for undoing too, so that redoing leads there."""
+    author: str = ""
+    differences: tuple[Difference, ...] = ()
+    """Between before and after."""
+    tuning: Tuning = field(default_factory=Tuning)
+    """As it is now."""
+
+    @property
+    def state(self) -> str:
+        """The session's state now."""
+        return self.before if self.kind in ("undo", "back") else self.after
+
+
+@dataclass(frozen=True)
+class Step:
+    """A change that can be undone or redone: the states around it."""
+
+    before: str
+    after: str
+
+
+def write_change(connection: Connection, session: int, change: Change, now: float) -> None:
+    """Writes a change, and what it makes of the steps that can be undone."""
+    match change.kind:
+        case "step":
+            _drop_undone(connection, session)
+            _insert(connection, session, change, "done", now)
+        case "longer":
+            _lengthen(connection, session, _last(connection, session, "done"), change, now)
+        case "back":
+            _remove(connection, _last(connection, session, "done"))
+        case "undo":
+            _move(connection, session, change, "done", "undone", now)
+        case "redo":
+            _move(connection, session, change, "undone", "done", now)
+
+
+def steps(connection: Connection, session: int, place: Literal["done", "undone"]) -> tuple[Step, ...]:
+    """Return the steps that can be undone, or redone, the next one last; not more than `LONGEST`."""
+    order = "DESC" if place == "done" else "ASC"
+    rows = connection.execute(
+        f"SELECT before, after FROM change WHERE session = ? AND place = ? ORDER BY id {order} LIMIT ?",
+        (session, place, LONGEST),
+    ).fetchall()
+    text = _texts(connection, {number for row in rows for number in row})
+    return tuple(Step(text[before], text[after]) for before, after in reversed(rows))
+
+
+def differences_text(differences: Iterable[Difference]) -> str:
+    """Return differences as JSON."""
+    return json.dumps([asdict(each) for each in differences], ensure_ascii=False)
+
+
+def differences_of(text: str) -> tuple[Difference, ...]:
+    """Return the differences that a JSON text is."""
+    return tuple(Difference(**each) for each in json.loads(text))
+
+
+def _texts(connection: Connection, numbers: set[int]) -> dict[int, str]:
+    return {number: content(connection, number).decode() for number in numbers}
+
+
+def _insert(connection: Connection, session: int, change: Change, place: str, now: float) -> None:
+    before, after = (
+        (put_content(connection, state.encode()) for state in (change.before, change.after))
+        if place
+        else (None, None)
+    )
+    connection.execute(
+        "INSERT INTO change (session, time, author, kind, title, differences, place, before, after)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        (
+            session,
+            now,
+            change.author,
+            change.kind,
+            change.title,
+            differences_text(change.differences),
+            place,
+            before,
+            after,
+        ),
+    )
+
+
+def _last(connection: Connection, session: int, place: str) -> int | None:
+    """The step that is undone, or redone, next."""
+    order = "max" if place == "done" else "min"
+    query = f"SELECT {order}(id) FROM change WHERE session = ? AND place = ?"
+    return connection.execute(query, (session, place)).fetchone()[0]
+
+
+def _lengthen(
+    connection: Connection, session: int, step: int | None, change: Change, now: float
+) -> None:
+    """Gives a step other states, and differences between them."""
+    if step is None:
+        _insert(connection, session, change, "done", now)
+        return
+    held = _states(connection, step)
+    before, after = (put_content(connection, s.encode()) for s in (change.before, change.after))
+    connection.execute(
+        "UPDATE change SET before = ?, after = ?, time = ?, author = ?, title = ?, differences = ?"
+        " WHERE id = ?",
+        (
+            before,
+            after,
+            now,
+            change.author,
+            change.title,
+            differences_text(change.differences),
+            step,
+        ),
+    )
+    drop_unheld(connection, *held)
+
+
+def _move(
+    connection: Connection, session: int, change: Change, place: str, new: str, now: float
+) -> None:
+    """Undoes or redoes a step, whose states are those of looks then and now."""
+    step = _last(connection, session, place)
+    held = _states(connection, step)
+    before, after = (put_content(connection, s.encode()) for s in (change.before, change.after))
+    connection.execute(
+        "UPDATE change SET before = ?, after = ?, place = ? WHERE id = ?", (before, after, new, step)
+    )
+    _insert(connection, session, change, "", now)
+    drop_unheld(connection, *held)
+
+
+def _remove(connection: Connection, step: int | None) -> None:
+    held = _states(connection, step)
+    connection.execute("DELETE FROM change WHERE id = ?", (step,))
+    drop_unheld(connection, *held)
+
+
+def _drop_undone(connection: Connection, session: int) -> None:
+    """Keeps what was undone for the history alone."""
+    connection.execute(
+        "UPDATE change SET place = 'gone' WHERE session = ? AND place = 'undone'", (session,)
+    )
+
+
+def _states(connection: Connection, step: int | None) -> tuple[int | None, ...]:
+    query = "SELECT before, after FROM change WHERE id = ?"
+    return connection.execute(query, (step,)).fetchone() or ()

@@ -1,0 +1,126 @@
+"""Opening a study file: what is none, is damaged or is of a later modeviz is refused and left alone."""
+
+import sqlite3
+from pathlib import Path
+from sqlite3 import Connection
+
+from modeviz.errors import ModevizError, reason
+from modeviz.journal.schema import APPLICATION_ID, VERSION
+
+MAGIC = b"SQLite format 3\0"
+HEADER = 100
+"""Bytes with which a file of SQLite begins, https://www.sqlite.org/fileformat.html."""
+
+BUSY = 10.0
+"""s: how long to wait for another process that writes."""
+
+
+def check_file(path: Path) -> bool:
+    """Return whether there is a study in a file that can be read; False of an empty or missing one.
+
+    Nothing is written, neither to the file nor beside it.
+
+    Raises:
+        ModevizError: it is something else, damaged, or of a later version.
+    """
+    header = _header(path)
+    if not header:
+        return False
+    if len(header) < HEADER or not header.startswith(MAGIC):
+        raise ModevizError(
+            f"{path}: is no study of modeviz, or damaged at its beginning; it is left as it is"
+        )
+    version, application = (int.from_bytes(header[at : at + 4], "big") for at in (60, 68))
+    _check_version(path, application, version)
+    return _check_sound(path)
+
+
+def open_to_read(path: Path) -> Connection:
+    """Return a connection that changes nothing, also where nothing may be written.
+
+    Raises:
+        ModevizError: as `check_file`, or there is no such file.
+    """
+    if not check_file(path):
+        raise ModevizError(
+            f"{path}: there is no study in it" if path.exists() else f"{path}: there is no such file"
+        )
+    return _connect_to_read(path)
+
+
+def open_to_write(path: Path) -> Connection:
+    """Return a connection whose commits are on the disk when they return; it begins no transactions.
+
+    Raises:
+        sqlite3.Error: it cannot be written.
+    """
+    connection = sqlite3.connect(path, timeout=BUSY, isolation_level=None, check_same_thread=False)
+    try:
+        connection.execute("PRAGMA journal_mode = WAL")
+        connection.execute("PRAGMA synchronous = FULL")
+        connection.execute("PRAGMA foreign_keys = ON")
+    except sqlite3.Error:
+        connection.close()
+        raise
+    return connection
+
+
+def _header(path: Path) -> bytes:
+    try:
+        if path.exists() and not path.is_file():
+            raise ModevizError(f"{path}: found a folder or device, expected a study file or a new name")
+        with path.open("rb") as file:
+            return file.read(HEADER)
+    except FileNotFoundError:
+        return b""
+    except OSError as error:
+        raise ModevizError(f"{path}: cannot be read ({reason(error)})") from None
+
+
+def _check_version(path: Path, application: int, version: int) -> None:
+    if application == APPLICATION_ID and version > VERSION:
+        raise ModevizError(
+            f"{path}: was written by a later modeviz (version {version} of its tables, expected at "
+            f"most {VERSION}): open it with that one; it is left as it is"
+        )
+
+
+def _check_sound(path: Path) -> bool:
+    """Return whether a database is a study; an empty one, of a process that was killed, is none yet."""
+    try:
+        connection = _connect_to_read(path)
+        try:
+            # what was written last may be in the log beside the file alone, its header too
+            tables = {name for (name,) in connection.execute("SELECT name FROM sqlite_schema")}
+            application, version, found = (
+                connection.execute(f"PRAGMA {what}").fetchone()[0]
+                for what in ("application_id", "user_version", "quick_check(1)")
+            )
+        finally:
+            connection.close()
+    except sqlite3.Error as error:
+        raise ModevizError(_damaged(path, str(error))) from None
+    if found != "ok":
+        raise ModevizError(_damaged(path, str(found)))
+    _check_version(path, application, version)
+    if application != APPLICATION_ID and tables:
+        raise ModevizError(f"{path}: is a database, but no study of modeviz; it is left as it is")
+    if application == APPLICATION_ID and "session" not in tables:
+        raise ModevizError(_damaged(path, "tables are missing"))
+    return application == APPLICATION_ID
+
+
+def _damaged(path: Path, words: str) -> str:
+    first = " ".join(words.split())[:120]
+    return (
+        f"{path}: is damaged ({first}): put a backup in its place, or give another file; it is left as "
+        "it is"
+    )
+
+
+def _connect_to_read(path: Path) -> Connection:
+    """A connection that writes nothing; where no log lies beside, not even a lock is taken."""
+    has_log = path.with_name(f"{path.name}-wal").exists()
+    mode = "mode=ro" if has_log else "mode=ro&immutable=1"
+    uri = f"{path.resolve().as_uri()}?{mode}"
+    return sqlite3.connect(uri, uri=True, timeout=BUSY, isolation_level=None, check_same_thread=False)

@@ -1,0 +1,203 @@
+"""The sessions of a study: what they are called, where they stand, and who may look at them."""
+
+from dataclasses import dataclass
+from sqlite3 import Connection
+from typing import Literal
+
+from modeviz.journal.changes import Change, Step, steps, write_change
+from modeviz.journal.contents import content, drop_unheld, put_content
+from modeviz.journal.fingerprint import Fingerprint
+from modeviz.journal.tuning import Pinned, Tuning, pinned_of, pinned_text
+
+SessionId = str
+"""The digest of a session's key."""
+
+
+@dataclass(frozen=True)
+class SessionLine:
+    """A session in a list of them."""
+
+    number: int
+    id: SessionId
+    title: str
+    author: str
+    """Who began it."""
+    begun: float
+    used: float
+    """When it was last written, both s since 1970."""
+    n_changes: int
+    variants: tuple[str, ...]
+    """Names."""
+
+
+@dataclass(frozen=True)
+class StoredSession:
+    """A session as it was left."""
+
+    number: int
+    title: str
+    author: str
+    vehicle: Fingerprint
+    """Of the vehicle that it was last used with."""
+    state: str | None
+    """The newest one as text, with how one looked; None: it was begun, and nothing else."""
+    past: tuple[Step, ...]
+    """What can be undone, the next one last."""
+    future: tuple[Step, ...]
+    """What can be redone, the next one last."""
+    tuning: Tuning
+
+
+def begin(
+    connection: Connection,
+    session: SessionId,
+    vehicle: Fingerprint,
+    author: str,
+    title: str,
+    now: float,
+) -> None:
+    """Writes that a session is used with a vehicle; it is a new one, or one that goes on."""
+    number = _put_vehicle(connection, vehicle)
+    connection.execute(
+        "INSERT INTO session (digest, title, author, begun, used, vehicle, state, tuning)"
+        " VALUES (:id, :title, :author, :now, :now, :vehicle, NULL, :tuning)"
+        " ON CONFLICT (digest) DO UPDATE SET used = :now, vehicle = :vehicle",
+        {
+            "id": session,
+            "title": title,
+            "author": author,
+            "now": now,
+            "vehicle": number,
+            "tuning": pinned_text(Pinned({})),
+        },
+    )
+
+
+def rename(connection: Connection, session: SessionId, title: str) -> None:
+    """Gives a session another title."""
+    connection.execute("UPDATE session SET title = ? WHERE digest = ?", (title, session))
+
+
+def record(connection: Connection, session: SessionId, change: Change, now: float) -> None:
+    """Writes a change that a session accepted, and where it stands now."""
+    number = number_of(connection, session)
+    write_change(connection, number, change, now)
+    _put_state(connection, number, change.state, now)
+    _put_tuning(connection, number, change, now)
+
+
+def look(connection: Connection, session: SessionId, state: str, now: float) -> None:
+    """Writes the newest state of a session that nobody decided, such as another mode shown."""
+    _put_state(connection, number_of(connection, session), state, now)
+
+
+def share(connection: Connection, session: SessionId, review: str, author: str, now: float) -> None:
+    """Writes that a review, by the digest of its key, shows a session."""
+    connection.execute(
+        "INSERT OR REPLACE INTO review VALUES (?, ?, ?, ?, NULL)",
+        (review, number_of(connection, session), now, author),
+    )
+
+
+def end_review(connection: Connection, review: str, now: float) -> None:
+    """Writes that a review shows nothing any more."""
+    connection.execute("UPDATE review SET ended = ? WHERE digest = ? AND ended IS NULL", (now, review))
+
+
+def reviewed(connection: Connection, review: str) -> SessionId | None:
+    """Return the session that a review shows; None: there is no such review, or it has ended."""
+    row = connection.execute(
+        "SELECT session.digest FROM review JOIN session ON session.id = review.session"
+        " WHERE review.digest = ? AND ended IS NULL",
+        (review,),
+    ).fetchone()
+    return row and row[0]
+
+
+def sessions(connection: Connection) -> tuple[SessionLine, ...]:
+    """Return every session, the one that was begun first first."""
+    rows = connection.execute(
+        "SELECT id, digest, title, author, begun, used,"
+        " (SELECT count(*) FROM change WHERE change.session = session.id) FROM session ORDER BY id"
+    ).fetchall()
+    return tuple(SessionLine(*row, variants=tuple(_variants(connection, row[0]))) for row in rows)
+
+
+def restore(connection: Connection, session: SessionId) -> StoredSession | None:
+    """Return a session as it was left; None where there is none of that key."""
+    row = connection.execute(
+        "SELECT session.id, title, author, parts, state, tuning FROM session"
+        " JOIN vehicle ON vehicle.id = session.vehicle WHERE session.digest = ?",
+        (session,),
+    ).fetchone()
+    if row is None:
+        return None
+    number, title, author, parts, state, tuning = row
+    present = pinned_of(tuning)
+    places: tuple[Literal["done"], Literal["undone"]] = ("done", "undone")
+    past, future = (steps(connection, number, place) for place in places)
+    return StoredSession(
+        number,
+        title,
+        author,
+        Fingerprint.of_text(parts),
+        None if state is None else content(connection, state).decode(),
+        past,
+        future,
+        Tuning(present.rates, present.placements, _variants(connection, number)),
+    )
+
+
+def number_of(connection: Connection, session: SessionId) -> int:
+    """Return the number of a session.
+
+    Raises:
+        LookupError: it was not begun.
+    """
+    row = connection.execute("SELECT id FROM session WHERE digest = ?", (session,)).fetchone()
+    if row is None:
+        raise LookupError("a session that was not begun")
+    return row[0]
+
+
+def _put_vehicle(connection: Connection, vehicle: Fingerprint) -> int:
+    insert = "INSERT OR IGNORE INTO vehicle (digest, parts) VALUES (?, ?)"
+    connection.execute(insert, (vehicle.digest, vehicle.text))
+    query = "SELECT id FROM vehicle WHERE digest = ?"
+    return connection.execute(query, (vehicle.digest,)).fetchone()[0]
+
+
+def _put_state(connection: Connection, number: int, state: str, now: float) -> None:
+    query = "SELECT state FROM session WHERE id = ?"
+    (before,) = connection.execute(query, (number,)).fetchone()
+    after = put_content(connection, state.encode())
+    update = "UPDATE session SET state = ?, used = ? WHERE id = ?"
+    connection.execute(update, (after, now, number))
+    if before != after:
+        drop_unheld(connection, before)
+
+
+def _put_tuning(connection: Connection, number: int, change: Change, now: float) -> None:
+    """Writes the present rates, and what became of variants."""
+    tuning = change.tuning
+    update = "UPDATE session SET tuning = ? WHERE id = ?"
+    connection.execute(update, (pinned_text(tuning.present), number))
+    known, wanted = (
+        {name: pinned_text(pinned) for name, pinned in variants.items()}
+        for variants in (_variants(connection, number), tuning.variants)
+    )
+    for name, text in known.items():
+        if wanted.get(name) != text:
+            gone = "UPDATE variant SET gone = ? WHERE session = ? AND name = ? AND gone IS NULL"
+            connection.execute(gone, (now, number, name))
+    for name, text in wanted.items():
+        if known.get(name) != text:
+            insert = "INSERT INTO variant (session, name, time, author, pinned) VALUES (?, ?, ?, ?, ?)"
+            connection.execute(insert, (number, name, now, change.author, text))
+
+
+def _variants(connection: Connection, number: int) -> dict[str, Pinned]:
+    rows = connection.execute(
+        "SELECT name, pinned FROM variant WHERE session = ? AND gone IS NULL ORDER BY id", (number,)
+    )
+    return {name: pinned_of(text) for name, text in rows}

@@ -1,0 +1,198 @@
+"""A study file that is open: what sessions write to it, and read back."""
+
+import sqlite3
+import threading
+import time
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from sqlite3 import Connection
+
+from modeviz.errors import ModevizError, reason
+from modeviz.journal import sessions as stored
+from modeviz.journal.changes import Change
+from modeviz.journal.fingerprint import Fingerprint
+from modeviz.journal.keys import digest_of
+from modeviz.journal.opening import check_file, open_to_write
+from modeviz.journal.ownership import Ownership
+from modeviz.journal.places import own_folder
+from modeviz.journal.schema import create
+from modeviz.journal.sessions import SessionId, SessionLine, StoredSession
+from modeviz.journal.writer import Writer
+
+PATIENCE = 5.0
+"""s that reading waits for what was written before."""
+
+
+class StudyFile:
+    """Writes what the sessions of a vehicle accept, in a thread of its own, and gives it back.
+
+    What is asked to be written is in memory until it is on the disk: `trouble` says why that takes, and
+    nothing is lost by it while the process lives. Every method may be called from any thread.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        vehicle: Fingerprint,
+        writer: Writer,
+        ownership: Ownership,
+    ) -> None:
+        """See `open`."""
+        self.path: Path = path
+        self.vehicle: Fingerprint = vehicle
+        self._writer, self._ownership = writer, ownership
+        self._lock = threading.Lock()
+        self._n_steps: dict[SessionId, int] = {}
+
+    @classmethod
+    def open(
+        cls,
+        path: Path | str,
+        vehicle_name: str,
+        vehicle: Fingerprint,
+        tell: Callable[[str], None] = lambda trouble: None,
+    ) -> "StudyFile":
+        """Return the study in a file, which is made if there is none.
+
+        Args:
+            path: of the file; `<path>-wal`, `<path>-shm` and `<path>-lock` lie beside while it is open.
+            vehicle_name: of the vehicle that is tuned.
+            vehicle: what that is made of.
+            tell: told in the writer's thread why nothing can be saved, "" once it can again.
+
+        Raises:
+            ModevizError: another process has it, it is damaged or no study, was written by a later
+                modeviz, or cannot be written.
+        """
+        path = Path(path).absolute()
+        _check_folder(path)
+        ownership = Ownership(path, time.time())
+        try:
+            if not check_file(path):
+                _create(path, vehicle_name)
+            writer = Writer(path, tell)
+        except (sqlite3.Error, OSError) as error:
+            ownership.release()
+            raise ModevizError(f"{path}: cannot be written ({reason(error)})") from None
+        except ModevizError:
+            ownership.release()
+            raise
+        return cls(path, vehicle, writer, ownership)
+
+    @staticmethod
+    def session_id(key: str) -> SessionId:
+        """Return by what the methods here know a session or a review with that key."""
+        return digest_of(key)
+
+    @property
+    def trouble(self) -> str:
+        """Why nothing can be saved: "not saved: the disk is full"; "" while it can."""
+        return self._writer.trouble
+
+    @property
+    def n_unsaved(self) -> int:
+        """How many writes are in memory alone."""
+        return self._writer.n_waiting
+
+    def begin(self, session: SessionId, author: str = "", title: str = "") -> None:
+        """Writes that a session is used from now on with this vehicle, a new one or an old one."""
+        now, vehicle = time.time(), self.vehicle
+        self._writer.put(lambda c: stored.begin(c, session, vehicle, author, title, now))
+
+    def rename(self, session: SessionId, title: str) -> None:
+        """Gives a session another title."""
+        self._writer.put(lambda c: stored.rename(c, session, title))
+
+    def record(self, session: SessionId, change: Change) -> None:
+        """Writes a change that a session accepted."""
+        now = time.time()
+        self._writer.put(lambda c: stored.record(c, session, change, now), self._key(session, change))
+
+    def look(self, session: SessionId, state: str) -> None:
+        """Writes how a session is looked at now; of several the newest counts."""
+        now = time.time()
+        self._writer.put(lambda c: stored.look(c, session, state, now), ("look", session))
+
+    def share(self, session: SessionId, review: SessionId, author: str = "") -> None:
+        """Writes that a review shows a session."""
+        now = time.time()
+        self._writer.put(lambda c: stored.share(c, session, review, author, now))
+
+    def end_review(self, review: SessionId) -> None:
+        """Writes that a review shows nothing any more."""
+        now = time.time()
+        self._writer.put(lambda c: stored.end_review(c, review, now))
+
+    def reviewed(self, review: SessionId) -> SessionId | None:
+        """Return the session that a review shows; None if there is none, or it has ended."""
+        with self._reading() as connection:
+            return stored.reviewed(connection, review)
+
+    def sessions(self) -> tuple[SessionLine, ...]:
+        """Return every session of the study, the first one first."""
+        with self._reading() as connection:
+            return stored.sessions(connection)
+
+    def restore(self, session: SessionId) -> StoredSession | None:
+        """Return a session as it was left; None where there is none.
+
+        Raises:
+            ModevizError: it cannot be read, or is damaged.
+        """
+        with self._reading() as connection:
+            return stored.restore(connection, session)
+
+    def flush(self, timeout: float) -> bool:
+        """Waits until all is on the disk; whether that came within `timeout` s."""
+        return self._writer.flush(timeout)
+
+    def close(self, timeout: float = PATIENCE) -> bool:
+        """Saves what is left and lets others have the file; whether all was saved in `timeout` s."""
+        is_saved = self._writer.close(timeout)
+        self._ownership.release()
+        return is_saved
+
+    def _key(self, session: SessionId, change: Change) -> Hashable:
+        """By which a change is overtaken: a step that goes on by how it goes on then."""
+        with self._lock:
+            n_steps = self._n_steps.get(session, 0)
+            if change.kind == "longer":
+                return "longer", session, n_steps
+            self._n_steps[session] = n_steps + 1
+        return None
+
+    @contextmanager
+    def _reading(self) -> Iterator[Connection]:
+        """A connection that sees what was asked to be written before.
+
+        Raises:
+            ModevizError: it cannot be read.
+        """
+        self.flush(PATIENCE)
+        try:
+            connection = sqlite3.connect(
+                f"{self.path.as_uri()}?mode=ro", uri=True, isolation_level=None
+            )
+            try:
+                yield connection
+            finally:
+                connection.close()
+        except sqlite3.Error as error:
+            raise ModevizError(f"{self.path}: cannot be read ({reason(error)})") from None
+
+
+def _check_folder(path: Path) -> None:
+    if path.parent == own_folder():
+        with suppress(OSError):  # said when the file is locked
+            path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.parent.is_dir():
+        raise ModevizError(f"{path}: cannot be written (there is no folder {path.parent})")
+
+
+def _create(path: Path, vehicle_name: str) -> None:
+    connection = open_to_write(path)
+    try:
+        create(connection, vehicle_name, time.time())
+    finally:
+        connection.close()

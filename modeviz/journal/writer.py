@@ -1,0 +1,175 @@
+"""The one thread that writes a study: what cannot be written stays in memory until it can."""
+
+import logging
+import sqlite3
+import threading
+from collections.abc import Callable, Hashable
+from pathlib import Path
+from sqlite3 import Connection
+
+from modeviz.errors import reason
+from modeviz.journal.opening import open_to_write
+
+Write = Callable[[Connection], object]
+
+MOST_AT_ONCE = 100
+"""Writes in one transaction: more would keep others who write waiting."""
+
+RETRY = 2.0
+"""s between tries while nothing can be written."""
+
+log = logging.getLogger(__name__)
+
+
+class Writer:
+    """Takes writes from any thread and commits them in their order.
+
+    A write that has the key of one that waits takes its place, at the end: of looks only the newest
+    counts.
+    """
+
+    def __init__(self, path: Path, tell: Callable[[str], None]) -> None:
+        """Starts the thread.
+
+        Args:
+            path: of the study file, which is there.
+            tell: told why nothing can be written, and "" once all is written again.
+
+        Raises:
+            sqlite3.Error: it cannot be written.
+        """
+        self._path, self._tell = path, tell
+        self._changed = threading.Condition()
+        self._waiting: dict[Hashable, Write] = {}
+        self._n_put = 0
+        self._is_writing = self._is_closed = False
+        self._trouble = ""
+        self._connection: Connection | None = open_to_write(path)
+        self._status = path.stat()
+        self._thread = threading.Thread(target=self._run, name="study writer", daemon=True)
+        self._thread.start()
+
+    @property
+    def trouble(self) -> str:
+        """Why nothing can be written; "" while it can."""
+        return self._trouble
+
+    @property
+    def n_waiting(self) -> int:
+        """How many writes are in memory alone."""
+        with self._changed:
+            return len(self._waiting)
+
+    def put(self, write: Write, key: Hashable = None) -> None:
+        """Asks for a write; returns at once.
+
+        Args:
+            write: what to do with a connection that is in a transaction.
+            key: of what is overtaken by the next of that key; None: nothing overtakes it.
+        """
+        with self._changed:
+            self._n_put += 1
+            name = ("alone", self._n_put) if key is None else key
+            self._waiting.pop(name, None)
+            self._waiting[name] = write
+            self._changed.notify_all()
+
+    def flush(self, timeout: float) -> bool:
+        """Waits until all is on the disk; whether that came within `timeout` s.
+
+        While nothing can be written it is tried once more at once.
+        """
+        with self._changed:
+            self._changed.notify_all()
+            return self._changed.wait_for(lambda: not (self._waiting or self._is_writing), timeout)
+
+    def close(self, timeout: float) -> bool:
+        """Ends the thread once all is on the disk; whether that came within `timeout` s."""
+        is_saved = self.flush(timeout)
+        with self._changed:
+            self._is_closed = True
+            self._changed.notify_all()
+        self._thread.join(timeout)
+        return is_saved
+
+    def _run(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._waiting or self._is_closed)
+                if self._is_closed:
+                    break
+                writes = dict(list(self._waiting.items())[:MOST_AT_ONCE])
+                self._is_writing = True
+            trouble = self._try(writes)
+            self._settle({} if trouble else writes, trouble)
+        self._disconnect()
+
+    def _settle(self, written: dict[Hashable, Write], trouble: str) -> None:
+        """Forgets what is written, tells what is new, and waits where nothing can be."""
+        with self._changed:
+            for name, write in written.items():
+                if self._waiting.get(name) is write:
+                    del self._waiting[name]
+            self._is_writing = False
+            news = trouble != self._trouble
+            self._trouble = trouble
+            self._changed.notify_all()
+        if news:
+            self._tell(trouble)
+        if trouble:
+            with self._changed:
+                if not self._is_closed:
+                    self._changed.wait(RETRY)
+
+    def _try(self, writes: dict[Hashable, Write]) -> str:
+        """Commits some writes; returns why not, or ""."""
+        try:
+            self._check_there()
+            if self._connection is None:
+                self._connection = open_to_write(self._path)
+            _commit(self._connection, list(writes.values()))
+        except (sqlite3.Error, OSError) as error:
+            self._disconnect()
+            return f"not saved: {_words(error)}"
+        return ""
+
+    def _check_there(self) -> None:
+        """Raises OSError if the file was taken away: what is written to it then is nowhere."""
+        now = self._path.stat()
+        if (now.st_dev, now.st_ino) != (self._status.st_dev, self._status.st_ino):
+            raise FileNotFoundError(0, "another file is in the place of the study")
+
+    def _disconnect(self) -> None:
+        if self._connection is not None:
+            try:
+                self._connection.close()
+            except sqlite3.Error as error:
+                log.warning("closing %s: %s", self._path.name, error)
+            self._connection = None
+
+
+def _commit(connection: Connection, writes: list[Write]) -> None:
+    """Does some writes in one transaction; one that is our mistake is left out, and logged."""
+    connection.execute("BEGIN IMMEDIATE")
+    for write in writes:
+        connection.execute("SAVEPOINT one")
+        try:
+            write(connection)
+        except (sqlite3.OperationalError, MemoryError):
+            raise
+        except Exception:
+            log.exception("a write to the study was left out")
+            connection.execute("ROLLBACK TO one")
+        connection.execute("RELEASE one")
+    connection.execute("COMMIT")
+
+
+def _words(error: Exception) -> str:
+    said = str(error)
+    if "disk is full" in said or getattr(error, "errno", 0) == 28:
+        return "the disk is full"
+    return (
+        "the study file is gone"
+        if isinstance(error, FileNotFoundError) and error.errno
+        else reason(error)
+    )
