@@ -37,15 +37,22 @@ TOO_MANY = "there are as many pages open as this server takes: close some"
 
 ANCESTORS = " ".join(
     [
+        "'self'",
         *(f"{scheme}://{name}:*" for scheme in ("http", "https") for name in LOOPBACK[:2]),
         "vscode-webview:",
+        "vscode-file:",
     ]
 )
-"""Where notebooks of this machine are shown, as Content-Security-Policy names them."""
+"""Where notebooks are shown, as Content-Security-Policy names them: at our own address, through their
+server, or on this machine. VS Code shows them in a page of its own in one of its window."""
 
+STRICT = "SameSite=Strict"
 FRAMED = "SameSite=None; Secure; Partitioned"
 """How a cookie is kept in a frame of a page of another name: for that page alone. Browsers take
-127.0.0.1 and localhost for secure."""
+127.0.0.1 and localhost for secure, but no other address without TLS."""
+
+ALIVE = "alive.svg"
+"""A picture, by which a notebook finds out whether its browser reaches the server and keeps cookies."""
 
 HOST = re.compile(r"(?:\[([0-9a-f:.]+)\]|([\w.-]+))(?::\d+)?", re.ASCII | re.IGNORECASE)
 """A Host header: an IPv6 address in brackets or a name, and a port."""
@@ -74,7 +81,8 @@ class Door:
     public_names: tuple[str, ...] = ()
     """Names of this server besides its own, lower case."""
     is_framed: bool = False
-    """Whether pages of this machine may show it in a frame, as notebooks do."""
+    """Whether notebooks may show it in a frame, whatever name their server has; it has a token, without
+    which a name that was pointed here gets nowhere."""
     is_hung: bool = False
     """Whether a server asks it."""
     is_open: bool = False
@@ -111,6 +119,8 @@ class Door:
             return refusal
         if _is_websocket(request):
             return await self._place(connection, request) or inner(connection, request)
+        if urlsplit(request.path).path.endswith(f"/{ALIVE}"):
+            return _answer(200, ICON, **{"Content-Type": "image/svg+xml", "Cache-Control": "no-store"})
         return self._page(inner, connection, request)
 
     def refusal(self, request: Request) -> Response | None:
@@ -155,12 +165,11 @@ class Door:
             await asyncio.sleep(delay)
             return _answer(403, NO_TOKEN)
         self.guesses.forget(client)
-        kept = FRAMED if self.is_framed else "SameSite=Strict"
-        return _answer(
-            303,
-            Location=_without_token(request.path),
-            **{"Set-Cookie": f"{_cookie_name(connection)}={self.entered}; HttpOnly; {kept}"},
-        )
+        answer = _answer(303, Location=_without_token(request.path))
+        for kept in (STRICT, FRAMED) if self.is_framed else (STRICT,):
+            cookie = f"{_cookie_name(connection)}={self.entered}; HttpOnly; {kept}"
+            answer.headers["Set-Cookie"] = cookie
+        return answer
 
     def _has_entered(self, connection: PageConnection, request: Request) -> bool:
         """Whether a request has the cookie of who has brought the token."""
@@ -197,7 +206,7 @@ class Door:
         if match is None:
             return False
         name = (match[1] or match[2]).lower()
-        if name in self.public_names:
+        if name in self.public_names or (self.is_framed and self.token):
             return True
         if name in LOOPBACK or self.host in LOOPBACK:
             return name in LOOPBACK

@@ -96,7 +96,7 @@ def open_server(
         token: what a link must carry, `?token=…`; needed beyond this machine.
         title: of the page.
         public_names: under which a proxy makes the page known.
-        is_framed: whether pages of this machine may show it in a frame, as notebooks do.
+        is_framed: whether notebooks may show it in a frame, and under any name of their server.
 
     Raises:
         ModevizError: the port is none or in use, the address is not this machine's, a name is none, or

@@ -49,23 +49,6 @@ def test_page_has_our_title_and_icon_and_may_not_be_framed(server):
     assert "frame-ancestors 'none'" in headers["Content-Security-Policy"]
 
 
-def test_a_page_for_notebooks_may_be_framed_by_pages_of_this_machine_alone():
-    server = open_server(port=0, token=TOKEN, is_framed=True)
-    try:
-        _, headers, _ = get(server, f"/?token={TOKEN}")
-        cookie, *kept = headers["Set-Cookie"].split("; ")
-        # A notebook at localhost and a page at 127.0.0.1 are two sites: a strict cookie stays at home.
-        assert kept == ["HttpOnly", "SameSite=None", "Secure", "Partitioned"]
-        status, headers, _ = get(server, "/", Cookie=cookie)
-        ancestors = headers["Content-Security-Policy"].split(";")[0].split()
-    finally:
-        server.stop()
-    assert status == 200
-    assert ancestors[0] == "frame-ancestors"
-    hosts = [host.partition("://")[2] for host in ancestors[1:] if host != "vscode-webview:"]
-    assert set(hosts) == {"localhost:*", "127.0.0.1:*"}
-
-
 def test_zipped_page_is_the_same_page(server):
     status, headers, body = get(server, **{"Accept-Encoding": "gzip"})
     assert (status, headers["Content-Encoding"]) == (200, "gzip")
