@@ -12,8 +12,8 @@ CHECKOUT = Path(__file__).parents[1]
 USERS = ("modeviz", "examples", "assets", "benchmarks")
 """Folders that use the package; README and docs tell people of some more."""
 
-CALLED_BY_OTHERS = {"writable", "request_share_url", "_repr_html_"}
-"""Methods of io.IOBase, of viser's server, of notebooks."""
+CALLED_BY_OTHERS = {"writable", "request_share_url", "_repr_html_", "get_loop", "is_serving"}
+"""Methods of io.IOBase, of viser's server, of notebooks, of asyncio's servers."""
 
 
 def definitions(tree: ast.Module) -> Iterator[str]:

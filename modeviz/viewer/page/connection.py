@@ -52,10 +52,11 @@ SOON = 0.02
 
 @dataclass
 class House:
-    """The limits that the connections of a server share."""
+    """The limits that the connections to an address share, whichever session they are of."""
 
     notices: Notices
-    turns: Turns
+    arrivals: Places = field(default_factory=lambda: Places(most_connections(), MOST_OF_ONE))
+    """Of connections that have not said yet what they want."""
     connections: Places = field(default_factory=lambda: Places(most_connections(), MOST_OF_ONE))
     pages: Places = field(default_factory=lambda: Places(MOST_PAGES, MOST_PAGES_OF_ONE))
     openings: Allowance = field(default_factory=lambda: Allowance(OPENINGS_PER_S, MOST_OPENINGS))
@@ -64,10 +65,12 @@ class House:
 class PageConnection(ServerConnection):
     """A connection to viser's server: of few from one client, its messages whole and in fair number."""
 
-    def __init__(self, *arguments: Any, house: House, **options: Any) -> None:
-        """As websockets does, in a house that has places for it or none."""
+    def __init__(
+        self, *arguments: Any, house: House, turns: Turns | None = None, **options: Any
+    ) -> None:
+        """As websockets does, in a house that has places for it or none; calls take their turns."""
         super().__init__(*arguments, **options)
-        self._house = house
+        self._house, self._turns = house, turns
         self.client: str = "a client"
         """Who it is, see `client_of`."""
         self._places: list[Places] = []
@@ -185,7 +188,7 @@ class PageConnection(ServerConnection):
         elif wait and time.monotonic() - self._hurried_since > LONGEST_HURRY:
             await self._end(f"sent more than {MESSAGES_PER_S:.0f} messages a second")
         await asyncio.sleep(wait)
-        while self._house.turns.n_waiting(self) > MOST_WAITING:
+        while self._turns and self._turns.n_waiting(self) > MOST_WAITING:
             await asyncio.sleep(SOON)
 
     async def _end(self, why: str) -> NoReturn:

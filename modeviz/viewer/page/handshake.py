@@ -4,18 +4,13 @@ viser 1.1.1 answers everybody, accepts any Origin and obeys links that load othe
 """
 
 import asyncio
-import gzip
 import http
 import ipaddress
-import json
 import re
 import secrets
 import socket
-from base64 import b64encode
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
-from html import escape
-from importlib.resources import files
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
 import viser
@@ -66,8 +61,8 @@ SUBPROTOCOL = f"viser-v{viser.__version__}"
 WHY = "why-no-socket"
 """What a page asks for that cannot open its websocket."""
 
-ProcessRequest = Callable[[ServerConnection, Request], Response | None]
-Guarded = Callable[[ServerConnection, Request], Awaitable[Response | None]]
+ProcessRequest = Callable[[ServerConnection, Request], Awaitable[Response | None]]
+Guarded = Callable[[PageConnection, Request], Awaitable[Response | None]]
 
 
 @dataclass
@@ -83,57 +78,46 @@ class Door:
     is_framed: bool = False
     """Whether notebooks may show it in a frame, whatever name their server has; it has a token, without
     which a name that was pointed here gets nowhere."""
-    is_hung: bool = False
-    """Whether a server asks it."""
-    is_open: bool = False
-    """Nobody enters until messages are gated too."""
     guesses: Guesses = field(default_factory=Guesses)
     entered: str = field(default_factory=secrets.token_urlsafe)
     """What the cookie of who has brought the token holds; no part of the token, so that a cookie tells
     nothing of how near a guess was."""
-    pages: dict[bool, bytes] = field(default_factory=dict)
-    """The first page with our title, plain and gzipped."""
 
-    def guard(self, inner: ProcessRequest) -> Guarded:
-        """The handshake of a server, with this door before it."""
-        self.is_hung = True
+    def guard(self, inner: Guarded) -> ProcessRequest:
+        """Return the handshake of a server, with this door before it."""
 
         async def process_request(connection: ServerConnection, request: Request) -> Response | None:
             assert isinstance(connection, PageConnection)
-            if not self.is_open:
-                return _answer(503, "starting", Refresh="1")
             try:
-                return await self._answer(inner, connection, request)
+                return await self._response(inner, connection, request)
             except ValueError:  # of an address or a header that is none
-                return _answer(400, "this request cannot be read")
+                return answer(400, "this request cannot be read")
 
         return process_request
 
-    async def _answer(
-        self, inner: ProcessRequest, connection: PageConnection, request: Request
+    async def _response(
+        self, inner: Guarded, connection: PageConnection, request: Request
     ) -> Response | None:
         """Return the answer to a request; None to a websocket that may open."""
         if urlsplit(request.path).path.endswith(f"/{WHY}"):
             return self.refusal(request) or self._why(connection, request)
         if refusal := self.refusal(request) or await self._token_answer(connection, request):
             return refusal
-        if _is_websocket(request):
-            return await self._place(connection, request) or inner(connection, request)
         if urlsplit(request.path).path.endswith(f"/{ALIVE}"):
-            return _answer(200, ICON, **{"Content-Type": "image/svg+xml", "Cache-Control": "no-store"})
-        return self._page(inner, connection, request)
+            return answer(200, ICON, **{"Content-Type": "image/svg+xml", "Cache-Control": "no-store"})
+        return await inner(connection, request)
 
     def refusal(self, request: Request) -> Response | None:
         """The answer to a request from another site or for another site's scene, None to a good one."""
         hosts, origins = request.headers.get_all("Host"), request.headers.get_all("Origin")
         if len(hosts) != 1 or not self._is_known(hosts[0]):
             name = ", ".join(hosts)
-            return _answer(
+            return answer(
                 403,
                 f"{name} is not a name of this server: if it should be, start it with --public-name",
             )
         if (origins or _is_websocket(request)) and not self._is_same_site(origins, hosts[0]):
-            return _answer(
+            return answer(
                 403,
                 "a page of another site may not use this server: this one is at "
                 f"{', '.join(origins) or 'no address'}, and the server is asked as {hosts[0]}; "
@@ -141,7 +125,7 @@ class Door:
             )
         for name, _ in parse_qsl(urlsplit(request.path).query, keep_blank_values=True):
             if name in REFUSED_PARAMETERS:
-                return _answer(403, f"the parameter {name!r} is refused")
+                return answer(403, f"the parameter {name!r} is refused")
         return None
 
     async def _token_answer(self, connection: PageConnection, request: Request) -> Response | None:
@@ -154,34 +138,34 @@ class Door:
         client, has_entered = connection.client, self._has_entered(connection, request)
         given = _query(request).get("token")
         if not given or _is_websocket(request):
-            return None if has_entered else _answer(403, NO_TOKEN)
+            return None if has_entered else answer(403, NO_TOKEN)
         if not has_entered and (left := self.guesses.locked(client)):
-            return _answer(
+            return answer(
                 429, "too many wrong tokens from your address", **{"Retry-After": f"{left:.0f}"}
             )
         if not is_equal(given, self.token):
             delay = self.guesses.delay(client)
             self.guesses.note(client)
             await asyncio.sleep(delay)
-            return _answer(403, NO_TOKEN)
+            return answer(403, NO_TOKEN)
         self.guesses.forget(client)
-        answer = _answer(303, Location=_without_token(request.path))
+        entered = answer(303, Location=_without_token(request.path))
         for kept in (STRICT, FRAMED) if self.is_framed else (STRICT,):
             cookie = f"{_cookie_name(connection)}={self.entered}; HttpOnly; {kept}"
-            answer.headers["Set-Cookie"] = cookie
-        return answer
+            entered.headers["Set-Cookie"] = cookie
+        return entered
 
     def _has_entered(self, connection: PageConnection, request: Request) -> bool:
         """Whether a request has the cookie of who has brought the token."""
         return is_equal(_cookies(request).get(_cookie_name(connection), ""), self.entered)
 
-    async def _place(self, connection: PageConnection, request: Request) -> Response | None:
-        """The answer to a websocket of something else than our page, or of one too many."""
+    async def place(self, connection: PageConnection, request: Request) -> Response | None:
+        """Return the answer to a websocket of something else than our page, or of one too many."""
         if SUBPROTOCOL not in request.headers.get("Sec-WebSocket-Protocol", ""):
-            return _answer(400, OTHER_VERSION)
+            return answer(400, OTHER_VERSION)
         if not connection.take_page():
-            return _answer(503, TOO_MANY)
-        return None if await connection.wait_to_open() else _answer(503, BUSY)
+            return answer(503, TOO_MANY)
+        return None if await connection.wait_to_open() else answer(503, BUSY)
 
     def _why(self, connection: PageConnection, request: Request) -> Response:
         """Return why a page's websocket is refused, which says its address and language, or ""."""
@@ -190,12 +174,22 @@ class Door:
         _set(asked.headers, "Origin", query.get("origin", ""))
         _set(asked.headers, "Upgrade", "websocket")
         if refusal := self.refusal(asked):
-            return _answer(200, refusal.body.decode())
+            return answer(200, refusal.body.decode())
         if self.token and not self._has_entered(connection, request):
-            return _answer(200, NO_TOKEN)
+            return answer(200, NO_TOKEN)
         if query.get("subprotocol") != SUBPROTOCOL:
-            return _answer(200, OTHER_VERSION)
-        return _answer(200, "" if connection.has_page_place() else TOO_MANY)
+            return answer(200, OTHER_VERSION)
+        return answer(200, "" if connection.has_page_place() else TOO_MANY)
+
+    def policy(self, request: Request) -> str:
+        """Return what a page may do, and who may show it, as Content-Security-Policy says it."""
+        hosts = [request.headers["Host"], *(f"{name}:*" for name in self.public_names)]
+        sockets = " ".join(f"ws://{host} wss://{host}" for host in hosts)
+        ancestors = ANCESTORS if self.is_framed else "'none'"
+        return (
+            f"frame-ancestors {ancestors}; connect-src 'self' {sockets} data: blob:; "
+            "object-src 'none'; base-uri 'none'"
+        )
 
     def _is_known(self, host: str) -> bool:
         """Whether a Host header names this server, so that no foreign name was pointed at it.
@@ -223,50 +217,9 @@ class Door:
         is_public = match is not None and (match[1] or match[2]) in self.public_names
         return site == host.lower() or is_public
 
-    def _page(
-        self, inner: ProcessRequest, connection: ServerConnection, request: Request
-    ) -> Response | None:
-        """Return the answer of viser; the first page with our title and icon, all with our headers."""
-        is_first_page = urlsplit(request.path).path in ("/", "/index.html")
-        zipped = "gzip" in request.headers.get("Accept-Encoding", "")
-        if is_first_page:
-            _set(request.headers, "Accept-Encoding", "identity")
-        response = inner(connection, request)
-        if response is None or response.status_code != 200:
-            return response
-        if is_first_page:
-            if not self.pages:
-                page = _explained(named_page(response.body, self.title))
-                self.pages = {False: page, True: gzip.compress(page, 6)}
-            response.body = self.pages[zipped]
-            _set(response.headers, "Content-Length", str(len(response.body)))
-            _set(response.headers, "Content-Encoding", "gzip" if zipped else "identity")
-        hosts = [request.headers["Host"], *(f"{name}:*" for name in self.public_names)]
-        sockets = " ".join(f"ws://{host} wss://{host}" for host in hosts)
-        ancestors = ANCESTORS if self.is_framed else "'none'"
-        response.headers["Content-Security-Policy"] = (
-            f"frame-ancestors {ancestors}; connect-src 'self' {sockets} data: blob:; "
-            "object-src 'none'; base-uri 'none'"
-        )
-        return response
 
-
-def named_page(page: bytes | bytearray, title: str) -> bytes:
-    """Viser's page with another title and our icon."""
-    icon = "data:image/svg+xml;base64," + b64encode(ICON.encode()).decode()
-    html = page.decode().replace("<title>Viser</title>", f"<title>{escape(title)}</title>", 1)
-    return re.sub(r'(<link\s+rel="icon"\s+href=)"[^"]*"', rf'\1"{icon}"', html, count=1).encode()
-
-
-def _explained(page: bytes) -> bytes:
-    """A page that says what is wrong while its websocket is not open."""
-    function = files("modeviz.viewer.page").joinpath("connecting.js").read_text("utf-8").rstrip()
-    script = f"<script>({function})({json.dumps(WHY)}, {json.dumps(SUBPROTOCOL)});</script>"
-    before, head, after = page.partition(b"<head>")
-    return before + head + script.encode() + after
-
-
-def _answer(status: int, text: str = "", **headers: str) -> Response:
+def answer(status: int, text: str = "", **headers: str) -> Response:
+    """Return an answer of few words."""
     body = text.encode()
     common = {
         "Content-Type": "text/plain; charset=utf-8",

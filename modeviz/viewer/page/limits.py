@@ -67,13 +67,15 @@ class Allowance:
         """
         self._per_second, self._most, self._clock = per_second, most, clock
         self._left, self._seen = most, clock()
+        self._lock = threading.Lock()
 
     def take(self, amount: float = 1.0) -> float:
         """Takes some, and gives how long to wait until it is there, s; 0 if it is."""
-        now = self._clock()
-        self._left = min(self._left + (now - self._seen) * self._per_second, self._most) - amount
-        self._seen = now
-        return max(0.0, -self._left / self._per_second)
+        with self._lock:
+            now = self._clock()
+            self._left = min(self._left + (now - self._seen) * self._per_second, self._most) - amount
+            self._seen = now
+            return max(0.0, -self._left / self._per_second)
 
     @property
     def is_plenty(self) -> bool:

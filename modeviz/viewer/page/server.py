@@ -1,15 +1,12 @@
-"""viser's server, opened behind our handshake, limits and message filter, silent on the terminal.
+"""The server of one session: viser's, behind our handshake, limits and message filter, and silent.
 
 Its web server is built inside `ViserServer.__init__`, so these are put in while that runs.
 tests/viewer/page/test_server.py fails when viser changes.
 """
 
 import asyncio
-import errno
 import io
-import logging
 import re
-import socket
 import threading
 from collections.abc import Callable, Coroutine, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
@@ -21,19 +18,19 @@ import websockets.asyncio.server
 from viser import _messages
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.connection import CLOSING_S, House, PageConnection
+from modeviz.viewer.page.acceptor import Acceptor
+from modeviz.viewer.page.connection import CLOSING_S, PageConnection
 from modeviz.viewer.page.decoding import LARGEST_MESSAGE
-from modeviz.viewer.page.handshake import LOOPBACK, Door, ProcessRequest
-from modeviz.viewer.page.links import link, local_link
+from modeviz.viewer.page.front import HANDSHAKE_S, Front, report, silent_logger
+from modeviz.viewer.page.handshake import LOOPBACK, Door
 from modeviz.viewer.page.message_filter import gate_messages
 from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.one_page import OnePage
 from modeviz.viewer.page.tokens import checked_token
 from modeviz.viewer.page.turns import Turns
-
-HANDSHAKE_S = 10.0
-"""s: how long a client may take to say what it wants."""
 
 _one_server_at_a_time = threading.Lock()
 
@@ -41,34 +38,41 @@ Handler = Callable[[ServerConnection], Coroutine[Any, Any, None]]
 
 
 class Server(viser.ViserServer):
-    """viser's server behind a door, silent on the terminal."""
+    """viser's server of one session: its pages come from the front; silent on the terminal."""
 
-    def __init__(self, host: str, port: int, door: Door) -> None:
-        self.notices: Notices = Notices()
-        house = House(self.notices, Turns(self.notices.mistake))
-        with _guarded_by(door, house), redirect_stdout(io.StringIO()):
-            super().__init__(host=host, port=port, label=door.title, verbose=False)
-        if not door.is_hung:
+    def __init__(self, front: Front, address: str = "") -> None:
+        """Waits for pages; see `acceptor`.
+
+        Args:
+            front: where pages come in.
+            address: what a page's address says after the token, such as "&session=…".
+        """
+        self.notices: Notices = front.house.notices
+        self.acceptor: Acceptor = Acceptor()
+        self._front, self._address = front, address
+        turns = Turns(self.notices.mistake)
+        with _behind(front, turns, self.acceptor), redirect_stdout(io.StringIO()):
+            door = front.door
+            super().__init__(host=door.host, port=front.port, label=door.title, verbose=False)
+        if not self.acceptor.is_ready:
             self.stop()
             raise RuntimeError("viser no longer starts through websockets.asyncio.server.serve")
         for request in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
             self._websock_server.unregister_handler(request)
         self._thread_executor.shutdown()
         for caller in (self, self.gui, self.scene):
-            caller._thread_executor = house.turns
+            caller._thread_executor = turns
         gate_messages(self, self.notices)
-        self._door = door
-        door.is_open = True
 
     @property
     def link(self) -> str:
         """The address of the page for everybody who can reach it, with its token."""
-        return link(self._door.host, self.get_port(), self._door.token)
+        return self._front.link + self._address
 
     @property
     def local_link(self) -> str:
         """The address of the page for a browser of this machine; ready for `&name=value`."""
-        return local_link(self._door.host, self.get_port(), self._door.token)
+        return self._front.local_link + self._address
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         """Never opens viser's public tunnel."""
@@ -77,6 +81,18 @@ class Server(viser.ViserServer):
     def stop(self) -> None:
         with redirect_stdout(io.StringIO()):
             super().stop()
+
+
+class LoneServer(Server):
+    """The only server behind a front of its own: every page is of its session."""
+
+    def __init__(self, front: Front) -> None:
+        super().__init__(front)
+        front.open(OnePage(front.door, self.acceptor))
+
+    def stop(self) -> None:
+        self._front.close()
+        super().stop()
         self.notices.tally()
 
 
@@ -88,7 +104,7 @@ def open_server(
     public_names: Sequence[str] = (),
     is_framed: bool = False,
 ) -> Server:
-    """A viser server that only who has the token, or without one the users of this machine, can reach.
+    """A server of one session that only who has the token, or else who is on this machine, can reach.
 
     Args:
         host: the address to listen on.
@@ -97,6 +113,27 @@ def open_server(
         title: of the page.
         public_names: under which a proxy makes the page known.
         is_framed: whether notebooks may show it in a frame, and under any name of their server.
+
+    Raises:
+        ModevizError: as `open_front`.
+    """
+    front = open_front(host, port, token, title, public_names, is_framed)
+    try:
+        return LoneServer(front)
+    except BaseException:
+        front.close()
+        raise
+
+
+def open_front(
+    host: str = "127.0.0.1",
+    port: int = 8080,
+    token: str | None = None,
+    title: str = "modeviz",
+    public_names: Sequence[str] = (),
+    is_framed: bool = False,
+) -> Front:
+    """Return a front that has its address and lets nobody in yet; arguments as of `open_server`.
 
     Raises:
         ModevizError: the port is none or in use, the address is not this machine's, a name is none, or
@@ -113,62 +150,38 @@ def open_server(
             )
     if not 0 <= port <= 65535:
         raise ModevizError(f"port: found {port}, expected 0 to 65535")
-    _check_free(host, port)
     names = tuple(map(str.lower, public_names))
-    server = Server(host, port, Door(host, token, title, names, is_framed))
-    if port and server.get_port() != port:
-        server.stop()
-        raise ModevizError(_in_use(host, port))
-    return server
-
-
-def _check_free(host: str, port: int) -> None:
-    """Raises ModevizError if nothing can listen there; viser would silently take the next port."""
-    try:
-        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
-        with socket.socket(family, socket.SOCK_STREAM) as probe:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            probe.bind((host, port))
-    except OSError as error:
-        if error.errno == errno.EADDRINUSE:
-            raise ModevizError(_in_use(host, port)) from None
-        raise ModevizError(f"cannot listen on port {port} of {host}: {error.strerror}") from None
-
-
-def _in_use(host: str, port: int) -> str:
-    return f"port {port} of {host} is in use: choose another with --port"
+    return Front(Door(host, token, title, names, is_framed), port, Notices())
 
 
 @contextmanager
-def _guarded_by(door: Door, house: House) -> Iterator[None]:
-    """While this lasts, a server that viser starts asks `door` first; it has places as `house` has."""
+def _behind(front: Front, turns: Turns, acceptor: Acceptor) -> Iterator[None]:
+    """While this lasts, a server that viser starts gets its websockets from a front, past its door."""
     serve = websockets.asyncio.server.serve
+    house = front.house
 
-    def guarded_serve(handler: Handler, *args: Any, process_request: ProcessRequest, **options: Any):
-        asyncio.get_running_loop().set_exception_handler(partial(_report, house.notices))
+    async def place(connection: PageConnection, request: Request) -> Response | None:
+        return await front.door.place(connection, request)
+
+    def inner_serve(handler: Handler, *args: Any, **options: Any):
+        asyncio.get_running_loop().set_exception_handler(partial(report, house.notices))
         ours = {
-            "process_request": door.guard(process_request),
-            "create_connection": partial(PageConnection, house=house),
+            "process_request": front.door.guard(place),
+            "create_connection": partial(PageConnection, house=house, turns=turns),
             "max_size": LARGEST_MESSAGE,
             "open_timeout": HANDSHAKE_S,
             "close_timeout": CLOSING_S,
-            "logger": _silent(),
+            "logger": silent_logger(),
         }
-        return serve(_reported(handler, house.notices), *args, **{**options, **ours})
+        with acceptor.inside():
+            return serve(_reported(handler, house.notices), *args, **{**options, **ours})
 
     with _one_server_at_a_time:
-        websockets.asyncio.server.serve = guarded_serve
+        websockets.asyncio.server.serve = inner_serve
         try:
             yield
         finally:
             websockets.asyncio.server.serve = serve
-
-
-def _silent() -> logging.Logger:
-    """Silences the words of websockets on what is no request, such as a port scan."""
-    logger = logging.getLogger("modeviz.websockets")
-    logger.setLevel(logging.CRITICAL)
-    return logger
 
 
 def _reported(handler: Handler, notices: Notices) -> Handler:
@@ -183,14 +196,3 @@ def _reported(handler: Handler, notices: Notices) -> Handler:
             notices.mistake(error)
 
     return handle
-
-
-def _report(notices: Notices, _loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-    """Says once what went wrong in the server's loop, such as that there are no more files to open."""
-    error = context.get("exception")
-    if isinstance(error, OSError):
-        notices.note("the server", f"cannot take a connection: {error.strerror}")
-    elif isinstance(error, Exception):
-        notices.mistake(error)
-    else:
-        notices.note("the server", f"has trouble: {context['message']}")

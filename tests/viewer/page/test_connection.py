@@ -23,8 +23,7 @@ from visitors import (
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.frames import Frame, Opcode
 
-from modeviz.viewer.page import connection, tokens
-from modeviz.viewer.page import server as doors
+from modeviz.viewer.page import connection, front, tokens
 from modeviz.viewer.page.connection import MOST_BYTES, MOST_PAGES_OF_ONE, MOST_WRONG
 from modeviz.viewer.page.decoding import PART
 from modeviz.viewer.page.server import open_server
@@ -192,7 +191,7 @@ def test_a_page_that_says_nothing_is_closed(server, monkeypatch):
 
 @pytest.mark.parametrize("begin", [b"", b"GET / HTTP/1.1\r\nHost: x\r\n"])
 def test_a_request_that_does_not_end_is_given_up(monkeypatch, begin):
-    monkeypatch.setattr(doors, "HANDSHAKE_S", 0.5)
+    monkeypatch.setattr(front, "HANDSHAKE_S", 0.5)
     with opened() as server, reach(server) as slow:
         slow.sendall(begin)
         with suppress(ConnectionResetError):
@@ -257,7 +256,7 @@ def test_what_goes_wrong_in_the_servers_loop_is_said_once(server, capfd):
 
 
 def test_what_is_no_request_is_not_on_the_terminal(monkeypatch, capfd):
-    monkeypatch.setattr(doors, "HANDSHAKE_S", 0.5)
+    monkeypatch.setattr(front, "HANDSHAKE_S", 0.5)
     with opened() as server:
         for nonsense in (b"\x16\x03\x01" + b"\0" * 200, b"GET nothing\r\n\r\n", b"\r\n" * 10):
             with reach(server) as scan:

@@ -1,0 +1,220 @@
+"""The only socket that others reach: answers requests, hands websockets to the servers of sessions."""
+
+import asyncio
+import errno
+import logging
+import socket
+import threading
+from contextlib import suppress
+from functools import partial
+from typing import Any, Protocol
+
+import websockets.asyncio.server
+from websockets.asyncio.server import ServerConnection
+from websockets.http11 import Request, Response
+
+from modeviz.errors import ModevizError
+from modeviz.viewer.page.acceptor import Acceptor
+from modeviz.viewer.page.connection import House, PageConnection
+from modeviz.viewer.page.handshake import Door, answer
+from modeviz.viewer.page.limits import client_of
+from modeviz.viewer.page.links import link, local_link
+from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.request_head import RequestHead, request_head
+
+HANDSHAKE_S = 10.0
+"""s: how long a client may take to say what it wants."""
+
+SOON = 0.02
+"""s between two looks whether the rest of a request has come."""
+
+BACKLOG = 100
+
+NO_SESSION = "there is no such session here, or it has ended: open the link that modeviz printed"
+
+
+class Site(Protocol):
+    """What is behind a front."""
+
+    async def page(self, connection: PageConnection, request: Request) -> Response:
+        """Return the answer to a request for a page, which the door has let in."""
+        ...
+
+    async def acceptor(self, head: RequestHead) -> Acceptor | None:
+        """Return what serves a websocket, or None if there is no such session."""
+        ...
+
+
+class Front:
+    """Listens on one address in a thread of its own; everybody passes its door."""
+
+    def __init__(self, door: Door, port: int, notices: Notices) -> None:
+        """Takes the address; nobody is let in before `open`.
+
+        Args:
+            door: judges requests.
+            port: to listen on; 0 takes a free one.
+            notices: told of clients that go too far.
+
+        Raises:
+            ModevizError: the port is in use, or the address is not this machine's.
+        """
+        self.door: Door = door
+        self.house: House = House(notices)
+        self._listening = _listening(door.host, port)
+        self.port: int = self._listening.getsockname()[1]
+        self._loop = asyncio.SelectorEventLoop()
+        self._own = Acceptor()
+        self._site: Site
+        self._thread = threading.Thread(target=self._run, name="front", daemon=True)
+
+    @property
+    def link(self) -> str:
+        """The address of the page for everybody who can reach it, with its token."""
+        return link(self.door.host, self.port, self.door.token)
+
+    @property
+    def local_link(self) -> str:
+        """The address of the page for a browser of this machine; ready for `&name=value`."""
+        return local_link(self.door.host, self.port, self.door.token)
+
+    def open(self, site: Site) -> None:
+        """Lets people in to what is behind."""
+        self._site = site
+        self._listening.listen(BACKLOG)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Gives the address back; who is in stays in."""
+        if self._thread.is_alive():
+            with suppress(RuntimeError):  # it has ended meanwhile
+                self._loop.call_soon_threadsafe(self._loop.stop)
+            self._thread.join(timeout=2.0)
+        self._listening.close()
+
+    def _run(self) -> None:
+        loop = self._loop
+        asyncio.set_event_loop(loop)
+        loop.set_exception_handler(partial(report, self.house.notices))
+        loop.create_task(self._serve())
+        loop.run_forever()
+        for task in asyncio.all_tasks(loop):
+            task.cancel()
+        loop.run_until_complete(asyncio.sleep(0))
+        loop.close()
+
+    async def _serve(self) -> None:
+        """Builds the server of our own answers and accepts connections for ever."""
+        options: dict[str, Any] = {
+            "process_request": self.door.guard(self._answer),
+            "create_connection": partial(PageConnection, house=self.house),
+            "open_timeout": HANDSHAKE_S,
+            "logger": silent_logger(),
+        }
+        with self._own.inside():
+            await websockets.asyncio.server.serve(_no_websocket, **options)
+        tasks: set[asyncio.Task[None]] = set()
+        while True:
+            try:
+                connection, peer = await self._loop.sock_accept(self._listening)
+            except OSError as error:  # no more files, or the client has gone again
+                report(self.house.notices, self._loop, {"exception": error, "message": ""})
+                await asyncio.sleep(SOON)
+                continue
+            task = self._loop.create_task(self._receive(connection, client_of(peer[0])))
+            tasks.add(task)
+            task.add_done_callback(tasks.discard)
+
+    async def _receive(self, connection: socket.socket, client: str) -> None:
+        """Hands a connection to who is to serve it, as soon as it is known what it wants."""
+        connection.setblocking(False)
+        if not self.house.arrivals.take(client):
+            self.house.notices.note(client, "opened more connections than it may: the last are refused")
+            connection.close()
+            return
+        try:
+            async with asyncio.timeout(HANDSHAKE_S):
+                head = await _peeked(self._loop, connection)
+            acceptor = await self._site.acceptor(head) if head.is_websocket else None
+        except (OSError, TimeoutError):
+            connection.close()
+        except BaseException:
+            connection.close()
+            raise
+        else:
+            (acceptor or self._own).take(connection)
+        finally:
+            self.house.arrivals.leave(client)
+
+    async def _answer(self, connection: PageConnection, request: Request) -> Response | None:
+        """Return the answer to who has passed the door: a page, or that there is no such session."""
+        if request.headers.get("Upgrade", "").lower() == "websocket":
+            return answer(404, NO_SESSION)
+        return await self._site.page(connection, request)
+
+
+async def _peeked(loop: asyncio.AbstractEventLoop, connection: socket.socket) -> RequestHead:
+    """Return what a connection asks for, which stays to be read.
+
+    Raises:
+        OSError: it is closed.
+    """
+    came = loop.create_future()
+    loop.add_reader(connection, lambda: came.done() or came.set_result(None))
+    try:
+        await came
+    finally:
+        loop.remove_reader(connection)
+    while (head := request_head(connection)) is None:
+        await asyncio.sleep(SOON)
+    return head
+
+
+async def _no_websocket(connection: ServerConnection) -> None:
+    """Never called: every websocket is answered or handed on before."""
+    await connection.close()
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    """Return a socket that has an address, and does not listen yet.
+
+    Raises:
+        ModevizError: the port is in use, or the address is not this machine's.
+    """
+    try:
+        family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        listening = socket.socket(family, kind)
+    except OSError as error:
+        raise _refused(host, port, error) from None
+    try:
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listening.setblocking(False)
+        listening.bind(address)
+    except OSError as error:
+        listening.close()
+        raise _refused(host, port, error) from None
+    return listening
+
+
+def _refused(host: str, port: int, error: OSError) -> ModevizError:
+    if error.errno == errno.EADDRINUSE:
+        return ModevizError(f"port {port} of {host} is in use: choose another with --port")
+    return ModevizError(f"cannot listen on port {port} of {host}: {error.strerror}")
+
+
+def silent_logger() -> logging.Logger:
+    """Return a logger that keeps silent on what is no request, such as a port scan."""
+    logger = logging.getLogger("modeviz.websockets")
+    logger.setLevel(logging.CRITICAL)
+    return logger
+
+
+def report(notices: Notices, _loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+    """Says once what went wrong in a loop, such as that there are no more files to open."""
+    error = context.get("exception")
+    if isinstance(error, OSError):
+        notices.note("the server", f"cannot take a connection: {error.strerror}")
+    elif isinstance(error, Exception):
+        notices.mistake(error)
+    else:
+        notices.note("the server", f"has trouble: {context['message']}")

@@ -1,0 +1,35 @@
+"""A front with nothing behind it but one page and its session."""
+
+from urllib.parse import urlsplit
+
+from websockets.http11 import Request, Response
+
+from modeviz.viewer.page.acceptor import Acceptor
+from modeviz.viewer.page.connection import PageConnection
+from modeviz.viewer.page.handshake import Door, answer
+from modeviz.viewer.page.page_file import PageFile
+from modeviz.viewer.page.request_head import RequestHead
+
+PATHS = ("/", "/index.html")
+
+
+class OnePage:
+    """Sends everybody to the same page and the same server."""
+
+    def __init__(self, door: Door, acceptor: Acceptor) -> None:
+        """Reads nothing yet.
+
+        Args:
+            door: that lets people in.
+            acceptor: serves the websockets of the page.
+        """
+        self._page, self._acceptor = PageFile(door, door.title), acceptor
+
+    async def page(self, connection: PageConnection, request: Request) -> Response:
+        """Return the page, or that there is none at that address."""
+        is_page = urlsplit(request.path).path in PATHS
+        return self._page.response(request) if is_page else answer(404, "there is no such page")
+
+    async def acceptor(self, head: RequestHead) -> Acceptor | None:
+        """Return what serves its websocket."""
+        return self._acceptor
