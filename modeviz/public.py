@@ -82,4 +82,5 @@ from modeviz.vehicle.problem import FrequencyWindow as FrequencyWindow
 from modeviz.vehicle.problem import Performance as Performance
 from modeviz.vehicle.problem import Problem as Problem
 from modeviz.vehicle.progressive import ForceCurve as ForceCurve
+from modeviz.vehicle.tuned_parts import tuned_group as tuned_group
 from modeviz.vehicle.vehicle import Vehicle as Vehicle

@@ -27,7 +27,9 @@ STAND_INS: Mapping[str, float] = {"damping_ratio": 0.0, "loss_factor": 0.0}
 TABLES: Mapping[str, tuple[str, ...]] = {
     "body": ("flexible_body", "rigid_body"),
     "connection": (*CONNECTION_KINDS, "mount_group", "absorber"),
-    "mount group": ("mount_group", "absorber"),
+    "mount group": ("mount_group", "spring_group", "damper_group", "absorber"),
+    "spring group": ("spring_group",),
+    "damper group": ("damper_group",),
     "added mass": ("added_mass",),
     "absorber": ("absorber",),
     "response point": ("response_point",),

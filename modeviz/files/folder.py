@@ -7,10 +7,10 @@ FOLDER/spectra/NAME.csv that of a force or a motion of the ground, FOLDER/rates/
 over frequency; all in SI.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import msgspec
 
@@ -41,6 +41,7 @@ from modeviz.files.records.loads import (
 )
 from modeviz.files.records.problems import ProblemRecord
 from modeviz.files.records.rates import RateSetRecord
+from modeviz.files.records.tuned_parts import DamperGroupRecord, SpringGroupRecord
 from modeviz.files.records.vehicle import (
     ModeDampingRecord,
     ResponsePointRecord,
@@ -57,13 +58,13 @@ from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
 from modeviz.vehicle.absorber_parts import absorbers_of
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
-from modeviz.vehicle.connections import Bolt, Damper, Rod, Spring
+from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring
 from modeviz.vehicle.doubts import doubts
 from modeviz.vehicle.dynamic_rates import RateTable
 from modeviz.vehicle.engine import Engine
 from modeviz.vehicle.loads import Road, Spectrum
 from modeviz.vehicle.mesh_doubts import mesh_doubts
-from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_group import MountGroup, PartKind
 from modeviz.vehicle.orientation import orientation_doubts
 from modeviz.vehicle.place_doubts import place_doubts
 from modeviz.vehicle.size_doubts import size_doubts
@@ -205,10 +206,14 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
     absorbers = absorbers_of(vehicle)
     masses = {absorber.body_name for absorber in absorbers}
     guides = {absorber.guide_name for absorber in absorbers}
-    springs = {absorber.name for absorber in absorbers}
+    its_groups = {absorber.name for absorber in absorbers}
     bodies = [body for body in vehicle.bodies if body.name not in masses]
     connections = [c for c in vehicle.connections if c.name not in guides]
-    mount_groups = tuple(g for g in vehicle.mount_groups if g.name not in springs)
+    mount_groups = tuple(g for g in vehicle.mount_groups if g.name not in its_groups)
+    of_kind = {kind: [g for g in mount_groups if g.kind == kind] for kind in get_args(PartKind)}
+    tuned = {
+        kind: [mount for group in groups for mount in group.mounts] for kind, groups in of_kind.items()
+    }
     stems = file_stems(body.name for body in vehicle.bodies)
     spectra = _spectrum_files(vehicle, folder)
     flexible = [b for b in bodies if isinstance(b, FlexibleBody)]
@@ -224,11 +229,13 @@ def _record(vehicle: Vehicle, folder: Path) -> VehicleRecord:
         rigid_body=[RigidBodyRecord.of(b, _mesh_file(b, stems[b.name], folder)) for b in rigid],
         added_mass=[AddedMassRecord.of(m) for m in vehicle.added_masses],
         absorber=[AbsorberRecord.of(absorber) for absorber in absorbers],
-        mount_group=_group_records(mount_groups, folder),
-        spring=[JointRecord.of(c) for c in connections if type(c) is Spring],
+        mount_group=_group_records(of_kind["mount"], folder),
+        spring=[JointRecord.of(c) for c in (*_of_type(connections, Spring), *tuned["spring"])],
         rod=[RodRecord.of(c) for c in connections if isinstance(c, Rod)],
-        bolt=[JointRecord.of(c) for c in connections if type(c) is Bolt],
-        damper=[ConnectionRecord.of(c) for c in connections if type(c) is Damper],
+        bolt=[JointRecord.of(c) for c in _of_type(connections, Bolt)],
+        damper=[ConnectionRecord.of(c) for c in (*_of_type(connections, Damper), *tuned["damper"])],
+        spring_group=[SpringGroupRecord.of(group) for group in of_kind["spring"]],
+        damper_group=[DamperGroupRecord.of(group) for group in of_kind["damper"]],
         tyre=[TyreRecord.of(c) for c in vehicle.tyres],
         response_point=[ResponsePointRecord.of(p) for p in vehicle.response_points],
         road=_road_records(vehicle.roads, folder),
@@ -285,7 +292,11 @@ def _road_records(roads: tuple[Road, ...], folder: Path) -> list[RoadRecord]:
     return records
 
 
-def _group_records(groups: tuple[MountGroup, ...], folder: Path) -> list[MountGroupRecord]:
+def _of_type(connections: Iterable[Connection], kind: type[Connection]) -> list[Connection]:
+    return [connection for connection in connections if type(connection) is kind]
+
+
+def _group_records(groups: Sequence[MountGroup], folder: Path) -> list[MountGroupRecord]:
     """The records of mount groups, now that the tables of their rates over frequency are written."""
     stems = file_stems(group.name for group in groups)
     tables = {g.name: g.dynamic for g in groups if isinstance(g.dynamic, RateTable)}

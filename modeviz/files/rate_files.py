@@ -9,9 +9,9 @@ from typing import Literal, get_args
 
 import msgspec
 
-from modeviz.errors import VehicleError, check_unique, located
+from modeviz.errors import VehicleError, at_key, check_unique, located
 from modeviz.files.disk import LARGEST_TEXT, WESTERN, read_text, write_text
-from modeviz.files.records.rates import RateSetRecord
+from modeviz.files.records.rates import RateSetRecord, rate_set
 from modeviz.files.records.record import Record
 from modeviz.files.schema.decoding import decode, unreadable
 from modeviz.files.schema.quantities import quantity_of
@@ -53,9 +53,10 @@ def parse_rates(text: str, file_format: RatesFormat, vehicle: Vehicle) -> Rates:
         VehicleError: damaged, or a group or unit that does not exist.
     """
     records = {"csv": _from_csv, "json": _from_json}[file_format](text.removeprefix("\ufeff"))
-    return {
-        group: record.build_for(vehicle.mount_group(group).rates) for group, record in records.items()
-    }
+    for group in records:
+        vehicle.mount_group(group)
+    with at_key("rates"):
+        return rate_set(records, vehicle.mount_groups)
 
 
 def rates_text(rates: Rates, file_format: RatesFormat, vehicle: Vehicle | None = None) -> str:

@@ -183,7 +183,7 @@ def _check_load_case(vehicle: "Vehicle", case: LoadCase) -> None:
 def _check_ends(vehicle: "Vehicle", connection: Connection) -> None:
     if not isinstance(connection, Mount | Spring | Rod | Bolt | Damper | Tyre):
         raise VehicleError("expected a Spring, Rod, Bolt, Damper or Tyre")
-    if connection.rigid and not isinstance(connection, Spring | Rod | Bolt):
+    if connection.rigid and not isinstance(connection, Spring | Rod | Bolt | Mount):
         raise VehicleError("only a spring, a rod or a bolt can be rigid")
     if connection.bodies[0] == GROUND:
         raise VehicleError(f"{GROUND!r} must be the second of its bodies")

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
@@ -27,6 +28,8 @@ USUAL_STATIC_RATIO = 1.3
 
 Travel = Mapping[str, tuple[float, float]]
 """The least and the most deflection, m, by one of `DIRECTIONS`; positive along the local axis."""
+
+PartKind = Literal["mount", "spring", "damper"]
 
 SHARED = ("rotational_stiffness", "damping", "rotational_damping")
 """What a mount has from its group unless it has its own."""
@@ -64,35 +67,36 @@ class MountGroup:
     rate by its static ratio."""
     dynamic: DynamicRates | None = None
     """How the rates along the axes of each depend on frequency; None: not at all."""
+    kind: PartKind = "mount"
+    """What they are: a file has springs and dampers in tables of their own, see `tuned_group`."""
 
     def __post_init__(self) -> None:
         for name in SHARED:
             frozen(self, name, getattr(self, name), (3,))
         self._check_static()
         if not self.mounts:
-            raise VehicleError(f"mount group {self.name!r}: has no mounts")
+            raise VehicleError(f"{self._words}: has no mounts")
         if any(r.loss_factor is not None for r in (self.rates, *self.bounds)):
             raise VehicleError(
-                f"mount group {self.name!r}: found a loss factor in its rates or bounds, expected it "
+                f"{self._words}: found a loss factor in its rates or bounds, expected it "
                 "as the group's own"
             )
-        check_bounds(f"mount group {self.name!r}", self.bounds)
+        check_bounds(self._words, self.bounds)
         if not self.fields:
             raise VehicleError(
-                f"mount group {self.name!r}: bounds: found the same softest and stiffest rates, "
-                "expected some that differ; a [[spring]] or [[damper]] is not tuned"
+                f"{self._words}: bounds: found the same softest and stiffest rates, "
+                "expected some that differ; what is not tuned is a [[spring]] or a [[damper]]"
             )
         self._check_shared()
         if self.ratio_limits is not None and not 0 <= self.ratio_limits[0] < self.ratio_limits[1]:
             raise VehicleError(
-                f"mount group {self.name!r}: ratio_limits: found {self.ratio_limits}, expected the "
-                "lower one first"
+                f"{self._words}: ratio_limits: found {self.ratio_limits}, expected the lower one first"
             )
         object.__setattr__(self, "mounts", tuple(map(self._tuned, self.mounts)))
 
     def _check_static(self) -> None:
         """Raises VehicleError for a ratio or a travel that no mount has."""
-        where = f"mount group {self.name!r}"
+        where = self._words
         if not (np.isfinite(self.static_ratio) and self.static_ratio > 0):
             raise VehicleError(
                 f"{where}: static_ratio: found {self.static_ratio:g}, expected more than zero"
@@ -116,7 +120,7 @@ class MountGroup:
             attribute = "rotational_stiffness" if name in ROTATIONAL_FIELDS else "damping"
             if rate and name in self.fields:
                 raise VehicleError(
-                    f"mount group {self.name!r}: {attribute}: found beside {RATE_NAMES[name]} among "
+                    f"{self._words}: {attribute}: found beside {RATE_NAMES[name]} among "
                     "its rates, expected one of them"
                 )
         self._check_tuned(self.rates, "; any other belongs into rotational_stiffness or damping")
@@ -126,9 +130,14 @@ class MountGroup:
         for name in OTHER_FIELDS:
             if getattr(rates, name) and name not in self.fields:
                 raise VehicleError(
-                    f"mount group {self.name!r}: {RATE_NAMES[name]}: found {spoken_rate(rates, name)}, "
+                    f"{self._words}: {RATE_NAMES[name]}: found {spoken_rate(rates, name)}, "
                     f"expected a rate that is tuned, whose softest and stiffest differ{otherwise}"
                 )
+
+    @property
+    def _words(self) -> str:
+        """What an error calls it."""
+        return f"{self.kind} group {self.name!r}"
 
     @property
     def fields(self) -> tuple[str, ...]:

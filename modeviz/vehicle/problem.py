@@ -11,7 +11,7 @@ from modeviz.vehicle.decoupling import DecoupledBody
 from modeviz.vehicle.load_cases import STANDING
 from modeviz.vehicle.mount_rates import (
     DIRECTIONS,
-    OTHER_FIELDS,
+    RATE_FIELDS,
     RATE_NAMES,
     RIDE_DIRECTIONS,
     Bounds,
@@ -74,8 +74,7 @@ class DesignGroup:
     directions: tuple[str, ...] = EVERY_RATE
     """Which of its tuned rates, of `EVERY_RATE`; none only of a group that may be placed otherwise."""
     bounds: Bounds | None = None
-    """The softest and the stiffest; None: the mount group's, as those of a rate about an axis or of
-    damping that both have as zero."""
+    """The softest and the stiffest; None: the mount group's, as those that both have as zero."""
     ratio_limits: tuple[float, float] | None = None
     """The least and the most that lateral and fore-aft may be of vertical; None: the mount group's,
     `UNLIMITED`: none even if that has some."""
@@ -94,7 +93,7 @@ class DesignGroup:
         """
         if self.bounds is None:
             return group
-        unsaid = [f for f in OTHER_FIELDS if not any(getattr(rates, f) for rates in self.bounds)]
+        unsaid = [f for f in RATE_FIELDS if not any(getattr(rates, f) for rates in self.bounds)]
         softest, stiffest = (
             replace(own, **theirs.of(unsaid)) for own, theirs in zip(self.bounds, group, strict=True)
         )

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from modeviz.vehicle.connections import Damper, Spring
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -13,7 +14,7 @@ def unfinished(vehicle: Vehicle) -> Iterator[str]:
             "vehicle.toml [[mount_group]] tables, or a [[spring]], a [[bolt]] or a [[tyre]]."
         )
     elif not vehicle.mount_groups:
-        yield "No rates can be tuned: give its vehicle.toml a [[mount_group]]."
+        yield f"No rates can be tuned: give its vehicle.toml a [[mount_group]]{_of_parts(vehicle)}."
     if vehicle.usual_load is None and not (vehicle.harmonic_loads or vehicle.engines):
         yield (
             "Nothing shakes it, so there are no responses: give its vehicle.toml a [[tyre]] with "
@@ -21,3 +22,10 @@ def unfinished(vehicle: Vehicle) -> Iterator[str]:
         )
     if not vehicle.response_points:
         yield "Nobody feels it: give its vehicle.toml a [[response_point]]."
+
+
+def _of_parts(vehicle: Vehicle) -> str:
+    """Words for the tables that tune springs and dampers, as far as it has some."""
+    kinds = {"spring": Spring, "damper": Damper}
+    found = [key for key, kind in kinds.items() if any(type(c) is kind for c in vehicle.connections)]
+    return "".join(f", or a [[{key}_group]] for its {key}s" for key in found)

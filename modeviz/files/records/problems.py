@@ -17,7 +17,7 @@ from modeviz.files.records.fields import (
     RatioLimits,
 )
 from modeviz.files.records.place_ends import bounds_of, ends_of
-from modeviz.files.records.rates import RatesRecord
+from modeviz.files.records.rates import SomeRatesRecord, both_said
 from modeviz.files.records.record import Record, built
 from modeviz.files.schema.quantities import UNITLESS, FixedUnit, Quantity
 from modeviz.vehicle.arrays import Floats
@@ -48,8 +48,8 @@ class DesignGroupRecord(Record, kw_only=True):
 
     group: Name
     directions: tuple[str, ...] = EVERY_RATE
-    softest: RatesRecord | None = None
-    stiffest: RatesRecord | None = None
+    softest: SomeRatesRecord | None = None
+    stiffest: SomeRatesRecord | None = None
     ratio_limits: RatioLimits | Literal["none"] | None = None
     fixed_ratios: bool = False
     offset: Ends | None = None
@@ -59,7 +59,7 @@ class DesignGroupRecord(Record, kw_only=True):
 
     @classmethod
     def of(cls, group: DesignGroup) -> Self:
-        softest, stiffest = map(RatesRecord.of, group.bounds) if group.bounds else (None, None)
+        softest, stiffest = map(SomeRatesRecord.of, group.bounds) if group.bounds else (None, None)
         return cls(
             group=group.group,
             directions=group.directions,
@@ -74,7 +74,7 @@ class DesignGroupRecord(Record, kw_only=True):
     def build(self) -> DesignGroup:
         bounds = None
         if self.softest and self.stiffest:
-            bounds = self.softest.build(), self.stiffest.build()
+            bounds = both_said(self.softest, self.stiffest)
         elif self.softest or self.stiffest:
             raise VehicleError("softest and stiffest: found one of them, expected both or neither")
         limits = UNLIMITED if self.ratio_limits == NO_LIMITS else self.ratio_limits

@@ -8,13 +8,12 @@ from msgspec import Meta
 
 from modeviz.errors import Fault, FaultsError, VehicleError, at_key
 from modeviz.files.force_curves import read_force_curve
-from modeviz.files.records.fields import Rate
-from modeviz.files.records.rates import OtherRatesRecord
+from modeviz.files.records.rates import SomeRatesRecord
 from modeviz.files.records.record import Record, tuples
 from modeviz.files.schema.quantities import Quantity
 from modeviz.files.source import Source
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.mount_rates import DIRECTIONS, OTHER_FIELDS, STIFFNESS_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import DIRECTIONS, STIFFNESS_FIELDS, MountRates
 from modeviz.vehicle.progressive import ForceCurve, not_rising
 
 Points = Annotated[tuple[float, ...], Meta(min_length=2, max_length=10_000)]
@@ -64,18 +63,11 @@ class CurveRecord(Record, kw_only=True):
         return np.array(self.deflection), np.array(self.force)
 
 
-class GroupRatesRecord(OtherRatesRecord, kw_only=True):
-    """[mount_group.rates]: the rates of its mounts, unloaded where they are progressive."""
+class GroupRatesRecord(SomeRatesRecord, kw_only=True):
+    """[mount_group.rates]: the rates of its mounts, unloaded where they are progressive.
 
-    vertical: Rate | None = None
-    """As all three: that of its curve, if not given."""
-    lateral: Rate | None = None
-    fore_aft: Rate | None = None
-
-    @classmethod
-    def of(cls, rates: MountRates) -> Self:
-        others = {field: rate for field, rate in rates.of(OTHER_FIELDS).items() if rate}
-        return cls(**rates.of(STIFFNESS_FIELDS), **others)
+    One along an axis that is not given is that of its curve.
+    """
 
     def build(self, curves: Mapping[str, ForceCurve], static_ratio: float) -> MountRates:
         """The rates: those given, or those with which the curves are as they stand."""

@@ -1,30 +1,62 @@
 """The tables of mount rates in files, in SI."""
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Self
 
+from modeviz.errors import Fault, FaultsError, at_key
 from modeviz.files.records.fields import DampingRate, Rate, Ratio, RotationalRate
 from modeviz.files.records.record import Record
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import OTHER_FIELDS, STIFFNESS_FIELDS, Bounds, MountRates, Rates
+from modeviz.vehicle.mount_rates import (
+    OTHER_FIELDS,
+    RATE_FIELDS,
+    STIFFNESS_FIELDS,
+    Bounds,
+    MountRates,
+    Rates,
+)
 
 
-class OtherRatesRecord(Record, kw_only=True):
+class DampingRatesRecord(Record, kw_only=True):
+    """The damping of a damper along its axes."""
+
+    damping_vertical: DampingRate | None = None
+    damping_lateral: DampingRate | None = None
+    damping_fore_aft: DampingRate | None = None
+
+    @property
+    def said(self) -> dict[str, float]:
+        """Those of `RATE_FIELDS` that are said."""
+        found = {field: getattr(self, field, None) for field in RATE_FIELDS}
+        return {field: rate for field, rate in found.items() if rate is not None}
+
+    @property
+    def others(self) -> dict[str, float]:
+        """Those of `OTHER_FIELDS` that are said."""
+        return {field: rate for field, rate in self.said.items() if field in OTHER_FIELDS}
+
+
+class OtherRatesRecord(DampingRatesRecord, kw_only=True):
     """The rates of a mount but those along its axes."""
 
     rx: RotationalRate | None = None
     """About the axis along which it is fore-aft, those of lateral and of vertical."""
     ry: RotationalRate | None = None
     rz: RotationalRate | None = None
-    damping_vertical: DampingRate | None = None
-    damping_lateral: DampingRate | None = None
-    damping_fore_aft: DampingRate | None = None
 
-    @property
-    def others(self) -> dict[str, float]:
-        """Those of `OTHER_FIELDS` that are said."""
-        found = {field: getattr(self, field) for field in OTHER_FIELDS}
-        return {field: rate for field, rate in found.items() if rate is not None}
+
+class SomeRatesRecord(OtherRatesRecord, kw_only=True):
+    """The rates of a mount, of which any may be left out."""
+
+    vertical: Rate | None = None
+    lateral: Rate | None = None
+    fore_aft: Rate | None = None
+
+    @classmethod
+    def of(cls, rates: MountRates, tuned: Iterable[str] = ()) -> Self:
+        """What is not along the axes is said if it is not zero, or one of those that are tuned."""
+        return cls(**rates.of(STIFFNESS_FIELDS), **_others(rates, tuned))
 
 
 class RatesRecord(OtherRatesRecord, kw_only=True):
@@ -36,35 +68,54 @@ class RatesRecord(OtherRatesRecord, kw_only=True):
 
     @classmethod
     def of(cls, rates: MountRates, tuned: Iterable[str] = ()) -> Self:
-        """What is not along the axes is said if it is not zero, or one of those that are tuned."""
-        others = {f: k for f, k in rates.of(OTHER_FIELDS).items() if k or f in tuned}
-        return cls(**rates.of(STIFFNESS_FIELDS), **others)
+        """As `SomeRatesRecord.of`."""
+        return cls(**rates.of(STIFFNESS_FIELDS), **_others(rates, tuned))
 
     def build(self) -> MountRates:
         return MountRates(self.vertical, self.lateral, self.fore_aft, **self.others)
 
 
-class RateSetRecord(RatesRecord, kw_only=True):
+class RateSetRecord(SomeRatesRecord, kw_only=True):
     """The rates of a mount, and its loss factor if that is not the group's own."""
 
     loss_factor: Ratio | None = None
 
     @classmethod
     def of(cls, rates: MountRates, tuned: Iterable[str] = ()) -> Self:
-        others = {f: k for f, k in rates.of(OTHER_FIELDS).items() if k or f in tuned}
-        return cls(**rates.of(STIFFNESS_FIELDS), **others, loss_factor=rates.loss_factor)
+        record = super().of(rates, tuned)
+        record.loss_factor = rates.loss_factor
+        return record
 
-    def build_for(self, own: MountRates) -> MountRates:
-        """The rates; what is not along the axes and not said is as in the group's own."""
-        others = {**own.of(OTHER_FIELDS), **self.others}
-        return MountRates(self.vertical, self.lateral, self.fore_aft, self.loss_factor, **others)
+    def build_for(self, group: MountGroup | None) -> MountRates:
+        """The rates; what is not along the axes or not tuned, and not said, is as in the group's own.
+
+        Raises:
+            FaultsError: it does not say a rate along an axis that is tuned.
+        """
+        said = self.said
+        tuned = set(STIFFNESS_FIELDS) & set(group.fields) if group else ()
+        if missing := [f for f in STIFFNESS_FIELDS if f in tuned and f not in said]:
+            raise FaultsError(*(Fault(f, "missing, expected a number") for f in missing))
+        own = group.rates if group else MountRates(0.0, 0.0, 0.0)
+        return MountRates(**{**own.of(RATE_FIELDS), **said}, loss_factor=self.loss_factor)
 
 
 def rate_set(records: Mapping[str, RateSetRecord], groups: Iterable[MountGroup]) -> Rates:
-    """The rates of mount groups, of which there may be none of that name."""
-    own = {group.name: group.rates for group in groups}
-    none = MountRates(0.0, 0.0, 0.0)
-    return {name: record.build_for(own.get(name, none)) for name, record in records.items()}
+    """The rates of mount groups, of which there may be none of that name.
+
+    Raises:
+        FaultsError: as `RateSetRecord.build_for`.
+    """
+    by_name = {group.name: group for group in groups}
+    rates: dict[str, MountRates] = {}
+    for name, record in records.items():
+        with at_key(name):
+            rates[name] = record.build_for(by_name.get(name))
+    return rates
+
+
+def _others(rates: MountRates, tuned: Iterable[str]) -> dict[str, float]:
+    return {f: k for f, k in rates.of(OTHER_FIELDS).items() if k or f in tuned}
 
 
 def bounds_of(softest: RatesRecord | None, stiffest: RatesRecord | None, usual: Bounds) -> Bounds:
@@ -82,3 +133,17 @@ def bounds_of(softest: RatesRecord | None, stiffest: RatesRecord | None, usual: 
         for record, its, others in zip((softest, stiffest), usual, given, strict=True)
     )
     return low, high
+
+
+def both_said(softest: SomeRatesRecord, stiffest: SomeRatesRecord) -> Bounds:
+    """The bounds of a problem: zero of a rate that neither says, which has those of its mounts.
+
+    Raises:
+        FaultsError: one says a rate along an axis that the other does not.
+    """
+    for field in STIFFNESS_FIELDS:
+        for key, own, other in (("softest", softest, stiffest), ("stiffest", stiffest, softest)):
+            if field in other.said and field not in own.said:
+                raise FaultsError(Fault(f"{key}.{field}", "missing, expected a number"))
+    none = MountRates(0.0, 0.0, 0.0)
+    return replace(none, **softest.said), replace(none, **stiffest.said)

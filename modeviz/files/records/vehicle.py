@@ -1,5 +1,6 @@
 """The whole of `vehicle.toml`, and its tables of points and modes, in SI."""
 
+from collections.abc import Sequence
 from itertools import chain
 from typing import Annotated, Any, Self
 
@@ -36,6 +37,7 @@ from modeviz.files.records.loads import (
 from modeviz.files.records.problems import ProblemRecord
 from modeviz.files.records.rates import RateSetRecord, rate_set
 from modeviz.files.records.record import FileRecord, Record, built, tuples
+from modeviz.files.records.tuned_parts import DamperGroupRecord, SpringGroupRecord, TunedPartsRecord
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
 from modeviz.vehicle.absorber_parts import absorber_guide, absorber_mass, absorber_spring
@@ -52,6 +54,8 @@ from modeviz.vehicle.connections import (
 from modeviz.vehicle.decoupling import USUAL, Decoupling
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mode_damping import ModeDamping
+from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import OUR_AXES, USUAL_SPEED, Vehicle, track_width
 
 MOST_TABLES = 2_000
@@ -71,6 +75,9 @@ CONNECTION_KINDS: dict[str, type[Connection]] = {
     "tyre": Tyre,
 }
 """The kind of connection in each of the file's tables."""
+
+TUNED_KINDS = ("spring", "damper")
+"""Those that a group can tune."""
 
 
 class ResponsePointRecord(Record, kw_only=True):
@@ -130,6 +137,8 @@ class VehicleRecord(FileRecord, kw_only=True):
     rod: list[RodRecord] = msgspec.field(default_factory=list)
     bolt: list[JointRecord] = msgspec.field(default_factory=list)
     damper: list[ConnectionRecord] = msgspec.field(default_factory=list)
+    spring_group: list[SpringGroupRecord] = msgspec.field(default_factory=list)
+    damper_group: list[DamperGroupRecord] = msgspec.field(default_factory=list)
     tyre: list[TyreRecord] = msgspec.field(default_factory=list)
     response_point: list[ResponsePointRecord] = msgspec.field(default_factory=list)
     road: list[RoadRecord] = msgspec.field(default_factory=list)
@@ -159,22 +168,19 @@ class VehicleRecord(FileRecord, kw_only=True):
         check_size(COORDINATES, n_coordinates, MOST_COORDINATES)
         by_name = {body.name: body for body in (*flexible, *rigid, *source.stand_ins)}
         near = [on_attachment(a, by_name[a.body]) if a.body in by_name else a for a in absorbers]
-        connections = [
-            built(getattr(self, key), key, lambda r, kind=kind: r.build(kind))
-            for key, kind in CONNECTION_KINDS.items()
-        ]
-        tyres = [c for c in chain(*connections) if isinstance(c, Tyre)]
+        parts, tuned = self._connections()
+        tyres = [c for c in parts if isinstance(c, Tyre)]
         roads = built(self.road, "road", lambda r: r.build(source, track_width(tyres)))
         forces = built(self.force, "force", lambda r: r.build(source))
         base_motions = built(self.base_motion, "base_motion", lambda r: r.build(source))
         engines = built(self.engine, "engine", lambda r: r.build(source, by_name))
         given = built(self.mount_group, "mount_group", lambda r: r.build(source))
-        mount_groups = (*given, *map(absorber_spring, near))
+        mount_groups = (*given, *tuned, *map(absorber_spring, near))
         source.check_lines()
         vehicle = Vehicle(
             name=self.name,
             bodies=(*flexible, *rigid, *source.stand_ins, *map(absorber_mass, near)),
-            connections=(*chain(*connections), *map(absorber_guide, near)),
+            connections=(*parts, *map(absorber_guide, near)),
             mount_groups=mount_groups,
             added_masses=built(self.added_mass, "added_mass", AddedMassRecord.build),
             response_points=built(self.response_point, "response_point", ResponsePointRecord.build),
@@ -182,7 +188,7 @@ class VehicleRecord(FileRecord, kw_only=True):
             wheel_loads=built(self.wheel_load, "wheel_load", WheelLoadRecord.build),
             forces=forces,
             base_motions=base_motions,
-            rate_sets={name: rate_set(groups, mount_groups) for name, groups in self.rates.items()},
+            rate_sets=self._rate_sets(mount_groups),
             problems=built(self.problem, "problem", ProblemRecord.build),
             speed=self.speed or USUAL_SPEED,
             highest_frequency=self.highest_frequency,
@@ -194,6 +200,28 @@ class VehicleRecord(FileRecord, kw_only=True):
             remarks=tuple(self.remarks),
         )
         return put_in_place(vehicle, absorbers)
+
+    def _connections(self) -> tuple[list[Connection], list[MountGroup]]:
+        """What joins bodies and is not tuned, and the groups of springs and dampers that are."""
+        kept: dict[str, tuple[Connection, ...]] = {
+            key: built(getattr(self, key), key, lambda r, kind=kind: r.build(kind))
+            for key, kind in CONNECTION_KINDS.items()
+        }
+        tuned: list[MountGroup] = []
+        for key in TUNED_KINDS:
+            records: list[TunedPartsRecord] = getattr(self, f"{key}_group")
+            check_unique(f"{key} group", (record.name for record in records))
+            tuned += built(records, f"{key}_group", lambda r, key=key: r.build(kept[key]))
+            names = {record.name for record in records}
+            kept[key] = tuple(c for c in kept[key] if c.group not in names)
+        return list(chain(*kept.values())), tuned
+
+    def _rate_sets(self, groups: Sequence[MountGroup]) -> dict[str, Rates]:
+        sets: dict[str, Rates] = {}
+        for name, records in self.rates.items():
+            with at_key(f"rates.{name}"):
+                sets[name] = rate_set(records, groups)
+        return sets
 
     def _decoupling(self) -> Decoupling:
         if self.decoupling is None:
