@@ -1,6 +1,7 @@
 """Tokens by which somebody else holds, ends or follows a long computation."""
 
 import threading
+import time
 
 
 class CancelledError(Exception):
@@ -15,6 +16,12 @@ class CancelToken:
         self._may_run = threading.Event()
         self._may_run.set()
         self._is_cancelled = False
+        self._asked = time.monotonic()
+
+    @property
+    def silence(self) -> float:
+        """The time since it was last asked, s; none while the computation is held."""
+        return time.monotonic() - self._asked if self._may_run.is_set() else 0.0
 
     @property
     def is_cancelled(self) -> bool:
@@ -26,12 +33,12 @@ class CancelToken:
 
     def resume(self) -> None:
         """Lets it go on."""
-        self._may_run.set()
+        self._let_run()
 
     def cancel(self) -> None:
         """Ends it at its next check, also while it is held."""
         self._is_cancelled = True
-        self._may_run.set()
+        self._let_run()
 
     def check(self) -> None:
         """Waits while it is held.
@@ -40,5 +47,10 @@ class CancelToken:
             CancelledError: it is to end.
         """
         self._may_run.wait()
+        self._asked = time.monotonic()
         if self._is_cancelled:
             raise CancelledError
+
+    def _let_run(self) -> None:
+        self._asked = time.monotonic()
+        self._may_run.set()

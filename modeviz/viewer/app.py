@@ -12,12 +12,14 @@ from modeviz.compute.threads import one_thread
 from modeviz.errors import ModevizError
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import Picture, report
+from modeviz.text.log import our_mistake
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.offline import offline_page
 from modeviz.viewer.page import scripts
+from modeviz.viewer.page.alerts import alert, withdraw
 from modeviz.viewer.page.binding import READ_WITHIN
 from modeviz.viewer.page.contents import Contents
 from modeviz.viewer.page.hotkeys import Hotkeys
@@ -63,6 +65,7 @@ from modeviz.viewer.session.design import variant_name
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
+from modeviz.viewer.session.worker import StuckError
 from modeviz.viewer.tasks.front_task import FrontTask
 from modeviz.viewer.tasks.scatter_task import ScatterTask
 from modeviz.viewer.tasks.search_task import SearchTask
@@ -70,6 +73,11 @@ from modeviz.viewer.tasks.search_task import SearchTask
 LEFT = {WIDE: 376, NARROW: 300}
 RIGHT = {WIDE: 484, NARROW: 380}
 CARD = {WIDE: 380, NARROW: 300}
+
+NOT_SOLVED = "not solved"
+"""The notice that what is asked for has no answer."""
+
+BACK = " You are back at the last state that was solved."
 """Pixels; see `layout`."""
 
 
@@ -98,7 +106,7 @@ class App:
         self._title, self._dark = Title(server), dark
         first = first_state(vehicle, rates, conditions)
         self.session: Session = Session(vehicle, first, self._hear)
-        session, mistake = self.session, server.notices.mistake
+        session, mistake = self.session, server.mistake
         self.search_task: SearchTask = SearchTask(session, lambda: self._optimise.follow(), mistake)
         self.front_task: FrontTask = FrontTask(session, lambda: self._trade_off.follow(), mistake)
         self.scatter_task: ScatterTask = ScatterTask(session, lambda: self._scatter.follow(), mistake)
@@ -295,14 +303,16 @@ class App:
         match notification:
             case Answered(solved):
                 self._show(solved)
+                for client in self.server.get_clients().values():
+                    withdraw(client, NOT_SOLVED)
             case Preparing(fraction):
                 self._status.show_progress(fraction)
                 self.server.flush()
             case Checked(solved):
                 self._status.show(solved)
                 self.server.flush()
-            case Failed(error):
-                self._tell_failure(error)
+            case Failed():
+                self._tell_failure(notification)
 
     def _show(self, solved: Solved) -> None:
         """Draws an answer: the panels in one batch, the scene in another, which waits for a frame.
@@ -358,12 +368,16 @@ class App:
         caption = f"{moving.heading}, {variant}"
         return self.report([Picture(caption, png)])
 
-    def _tell_failure(self, error: Exception) -> None:
+    def _tell_failure(self, failed: Failed) -> None:
         """Says what went wrong; the last good answer stays on the screen."""
+        error, name = failed.error, NOT_SOLVED
+        text = str(error)
         if not isinstance(error, ModevizError):
-            self.server.notices.mistake(error)
+            name = self.server.notices.mistake(error)
+            hangs = f"{text[:1].upper()}{text[1:]}. " if isinstance(error, StuckError) else ""
+            text = f"{hangs}{our_mistake(name)}{BACK if failed.is_back else ''}"
         for client in self.server.get_clients().values():
-            client.add_notification("Not solved", str(error), color="red")
+            alert(client, name, "Not solved", text)
 
     def _select(self, group: str) -> None:
         self._opener.ask()

@@ -63,7 +63,7 @@ def test_the_page_shows_everything_but_responses(vehicle, tmp_path):
     server = open_server(port=0, token="open-sesame-open")
     app = App(vehicle, vehicle.rates, conditions, server)
     failures = []
-    app.session._inspector._worker._fail = app.session._worker._fail = failures.append
+    app._tell_failure = failures.append
     app.start()
     try:
         for change in (

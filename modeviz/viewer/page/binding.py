@@ -12,6 +12,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import viser
 
 from modeviz.errors import ModevizError
+from modeviz.viewer.page.server import tell_mistake
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.session.state import State
 
@@ -66,11 +67,18 @@ class Binding(Generic[S]):
         if event.client is None:  # set from here
             return
         if self._write_back and self._typed:
-            self._write_back.touch(event.target, partial(self._take, event.client))
+            self._write_back.touch(event.target, partial(self._take_later, event.client))
             return
         self._take(event.client)
         if self._write_back:
             self._write_back.touch(event.target)
+
+    def _take_later(self, client: viser.ClientHandle) -> None:
+        """Does so in a thread of nobody, who would not tell of our mistake."""
+        try:
+            self._take(client)
+        except Exception as error:
+            tell_mistake(client, error)
 
     def _take(self, client: viser.ClientHandle) -> None:
         """Changes the state as the widget asks, and gives it the value that came of it."""
@@ -82,9 +90,10 @@ class Binding(Generic[S]):
                 client.add_notification(
                     "Not possible", str(refusal), color="red", auto_close_seconds=READ_WITHIN
                 )
-            self._known = self._read(self._owner.state)
-            if self._known != asked:  # else a newer value that is on its way here would be lost
-                self._widget.value = self._known
+            finally:  # also of our mistake
+                self._known = self._read(self._owner.state)
+                if self._known != asked:  # else a newer value that is on its way here would be lost
+                    self._widget.value = self._known
 
     def show(self) -> None:
         """Puts the newest state's value on the page, if the widget has another.

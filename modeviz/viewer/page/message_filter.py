@@ -7,6 +7,7 @@ produce.
 
 import asyncio
 import math
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,6 @@ from viser.infra import ClientId, WebsockClientConnection
 
 from modeviz.viewer.page.connection import expect
 from modeviz.viewer.page.decoding import LONGEST_TEXT
-from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.page.uploads import UPLOADS, is_upload_allowed, refuse_upload
 from modeviz.viewer.page.write_back import DELAY
 
@@ -24,16 +24,24 @@ if TYPE_CHECKING:
     from viser._gui_handles import _GuiInputHandle
 
 
-def gate_messages(server: viser.ViserServer, notices: Notices) -> None:
-    """Puts the checks before a server's and all its clients' handling of messages."""
+Report = Callable[[ClientId, Exception], None]
+
+
+def gate_messages(server: viser.ViserServer, report: Report) -> None:
+    """Puts the checks before a server's and all its clients' handling of messages.
+
+    Args:
+        server: whose messages.
+        report: told of the client and what handling its message raised.
+    """
     websock = server._websock_server
-    _gate(server, notices, websock, None)
-    websock.on_client_connect(lambda connection: _gate(server, notices, connection, connection))
+    _gate(server, report, websock, None)
+    websock.on_client_connect(lambda connection: _gate(server, report, connection, connection))
 
 
 def _gate(
     server: viser.ViserServer,
-    notices: Notices,
+    report: Report,
     handler: Any,
     connection: WebsockClientConnection | None,
 ) -> None:
@@ -44,7 +52,7 @@ def _gate(
         try:
             await checked(client_id, message)
         except Exception as error:
-            notices.mistake(error)
+            report(client_id, error)
 
     async def checked(client_id: ClientId, message: _messages.Message) -> None:
         if isinstance(message, UPLOADS):

@@ -8,7 +8,7 @@ import asyncio
 import io
 import re
 import threading
-from collections.abc import Callable, Coroutine, Iterator, Sequence
+from collections.abc import Callable, Coroutine, Hashable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
 from functools import partial
 from typing import Any
@@ -16,12 +16,15 @@ from typing import Any
 import viser
 import websockets.asyncio.server
 from viser import _messages
+from viser.infra import ClientId
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from modeviz.errors import ModevizError
+from modeviz.text.log import our_mistake
 from modeviz.viewer.page.acceptor import Acceptor
+from modeviz.viewer.page.alerts import alert
 from modeviz.viewer.page.connection import CLOSING_S, PageConnection
 from modeviz.viewer.page.decoding import LARGEST_MESSAGE
 from modeviz.viewer.page.front import HANDSHAKE_S, Front, report, silent_logger
@@ -50,7 +53,7 @@ class Server(viser.ViserServer):
         self.notices: Notices = front.house.notices
         self.acceptor: Acceptor = Acceptor()
         self._front, self._address = front, address
-        turns = Turns(self.notices.mistake)
+        turns = Turns(self._tell_page)
         with _behind(front, turns, self.acceptor), redirect_stdout(io.StringIO()):
             door = front.door
             super().__init__(host=door.host, port=front.port, label=door.title, verbose=False)
@@ -62,7 +65,7 @@ class Server(viser.ViserServer):
         self._thread_executor.shutdown()
         for caller in (self, self.gui, self.scene):
             caller._thread_executor = turns
-        gate_messages(self, self.notices)
+        gate_messages(self, self._tell_client)
 
     @property
     def link(self) -> str:
@@ -73,6 +76,22 @@ class Server(viser.ViserServer):
     def local_link(self) -> str:
         """The address of the page for a browser of this machine; ready for `&name=value`."""
         return self._front.local_link + self._address
+
+    def mistake(self, error: Exception, client: viser.ClientHandle | None = None) -> str:
+        """Logs our mistake and tells the page it concerns, or all; returns its number in the log."""
+        number = self.notices.mistake(error)
+        for told in self.get_clients().values() if client is None else (client,):
+            alert(told, number, "Something went wrong", our_mistake(number))
+        return number
+
+    def _tell_client(self, client_id: ClientId, error: Exception) -> None:
+        self.mistake(error, self.get_clients().get(client_id))
+
+    def _tell_page(self, page: Hashable, error: Exception) -> None:
+        """Tells of a mistake in what was done for a page, known by its connection."""
+        pages = self._websock_server._live_connections.items()
+        known = (client_id for client_id, connection in [*pages] if connection is page)
+        self.mistake(error, self.get_clients().get(next(known, -1)))
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         """Never opens viser's public tunnel."""
@@ -94,6 +113,12 @@ class LoneServer(Server):
         self._front.close()
         super().stop()
         self.notices.tally()
+
+
+def tell_mistake(client: viser.ClientHandle, error: Exception) -> None:
+    """Logs our mistake and tells the page that it concerns."""
+    assert isinstance(client._viser_server, Server)
+    client._viser_server.mistake(error, client)
 
 
 def open_server(

@@ -27,11 +27,11 @@ class Turns(ThreadPoolExecutor):
     A call that fails is reported, and counts as done: viser would print all of it, every time.
     """
 
-    def __init__(self, report: Callable[[Exception], None]) -> None:
+    def __init__(self, report: Callable[[Hashable, Exception], None]) -> None:
         """Starts with nothing to do.
 
         Args:
-            report: told what a call raised.
+            report: told of the page and what a call for it raised.
         """
         super().__init__(N_THREADS, "page")
         self._report = report
@@ -74,7 +74,7 @@ class Turns(ThreadPoolExecutor):
         try:
             result = call()
         except Exception as error:
-            self._report(error)
+            self._report(page, error)
             result = None
         with self._lock:
             self._running[page] -= 1

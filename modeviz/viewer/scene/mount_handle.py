@@ -43,7 +43,7 @@ class MountHandle:
         scene: viser.SceneApi,
         length: float,
         on_drag: Callable[[Dragged], None],
-        mistake: Callable[[Exception], None],
+        mistake: Callable[[Exception], object],
     ) -> None:
         """Makes it, and leaves it out.
 

@@ -130,7 +130,7 @@ class Scene:
         )
 
     def let_drag(
-        self, on_drag: Callable[[Dragged], None], mistake: Callable[[Exception], None]
+        self, on_drag: Callable[[Dragged], None], mistake: Callable[[Exception], object]
     ) -> None:
         """Lets pages drag the mounts of a group by a handle, where it is wanted; as `MountHandle`."""
         self._handle = MountHandle(self._server.scene, self._box.length, on_drag, mistake)

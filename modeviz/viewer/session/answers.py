@@ -102,7 +102,7 @@ class Answers:
         """Nothing is solved before `prepare`."""
         self._preparations = Preparations(vehicle)
         self._lock = threading.Lock()
-        self._alterations = Alterations()
+        self._alterations: Alterations | None = None
         self._with_parts: tuple[tuple[Absorber, ...], Vehicle] = ((), vehicle)
         self.vehicle: Vehicle = vehicle
         """Altered as in the newest answer."""
@@ -139,6 +139,19 @@ class Answers:
         self._follower = ModeFollower(self.prepared)
         self._wheels, self._cursor, self._last = WheelResponses(), CursorForces(), None
         self._solve_named(state)
+
+    def afresh(self) -> "Answers":
+        """Return others that have only what is prepared: something failed or hangs in these."""
+        others = Answers(self._preparations.vehicle)
+        others._preparations = self._preparations.copied()
+        others._named = NamedResults(others._preparations)
+        with self._lock:
+            others.vehicle, others.prepared, others._drive = self.vehicle, self.prepared, self._drive
+        return others
+
+    def is_ready(self, alterations: Alterations) -> bool:
+        """Return whether the vehicle is prepared with some alterations."""
+        return self._preparations.has(alterations)
 
     @property
     def original(self) -> Vehicle:
@@ -215,7 +228,9 @@ class Answers:
         """The results with all sets that have a name, each with mounts where it has them."""
         sets = named_sets(self.vehicle, state.design)
         named = self._named.solve(sets, state.conditions)
-        self._preparations.keep([self._alterations, *(each.alterations for each in sets.values())])
+        self._preparations.keep(
+            [state.design.alterations, *(each.alterations for each in sets.values())]
+        )
         return named
 
     def _solve(self, state: State) -> Results:

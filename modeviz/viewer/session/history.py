@@ -24,6 +24,18 @@ class Change:
     after: State
 
 
+@dataclass(frozen=True)
+class Moment:
+    """A state with what led there and what was undone: where `History` can be put back to."""
+
+    state: State
+    past: tuple[Change, ...]
+    future: tuple[Change, ...]
+    step: Hashable
+    """What the last change was a part of."""
+    changed_at: float
+
+
 class History:
     """The newest state, and the changes of its design that led there.
 
@@ -70,6 +82,16 @@ class History:
         if first.design == state.design:  # all the way back is no step
             self._past.pop()
             self._step = None
+
+    @property
+    def moment(self) -> Moment:
+        """The present one."""
+        return Moment(self.state, tuple(self._past), tuple(self._future), self._step, self._changed_at)
+
+    def put_back(self, moment: Moment) -> None:
+        """Goes to a moment before, as if nothing had happened since."""
+        self.state, self._past, self._future = moment.state, [*moment.past], [*moment.future]
+        self._step, self._changed_at = moment.step, moment.changed_at
 
     @property
     def can_undo(self) -> bool:

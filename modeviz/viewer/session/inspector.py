@@ -7,16 +7,23 @@ from dataclasses import replace
 from typing import Any
 
 from modeviz.analysis.exact_check import check_exactly
+from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import Results
 from modeviz.analysis.sensitivity import sensitivity
 from modeviz.errors import ModevizError
-from modeviz.viewer.session.answers import Answers, Solved
+from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.findings import Findings
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
-from modeviz.viewer.session.worker import Worker
+from modeviz.viewer.session.state import State
+from modeviz.viewer.session.worker import StuckError, Worker
 
 REST = 0.3
 """s without a change after which an answer is checked: longer than the pauses within a drag."""
+
+STEPS_WITHIN = 300.0
+"""s: a step of a check that takes longer hangs."""
+
+GIVEN_UP = "this went wrong, by our mistake"
 
 TELL_EVERY = 0.5
 """s between two words on how far a check is."""
@@ -27,23 +34,25 @@ class Inspector:
 
     def __init__(
         self,
-        answers: Answers,
+        rebase: Callable[[State], Prepared],
         is_current: Callable[[Solved], bool],
         found: Callable[[bool], None],
         fail: Callable[[Exception], None],
+        patience: float = STEPS_WITHIN,
     ) -> None:
         """Looks into nothing yet.
 
         Args:
-            answers: made cheap near what is looked into.
+            rebase: makes answers near a state cheap.
             is_current: whether an answer is still to what is asked for.
             found: told that there are new findings, and whether more than the status changes by them.
-            fail: tells what went wrong.
+            fail: tells of our mistakes.
+            patience: s that a step may take.
         """
-        self._answers, self._is_current, self._found = answers, is_current, found
+        self._rebase, self._is_current, self._found, self._fail = rebase, is_current, found, fail
         self._lock = threading.Lock()
         self._findings: Findings | None = None
-        self._worker: Worker[Solved] = Worker(self._look_into, fail)
+        self._worker: Worker[Solved] = Worker(self._look_into, fail, patience, self._leave)
 
     def findings(self, now: Results) -> Findings:
         """Return what is known of results; those of others are forgotten."""
@@ -73,20 +82,32 @@ class Inspector:
             self._learn(solved.now)
         if not self._rests(solved, REST):
             return
+        self._worker.sign()
         try:
             self._find_out(solved)
         except ModevizError as error:
             self._learn(solved.now, problem=str(error))
+        except Exception as error:
+            self._give_up(solved, error)
+
+    def _leave(self, solved: Solved, error: StuckError, is_left: bool) -> None:
+        self._give_up(solved, error)
+
+    def _give_up(self, solved: Solved, error: Exception) -> None:
+        """Tells of our mistake, and looks no further into what it happened with."""
+        self._fail(error)
+        self._learn(solved.now, problem=GIVEN_UP)
 
     def _find_out(self, solved: Solved) -> None:
         """Learns what the rates of an answer do, how exact it is, and how far its bodies are believed.
 
         As long as it is current.
         """
-        now, near = solved.now, self._answers.rebase(solved.state)
+        now, near = solved.now, self._rebase(solved.state)
         self._learn(now, sensitivity=sensitivity(near, now))
         told = 0.0
         for check in check_exactly(now):
+            self._worker.sign()
             if not self._is_current(solved):
                 return
             if check.is_complete or time.perf_counter() - told > TELL_EVERY:
@@ -98,7 +119,7 @@ class Inspector:
     def _learn(self, now: Results, is_to_be_drawn: bool = True, **news: Any) -> None:
         """Keeps and tells what is now known of results, if they are still the newest."""
         with self._lock:
-            if self._findings is None or self._findings.now is not now:
+            if self._findings is None or self._findings.now is not now or self._findings.problem:
                 return
             self._findings = replace(self._findings, **news)
         self._found(is_to_be_drawn)

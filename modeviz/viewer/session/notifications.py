@@ -32,6 +32,9 @@ class Failed:
     """There is no answer; the last good one stays."""
 
     error: Exception
+    """A ModevizError if somebody can put it right; else our mistake."""
+    is_back: bool = False
+    """Whether the session went back to the last state that was answered."""
 
 
 Notification = Answered | Preparing | Checked | Failed

@@ -19,6 +19,12 @@ class Preparations:
         self.vehicle: Vehicle = vehicle
         self._kept: list[tuple[Alterations, Prepared]] = []
 
+    def copied(self) -> "Preparations":
+        """Return others that have what is ready here."""
+        others = Preparations(self.vehicle)
+        others._kept = [*self._kept]
+        return others
+
     def get(
         self, alterations: Alterations, progress: Callable[[float], None] | None = None
     ) -> Prepared:
@@ -31,12 +37,19 @@ class Preparations:
         Raises:
             ModevizError: it cannot be altered so, or not be prepared.
         """
-        known = next((prepared for each, prepared in self._kept if each == alterations), None)
+        known = self._known(alterations)
         if known is not None:
             return known
         prepared = prepare(altered(self.vehicle, alterations), progress=progress)
         self._kept.append((alterations, prepared))
         return prepared
+
+    def has(self, alterations: Alterations) -> bool:
+        """Return whether the vehicle is ready with some alterations."""
+        return self._known(alterations) is not None
+
+    def _known(self, alterations: Alterations) -> Prepared | None:
+        return next((prepared for each, prepared in self._kept if each == alterations), None)
 
     def keep(self, wanted: Collection[Alterations]) -> None:
         """Forgets what is not wanted any more."""

@@ -14,11 +14,17 @@ from modeviz.viewer.session.answers import Answers, Solved, asks_for_the_same
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
-from modeviz.viewer.session.history import History
+from modeviz.viewer.session.history import History, Moment
 from modeviz.viewer.session.inspector import Inspector
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.state import State
-from modeviz.viewer.session.worker import Worker
+from modeviz.viewer.session.worker import StuckError, Worker
+
+SOLVES_WITHIN = 60.0
+"""s: what takes longer hangs, as answers come in milliseconds."""
+
+PREPARES_WITHIN = 600.0
+"""s between two words on how far a preparation is, whose longest step is the modes of a large body."""
 
 FOLLOWS = 0.3
 """s: a vehicle that is prepared in less follows the hand that alters it; others wait for it to rest."""
@@ -32,24 +38,39 @@ class _OvertakenError(Exception):
 class _Job:
     """A state to be answered."""
 
-    state: State
+    moment: Moment
+    """With what led there."""
     drawing: int
     """The number of the drawing that is asked for; one that was drawn already is only told on."""
+
+    @property
+    def state(self) -> State:
+        return self.moment.state
 
 
 class Session:
     """Takes commands, keeps the newest state and its answer, and tells both on.
 
     Every answer is told in one thread, never two at once.
+
+    Where we go wrong, or a solve hangs, the session goes back to the last state that was answered and
+    told in whole, with the history it had then: nobody is left with what nobody can answer.
     """
 
-    def __init__(self, vehicle: Vehicle, state: State, notify: Callable[[Notification], None]) -> None:
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        state: State,
+        notify: Callable[[Notification], None],
+        patience: float = SOLVES_WITHIN,
+    ) -> None:
         """Nothing is solved before `start`.
 
         Args:
             vehicle: with the rates that are called the original ones.
             state: what to show first.
-            notify: told of every answer and failure.
+            notify: told of every answer and failure; what it raises is our mistake.
+            patience: s that a solve may take.
         """
         self._notify = notify
         self._lock = threading.Lock()
@@ -58,9 +79,13 @@ class Session:
         self._n_drawings, self._n_drawn = 0, -1
         self._answer: Solved | None = None
         self._failure: Exception | None = None
+        self._good: Moment | None = None
+        self._is_refused = False
         self._answers = Answers(vehicle)
-        self._worker: Worker[_Job] = Worker(self._solve, self._fail)
-        self._inspector = Inspector(self._answers, self._is_current, self._answer_again, self._fail)
+        self._worker: Worker[_Job] = Worker(self._work, self._tell_failure, patience, self._leave)
+        self._inspector = Inspector(
+            self._rebase, self._is_current, self._answer_again, self._tell_failure
+        )
 
     @property
     def vehicle(self) -> Vehicle:
@@ -106,7 +131,7 @@ class Session:
         self._answers.prepare(self.state, progress)
         with self._lock:
             self._is_prepared = True
-            self._worker.submit(_Job(self.state, self._n_drawings))
+            self._worker.submit(_Job(self._history.moment, self._n_drawings))
 
     def do(self, command: Command) -> None:
         """Asks for what a command makes of the newest state; returns at once.
@@ -115,6 +140,7 @@ class Session:
             VehicleError: it asks for what the vehicle does not have.
         """
         with self._lock:
+            self._is_refused = False
             state = command.apply(self.state, self.with_parts_of(self.state))
             if state.design.alterations != self.state.design.alterations:
                 vehicle = self.with_parts_of(state)
@@ -165,9 +191,12 @@ class Session:
         """
         if not self.wait(timeout):
             raise ModevizError(f"there was no answer within {timeout:.0f} s")
-        if self._answer is None or not asks_for_the_same(self._answer.state, self.state):
+        answer = self._answer
+        is_answered = answer is not None and asks_for_the_same(answer.state, self.state)
+        if self._is_refused or not is_answered:
             raise self._failure or ModevizError("there is no answer")
-        return self._answer
+        assert answer is not None
+        return answer
 
     def close(self) -> None:
         """Ends the session's threads."""
@@ -177,6 +206,7 @@ class Session:
 
     def _go(self, step: Callable[[], bool]) -> None:
         with self._lock:
+            self._is_refused = False
             if step():
                 self._submit()
 
@@ -187,39 +217,97 @@ class Session:
         """Has the newest state answered and drawn, once the vehicle is prepared."""
         self._n_drawings += 1
         if self._is_prepared:
-            self._worker.submit(_Job(self.state, self._n_drawings))
+            self._worker.submit(_Job(self._history.moment, self._n_drawings))
 
     def _answer_again(self, is_to_be_drawn: bool) -> None:
         """Has the newest state answered with what is known by now, and drawn or only told."""
         with self._lock:
             self._n_drawings += is_to_be_drawn
-            self._worker.submit(_Job(self.state, self._n_drawings))
+            self._worker.submit(_Job(self._history.moment, self._n_drawings))
 
-    def _solve(self, job: _Job) -> None:
+    def _work(self, job: _Job) -> None:
+        """Answers a job and tells the answer, or that there is none."""
         try:
-            solved = self._answers.answer(
-                job.state,
-                self._inspector.findings,
-                partial(self._follow_preparing, job.state, time.perf_counter()),
-            )
+            solved = self._solve(job)
         except _OvertakenError:
             return
-        self._answer, self._failure = solved, None
-        self._notify(Answered(solved) if job.drawing > self._n_drawn else Checked(solved))
+        except ModevizError as error:
+            if self._worker.is_heard:
+                self._tell_failure(error)
+            return
+        except Exception as error:
+            if self._worker.is_heard:
+                self._go_back(job, error)
+            return
+        if self._worker.is_heard:
+            self._worker.sign()
+            self._take(job, solved)
+
+    def _solve(self, job: _Job) -> Solved:
+        if not self._answers.is_ready(job.state.design.alterations):
+            self._worker.sign(PREPARES_WITHIN)
+        return self._answers.answer(
+            job.state,
+            self._inspector.findings,
+            partial(self._follow_preparing, job.state, time.perf_counter()),
+        )
+
+    def _take(self, job: _Job, solved: Solved) -> None:
+        """Keeps an answer and tells it."""
+        before, self._answer = self._answer, solved
+        if not self._is_refused:
+            self._failure = None
+        try:
+            self._notify(Answered(solved) if job.drawing > self._n_drawn else Checked(solved))
+        except Exception as error:
+            self._answer = before
+            self._go_back(job, error)
+            return
         self._n_drawn = job.drawing
+        if solved.is_detailed:
+            self._good = job.moment
         self._inspector.submit(solved)
+
+    def _leave(self, job: _Job, error: StuckError, is_left: bool) -> None:
+        """Goes on without a solve that hangs."""
+        if is_left:
+            self._go_back(job, error)
+        else:
+            self._tell_failure(error)
+
+    def _go_back(self, job: _Job, error: Exception) -> None:
+        """Goes on as if what went wrong had not been asked for, unless something else is by now."""
+        with self._lock:
+            self._answers, good = self._answers.afresh(), self._good
+            is_asked = self.state is job.state
+            is_back = is_asked and good is not None and good.state is not job.state
+            if is_back:
+                assert good is not None
+                self._history.put_back(good)
+            elif is_asked and good is None:
+                is_back = self._history.undo()
+            self._is_refused = is_back
+            if is_back or not is_asked:
+                self._submit()
+        self._tell_failure(error, is_back)
+
+    def _rebase(self, state: State) -> Prepared:
+        return self._answers.rebase(state)
 
     def _follow_preparing(self, state: State, begin: float, fraction: float) -> None:
         """Tells how far a preparation is that takes its time, or ends one that was overtaken."""
+        if not self._worker.is_heard:
+            raise _OvertakenError
+        self._worker.sign(PREPARES_WITHIN if fraction < 1 else None)
         if time.perf_counter() - begin < FOLLOWS:
             return
         if state.design.alterations != self.state.design.alterations:
             raise _OvertakenError
         self._notify(Preparing(fraction))
 
-    def _fail(self, error: Exception) -> None:
+    def _tell_failure(self, error: Exception, is_back: bool = False) -> None:
         self._failure = error
-        self._notify(Failed(error))
+        self._notify(Failed(error, is_back))
 
     def _is_current(self, solved: Solved) -> bool:
         """Whether an answer is still to what is asked for."""

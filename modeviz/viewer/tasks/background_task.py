@@ -9,11 +9,17 @@ from typing import Any, Generic, Literal, Protocol, TypeVar
 
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.errors import ModevizError
-
-OUR_MISTAKE = "This is our mistake: the terminal says more."
+from modeviz.text.log import our_mistake
+from modeviz.viewer.session.worker import LOOKS, stuck
 
 TELL_EVERY = 0.25
 """s between two words on how far it is."""
+
+SILENT_FOR = 600.0
+"""s: what does not ask its token for so long hangs; preparing and checking take minutes at most."""
+
+MOST_LEFT = 4
+"""Computations that were cancelled, or given up, and whose threads have not ended."""
 
 PATIENCE = 3.0
 """s that a session waits for the end of what it cancelled: the full model may take longer."""
@@ -68,7 +74,8 @@ class BackgroundTask(Generic[AnyJob]):
         what: str,
         work: Callable[[AnyJob, CancelToken, Tell], Any],
         changed: Callable[[], None],
-        report: Callable[[Exception], None],
+        report: Callable[[Exception], str],
+        patience: float = SILENT_FOR,
     ) -> None:
         """Starts nothing.
 
@@ -76,12 +83,15 @@ class BackgroundTask(Generic[AnyJob]):
             what: it is: "scatter".
             work: does a job and returns what it found, asks its token often and tells what is new.
             changed: told that there is something new to look at.
-            report: told what is our mistake.
+            report: told what is our mistake; gives the number under which it is logged.
+            patience: s that the work may go on without asking its token.
         """
         self._what, self._work, self._changed, self._report = what, work, changed, report
+        self._patience = patience
         self._lock = threading.Lock()
         self._token = CancelToken()
         self._thread: threading.Thread | None = None
+        self._left: list[threading.Thread] = []
         self.job: AnyJob | None = None
         """The newest; None before the first."""
 
@@ -89,16 +99,22 @@ class BackgroundTask(Generic[AnyJob]):
         """Begins.
 
         Raises:
-            ModevizError: another one is running.
+            ModevizError: another one is running, or too many that were cancelled have not ended yet.
         """
         token = CancelToken()
         thread = threading.Thread(target=self._run, args=(job, token), name=self._what, daemon=True)
         with self._lock:
             if self.job and self.job.is_running:
                 raise ModevizError(f"a {self._what} is running: cancel it first")
+            self._left = [each for each in [*self._left, self._thread] if each and each.is_alive()]
+            if len(self._left) >= MOST_LEFT:
+                raise ModevizError(
+                    f"{len(self._left)} computations that were cancelled have not ended: wait for them"
+                )
             self.job, self._token, self._thread = job, token, thread
         thread.start()
-        self._changed()
+        threading.Thread(target=self._watch, args=(token, thread), name="watch", daemon=True).start()
+        self._look()
 
     def pause(self) -> None:
         """Holds what is running."""
@@ -116,13 +132,20 @@ class BackgroundTask(Generic[AnyJob]):
             if job is None or not job.is_running:
                 return
             self.job = replace(job, phase="ending" if job.is_awaited else "cancelled")
-        self._changed()
+        self._look()
 
     def close(self) -> None:
         """Ends what is running and waits for its thread, but not longer than anybody would."""
         self.cancel()
         if self._thread is not None:
             self._thread.join(PATIENCE)
+
+    def _look(self) -> None:
+        """Has somebody look at what is new, who may fail: that is not the computation's fault."""
+        try:
+            self._changed()
+        except Exception as error:
+            self._report(error)
 
     def _run(self, job: AnyJob, token: CancelToken) -> None:
         told = -math.inf  # then it was last said how far it is
@@ -132,7 +155,7 @@ class BackgroundTask(Generic[AnyJob]):
             is_due = time.monotonic() - told > TELL_EVERY
             if self._keep(token, **news) and (is_due or at_once):
                 told = told if at_once else time.monotonic()
-                self._changed()
+                self._look()
 
         try:
             found = self._work(job, token, tell)
@@ -141,11 +164,23 @@ class BackgroundTask(Generic[AnyJob]):
         else:
             tell(at_once=True, phase="ended", done=1.0, found=found)
 
+    def _watch(self, token: CancelToken, thread: threading.Thread) -> None:
+        """Gives a computation up that hangs: its thread cannot be ended, but is not waited for."""
+        while thread.is_alive() and token.silence < self._patience:
+            thread.join(self._patience / LOOKS)
+        if not thread.is_alive():
+            return
+        token.cancel()
+        error = stuck(thread, self._patience)
+        if self._keep(token):
+            failure = f"{error}. {our_mistake(self._report(error))}"
+            self._keep(token, phase="failed", failure=failure)
+            self._look()
+
     def _ending(self, error: Exception, token: CancelToken) -> dict[str, str]:
         """Return what there is to say of a job that an error ended."""
         if not isinstance(error, ModevizError | CancelledError):
-            self._report(error)
-            return {"phase": "failed", "failure": OUR_MISTAKE}
+            return {"phase": "failed", "failure": our_mistake(self._report(error))}
         if token.is_cancelled:
             return {"phase": "cancelled"}
         return {"phase": "failed", "failure": str(error)}
@@ -157,7 +192,7 @@ class BackgroundTask(Generic[AnyJob]):
                 return
             turn(self._token)
             self.job = replace(self.job, phase=after)
-        self._changed()
+        self._look()
 
     def _keep(self, token: CancelToken, **news: Any) -> bool:
         """Keeps news of the newest as long as it runs; those of one that was cancelled are nobody's."""

@@ -38,14 +38,14 @@ class FrontTask:
     """Finds the front between two sides of a session's problem."""
 
     def __init__(
-        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
+        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], str]
     ) -> None:
         """Starts nothing.
 
         Args:
             session: whose plan, rates and speed.
             changed: told that there is something new to look at.
-            report: told what is our mistake.
+            report: told what is our mistake; gives the number under which it is logged.
         """
         self._session = session
         self._task = BackgroundTask[Job[Trade, Designs]](

@@ -9,7 +9,7 @@ import viser
 
 from modeviz.compute.cancel import CancelledError, CancelToken
 from modeviz.errors import ModevizError
-from modeviz.viewer.tasks.background_task import OUR_MISTAKE
+from modeviz.text.log import our_mistake
 
 
 class Progress(Protocol):
@@ -29,7 +29,7 @@ def run(
     title: str,
     work: Callable[[Progress], None],
     is_there: Callable[[], bool],
-    report: Callable[[Exception], None],
+    report: Callable[[Exception], str],
 ) -> None:
     """Does some work; its page shows how far it is, can cancel it, and is told what went wrong.
 
@@ -38,7 +38,7 @@ def run(
         title: what is being done.
         work: does it, and tells often.
         is_there: whether the page still is; without it the work is cancelled.
-        report: told what is our mistake.
+        report: told what is our mistake; gives the number under which it is logged.
     """
     window = client.gui.add_modal(title)
     with window:
@@ -69,8 +69,7 @@ def run(
         if is_there():
             client.add_notification("Not saved", str(error), color="red")
     except Exception as error:
-        report(error)
-        client.add_notification("Not saved", OUR_MISTAKE, color="red")
+        client.add_notification("Not saved", our_mistake(report(error)), color="red")
     finally:
         window.close()
 

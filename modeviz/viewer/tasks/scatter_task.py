@@ -56,14 +56,14 @@ class ScatterTask:
     """Scatters the mounts of a session's present rates."""
 
     def __init__(
-        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
+        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], str]
     ) -> None:
         """Starts nothing.
 
         Args:
             session: whose rates, road and speed.
             changed: told that there is something new to look at.
-            report: told what is our mistake.
+            report: told what is our mistake; gives the number under which it is logged.
         """
         self._session, self._changed = session, changed
         self._task = BackgroundTask[Job[Build, ScatterOutcome]](

@@ -145,14 +145,14 @@ class SearchTask:
     """
 
     def __init__(
-        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], None]
+        self, session: Session, changed: Callable[[], None], report: Callable[[Exception], str]
     ) -> None:
         """Starts nothing.
 
         Args:
             session: whose state says what is sought, and from where.
             changed: told that there is something new to look at.
-            report: told what is our mistake.
+            report: told what is our mistake; gives the number under which it is logged.
         """
         self._session, self._changed = session, changed
         self._followed: tuple[Rates, Placements] = {}, {}

@@ -15,7 +15,7 @@ def errors():
 
 @pytest.fixture
 def turns(errors):
-    turns = Turns(errors.append)
+    turns = Turns(lambda _, error: errors.append(error))
     yield turns
     turns.shutdown()
 
@@ -48,7 +48,7 @@ def test_pages_with_much_to_do_leave_threads_to_others(turns):
 
 def test_pages_take_turns_in_the_order_in_which_they_came():
     order, go_on = [], threading.Event()
-    turns = Turns(lambda error: None)
+    turns = Turns(lambda page, error: None)
     for i in range(N_THREADS):
         submit(turns, f"holds {i}", go_on.wait, 10)
     for _ in range(100):

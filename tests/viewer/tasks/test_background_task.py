@@ -5,7 +5,8 @@ import threading
 import pytest
 
 from modeviz.errors import ModevizError, SolveError
-from modeviz.viewer.tasks.background_task import BackgroundTask, Job
+from modeviz.viewer.session.worker import StuckError
+from modeviz.viewer.tasks.background_task import MOST_LEFT, BackgroundTask, Job
 
 SOON = 20
 
@@ -144,3 +145,57 @@ def test_the_first_word_on_how_far_it_is_does_not_wait_for_what_was_told_at_once
     may_begin.set()
     thread.join(SOON)
     assert done == [0.0, 0.1, 0.2, 1.0]
+
+
+def test_what_never_asks_its_token_is_given_up_after_a_while_and_says_where_it_hangs():
+    may_end, reported = threading.Event(), []
+
+    def work(job, token, tell):
+        may_end.wait(SOON)
+        return "late"
+
+    def report(error):
+        reported.append(error)
+        return "abc123"
+
+    ended = threading.Event()
+    task = BackgroundTask("work", work, lambda: task.job.is_running or ended.set(), report, 0.3)
+    thread = started(task, "it")
+    assert ended.wait(SOON)
+    may_end.set()
+    thread.join(SOON)
+    assert (task.job.phase, task.job.found) == ("failed", None)
+    assert "abc123" in task.job.failure
+    assert [type(error) for error in reported] == [StuckError]
+
+
+def test_what_asks_its_token_or_is_held_does_not_hang():
+    may_end = threading.Event()
+
+    def work(job, token, tell):
+        while not may_end.wait(0.02):
+            token.check()
+        return "best"
+
+    task = BackgroundTask("work", work, lambda: None, print, 0.3)
+    thread = started(task, "it")
+    thread.join(0.8)
+    task.pause()
+    thread.join(0.8)
+    assert task.job.phase == "paused"
+    task.resume()
+    may_end.set()
+    thread.join(SOON)
+    assert (task.job.phase, task.job.found) == ("ended", "best")
+
+
+def test_only_so_many_that_were_cancelled_run_on():
+    may_end = threading.Event()
+    task = BackgroundTask("work", lambda *_: may_end.wait(SOON), lambda: None, print)
+    for _ in range(MOST_LEFT):
+        thread = started(task, "it")
+        task.cancel()
+    with pytest.raises(ModevizError, match="have not ended: wait for them"):
+        task.start(Job("it"))
+    may_end.set()
+    thread.join(SOON)

@@ -10,7 +10,6 @@ from modeviz.files.problem_file import problem_text, read_problem
 from modeviz.optimise.goals import prepare_goal
 from modeviz.vehicle.alterations import altered
 from modeviz.vehicle.placement import Placement
-from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.panels.optimise.places import ranged
 from modeviz.viewer.session.commands.decisions import PlaceMounts
 from modeviz.viewer.session.planning.plan import planned
@@ -30,7 +29,7 @@ def session():
 @pytest.fixture
 def optimiser(session):
     watcher = Watcher()
-    optimiser = SearchTask(session, watcher.tell, Notices(print).mistake)
+    optimiser = SearchTask(session, watcher.tell, print)
     optimiser.wait = watcher.wait
     yield optimiser
     optimiser.close()

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from cabin_session import SOON, Watcher, open_session
 from held_search import hold_searches
+from logs import log_to
 from session_commands import Alter, AlterPlan
 
 from modeviz.errors import ModevizError, SolveError
@@ -43,7 +44,7 @@ def said():
 
 @pytest.fixture
 def optimiser(session, said):
-    watcher, notices = Watcher(), Notices(said.append)
+    watcher, notices = Watcher(), Notices(log_to(said))
     optimiser = SearchTask(session, watcher.tell, notices.mistake)
     optimiser.wait = watcher.wait
     yield optimiser
