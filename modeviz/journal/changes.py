@@ -6,7 +6,8 @@ from dataclasses import asdict, dataclass, field
 from sqlite3 import Connection
 from typing import Literal
 
-from modeviz.journal.contents import content, drop_unheld, put_content
+from modeviz.journal.contents import drop_unheld, put_text, text
+from modeviz.journal.schema import next_id
 from modeviz.journal.tuning import Tuning
 
 LONGEST = 500
@@ -83,8 +84,8 @@ def steps(connection: Connection, session: int, place: Literal["done", "undone"]
         f"SELECT before, after FROM change WHERE session = ? AND place = ? ORDER BY id {order} LIMIT ?",
         (session, place, LONGEST),
     ).fetchall()
-    text = _texts(connection, {number for row in rows for number in row})
-    return tuple(Step(text[before], text[after]) for before, after in reversed(rows))
+    states = {number: text(connection, number) for row in rows for number in row}
+    return tuple(Step(states[before], states[after]) for before, after in reversed(rows))
 
 
 def differences_text(differences: Iterable[Difference]) -> str:
@@ -97,29 +98,29 @@ def differences_of(text: str) -> tuple[Difference, ...]:
     return tuple(Difference(**each) for each in json.loads(text))
 
 
-def _texts(connection: Connection, numbers: set[int]) -> dict[int, str]:
-    return {number: content(connection, number).decode() for number in numbers}
+def _put(connection: Connection, change: Change) -> tuple[int, int, int]:
+    """Stores the states before and after a change, and the differences."""
+    contents = (change.before, change.after, differences_text(change.differences))
+    before, after, differences = (put_text(connection, each) for each in contents)
+    return before, after, differences
 
 
 def _insert(connection: Connection, session: int, change: Change, place: str, now: float) -> None:
-    before, after = (
-        (put_content(connection, state.encode()) for state in (change.before, change.after))
-        if place
-        else (None, None)
-    )
+    before, after, differences = _put(connection, change)
     connection.execute(
-        "INSERT INTO change (session, time, author, kind, title, differences, place, before, after)"
-        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO change (id, session, time, author, kind, title, differences, place, before, after)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (
+            next_id(connection),
             session,
             now,
             change.author,
             change.kind,
             change.title,
-            differences_text(change.differences),
+            differences,
             place,
-            before,
-            after,
+            before if place else None,
+            after if place else None,
         ),
     )
 
@@ -138,8 +139,8 @@ def _lengthen(
     if step is None:
         _insert(connection, session, change, "done", now)
         return
-    held = _states(connection, step)
-    before, after = (put_content(connection, s.encode()) for s in (change.before, change.after))
+    held = _contents(connection, step)
+    before, after, differences = _put(connection, change)
     connection.execute(
         "UPDATE change SET before = ?, after = ?, time = ?, author = ?, title = ?, differences = ?"
         " WHERE id = ?",
@@ -149,7 +150,7 @@ def _lengthen(
             now,
             change.author,
             change.title,
-            differences_text(change.differences),
+            differences,
             step,
         ),
     )
@@ -161,8 +162,8 @@ def _move(
 ) -> None:
     """Undoes or redoes a step, whose states are those of looks then and now."""
     step = _last(connection, session, place)
-    held = _states(connection, step)
-    before, after = (put_content(connection, s.encode()) for s in (change.before, change.after))
+    held = _contents(connection, step)
+    before, after, _ = _put(connection, change)
     connection.execute(
         "UPDATE change SET before = ?, after = ?, place = ? WHERE id = ?", (before, after, new, step)
     )
@@ -171,7 +172,7 @@ def _move(
 
 
 def _remove(connection: Connection, step: int | None) -> None:
-    held = _states(connection, step)
+    held = _contents(connection, step)
     connection.execute("DELETE FROM change WHERE id = ?", (step,))
     drop_unheld(connection, *held)
 
@@ -183,6 +184,6 @@ def _drop_undone(connection: Connection, session: int) -> None:
     )
 
 
-def _states(connection: Connection, step: int | None) -> tuple[int | None, ...]:
-    query = "SELECT before, after FROM change WHERE id = ?"
+def _contents(connection: Connection, step: int | None) -> tuple[int | None, ...]:
+    query = "SELECT before, after, differences FROM change WHERE id = ?"
     return connection.execute(query, (step,)).fetchone() or ()

@@ -5,18 +5,20 @@ import zlib
 from sqlite3 import Connection
 
 from modeviz.errors import ModevizError
+from modeviz.journal.schema import HOLDERS
 
 FAST = 3
 """zlib's level: states of some kilobytes shrink to a fifth in 0.1 ms."""
 
-HOLDERS = (
-    ("change", "before"),
-    ("change", "after"),
-    ("session", "state"),
-    ("run", "record"),
-    ("picture", "png"),
-)
-"""The columns that refer to contents."""
+
+def put_text(connection: Connection, text: str) -> int:
+    """Stores a text, as `put_content`."""
+    return put_content(connection, text.encode())
+
+
+def text(connection: Connection, number: int) -> str:
+    """Return a stored text; raises as `content`."""
+    return content(connection, number).decode()
 
 
 def put_content(connection: Connection, content: bytes) -> int:

@@ -91,7 +91,7 @@ def _check_sound(path: Path) -> bool:
         connection = _connect_to_read(path)
         try:
             # what was written last may be in the log beside the file alone, its header too
-            tables = {name for (name,) in connection.execute("SELECT name FROM sqlite_schema")}
+            tables = {name for (name,) in connection.execute("SELECT name FROM sqlite_master")}
             application, version, found = (
                 connection.execute(f"PRAGMA {what}").fetchone()[0]
                 for what in ("application_id", "user_version", "quick_check(1)")

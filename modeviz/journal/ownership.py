@@ -93,7 +93,7 @@ def _taken(path: Path) -> str:
 
 def _owner(path: Path) -> dict[str, Any] | None:
     """What the lock says of who has it; None where it says nothing yet."""
-    with suppress(OSError, ValueError, OverflowError, TypeError):
+    with suppress(OSError, ValueError, OverflowError, TypeError, KeyError):
         owner = json.loads(path.read_text())
         said = {"pid": int(owner["pid"]), "host": str(owner["host"])[:80]}
         since = float(owner["since"])

@@ -9,7 +9,7 @@ VERSION = 1
 """Of the tables; a file of a later one is not read."""
 
 TABLES = """
-CREATE TABLE study (name TEXT NOT NULL, begun REAL NOT NULL);
+CREATE TABLE study (name TEXT NOT NULL, begun REAL NOT NULL, n_entries INTEGER NOT NULL);
 CREATE TABLE vehicle (
     id INTEGER PRIMARY KEY,
     digest TEXT NOT NULL UNIQUE,
@@ -29,7 +29,7 @@ CREATE TABLE session (
     used REAL NOT NULL,
     vehicle INTEGER NOT NULL REFERENCES vehicle,
     state INTEGER REFERENCES content,
-    tuning TEXT NOT NULL
+    tuning INTEGER NOT NULL REFERENCES content
 );
 CREATE TABLE review (
     digest TEXT PRIMARY KEY,
@@ -39,33 +39,31 @@ CREATE TABLE review (
     ended REAL
 );
 CREATE TABLE change (
-    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    id INTEGER PRIMARY KEY,
     session INTEGER NOT NULL REFERENCES session,
     time REAL NOT NULL,
     author TEXT NOT NULL,
     kind TEXT NOT NULL,
     title TEXT NOT NULL,
-    differences TEXT NOT NULL,
+    differences INTEGER NOT NULL REFERENCES content,
     place TEXT NOT NULL,
     before INTEGER REFERENCES content,
     after INTEGER REFERENCES content
 );
 CREATE INDEX change_of_session ON change (session, place, id);
-CREATE INDEX change_before ON change (before);
-CREATE INDEX change_after ON change (after);
-CREATE INDEX session_state ON session (state);
 CREATE TABLE variant (
-    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    id INTEGER PRIMARY KEY,
     session INTEGER NOT NULL REFERENCES session,
     name TEXT NOT NULL,
     time REAL NOT NULL,
     author TEXT NOT NULL,
-    pinned TEXT NOT NULL,
+    pinned INTEGER NOT NULL REFERENCES content,
     gone REAL
 );
 CREATE INDEX variant_of_session ON variant (session, gone);
 CREATE TABLE note (
-    id TEXT PRIMARY KEY,
+    id INTEGER PRIMARY KEY,
+    token TEXT NOT NULL UNIQUE,
     session INTEGER REFERENCES session,
     kind TEXT NOT NULL,
     name TEXT NOT NULL,
@@ -76,18 +74,19 @@ CREATE TABLE note (
     removed REAL
 );
 CREATE TABLE run (
-    id TEXT PRIMARY KEY,
+    id INTEGER PRIMARY KEY,
+    token TEXT NOT NULL UNIQUE,
     session INTEGER NOT NULL REFERENCES session,
     kind TEXT NOT NULL,
     title TEXT NOT NULL,
     time REAL NOT NULL,
     author TEXT NOT NULL,
     duration REAL NOT NULL,
-    outcome TEXT NOT NULL,
     record INTEGER NOT NULL REFERENCES content
 );
 CREATE TABLE picture (
-    id TEXT PRIMARY KEY,
+    id INTEGER PRIMARY KEY,
+    token TEXT NOT NULL UNIQUE,
     session INTEGER NOT NULL REFERENCES session,
     time REAL NOT NULL,
     author TEXT NOT NULL,
@@ -95,20 +94,39 @@ CREATE TABLE picture (
     png INTEGER NOT NULL REFERENCES content
 );
 """
-"""Times are seconds since 1970, as the clock said; what came first is told by ids alone.
+"""Times are seconds since 1970, as the clock said; what came first is told by ids alone, which changes,
+variants, notes, runs and pictures have from one count.
 
 Of a change `place` is "done", "undone", or "gone" where something else was decided after undoing it;
 undoing and redoing are changes of other kinds, whose place is "". Keys of sessions and reviews are
 not here, only their digests.
 """
 
+HOLDERS = (
+    ("change", "before"),
+    ("change", "after"),
+    ("change", "differences"),
+    ("session", "state"),
+    ("session", "tuning"),
+    ("variant", "pinned"),
+    ("run", "record"),
+    ("picture", "png"),
+)
+"""The columns that refer to contents: what an engineer relies on is there with its digest."""
+
 
 def create(connection: Connection, vehicle_name: str, now: float) -> None:
     """Makes the tables of a new file; in a transaction of its own."""
-    script = "".join(f"{statement};" for statement in TABLES.split(";") if statement.strip())
+    indices = "".join(f"CREATE INDEX {t}_{c} ON {t} ({c});" for t, c in HOLDERS)
     connection.executescript(
         f"BEGIN IMMEDIATE; PRAGMA application_id = {APPLICATION_ID}; PRAGMA user_version = {VERSION};"
-        f"{script}"
+        f"{TABLES}{indices}"
     )
-    connection.execute("INSERT INTO study VALUES (?, ?)", (vehicle_name, now))
+    connection.execute("INSERT INTO study VALUES (?, ?, 0)", (vehicle_name, now))
     connection.execute("COMMIT")
+
+
+def next_id(connection: Connection) -> int:
+    """Return the id of what is written now."""
+    connection.execute("UPDATE study SET n_entries = n_entries + 1")
+    return connection.execute("SELECT n_entries FROM study").fetchone()[0]

@@ -5,8 +5,9 @@ from sqlite3 import Connection
 from typing import Literal
 
 from modeviz.journal.changes import Change, Step, steps, write_change
-from modeviz.journal.contents import content, drop_unheld, put_content
+from modeviz.journal.contents import drop_unheld, put_text, text
 from modeviz.journal.fingerprint import Fingerprint
+from modeviz.journal.schema import next_id
 from modeviz.journal.tuning import Pinned, Tuning, pinned_of, pinned_text
 
 SessionId = str
@@ -68,7 +69,7 @@ def begin(
             "author": author,
             "now": now,
             "vehicle": number,
-            "tuning": pinned_text(Pinned({})),
+            "tuning": put_text(connection, pinned_text(Pinned({}))),
         },
     )
 
@@ -133,7 +134,7 @@ def restore(connection: Connection, session: SessionId) -> StoredSession | None:
     if row is None:
         return None
     number, title, author, parts, state, tuning = row
-    present = pinned_of(tuning)
+    present = pinned_of(text(connection, tuning))
     places: tuple[Literal["done"], Literal["undone"]] = ("done", "undone")
     past, future = (steps(connection, number, place) for place in places)
     return StoredSession(
@@ -141,7 +142,7 @@ def restore(connection: Connection, session: SessionId) -> StoredSession | None:
         title,
         author,
         Fingerprint.of_text(parts),
-        None if state is None else content(connection, state).decode(),
+        None if state is None else text(connection, state),
         past,
         future,
         Tuning(present.rates, present.placements, _variants(connection, number)),
@@ -160,6 +161,14 @@ def number_of(connection: Connection, session: SessionId) -> int:
     return row[0]
 
 
+def known_number(connection: Connection, session: SessionId) -> int:
+    """Return the number of a session; -1 of one that was not begun, which has nothing."""
+    try:
+        return number_of(connection, session)
+    except LookupError:
+        return -1
+
+
 def _put_vehicle(connection: Connection, vehicle: Fingerprint) -> int:
     insert = "INSERT OR IGNORE INTO vehicle (digest, parts) VALUES (?, ?)"
     connection.execute(insert, (vehicle.digest, vehicle.text))
@@ -170,7 +179,7 @@ def _put_vehicle(connection: Connection, vehicle: Fingerprint) -> int:
 def _put_state(connection: Connection, number: int, state: str, now: float) -> None:
     query = "SELECT state FROM session WHERE id = ?"
     (before,) = connection.execute(query, (number,)).fetchone()
-    after = put_content(connection, state.encode())
+    after = put_text(connection, state)
     update = "UPDATE session SET state = ?, used = ? WHERE id = ?"
     connection.execute(update, (after, now, number))
     if before != after:
@@ -180,24 +189,30 @@ def _put_state(connection: Connection, number: int, state: str, now: float) -> N
 def _put_tuning(connection: Connection, number: int, change: Change, now: float) -> None:
     """Writes the present rates, and what became of variants."""
     tuning = change.tuning
+    query = "SELECT tuning FROM session WHERE id = ?"
+    (before,) = connection.execute(query, (number,)).fetchone()
     update = "UPDATE session SET tuning = ? WHERE id = ?"
-    connection.execute(update, (pinned_text(tuning.present), number))
+    connection.execute(update, (put_text(connection, pinned_text(tuning.present)), number))
+    drop_unheld(connection, before)
     known, wanted = (
         {name: pinned_text(pinned) for name, pinned in variants.items()}
         for variants in (_variants(connection, number), tuning.variants)
     )
-    for name, text in known.items():
-        if wanted.get(name) != text:
+    for name, pinned in known.items():
+        if wanted.get(name) != pinned:
             gone = "UPDATE variant SET gone = ? WHERE session = ? AND name = ? AND gone IS NULL"
             connection.execute(gone, (now, number, name))
-    for name, text in wanted.items():
-        if known.get(name) != text:
-            insert = "INSERT INTO variant (session, name, time, author, pinned) VALUES (?, ?, ?, ?, ?)"
-            connection.execute(insert, (number, name, now, change.author, text))
+    for name, pinned in wanted.items():
+        if known.get(name) != pinned:
+            connection.execute(
+                "INSERT INTO variant (id, session, name, time, author, pinned)"
+                " VALUES (?, ?, ?, ?, ?, ?)",
+                (next_id(connection), number, name, now, change.author, put_text(connection, pinned)),
+            )
 
 
 def _variants(connection: Connection, number: int) -> dict[str, Pinned]:
     rows = connection.execute(
         "SELECT name, pinned FROM variant WHERE session = ? AND gone IS NULL ORDER BY id", (number,)
     )
-    return {name: pinned_of(text) for name, text in rows}
+    return {name: pinned_of(text(connection, pinned)) for name, pinned in rows.fetchall()}

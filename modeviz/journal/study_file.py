@@ -1,30 +1,37 @@
 """A study file that is open: what sessions write to it, and read back."""
 
+import secrets
 import sqlite3
 import threading
 import time
-from collections.abc import Callable, Hashable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Hashable
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from sqlite3 import Connection
 
 from modeviz.errors import ModevizError, reason
+from modeviz.journal import notes as remarks
 from modeviz.journal import sessions as stored
 from modeviz.journal.changes import Change
 from modeviz.journal.fingerprint import Fingerprint
 from modeviz.journal.keys import digest_of
 from modeviz.journal.opening import check_file, open_to_write
 from modeviz.journal.ownership import Ownership
+from modeviz.journal.pictures import PictureLine, write_picture
 from modeviz.journal.places import own_folder
+from modeviz.journal.records import Records
+from modeviz.journal.runs import Run, write_run
 from modeviz.journal.schema import create
-from modeviz.journal.sessions import SessionId, SessionLine, StoredSession
+from modeviz.journal.sessions import SessionId
 from modeviz.journal.writer import Writer
+from modeviz.report.notes import Note
 
 PATIENCE = 5.0
 """s that reading waits for what was written before."""
 
 
-class StudyFile:
+class StudyFile(Records):
     """Writes what the sessions of a vehicle accept, in a thread of its own, and gives it back.
 
     What is asked to be written is in memory until it is on the disk: `trouble` says why that takes, and
@@ -39,7 +46,7 @@ class StudyFile:
         ownership: Ownership,
     ) -> None:
         """See `open`."""
-        self.path: Path = path
+        super().__init__(path, self._connect_after_writing)
         self.vehicle: Fingerprint = vehicle
         self._writer, self._ownership = writer, ownership
         self._lock = threading.Lock()
@@ -124,24 +131,33 @@ class StudyFile:
         now = time.time()
         self._writer.put(lambda c: stored.end_review(c, review, now))
 
-    def reviewed(self, review: SessionId) -> SessionId | None:
-        """Return the session that a review shows; None if there is none, or it has ended."""
-        with self._reading() as connection:
-            return stored.reviewed(connection, review)
+    def put_note(self, session: SessionId | None, note: Note) -> str:
+        """Writes a note of a session, or with None one for all; returns its token.
 
-    def sessions(self) -> tuple[SessionLine, ...]:
-        """Return every session of the study, the first one first."""
-        with self._reading() as connection:
-            return stored.sessions(connection)
-
-    def restore(self, session: SessionId) -> StoredSession | None:
-        """Return a session as it was left; None where there is none.
-
-        Raises:
-            ModevizError: it cannot be read, or is damaged.
+        A note whose token is there already takes its place.
         """
-        with self._reading() as connection:
-            return stored.restore(connection, session)
+        written = replace(note, token=note.token or new_token(), time=time.time())
+        self._writer.put(lambda c: remarks.write_note(c, _number(c, session), written))
+        return written.token
+
+    def remove_note(self, session: SessionId | None, token: str) -> None:
+        """Takes a note away."""
+        now = time.time()
+        self._writer.put(lambda c: remarks.remove_note(c, _number(c, session), token, now))
+
+    def put_run(self, session: SessionId, run: Run) -> str:
+        """Writes a run of a session, in place of one of its token; returns that."""
+        written = replace(run, token=run.token or new_token(), time=time.time())
+        self._writer.put(
+            lambda c: write_run(c, stored.number_of(c, session), written), ("run", written.token)
+        )
+        return written.token
+
+    def put_picture(self, session: SessionId, png: bytes, caption: str, author: str = "") -> str:
+        """Writes a picture of a session; returns its token."""
+        line = PictureLine(new_token(), caption, author, time.time())
+        self._writer.put(lambda c: write_picture(c, stored.number_of(c, session), line, png))
+        return line.token
 
     def flush(self, timeout: float) -> bool:
         """Waits until all is on the disk; whether that came within `timeout` s."""
@@ -162,24 +178,19 @@ class StudyFile:
             self._n_steps[session] = n_steps + 1
         return None
 
-    @contextmanager
-    def _reading(self) -> Iterator[Connection]:
-        """A connection that sees what was asked to be written before.
-
-        Raises:
-            ModevizError: it cannot be read.
-        """
+    def _connect_after_writing(self) -> Connection:
+        """A connection that sees what was asked to be written before, if it could be."""
         self.flush(PATIENCE)
-        try:
-            connection = sqlite3.connect(
-                f"{self.path.as_uri()}?mode=ro", uri=True, isolation_level=None
-            )
-            try:
-                yield connection
-            finally:
-                connection.close()
-        except sqlite3.Error as error:
-            raise ModevizError(f"{self.path}: cannot be read ({reason(error)})") from None
+        return sqlite3.connect(f"{self.path.as_uri()}?mode=ro", uri=True, isolation_level=None)
+
+
+def new_token() -> str:
+    """Return a name that nothing else in any study has."""
+    return secrets.token_hex(8)
+
+
+def _number(connection: Connection, session: SessionId | None) -> int | None:
+    return None if session is None else stored.number_of(connection, session)
 
 
 def _check_folder(path: Path) -> None:

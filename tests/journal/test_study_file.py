@@ -3,8 +3,11 @@
 import pytest
 from journal_studies import KEY, VEHICLE, change, opened, pinned
 
+from modeviz.errors import ModevizError
 from modeviz.journal.changes import Step
 from modeviz.journal.fingerprint import Fingerprint
+from modeviz.journal.runs import Run
+from modeviz.report.notes import Note
 
 
 @pytest.fixture
@@ -119,5 +122,97 @@ def test_states_that_nothing_leads_to_are_dropped(path):
         study.look(KEY, f"look {i}")
         assert study.flush(5)
     with study._reading() as connection:
-        assert connection.execute("SELECT count(*) FROM content").fetchone() == (3,)
+        assert connection.execute("SELECT count(*) FROM content").fetchone() == (5,)
+    study.close()
+
+
+def test_notes_are_of_their_session_or_of_all(path):
+    study = opened(path)
+    other = study.session_id("another-key")
+    study.begin(KEY)
+    study.begin(other)
+    study.put_note(KEY, Note("too soft", "mount", "C2 left", "Ada"))
+    study.put_note(other, Note("secret"))
+    token = study.put_note(None, Note("for the review on Monday", author="Bob"))
+    assert [note.text for note in study.notes(KEY)] == ["too soft", "for the review on Monday"]
+    assert study.notes(KEY)[0].about == "mount C2 left"
+    study.put_note(None, Note("for the review on Tuesday", author="Bob", token=token))
+    study.remove_note(other, study.notes(other)[0].token)
+    assert [note.text for note in study.notes(other)] == ["for the review on Tuesday"]
+    study.close()
+
+
+def test_a_note_of_another_session_can_be_neither_changed_nor_removed(path):
+    study = opened(path)
+    other = study.session_id("another-key")
+    study.begin(KEY)
+    study.begin(other)
+    token = study.put_note(KEY, Note("mine"))
+    study.remove_note(other, token)
+    study.put_note(other, Note("yours", token=token))
+    assert [note.text for note in study.notes(KEY)] == ["mine"]
+    study.close()
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"text": " "}, {"text": "x" * 10_001}, {"text": "x", "name": "C2"}, {"text": "x", "kind": "mode"}],
+)
+def test_a_note_that_says_nothing_too_much_or_of_nothing_is_refused(wrong):
+    with pytest.raises(ModevizError, match="a note: "):
+        Note(**wrong)
+
+
+def test_a_run_goes_on_under_its_token(path):
+    study = opened(path)
+    study.begin(KEY)
+    token = study.put_run(KEY, Run("search", "paper, 3 of 20 starts", '{"best": 1.9}', "Ada"))
+    study.put_run(KEY, Run("search", "paper, 20 starts", '{"best": 1.3}', "Ada", 12.0, token=token))
+    (run,) = study.runs(KEY)
+    assert (run.title, run.record, run.duration) == ("paper, 20 starts", '{"best": 1.3}', 12.0)
+    study.close()
+
+
+def test_a_picture_is_given_to_its_session_alone(path):
+    study = opened(path)
+    other = study.session_id("another-key")
+    study.begin(KEY)
+    study.begin(other)
+    token = study.put_picture(KEY, b"\x89PNG...", "Cab yaw", "Ada")
+    assert study.picture(KEY, token) == b"\x89PNG..."
+    assert study.picture(other, token) is None
+    assert [line.caption for line in study.pictures(KEY)] == ["Cab yaw"]
+    study.close()
+
+
+def test_the_history_is_in_the_order_of_what_happened_though_the_clock_is_set_back(path, monkeypatch):
+    study = opened(path)
+    for i, happens in enumerate(
+        (
+            lambda: study.begin(KEY),
+            lambda: study.record(KEY, change(1, 2)),
+            lambda: study.put_note(KEY, Note("better")),
+            lambda: study.record(KEY, change(2, 3)),
+            lambda: study.record(KEY, change(2, 3, "undo")),
+            lambda: study.put_run(KEY, Run("scatter", "10 000 vehicles", "{}")),
+        )
+    ):
+        monkeypatch.setattr("time.time", lambda i=i: 1e9 - 1e6 * i)
+        happens()
+    entries = study.history()
+    assert [entry.kind for entry in entries] == ["step", "note", "step", "undo", "scatter"]
+    assert [entry.is_undone for entry in entries] == [False, False, True, False, False]
+    assert entries[0].differences[0].what == "C2.lateral"
+    study.close()
+
+
+def test_a_write_that_cannot_be_is_left_out_and_the_others_are_there(path, caplog):
+    study = opened(path)
+    study.record("of a session that was not begun", change(1, 2))
+    study.begin(KEY)
+    study.record(KEY, change(1, 2))
+    session = study.restore(KEY)
+    assert session
+    assert session.past == (Step("state 1", "state 2"),)
+    assert "left out" in caplog.text
     study.close()

@@ -1,0 +1,332 @@
+"""What a study does when a disk, a file, a process or a clock lets it down."""
+
+import json
+import os
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from journal_studies import KEY, change, opened
+
+from benchmarks.kill import kill_often
+from modeviz.errors import ModevizError
+from modeviz.journal import opening, schema
+from modeviz.journal.changes import Step
+from modeviz.journal.ownership import lock_path
+from modeviz.journal.records import Records
+from modeviz.journal.sessions import StoredSession
+
+TESTS = Path(__file__).parents[1]
+
+OWNER = """
+import sys, time
+from pathlib import Path
+from journal_studies import opened
+study = opened(Path(sys.argv[1]))
+print("open", flush=True)
+time.sleep(60)
+"""
+
+FILLED = """
+import resource, sys
+from pathlib import Path
+from journal_studies import KEY, change, opened
+told = []
+study = opened(Path(sys.argv[1]), tell=told.append)
+study.begin(KEY)
+study.record(KEY, change(1, 2))
+assert study.flush(5)
+hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
+resource.setrlimit(resource.RLIMIT_FSIZE, (Path(f"{study.path}-wal").stat().st_size, hard))
+for i in range(2, 30):
+    study.record(KEY, change(i, i + 1))
+study.look(KEY, "look")
+assert not study.flush(1)
+assert study.n_unsaved == 29, study.n_unsaved
+assert study.trouble.startswith("not saved: "), study.trouble
+resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, hard))
+assert study.flush(5)
+assert (study.trouble, study.n_unsaved) == ("", 0)
+assert len(told) == 2 and told[1] == "", told
+session = study.restore(KEY)
+assert len(session.past) == 29 and session.state == "look"
+assert study.close()
+print("all there")
+"""
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "truck.modeviz"
+
+
+@pytest.fixture
+def written(path):
+    study = opened(path)
+    study.begin(KEY)
+    for i in range(200):
+        study.record(KEY, change(i, i + 1))
+    assert study.close()
+    return path
+
+
+def restored(path: Path) -> StoredSession:
+    session = Records.of_file(path).restore(KEY)
+    assert session
+    return session
+
+
+def run(program: str, *arguments: object) -> subprocess.Popen:
+    return subprocess.Popen(
+        [sys.executable, "-c", program, *map(str, arguments)],
+        env={**os.environ, "PYTHONPATH": str(TESTS)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def refused(path: Path) -> str:
+    """The words with which a file is refused to those who write and who read, and is left alone."""
+    before = {each.name: each.read_bytes() for each in path.parent.iterdir()}
+    with pytest.raises(ModevizError) as to_write:
+        opened(path)
+    with pytest.raises(ModevizError) as to_read:
+        Records.of_file(path)
+    assert str(to_write.value) == str(to_read.value)
+    assert {each.name: each.read_bytes() for each in path.parent.iterdir()} == before
+    return str(to_read.value)
+
+
+def test_ten_kills_at_random_lose_nothing_that_was_saved(tmp_path):
+    killed = kill_often(tmp_path, 10, seed=1, rounds_of_a_file=5)
+    assert killed.n_saved > 20
+
+
+def test_what_a_full_disk_keeps_from_being_saved_is_saved_once_there_is_room(path):
+    pytest.importorskip("resource")
+    process = run(FILLED, path)
+    out, errors = process.communicate(timeout=60)
+    assert out == "all there\n", errors
+
+
+@pytest.mark.parametrize("words", ["database or disk is full", "No space left on device"])
+def test_a_full_disk_is_called_so(path, monkeypatch, words):
+    study = opened(path)
+
+    def fails(*_):
+        raise sqlite3.OperationalError(words) if "database" in words else OSError(28, words)
+
+    monkeypatch.setattr("modeviz.journal.writer._commit", fails)
+    study.begin(KEY)
+    assert not study.flush(0.5)
+    assert study.trouble == "not saved: the disk is full"
+    monkeypatch.undo()
+    assert study.close()
+
+
+def test_a_second_process_is_told_who_has_the_study(path):
+    owner = run(OWNER, path)
+    assert owner.stdout is not None
+    assert owner.stdout.readline() == "open\n"
+    try:
+        said = rf"is open already, in process {owner.pid} on .* since {time.strftime('%d %b')}"
+        with pytest.raises(ModevizError, match=said):
+            opened(path)
+        assert Records.of_file(path).sessions() == ()
+    finally:
+        owner.send_signal(signal.SIGKILL)
+        owner.communicate()
+    assert lock_path(path).exists()  # what is left of the lock
+    assert opened(path).close()
+    assert not lock_path(path).exists()
+
+
+def test_a_study_that_is_open_twice_in_one_process_is_refused_too(path):
+    study = opened(path)
+    with pytest.raises(ModevizError, match=f"process {os.getpid()}"):
+        opened(path)
+    assert study.close()
+
+
+@pytest.mark.parametrize(
+    "said", ["", "{", "[]", '{"pid": 1}', json.dumps({"pid": 1, "host": "x" * 999, "since": 1e99})]
+)
+def test_a_lock_that_says_nonsense_is_believed_no_more_than_it_says(path, said, monkeypatch):
+    study = opened(path)
+    lock_path(path).write_text(said)
+    with pytest.raises(ModevizError, match="is open already, in another process"):
+        opened(path)
+    assert study.close()
+
+
+@pytest.mark.parametrize("at", [0, 5, 4096 + 1])
+def test_a_damaged_file_is_refused_and_left_as_it_was(written, at):
+    content = bytearray(written.read_bytes())
+    content[at : at + 300] = b"\xa5" * 300
+    written.write_bytes(content)
+    assert "damaged" in refused(written)
+
+
+def test_rates_and_states_are_read_as_they_were_written_or_not_at_all(written):
+    content, rng = written.read_bytes(), np.random.default_rng(3)
+    whole = restored(written)
+    n_refused = 0
+    for at in rng.integers(0, len(content) - 16, 40):
+        written.write_bytes(content[:at] + rng.bytes(16) + content[at + 16 :])
+        try:
+            found = restored(written)
+        except ModevizError:
+            n_refused += 1
+        else:
+            assert (found.past, found.state, found.tuning) == (whole.past, whole.state, whole.tuning)
+    assert n_refused > 5
+
+
+def test_a_file_that_was_cut_off_is_refused_and_left_as_it_was(written):
+    for size in (written.stat().st_size // 2, 4096, 50):
+        written.write_bytes(written.read_bytes()[:size])
+        assert "damaged" in refused(written)
+
+
+def test_a_state_that_is_not_as_written_is_said_and_other_sessions_open(written):
+    other = "another session"
+    study = opened(written)
+    study.begin(other)
+    study.record(other, change(1000, 1001))
+    study.close()
+    connection = sqlite3.connect(written)
+    connection.execute(
+        "UPDATE content SET packed = zeroblob(9) WHERE id = (SELECT before FROM change WHERE id = 50)"
+    )
+    connection.commit()
+    connection.close()
+    study = opened(written)
+    with pytest.raises(ModevizError, match=r"truck.modeviz: content \d+ .*damaged"):
+        study.restore(KEY)
+    session = study.restore(other)
+    assert session
+    assert session.past == (Step("state 1000", "state 1001"),)
+    study.close()
+
+
+def test_a_later_version_is_refused_and_left_as_it_was(written, monkeypatch):
+    monkeypatch.setattr(opening, "VERSION", schema.VERSION - 1)
+    assert "was written by a later modeviz" in refused(written)
+
+
+def test_a_later_version_that_is_in_the_log_alone_is_refused(written):
+    connection = opening.open_to_write(written)
+    connection.execute("PRAGMA user_version = 99")
+    copies = [
+        shutil.copy(each, written.with_name(each.name.replace("truck", "copy")))
+        for each in written.parent.iterdir()
+        if not each.name.endswith("-shm")
+    ]
+    assert len(copies) == 2
+    connection.close()
+    with pytest.raises(ModevizError, match="version 99"):
+        opened(written.with_name("copy.modeviz"))
+
+
+def test_another_database_and_another_file_are_refused(path, tmp_path):
+    connection = sqlite3.connect(path)
+    connection.execute("CREATE TABLE mine (x)")
+    connection.commit()
+    connection.close()
+    assert "no study of modeviz" in refused(path)
+    path.write_text("[vehicle]\n" * 50)
+    assert "no study of modeviz" in refused(path)
+
+
+@pytest.mark.parametrize("begin", [b"", None])
+def test_a_file_whose_making_was_killed_is_a_new_study(path, begin):
+    if begin is None:
+        opening.open_to_write(path).close()  # a header, no tables
+    else:
+        path.write_bytes(begin)
+    study = opened(path)
+    study.begin(KEY)
+    assert len(study.sessions()) == 1
+    assert study.close()
+
+
+def test_a_file_that_cannot_be_written_is_said(path, tmp_path):
+    with pytest.raises(ModevizError, match=r"cannot be written \(there is no folder"):
+        opened(tmp_path / "missing" / "truck.modeviz")
+    path.mkdir()
+    with pytest.raises(ModevizError, match="expected a study file"):
+        opened(path)
+
+
+def test_a_folder_where_nothing_can_be_written_is_said(path, monkeypatch):
+    def refuses(*_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("modeviz.journal.ownership.os.open", refuses)
+    with pytest.raises(ModevizError, match=r"truck.modeviz: cannot be locked \(Permission denied\)"):
+        opened(path)
+
+
+def test_a_study_that_was_taken_away_says_so_and_goes_on_when_it_is_back(path, tmp_path):
+    study = opened(path)
+    study.begin(KEY)
+    assert study.flush(5)
+    for each in list(tmp_path.iterdir()):
+        each.rename(tmp_path.parent / each.name)
+    study.record(KEY, change(1, 2))
+    assert not study.flush(0.5)
+    assert study.trouble == "not saved: the study file is gone"
+    for each in tmp_path.parent.glob("truck.modeviz*"):
+        each.rename(path.parent / each.name)
+    session = study.restore(KEY)
+    assert session
+    assert session.past == (Step("state 1", "state 2"),)
+    assert study.close()
+
+
+def test_a_study_is_read_while_it_is_written(path):
+    study = opened(path)
+    study.begin(KEY)
+    assert study.flush(5)
+    ended = threading.Event()
+
+    def write():
+        for i in range(200):
+            study.record(KEY, change(i, i + 1))
+            study.flush(5)
+        ended.set()
+
+    threading.Thread(target=write).start()
+    seen = []
+    while not ended.is_set():
+        seen.append(len(Records.of_file(path).history()))
+    assert seen == sorted(seen)
+    assert len(Records.of_file(path).history()) == 200
+    assert study.close()
+
+
+def test_many_threads_write_and_nothing_is_lost(path):
+    study = opened(path)
+    keys = [study.session_id(f"key {i}") for i in range(8)]
+
+    def write(key):
+        study.begin(key)
+        for i in range(50):
+            study.record(key, change(i, i + 1))
+            study.look(key, f"look {i}")
+
+    threads = [threading.Thread(target=write, args=(key,)) for key in keys]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [line.n_changes for line in study.sessions()] == [50] * 8
+    assert study.close()
