@@ -28,6 +28,7 @@ from benchmarks.websocket import Page, free_port, open_page, say, wait_for_answe
 from modeviz.analysis.results import Conditions
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.app import serve
+from modeviz.viewer.page.secret import Secret
 
 QUIET_S = 4.0
 """How long is looked before and after an attack."""
@@ -194,7 +195,15 @@ def _serve(port: int, token: str | None, terminal: str) -> None:
     resource.setrlimit(resource.RLIMIT_NOFILE, (N_FILES, most))
     vehicle = read_vehicle(builtin_vehicle())
     conditions = Conditions(vehicle.roads[0].name, vehicle.speed)
-    serve(vehicle, vehicle.rates, conditions, "127.0.0.1", port, token=token, dark=False)
+    serve(
+        vehicle,
+        vehicle.rates,
+        conditions,
+        "127.0.0.1",
+        port,
+        token=Secret(token) if token else None,
+        dark=False,
+    )
 
 
 def _family(pid: int) -> list[int]:

@@ -25,12 +25,14 @@ from modeviz.cli.report import REPORT
 from modeviz.cli.rigid import RIGID
 from modeviz.cli.scatter import SCATTER
 from modeviz.cli.static import STATIC
+from modeviz.cli.token import TOKEN
 from modeviz.cli.view import VIEW
 from modeviz.cli.wheels import WHEELS
 from modeviz.errors import ModevizError, unknown
 
 COMMANDS = (
     VIEW,
+    TOKEN,
     NEW,
     MODES,
     RIGID,

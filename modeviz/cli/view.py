@@ -65,9 +65,10 @@ def view(options: ViewOptions) -> None:
         from modeviz.viewer.app import serve  # viser alone takes a second to import
         from modeviz.viewer.inspection.app import inspect
         from modeviz.viewer.inspection.sources import ResultFiles, VehicleFolder, finished_vehicle
-        from modeviz.viewer.page.tokens import chosen_token
+        from modeviz.viewer.page.secret import chosen_secret
 
-    token = chosen_token(options.token, options.token_file, options.has_token)
+    what = options.what or (options.vehicle or builtin_vehicle(),)
+    token = chosen_secret(options.token, options.token_file, options.has_token, what, remark)
     door = (options.host, options.port, token, options.dark)
     check_no_mounts(options.what)
     if are_results(options.what):
@@ -111,8 +112,8 @@ def _add_options(command: ArgumentParser) -> None:
     token = command.add_mutually_exclusive_group()
     token.add_argument(
         "--token",
-        help="asked of every visitor (default: that of the environment's MODEVIZ_TOKEN, or else a new "
-        "one, in the link that is printed); everybody on this machine can read it here",
+        help="asked of every visitor (default: that of the environment's MODEVIZ_TOKEN, or else one "
+        "that is kept, see `modeviz token`); all who are on this machine can read it here",
     )
     token.add_argument("--token-file", type=Path, metavar="FILE", help="that holds the token")
     token.add_argument(

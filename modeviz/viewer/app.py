@@ -25,6 +25,7 @@ from modeviz.viewer.page.contents import Contents
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
+from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import Server, open_server
 from modeviz.viewer.page.theme import choose_theme
 from modeviz.viewer.page.title import Title
@@ -411,7 +412,7 @@ def serve(
     conditions: Conditions,
     host: str,
     port: int,
-    token: str | None,
+    token: Secret | None,
     dark: bool,
     progress: Callable[[float], None] | None = None,
     public_names: Sequence[str] = (),

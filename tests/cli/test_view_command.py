@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import sys
+from contextlib import contextmanager
 from urllib.parse import urlsplit
 
 import pytest
@@ -24,24 +25,48 @@ def status(link):
     return connection.getresponse().status
 
 
-def test_the_link_carries_a_new_token_and_opens_the_page(folder):
-    command = [sys.executable, "-m", "modeviz", "view", folder, "--port", "0"]
+@contextmanager
+def viewed(folder, port=0):
+    """What `modeviz view` is at, as it prints that, and the program."""
+    command = [sys.executable, "-m", "modeviz", "view", folder, "--port", str(port)]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     environment = {**os.environ, "MODEVIZ_TOKEN": ""}
-    with (
-        usual_signals(),
-        subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run,
-    ):
+    with usual_signals(), subprocess.Popen(command, env=environment, **pipes) as run:
         assert run.stdout
         match = LINK.fullmatch(run.stdout.readline())
         assert match
-        link = match[2]
         try:
-            assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{40,}", link)
-            assert status(link) == 303
-            assert status(link.partition("?")[0]) == 403
+            yield match[2], run
         finally:
             run.send_signal(signal.SIGINT)
             run.wait(30)
+
+
+def test_the_link_carries_a_token_that_is_kept_until_it_is_revoked(folder, capsys):
+    """In two programs one after the other, which takes a second each."""
+    with viewed(folder) as (link, _):
+        assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{40,}", link)
+        assert status(link) == 303
+        assert status(link.partition("?")[0]) == 403
+    with viewed(folder) as (again, run):
+        token = again.partition("=")[2]
+        assert link.partition("=")[2] == token
+        assert main(["token", folder]) == 0
+        assert re.fullmatch(rf"{token}  (29|30) days  {folder}\n", capsys.readouterr().out)
+        assert main(["token", folder, "--revoke"]) == 0
+        revoked = capsys.readouterr().out.split()[0]
+        assert status(again) == 403
+        assert status(again.replace(token, revoked)) == 303
+        told = run.stderr.readline()
+        assert (
+            told
+            == f"modeviz: the token has changed: the page is at {again.replace(token, revoked)} now\n"
+        )
+
+
+def test_a_token_of_what_was_never_shown_is_none(capsys, tmp_path):
+    assert main(["token", str(tmp_path)]) == 2
+    assert "no token is kept of that" in capsys.readouterr().err
 
 
 @pytest.fixture

@@ -22,6 +22,7 @@ from modeviz.viewer.page import scripts
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
+from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import Server, open_server
 from modeviz.viewer.page.theme import choose_theme
 from modeviz.viewer.page.title import Title
@@ -179,7 +180,7 @@ def inspect(
     source: Source,
     host: str,
     port: int,
-    token: str | None,
+    token: Secret | None,
     dark: bool,
     public_names: Sequence[str],
     tell: Callable[[str], None],

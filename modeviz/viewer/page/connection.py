@@ -3,7 +3,7 @@
 import asyncio
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
@@ -119,6 +119,11 @@ class PageConnection(ServerConnection):
     def has_page_place(self) -> bool:
         """Whether a page would get one."""
         return self._house.pages.is_free(self.client)
+
+    def throw_out(self) -> None:
+        """Ends the connection at once; from any thread."""
+        with suppress(RuntimeError):  # its loop has ended
+            self.loop.call_soon_threadsafe(self.transport.abort)
 
     def ask(self, n_bytes: int | None) -> None:
         """Lets the page send messages that are as large as what it is asked for, or no longer."""

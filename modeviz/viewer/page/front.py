@@ -67,6 +67,8 @@ class Front:
         self._own = Acceptor()
         self._site: Site
         self._thread = threading.Thread(target=self._run, name="front", daemon=True)
+        if door.secret:
+            door.secret.listen(self._tell_token)
 
     @property
     def link(self) -> str:
@@ -91,6 +93,11 @@ class Front:
                 self._loop.call_soon_threadsafe(self._loop.stop)
             self._thread.join(timeout=2.0)
         self._listening.close()
+
+    def _tell_token(self) -> None:
+        """Says on the terminal that the token has changed, and where the page is now."""
+        where = f"the page is at {self.link}" if self.door.token else "nobody is let in"
+        self.house.notices.note("the token", f"has changed: {where} now")
 
     def _run(self) -> None:
         loop = self._loop

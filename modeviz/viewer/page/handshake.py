@@ -7,11 +7,12 @@ import asyncio
 import http
 import ipaddress
 import re
-import secrets
 import socket
+import threading
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
+from weakref import WeakSet
 
 import viser
 from websockets import Headers
@@ -19,7 +20,9 @@ from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
 from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.tokens import Guesses, is_equal
+from modeviz.viewer.page.guesses import Guesses
+from modeviz.viewer.page.kept_tokens import LIFE_S, RENEWED_S
+from modeviz.viewer.page.secret import Secret
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 REFUSED_PARAMETERS = ("websocket", "playbackPath")
@@ -71,7 +74,8 @@ class Door:
 
     host: str
     """The address the server is bound to."""
-    token: str | None
+    secret: Secret | None
+    """What opens it; without one whoever is on this machine gets in."""
     title: str
     public_names: tuple[str, ...] = ()
     """Names of this server besides its own, lower case."""
@@ -79,9 +83,19 @@ class Door:
     """Whether notebooks may show it in a frame, whatever name their server has; it has a token, without
     which a name that was pointed here gets nowhere."""
     guesses: Guesses = field(default_factory=Guesses)
-    entered: str = field(default_factory=secrets.token_urlsafe)
-    """What the cookie of who has brought the token holds; no part of the token, so that a cookie tells
-    nothing of how near a guess was."""
+    inside: WeakSet[PageConnection] = field(default_factory=WeakSet)
+    """Websockets that may have opened."""
+    lock: threading.Lock = field(default_factory=threading.Lock)
+    """Of these."""
+
+    def __post_init__(self) -> None:
+        if self.secret is not None:
+            self.secret.listen(self._throw_out)
+
+    @property
+    def token(self) -> str | None:
+        """That which a link must carry, if any."""
+        return self.secret and self.secret.token
 
     def guard(self, inner: Guarded) -> ProcessRequest:
         """Return the handshake of a server, with this door before it."""
@@ -105,7 +119,10 @@ class Door:
             return refusal
         if urlsplit(request.path).path.endswith(f"/{ALIVE}"):
             return answer(200, ICON, **{"Content-Type": "image/svg+xml", "Cache-Control": "no-store"})
-        return await inner(connection, request)
+        response = await inner(connection, request)
+        if _is_websocket(request):
+            return response or self._admit(connection, request)
+        return self._renewed(response, connection, request)
 
     def refusal(self, request: Request) -> Response | None:
         """The answer to a request from another site or for another site's scene, None to a good one."""
@@ -133,7 +150,7 @@ class Door:
 
         Who guesses waits longer and longer; who has entered is not asked again.
         """
-        if self.token is None:
+        if self.secret is None:
             return None
         client, has_entered = connection.client, self._has_entered(connection, request)
         given = _query(request).get("token")
@@ -143,21 +160,48 @@ class Door:
             return answer(
                 429, "too many wrong tokens from your address", **{"Retry-After": f"{left:.0f}"}
             )
-        if not is_equal(given, self.token):
-            delay = self.guesses.delay(client)
-            self.guesses.note(client)
-            await asyncio.sleep(delay)
+        if not self.secret.is_token(given):
+            await asyncio.sleep(self.guesses.note(client))
             return answer(403, NO_TOKEN)
         self.guesses.forget(client)
         entered = answer(303, Location=_without_token(request.path))
-        for kept in (STRICT, FRAMED) if self.is_framed else (STRICT,):
-            cookie = f"{_cookie_name(connection)}={self.entered}; HttpOnly; {kept}"
-            entered.headers["Set-Cookie"] = cookie
+        self._give_cookie(self.secret, connection, entered)
         return entered
 
+    def _give_cookie(self, secret: Secret, connection: PageConnection, response: Response) -> None:
+        cookie = f"{_cookie_name(connection)}={secret.cookie()}; Max-Age={LIFE_S:.0f}; HttpOnly"
+        for kept in (STRICT, FRAMED) if self.is_framed else (STRICT,):
+            response.headers["Set-Cookie"] = f"{cookie}; {kept}"
+
+    def _age(self, connection: PageConnection, request: Request) -> float | None:
+        """Return the time since a request's cookie was given out, s; None if it has none that holds."""
+        given = _cookies(request).get(_cookie_name(connection), "")
+        return self.secret and self.secret.age(given)
+
     def _has_entered(self, connection: PageConnection, request: Request) -> bool:
-        """Whether a request has the cookie of who has brought the token."""
-        return is_equal(_cookies(request).get(_cookie_name(connection), ""), self.entered)
+        """Whether a request has the cookie of who has brought the token, if one is asked for."""
+        return self.secret is None or self._age(connection, request) is not None
+
+    def _renewed(
+        self, response: Response | None, connection: PageConnection, request: Request
+    ) -> Response | None:
+        """Return an answer with a new cookie, if that of the request is a day old."""
+        if response and self.secret and (self._age(connection, request) or 0.0) > RENEWED_S:
+            self._give_cookie(self.secret, connection, response)
+        return response
+
+    def _admit(self, connection: PageConnection, request: Request) -> Response | None:
+        """Remembers a websocket that opens; the answer if the token has changed meanwhile."""
+        with self.lock:
+            self.inside.add(connection)
+        return None if self._has_entered(connection, request) else answer(403, NO_TOKEN)
+
+    def _throw_out(self) -> None:
+        """Ends all websockets, as the token has changed: who has brought the new one comes back."""
+        with self.lock:
+            inside = list(self.inside)
+        for connection in inside:
+            connection.throw_out()
 
     async def place(self, connection: PageConnection, request: Request) -> Response | None:
         """Return the answer to a websocket of something else than our page, or of one too many."""
@@ -175,7 +219,7 @@ class Door:
         _set(asked.headers, "Upgrade", "websocket")
         if refusal := self.refusal(asked):
             return answer(200, refusal.body.decode())
-        if self.token and not self._has_entered(connection, request):
+        if not self._has_entered(connection, request):
             return answer(200, NO_TOKEN)
         if query.get("subprotocol") != SUBPROTOCOL:
             return answer(200, OTHER_VERSION)

@@ -32,6 +32,7 @@ from modeviz.viewer.page.handshake import LOOPBACK, Door
 from modeviz.viewer.page.message_filter import gate_messages
 from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.page.one_page import OnePage
+from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.tokens import checked_token
 from modeviz.viewer.page.turns import Turns
 
@@ -124,7 +125,7 @@ def tell_mistake(client: viser.ClientHandle, error: Exception) -> None:
 def open_server(
     host: str = "127.0.0.1",
     port: int = 8080,
-    token: str | None = None,
+    token: str | Secret | None = None,
     title: str = "modeviz",
     public_names: Sequence[str] = (),
     is_framed: bool = False,
@@ -153,7 +154,7 @@ def open_server(
 def open_front(
     host: str = "127.0.0.1",
     port: int = 8080,
-    token: str | None = None,
+    token: str | Secret | None = None,
     title: str = "modeviz",
     public_names: Sequence[str] = (),
     is_framed: bool = False,
@@ -166,8 +167,7 @@ def open_front(
     """
     if host not in LOOPBACK and token is None:
         raise ModevizError(f"other machines reach {host}: a token is needed, so leave out --no-token")
-    if token is not None:
-        checked_token(token, "token")
+    secret = Secret(checked_token(token, "token")) if isinstance(token, str) else token
     for name in public_names:
         if not re.fullmatch(r"[\w.-]+", name, re.ASCII):
             raise ModevizError(
@@ -176,7 +176,7 @@ def open_front(
     if not 0 <= port <= 65535:
         raise ModevizError(f"port: found {port}, expected 0 to 65535")
     names = tuple(map(str.lower, public_names))
-    return Front(Door(host, token, title, names, is_framed), port, Notices())
+    return Front(Door(host, secret, title, names, is_framed), port, Notices())
 
 
 @contextmanager

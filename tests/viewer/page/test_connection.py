@@ -23,7 +23,7 @@ from visitors import (
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.frames import Frame, Opcode
 
-from modeviz.viewer.page import connection, front, tokens
+from modeviz.viewer.page import connection, front, guesses
 from modeviz.viewer.page.connection import MOST_BYTES, MOST_PAGES_OF_ONE, MOST_WRONG
 from modeviz.viewer.page.decoding import PART
 from modeviz.viewer.page.server import open_server
@@ -354,7 +354,7 @@ def test_a_callback_that_fails_is_on_the_terminal_once(server, slider, capfd):
 
 
 def test_tokens_are_guessed_slowly_and_only_a_few_times(monkeypatch):
-    monkeypatch.setattr(tokens, "DELAY", 0.1)
+    monkeypatch.setattr(guesses, "DELAY", 0.1)
     with opened(token=TOKEN) as server:
         cookie = get(server, f"/?token={TOKEN}")[1]["Set-Cookie"].split(";")[0]
         answers = []
@@ -368,8 +368,8 @@ def test_tokens_are_guessed_slowly_and_only_a_few_times(monkeypatch):
             guesser.start()
         for guesser in guessers:
             guesser.join()
-        assert answers.count(403) == tokens.MOST_GUESSES
-        assert answers.count(429) == len(answers) - tokens.MOST_GUESSES
+        assert answers.count(403) == guesses.MOST_GUESSES
+        assert answers.count(429) == len(answers) - guesses.MOST_GUESSES
         assert get(server, f"/?token={TOKEN}")[0] == 429
         assert get(server, Cookie=cookie)[0] == 200  # who is in stays in
         with knock(server, own_origin(server), Cookie=cookie) as socket:
@@ -379,7 +379,7 @@ def test_tokens_are_guessed_slowly_and_only_a_few_times(monkeypatch):
 def test_old_cookies_lock_nobody_out():
     """A page of a server that is no longer there tries again and again."""
     with opened(token=TOKEN) as server:
-        for _ in range(3 * tokens.MOST_GUESSES):
+        for _ in range(3 * guesses.MOST_GUESSES):
             with pytest.raises(InvalidStatus), knock(server, own_origin(server), Cookie="modeviz=old"):
                 pass
         assert get(server, f"/?token={TOKEN}")[0] == 303

@@ -61,7 +61,7 @@ def test_a_page_for_notebooks_may_be_framed_by_itself_this_machine_and_vs_code_a
 def test_a_browser_keeps_the_cookie_in_a_frame_of_another_site_and_without_tls_at_home(framed):
     """One of two sites is kept for the other alone; a name without TLS keeps none that is secure."""
     set_by_us = [cookie.split("; ") for cookie in cookies(framed, Host=HUB)]
-    assert [kept for _, *kept in set_by_us] == [
+    assert [kept for _, _, *kept in set_by_us] == [
         ["HttpOnly", "SameSite=Strict"],
         ["HttpOnly", "SameSite=None", "Secure", "Partitioned"],
     ]

@@ -5,17 +5,20 @@ import http.client
 import math
 import re
 import socket
+from functools import partial
 from urllib.parse import urlencode
 
 import pytest
 import viser
 from viser import _messages
 from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin
-from websockets.exceptions import InvalidStatus
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from benchmarks.page_client import messages as decoded
 from modeviz.errors import ModevizError
 from modeviz.viewer.page.handshake import WHY
+from modeviz.viewer.page.kept_tokens import LIFE_S, KeptToken
+from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import open_server
 
 
@@ -110,7 +113,7 @@ def test_without_the_token_nobody_enters(locked):
 def test_link_with_the_token_is_exchanged_for_a_cookie_that_opens_page_and_websocket(locked):
     status, headers, _ = get(locked, f"/?vehicle=truck&token={TOKEN}")
     assert (status, headers["Location"]) == (303, "./?vehicle=truck")
-    assert "HttpOnly; SameSite=Strict" in headers["Set-Cookie"]
+    assert headers["Set-Cookie"].endswith("; HttpOnly; SameSite=Strict")
     assert TOKEN not in headers["Set-Cookie"]
     cookie = headers["Set-Cookie"].split(";")[0]
     status, _, page = get(locked, "/?vehicle=truck", Cookie=cookie)
@@ -126,9 +129,58 @@ def test_link_cannot_send_the_browser_elsewhere(locked):
         assert re.fullmatch(r"\./[\w.%]*", location)
 
 
-def cookie_of(locked):
+def test_a_cookie_outlives_the_browser_and_the_server_but_not_the_token(locked):
+    """A browser deletes a cookie that says no age when it ends."""
+    given = get(locked, f"/?token={TOKEN}")[1]["Set-Cookie"]
+    assert re.search(r"; Max-Age=2592000;", given)
+    value = given.split(";")[0].partition("=")[2]
+    for token, status in ((TOKEN, 200), ("another-token-1", 403)):
+        again = open_server(port=0, token=token)
+        try:
+            assert get(again, Cookie=f"modeviz{again.get_port()}={value}")[0] == status
+        finally:
+            again.stop()
+
+
+def test_a_cookie_that_is_a_day_old_is_renewed_with_the_page():
+    now = [1e9]
+    server = open_server(port=0, token=Secret(TOKEN, lambda: now[0]))
+    try:
+        cookie = cookie_of(server)
+        assert "Set-Cookie" not in get(server, Cookie=cookie)[1]
+        now[0] += 2 * 86400
+        renewed = get(server, Cookie=cookie)[1]["Set-Cookie"]
+        now[0] += LIFE_S - 86400
+        assert get(server, Cookie=cookie)[0] == 403
+        assert get(server, Cookie=renewed.split(";")[0])[0] == 200
+    finally:
+        server.stop()
+
+
+def test_a_token_that_is_revoked_throws_everybody_out_who_has_not_brought_the_new_one(tmp_path, capfd):
+    kept = KeptToken(tmp_path / "token", ())
+    server = open_server(port=0, token=Secret(kept.token))
+    try:
+        link, cookie = server.link, cookie_of(server, kept.token())
+        with knock(server, own_origin(server), Cookie=cookie) as socket:
+            assert socket.recv(timeout=20)
+            kept.replace()
+            with pytest.raises(ConnectionClosed):
+                list(iter(partial(socket.recv, timeout=5), None))
+        assert get(server, Cookie=cookie)[0] == 403
+        assert get(server, link[link.index("/?") :])[0] == 403
+        assert refused_status(server, own_origin(server), Cookie=cookie) == 403
+        assert f"has changed: the page is at {server.link} now" in capfd.readouterr().err
+        cookie = cookie_of(server, kept.token())
+        with knock(server, own_origin(server), Cookie=cookie) as socket:
+            assert socket.recv(timeout=20)
+    finally:
+        server.stop()
+
+
+def cookie_of(locked, token=TOKEN):
     """That of who has brought the token."""
-    return get(locked, f"/?token={TOKEN}")[1]["Set-Cookie"].split(";")[0]
+    return get(locked, f"/?token={token}")[1]["Set-Cookie"].split(";")[0]
 
 
 def test_a_path_that_a_proxy_puts_before_ours_survives_the_token(locked):
