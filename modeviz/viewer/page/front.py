@@ -95,9 +95,11 @@ class Front:
         self._listening.close()
 
     def _tell_token(self) -> None:
-        """Says on the terminal that the token has changed, and where the page is now."""
-        where = f"the page is at {self.link}" if self.door.token else "nobody is let in"
-        self.house.notices.note("the token", f"has changed: {where} now")
+        """Says that the token has changed, and where the page is now: no log keeps that."""
+        self.house.notices.note("the token", "has changed: links and cookies from before are refused")
+        if self.door.token:
+            with suppress(OSError, ValueError):  # nobody reads it
+                print(f"{self.door.title} is now at {self.link}", flush=True)
 
     def _run(self) -> None:
         loop = self._loop
