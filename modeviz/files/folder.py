@@ -67,6 +67,7 @@ from modeviz.vehicle.mesh_doubts import mesh_doubts
 from modeviz.vehicle.mount_group import MountGroup, PartKind
 from modeviz.vehicle.orientation import orientation_doubts
 from modeviz.vehicle.place_doubts import place_doubts
+from modeviz.vehicle.rate_doubts import rate_doubts
 from modeviz.vehicle.size_doubts import size_doubts
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -158,6 +159,7 @@ def vehicle_of(tables: Mapping[str, Any], source: Source) -> Vehicle:
             *doubts(vehicle),
             *size_doubts(vehicle),
             *place_doubts(vehicle),
+            *rate_doubts(vehicle),
             *mesh_doubts(vehicle),
         )
         for doubt in (*of_bodies, *orientation_doubts(vehicle, axes)):

@@ -22,7 +22,7 @@ from modeviz.vehicle.problem import UNSHAKEN, GoalKind, Problem
 SMALL: dict[GoalKind, str] = {
     "accelerations": "squared accelerations",
     "peak": "largest squared acceleration",
-    "rms": "mean squares on the road",
+    "rms": "mean squares under random loads",
     "rating": "combined mean square at the driver's point",
     "iso 2631": "square of the ISO 2631-1 total at the driver's point",
     "idle": "mean square at the driver's point while engines idle",

@@ -5,7 +5,7 @@ import numpy as np
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.iso_8608 import USUAL_ROAD
-from modeviz.vehicle.loads import Road
+from modeviz.vehicle.loads import Road, spectrum_of
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import RATE_NAMES
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
@@ -35,7 +35,8 @@ def problem_called(vehicle: Vehicle, name: str) -> Problem:
 def default_problem(vehicle: Vehicle) -> Problem:
     """Every rate that can change, for the first road and all wheel loads at every response point.
 
-    Where the vehicle has neither, but tyres, for the usual road of ISO 8608.
+    Where the vehicle has neither, but tyres, for the usual road of ISO 8608; without these, for the RMS
+    under its first random force or motion of the ground, over all of its spectrum.
 
     At the paper's frequencies, as far as the road's table holds them at the vehicle's speed. A vehicle
     that nothing shakes but an engine, or where nobody feels anything, is to be decoupled.
@@ -45,12 +46,16 @@ def default_problem(vehicle: Vehicle) -> Problem:
     """
     groups = tuple(filter(None, map(_design_group, vehicle.mount_groups)))
     performance = _performance(vehicle)
+    shaking = () if performance else _shaking(vehicle)
+    if groups and vehicle.response_points and shaking:
+        return Problem(NAME, groups, shaking, "rms", reference=_reference(vehicle))
     if groups and not performance and (vehicle.engines or not vehicle.response_points):
         return Problem(DECOUPLED, groups, goal="decoupling", reference=_reference(vehicle))
     lacking = {
         "a [[mount_group]] with rates above zero": groups,
         "a [[response_point]]": vehicle.response_points,
-        "a [[tyre]] with stiffness along z, which roads move, or a [[wheel_load]]": performance,
+        "what shakes it: a [[tyre]] with stiffness along z, which roads move, a [[wheel_load]], a "
+        "[[force]] or a [[base_motion]]": (*performance, *shaking),
     }
     missing = [what for what, found in lacking.items() if not found]
     if missing:
@@ -83,6 +88,13 @@ def _performance(vehicle: Vehicle) -> tuple[Performance, ...]:
     if isinstance(road, Road) and len(f := _held(road, vehicle.speed)):
         shaken.insert(0, Performance(f, roads=(road.name,)))
     return tuple(shaken)
+
+
+def _shaking(vehicle: Vehicle) -> tuple[Performance, ...]:
+    """The RMS under the first load that has a spectrum of its own, if there is one."""
+    spectra = ((load.name, spectrum_of(load)) for load in vehicle.random_loads)
+    found = next(((name, s) for name, s in spectra if s is not None and s.power.any()), None)
+    return (Performance(found[1].frequency_hz[[0, -1]], roads=(found[0],)),) if found else ()
 
 
 def _held(road: Road, speed: float) -> Floats:

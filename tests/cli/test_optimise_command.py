@@ -408,7 +408,7 @@ def test_a_vehicle_without_a_problem_gets_the_one_that_the_page_shows(printed_js
 def test_a_vehicle_with_nothing_to_optimise_for_says_what_its_file_needs(refused, tmp_path_factory):
     bare = tmp_path_factory.mktemp("vehicles") / "bare"
     write_vehicle(replace(mounted_cabin(), roads=(), wheel_loads=(), connections=()), bare)
-    assert "lacks a [[tyre]] with stiffness along z" in refused(str(bare))
+    assert "lacks what shakes it: a [[tyre]] with stiffness along z" in refused(str(bare))
 
 
 def test_limits_that_contradict_each_other_are_both_named(refused, tmp_path):

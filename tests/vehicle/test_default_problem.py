@@ -8,6 +8,8 @@ from builtin_truck import builtin_truck
 from mounted_cabin import mounted_cabin
 
 from modeviz.errors import VehicleError
+from modeviz.files import read_vehicle
+from modeviz.files.new_vehicle import new_vehicle
 from modeviz.optimise.search import prepare_search
 from modeviz.vehicle.default_problem import ROAD_HZ, default_problem
 from modeviz.vehicle.mount_rates import MountRates
@@ -72,7 +74,8 @@ def test_of_a_short_road_only_the_frequencies_it_holds_at_the_vehicles_speed_are
         ({"response_points": ()}, "a [[response_point]];"),
         (
             {"roads": (), "wheel_loads": (), "connections": ()},
-            "a [[tyre]] with stiffness along z, which roads move, or a [[wheel_load]];",
+            "what shakes it: a [[tyre]] with stiffness along z, which roads move, a [[wheel_load]], a "
+            "[[force]] or a [[base_motion]];",
         ),
         (
             {"mount_groups": (), "rate_sets": {}, "response_points": ()},
@@ -91,3 +94,17 @@ def test_a_vehicle_on_tyres_without_a_road_is_tuned_for_the_usual_one():
     (performance,) = default_problem(replace(cabin, roads=(), wheel_loads=(), problems=())).performance
     assert performance.roads == ("ISO C",)
     assert len(performance.frequency_hz) == len(ROAD_HZ)
+
+
+@pytest.mark.parametrize(("kind", "load"), [("cab", "shaking frame"), ("machine", "shaft")])
+def test_what_only_the_ground_or_a_force_shakes_is_tuned_for_its_rms_there(tmp_path, kind, load):
+    vehicle = read_vehicle(new_vehicle(kind, tmp_path / kind))
+    problem = default_problem(vehicle)
+    assert problem.goal == "rms"
+    assert problem.performance[0].roads == (load,)
+    spectrum = vehicle.random_load(load).amplitude
+    np.testing.assert_array_equal(problem.performance[0].frequency_hz, spectrum.frequency_hz[[0, -1]])
+    search = prepare_search(vehicle, problem, vehicle.rates, vehicle.speed)
+    value, gradient = search.evaluate(np.zeros(len(search.space.variables)))
+    assert value == pytest.approx(1.0, rel=1e-9)
+    assert gradient.all()
