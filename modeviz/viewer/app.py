@@ -13,7 +13,6 @@ from modeviz.errors import ModevizError
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import Picture, report
 from modeviz.text.log import our_mistake
-from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -21,7 +20,6 @@ from modeviz.viewer.offline import offline_page
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.alerts import alert, withdraw
 from modeviz.viewer.page.binding import READ_WITHIN
-from modeviz.viewer.page.contents import Contents
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
@@ -190,18 +188,21 @@ class App:
     def _lay_out(self, dark: bool) -> None:
         self._forces: ForcesPanel | None = None
         self._paths: PathsPanel | None = None
-        self._of_parts: list[Contents] = []
-        self._absorbers: tuple[Absorber, ...] = ()
         gui, session = self._gui, self.session
         gui.main_panel.dock_left()
         self._history = HistoryRow(gui, session, self._hotkeys)
         self._opener = FolderOpener(gui)
         tabs = gui.add_tab_group()
-        self._fill(tabs.add_tab("Mounts", viser.Icon.ADJUSTMENTS), self._build_mounts)
+        with tabs.add_tab("Mounts", viser.Icon.ADJUSTMENTS):
+            self._mounts = MountsPanel(gui, session)
         with tabs.add_tab("Variants", viser.Icon.VERSIONS):
             self._variants = VariantsPanel(gui, session)
-        self._fill(tabs.add_tab("Optimise", viser.Icon.TARGET_ARROW), self._build_optimise)
-        self._fill(tabs.add_tab("View", viser.Icon.EYE), self._build_view)
+        with tabs.add_tab("Optimise", viser.Icon.TARGET_ARROW):
+            self._optimise = OptimisePanel(gui, session, self.search_task, dark)
+            self._trade_off = TradeOffPanel(gui, session, self.front_task)
+            self._scatter = ScatterPanel(gui, session, self.scatter_task)
+        with tabs.add_tab("View", viser.Icon.EYE):
+            self._view = ViewPanel(gui, session, self._scene.look)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             theme = DARK if dark else LIGHT
             self._pictures = PicturePanel(
@@ -222,11 +223,13 @@ class App:
         with right.add_tab("Response", viser.Icon.CHART_LINE):
             self._response = ResponsePanel(gui, session, self.scatter_task, dark)
             tabs = gui.add_tab_group()
-            self._fill(tabs.add_tab("Modes", viser.Icon.WAVE_SINE), self._build_modes)
-            self._fill(tabs.add_tab("Energy", viser.Icon.CHART_BAR), self._build_energy)
+            with tabs.add_tab("Modes", viser.Icon.WAVE_SINE):
+                self._modes = ModesPanel(gui, session)
+            with tabs.add_tab("Energy", viser.Icon.CHART_BAR):
+                self._energy = EnergyPanel(gui, session)
             if is_shaken(session.vehicle) and session.vehicle.mounts:
-                tab = tabs.add_tab("Forces", viser.Icon.ARROWS_VERTICAL)
-                self._fill(tab, self._build_forces)
+                with tabs.add_tab("Forces", viser.Icon.ARROWS_VERTICAL):
+                    self._forces = ForcesPanel(gui, session)
             if is_shaken(session.vehicle) and session.vehicle.response_points:
                 with tabs.add_tab("Paths", viser.Icon.ROUTE):
                     self._paths = PathsPanel(gui, session)
@@ -243,7 +246,8 @@ class App:
                 self._engine = EnginePanel(gui, session, dark)
         with right.add_tab("Rigid", viser.Icon.AXIS_X):
             self._rigid = RigidPanel(gui, session)
-        self._fill(right.add_tab("Static", viser.Icon.ARROW_BAR_TO_DOWN), self._build_static)
+        with right.add_tab("Static", viser.Icon.ARROW_BAR_TO_DOWN):
+            self._static = StaticPanel(gui, session)
         self._rubber: RubberPanel | None = None
         if dynamic_groups(session.vehicle):
             with right.add_tab("Rubber", viser.Icon.WAVE_SAW_TOOL):
@@ -261,43 +265,6 @@ class App:
         self._hotkeys.add("Next mode", "N", lambda _: self._step_mode(1))
         self._hotkeys.add("Mode before", "P", lambda _: self._step_mode(-1))
         self._hotkeys.add("Swap with the set compared with", "B", lambda _: session.do(Swap()))
-
-    def _fill(self, tab: viser.GuiTabHandle, build: Callable[[], None]) -> None:
-        """Builds what is in a tab, and builds it anew whenever the vehicle has other parts."""
-        self._of_parts.append(Contents(tab, build))
-
-    def _build_mounts(self) -> None:
-        self._mounts = MountsPanel(self._gui, self.session)
-
-    def _build_optimise(self) -> None:
-        gui, session = self._gui, self.session
-        self._optimise = OptimisePanel(gui, session, self.search_task, self._dark)
-        self._trade_off = TradeOffPanel(gui, session, self.front_task)
-        self._scatter = ScatterPanel(gui, session, self.scatter_task)
-
-    def _build_view(self) -> None:
-        self._view = ViewPanel(self._gui, self.session, self._scene.look)
-
-    def _build_modes(self) -> None:
-        self._modes = ModesPanel(self._gui, self.session)
-
-    def _build_energy(self) -> None:
-        self._energy = EnergyPanel(self._gui, self.session)
-
-    def _build_forces(self) -> None:
-        self._forces = ForcesPanel(self._gui, self.session)
-
-    def _build_static(self) -> None:
-        self._static = StaticPanel(self._gui, self.session)
-
-    def _renew(self, solved: Solved) -> None:
-        """Builds panels and scene anew that show other parts than the vehicle of an answer has."""
-        absorbers, before = solved.state.design.alterations.absorbers, self._absorbers
-        self._absorbers = absorbers
-        if [a.name for a in absorbers] != [a.name for a in before]:
-            for contents in self._of_parts:
-                contents.renew()
-            self._optimise.follow()
 
     def _hear(self, notification: Notification) -> None:
         """Puts what the session tells on every page."""
@@ -321,7 +288,6 @@ class App:
         While rates move, what has to be read is drawn only now and then.
         """
         with self.server.atomic():
-            self._renew(solved)
             vehicle = self.session.vehicle
             self._title.show(vehicle.name, variant_name(vehicle, solved.state.design))
             self._response.show(solved)

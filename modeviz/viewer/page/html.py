@@ -78,13 +78,27 @@ class HiddenButtons:
 
     def __init__(self, gui: viser.GuiApi, count: int, press: Callable[[int], None]) -> None:
         """Makes the buttons; `press` gets the number of the one pressed."""
-        self._ids = []
-        for i in range(count):
-            button = gui.add_button(f"hidden {i}")
-            button.on_click(lambda _, i=i: press(i))
-            self._ids.append(button._impl.uuid)
+        self._gui, self._press = gui, press
+        self._ids: list[str] = []
+        self._part = gui.add_folder(None)
+        with self._part:
+            self._style = gui.add_html("")
+        self.reach(count)
+
+    def reach(self, count: int) -> None:
+        """Makes more of them where there are fewer than that."""
+        first = len(self._ids)
+        if count <= first:
+            return
+        with self._part:
+            self._ids += [self._made(i) for i in range(first, count)]
         hidden = ",".join(f'div:has(>[id="{name}"])' for name in self._ids)
-        gui.add_html(f"<style>{hidden}{{display:none!important}}</style>")
+        self._style.content = f"<style>{hidden}{{display:none!important}}</style>"
+
+    def _made(self, i: int) -> str:
+        button = self._gui.add_button(f"hidden {i}")
+        button.on_click(lambda _: self._press(i))
+        return button._impl.uuid
 
     def __len__(self) -> int:
         return len(self._ids)

@@ -41,15 +41,18 @@ class EnergyPanel:
 
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Makes room; `show` fills it."""
-        bodies = session.vehicle.bodies
-        self._bodies = {body.name: body.label for body in bodies}
-        self._groups = {group.name: group.meaning for group in session.vehicle.mount_groups}
-        groups = list(self._groups)
-        self._buttons = HiddenButtons(gui, len(groups), lambda i: session.do(SelectGroup(groups[i])))
+        self._bodies: Mapping[str, str] = {}
+        self._groups: Mapping[str, str] = {}
+        self._session = session
+        self._buttons = HiddenButtons(gui, 0, self._select)
         self._content = gui.add_html("")
 
     def show(self, solved: Solved) -> None:
         """Draws the shares of an answer's shown mode."""
+        vehicle = solved.now.prepared.vehicle
+        self._bodies = {body.name: body.label for body in vehicle.bodies}
+        self._groups = {group.name: group.meaning for group in vehicle.mount_groups}
+        self._buttons.reach(len(self._groups))
         before = solved.followed.same
         colors = legend((("--mv-base", escape(solved.state.against)), ("--mv-now", "now")))
         kinetic = {
@@ -63,6 +66,11 @@ class EnergyPanel:
             *self._dissipated(solved, before),
         )
         assign(self._content, content=content)
+
+    def _select(self, i: int) -> None:
+        groups = list(self._groups)
+        if i < len(groups):  # else one was removed between the click and here
+            self._session.do(SelectGroup(groups[i]))
 
     def _kinetic(self, now: Shares, base: Shares | None) -> str:
         names = sorted(_worth_listing(now, base), key=lambda name: -now[name])

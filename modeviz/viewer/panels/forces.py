@@ -1,5 +1,6 @@
 """Right column, lower part: the force of every mount, over the band and where the cursor is."""
 
+from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -40,25 +41,30 @@ class ForcesPanel:
 
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Makes room; `show` fills it."""
-        mounts = session.vehicle.mounts
-        self._mounts = mounts
+        self._session = session
+        self._mounts: Sequence[Mount] = session.vehicle.mounts
         self._binding: Binding | None = None
-        if any(not np.array_equal(mount.axes, np.eye(3)) for mount in mounts):
+        if any(not np.array_equal(mount.axes, np.eye(3)) for mount in self._mounts):
             self._binding = _axes_choice(gui, session)
-        self._buttons = HiddenButtons(
-            gui, len(mounts), lambda i: session.do(SelectGroup(mounts[i].group))
-        )
+        self._buttons = HiddenButtons(gui, len(self._mounts), self._select)
         self._content = gui.add_html("")
 
     def show(self, solved: Solved) -> None:
         """Draws the forces of an answer."""
         if self._binding:
             self._binding.show()
+        self._mounts = solved.now.prepared.vehicle.mounts
+        self._buttons.reach(len(self._mounts))
         try:
             content = [*self._over_band(solved), *self._at_cursor(solved)]
         except ModevizError as error:
             content = [span(escape(str(error)), "dim")]
         assign(self._content, content=block(*content))
+
+    def _select(self, i: int) -> None:
+        mounts = self._mounts
+        if i < len(mounts):  # else one was removed between the click and here
+            self._session.do(SelectGroup(mounts[i].group))
 
     def _over_band(self, solved: Solved) -> list[str]:
         """A table of RMS under a random load, of the largest amplitudes under a harmonic one."""

@@ -1,6 +1,5 @@
 """Right column, lower part: the modes, where each was before, and which of them is shown."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
 
@@ -60,7 +59,6 @@ class ModesPanel:
         """Builds the table; `show` fills it."""
         self._names: list[str] = []
         self._rates: Rates = {}
-        self._labels = {body.name: body.label for body in session.vehicle.bodies}
         self._buttons = HiddenButtons(gui, N_ROWS, lambda i: self._select(session, i))
         self._content = gui.add_html("")
 
@@ -80,7 +78,7 @@ class ModesPanel:
     def _table(self, solved: Solved, modes: list[int]) -> str:
         if not modes:
             return span(NONE_LISTED, "dim")
-        moved = _moves_most(solved.now, self._labels)
+        moved = _moves_most(solved.now)
         rows = [
             row(self._cells(i, mode, solved, moved[mode]), chosen=mode == solved.followed.mode)
             for i, mode in enumerate(modes[:N_ROWS])
@@ -207,8 +205,9 @@ def _old_shape(solved: Solved) -> str:
     return f'<div class="dim">{shape} is now {", ".join(parts)}</div>'
 
 
-def _moves_most(results: Results, labels: Mapping[str, str]) -> list[str]:
+def _moves_most(results: Results) -> list[str]:
     """For every mode the body with the largest share of its kinetic energy, and that share."""
+    labels = {body.name: body.label for body in results.prepared.vehicle.bodies}
     bodies = [labels[name] for name in results.kinetic_energy]
     shares = np.stack(list(results.kinetic_energy.values()))
     most = shares.argmax(axis=0).tolist()

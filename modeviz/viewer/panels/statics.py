@@ -1,6 +1,6 @@
 """Right column: sag, static forces and travel in a load case."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 
 import numpy as np
@@ -44,10 +44,10 @@ class StaticPanel:
 
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
         """Builds the controls; `show` fills in the answer."""
-        vehicle = session.vehicle
-        self._labels = {body.name: body.label for body in vehicle.bodies}
-        names = [case.name for case in vehicle.static_cases]
-        self._mounts = {mount.name: mount.group for mount in vehicle.mounts}
+        self._session = session
+        self._labels: Mapping[str, str] = {}
+        self._mounts: Mapping[str, str] = {}
+        names = [case.name for case in session.vehicle.static_cases]
         self._case = gui.add_dropdown(
             "Load case",
             tuple(names),
@@ -74,15 +74,23 @@ class StaticPanel:
                 lambda drawn: session.do(ChangeMotion(kind="sag" if drawn else "mode")),
             ),
         )
-        groups = list(self._mounts.values())
-        self._buttons = HiddenButtons(gui, len(groups), lambda i: session.do(SelectGroup(groups[i])))
+        self._buttons = HiddenButtons(gui, 0, self._select)
         self._scale = gui.add_html("", visible=False)
         self._content = gui.add_html(block(span("Sag follows with the first answer.", "dim")))
 
     def show(self, solved: Solved) -> None:
         """Draws the load case of an answer."""
         show_all(self._bindings)
+        vehicle = solved.now.prepared.vehicle
+        self._labels = {body.name: body.label for body in vehicle.bodies}
+        self._mounts = {mount.name: mount.group for mount in vehicle.mounts}
+        self._buttons.reach(len(self._mounts))
         assign(self._content, content=block(*self._lines(solved.static.now, solved.state)))
+
+    def _select(self, i: int) -> None:
+        groups = list(self._mounts.values())
+        if i < len(groups):  # else one was removed between the click and here
+            self._session.do(SelectGroup(groups[i]))
 
     def tell_scale(self, solved: Solved, scale: float) -> None:
         """Says how many times as large as it is what is drawn stands there, if that is sag."""

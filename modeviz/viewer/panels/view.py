@@ -8,6 +8,7 @@ import viser
 from modeviz.shapes.stand_in import drawn_mesh
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.bodies import Body
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, Read, Write, show_all
 from modeviz.viewer.scene.cameras import add_view_buttons
 from modeviz.viewer.session.commands.looks import ChangeLook, ShowBody, ShowClassicError, ShowGhost
@@ -68,13 +69,23 @@ class ViewPanel:
                 "How far the paper's equation, on the original modes alone, is off; said at the foot",
             ),
         ]
-        drawn = [body for body in session.vehicle.bodies if drawn_mesh(body)]
-        with gui.add_folder("Bodies", expand_by_default=False):
-            self._bindings += [self._body(body) for body in drawn]
+        self._folder = gui.add_folder("Bodies", expand_by_default=False)
+        self._bodies: dict[str, tuple[viser.GuiCheckboxHandle, Binding]] = {}
+        self._hold(session.vehicle)
 
     def show(self) -> None:
         """Brings the controls after the newest state."""
-        show_all(self._bindings)
+        self._hold(self._session.vehicle)
+        show_all([*self._bindings, *(binding for _, binding in self._bodies.values())])
+
+    def _hold(self, vehicle: Vehicle) -> None:
+        """Has a checkbox for each body of a vehicle that is drawn."""
+        drawn = {body.name: body for body in vehicle.bodies if drawn_mesh(body)}
+        for name in self._bodies.keys() - drawn.keys():
+            box, _ = self._bodies.pop(name)
+            box.remove()
+        with self._folder:
+            self._bodies |= {n: self._body(body) for n, body in drawn.items() if n not in self._bodies}
 
     def _choice(
         self,
@@ -99,10 +110,11 @@ class ViewPanel:
         box = self._gui.add_checkbox(label, read(self._session.state), hint=hint)
         return Binding(box, self._session, read, write)
 
-    def _body(self, body: Body) -> Binding:
+    def _body(self, body: Body) -> tuple[viser.GuiCheckboxHandle, Binding]:
         """A checkbox for whether a body is drawn."""
-        return Binding(
-            self._gui.add_checkbox(sentence_case(body.label), True, hint=f"Draws the {body.label}"),
+        box = self._gui.add_checkbox(sentence_case(body.label), True, hint=f"Draws the {body.label}")
+        return box, Binding(
+            box,
             self._session,
             lambda state: body.name not in state.look.hidden,
             lambda drawn: self._session.do(ShowBody(body.name, drawn)),

@@ -172,10 +172,6 @@ class Card:
         assign(self._label, text=text)
         self.move(mount)
 
-    def remove(self) -> None:
-        """Takes it out of the page."""
-        self._frame.remove()
-
     def move(self, mount: Floats) -> None:
         """Hangs it where its mount is."""
         if not np.array_equal(mount, self._frame.position):
@@ -204,33 +200,55 @@ class Markers:
             on_select: called with the group of a clicked mount.
             other_labels: nodes of labels that are to stay apart from those of the marks.
         """
-        self._given = {group.name: group for group in vehicle.mount_groups}
-        self._groups = dict(self._given)
+        self._scene, self._theme, self._length, self._on_select = scene, theme, length, on_select
+        self._given: dict[str, MountGroup] = {}
+        self._groups: dict[str, MountGroup] = {}
         self._placed: Placements = {}
         self._carded = ""
-        self._mounts = {
-            name: [MountMarker(scene, mount, group, length) for mount in group.mounts]
-            for name, group in self._groups.items()
-        }
-        for name, markers in self._mounts.items():
-            for marker in markers:
-                marker.on_click(lambda name=name: on_select(name))
-        self._nearest = {name: _nearest_to_us(group) for name, group in self._groups.items()}
+        self._mounts: dict[str, list[MountMarker]] = {}
+        self._nearest: dict[str, int] = {}
         self._card = Card(scene)
         self._others = _add_points(scene, vehicle, length) + _add_patches(scene, vehicle, length)
-        labels = [marker.label_name for markers in self._mounts.values() for marker in markers]
-        labels += [f"{_point_path(point)}/name" for point in vehicle.response_points]
-        labels += other_labels
-        keep_apart(scene, labels, f"{CARD}/text", f"{CARD}/line", theme)
+        points = [f"{_point_path(point)}/name" for point in vehicle.response_points]
+        self._other_labels = [*points, *other_labels]
+        self.hold(vehicle)
 
-    def remove(self) -> None:
-        """Takes all of them out of the page."""
-        for markers in self._mounts.values():
-            for marker in markers:
-                marker.remove()
-        for mark, _ in self._others:
-            mark.remove()
-        self._card.remove()
+    def hold(self, vehicle: Vehicle) -> None:
+        """Marks the mounts of a vehicle, and no others; those of groups that it has already stay."""
+        groups = {group.name: group for group in vehicle.mount_groups}
+        if self._given.keys() == groups.keys():
+            return
+        for name in self._given.keys() - groups.keys():
+            self._forget(name)
+        for name, group in groups.items():
+            if name not in self._given:
+                self._mark(group)
+        labels = [marker.label_name for markers in self._mounts.values() for marker in markers]
+        keep_apart(
+            self._scene,
+            [*labels, *self._other_labels],
+            f"{CARD}/text",
+            f"{CARD}/line",
+            self._theme,
+        )
+
+    def _mark(self, group: MountGroup) -> None:
+        """Marks the mounts of a group where they were given."""
+        name = group.name
+        markers = [MountMarker(self._scene, mount, group, self._length) for mount in group.mounts]
+        for marker in markers:
+            marker.on_click(lambda: self._on_select(name))
+        self._given[name] = self._groups[name] = group
+        self._mounts[name], self._nearest[name] = markers, _nearest_to_us(group)
+        self._place(name)
+
+    def _forget(self, name: str) -> None:
+        """Takes the marks of a group out of the page."""
+        for marker in self._mounts.pop(name):
+            marker.remove()
+        del self._given[name], self._groups[name], self._nearest[name]
+        if self._carded == name:
+            self._carded = ""
 
     def hide(self, bodies: Collection[str]) -> None:
         """Leaves out what hangs on nothing but bodies that are not drawn."""
@@ -245,13 +263,18 @@ class Markers:
         if placements == self._placed:
             return
         self._placed = placements
-        for name, given in self._given.items():
-            mounts = placed_mounts(given, placements.get(name, Placement()))
-            self._groups[name] = replace(given, mounts=mounts)
-            for marker, mount in zip(self._mounts[name], mounts, strict=True):
-                marker.place(mount)
+        for name in self._given:
+            self._place(name)
         if self._carded:
             self._card.move(self._groups[self._carded].mounts[self._nearest[self._carded]].center)
+
+    def _place(self, name: str) -> None:
+        """Draws the mounts of a group where they are placed."""
+        given = self._given[name]
+        mounts = placed_mounts(given, self._placed.get(name, Placement()))
+        self._groups[name] = replace(given, mounts=mounts)
+        for marker, mount in zip(self._mounts[name], mounts, strict=True):
+            marker.place(mount)
 
     def carrier(self, group: str) -> int:
         """The number of the mount of a group that carries its card."""

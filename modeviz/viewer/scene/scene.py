@@ -54,7 +54,6 @@ class Scene:
             on_select: called with the group of a clicked mount.
         """
         theme = self._theme = DARK if dark else LIGHT
-        self._on_select = on_select
         self._vehicle, self._box = vehicle, box(vehicle)
         self._server = server
         self._stage = Stage(server.scene, self._box, theme)
@@ -62,7 +61,9 @@ class Scene:
         drawn = filter(drawn_mesh, vehicle.bodies)
         self._bodies = [DrawnBody.of(self.driver, body, theme) for body in drawn]
         self._axes = RigidAxesMarks(server.scene, vehicle, self._box.length)
-        self._markers = self._mark()
+        self._markers = Markers(
+            server.scene, vehicle, theme, self._box.length, on_select, self._axes.label_names
+        )
         self._absorbers = {b.name: _at_rest(b) for b in vehicle.bodies if b.role == "absorber"}
         self._handle: MountHandle | None = None
         self._cameras = Cameras(server, self._box)
@@ -100,12 +101,9 @@ class Scene:
             altered: with mounts and absorbers where they are.
         """
         if given is not self._vehicle:
-            groups = [group.name for group in self._vehicle.mount_groups]
             self._vehicle = given
-            if groups != [group.name for group in given.mount_groups]:
-                with self._server.atomic():
-                    self._markers.remove()
-                    self._markers = self._mark()
+            with self._server.atomic():
+                self._markers.hold(given)
         wanted = {b.name: _at_rest(b) for b in altered.bodies if b.role == "absorber"}
         if wanted == self._absorbers:
             return
@@ -117,17 +115,6 @@ class Scene:
         added = [altered.body(name) for name in wanted if name in new]
         self._bodies += [DrawnBody.of(self.driver, body, self._theme) for body in added]
         self._absorbers = wanted
-
-    def _mark(self) -> Markers:
-        """Draws all marks of the vehicle."""
-        return Markers(
-            self._server.scene,
-            self._vehicle,
-            self._theme,
-            self._box.length,
-            self._on_select,
-            self._axes.label_names,
-        )
 
     def let_drag(
         self, on_drag: Callable[[Dragged], None], mistake: Callable[[Exception], object]

@@ -27,7 +27,8 @@ PREPARES_WITHIN = 600.0
 """s between two words on how far a preparation is, whose longest step is the modes of a large body."""
 
 FOLLOWS = 0.3
-"""s: a vehicle that is prepared in less follows the hand that alters it; others wait for it to rest."""
+"""s: a vehicle that is prepared in less follows the hand that alters it; others wait for it to rest,
+and say so often how far they are."""
 
 
 class _OvertakenError(Exception):
@@ -77,6 +78,7 @@ class Session:
         self._history = History(state, self._settled)
         self._is_prepared = self._is_closed = False
         self._n_drawings, self._n_drawn = 0, -1
+        self._told_at = 0.0
         self._answer: Solved | None = None
         self._failure: Exception | None = None
         self._good: Moment | None = None
@@ -246,11 +248,9 @@ class Session:
     def _solve(self, job: _Job) -> Solved:
         if not self._answers.is_ready(job.state.design.alterations):
             self._worker.sign(PREPARES_WITHIN)
-        return self._answers.answer(
-            job.state,
-            self._inspector.findings,
-            partial(self._follow_preparing, job.state, time.perf_counter()),
-        )
+        self._told_at = time.perf_counter()
+        follow = partial(self._follow_preparing, job.state)
+        return self._answers.answer(job.state, self._inspector.findings, follow)
 
     def _take(self, job: _Job, solved: Solved) -> None:
         """Keeps an answer and tells it."""
@@ -294,15 +294,17 @@ class Session:
     def _rebase(self, state: State) -> Prepared:
         return self._answers.rebase(state)
 
-    def _follow_preparing(self, state: State, begin: float, fraction: float) -> None:
-        """Tells how far a preparation is that takes its time, or ends one that was overtaken."""
+    def _follow_preparing(self, state: State, fraction: float) -> None:
+        """Tells now and then how far a preparation is, or ends one that was overtaken."""
         if not self._worker.is_heard:
             raise _OvertakenError
         self._worker.sign(PREPARES_WITHIN if fraction < 1 else None)
-        if time.perf_counter() - begin < FOLLOWS:
+        now = time.perf_counter()
+        if now - self._told_at < FOLLOWS:
             return
         if state.design.alterations != self.state.design.alterations:
             raise _OvertakenError
+        self._told_at = now
         self._notify(Preparing(fraction))
 
     def _tell_failure(self, error: Exception, is_back: bool = False) -> None:

@@ -150,6 +150,7 @@ class AbsorberForm:
             solved = self._solved()
             name = free_absorber_name(self._session.vehicle)
             self._session.do(AddAbsorber(self.state.proposed(solved).made(solved, name)))
+            self._put(replace(self.state, mass=None))
         except ModevizError as error:
             if client:
                 client.add_notification(

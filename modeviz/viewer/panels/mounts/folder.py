@@ -48,6 +48,17 @@ class GroupFolder:
             rows |= {f: RateRow(gui, session, self._group, f, write_back) for f in fields}
         return rows
 
+    def hold(self, group: MountGroup) -> None:
+        """Has the bounds of a group of its name and fields, if they are others."""
+        if group.bounds != self._group.bounds:
+            self._group = group
+            for row in self._rows.values():
+                row.hold(group)
+
+    def remove(self) -> None:
+        """Takes the folder out of the page."""
+        self._folder.remove()
+
     def follow(self) -> None:
         """Brings the controls after the newest state."""
         show_all(self._bindings)

@@ -4,7 +4,9 @@ import viser
 
 from modeviz.report.rate_fields import fields_of_groups, quantity
 from modeviz.units import QuantityName
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
+from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.mounts.absorber_form import AbsorberForm
 from modeviz.viewer.panels.mounts.effects import Effects, effects
 from modeviz.viewer.panels.mounts.folder import GroupFolder
@@ -33,20 +35,39 @@ class MountsPanel:
         """Builds the controls of all mount groups."""
         self._session = session
         self._effects: Effects = {}
-        groups = session.vehicle.mount_groups
-        tuned = {quantity(field) for field in fields_of_groups(groups)}
-        self._units = [self._add_unit(gui, of) for of in UNITS if of in tuned]
-        signs = Signs(gui, session)
-        self._folders = [GroupFolder(gui, session, group, signs) for group in groups]
+        self._gui = gui
+        self._units = {of: self._add_unit(gui, of) for of in UNITS}
+        self._signs = Signs(gui, session)
+        self._part = gui.add_folder(None)
+        self._folders: dict[str, GroupFolder] = {}
+        self._hold(session.vehicle)
         self._form = AbsorberForm(gui, session)
 
     def show(self, solved: Solved) -> None:
         """Brings controls after the state, and what is for reading after an answer."""
-        show_all(self._units)
-        for folder in self._folders:
+        self._hold(solved.now.prepared.vehicle)
+        show_all([binding for _, binding in self._units.values()])
+        for folder in self._folders.values():
             folder.follow()
         if solved.is_detailed:
             self._show_details(solved)
+
+    def _hold(self, vehicle: Vehicle) -> None:
+        """Has a folder for each mount group of a vehicle, and the units of their rates."""
+        groups = {group.name: group for group in vehicle.mount_groups}
+        for name in self._folders.keys() - groups.keys():
+            self._folders.pop(name).remove()
+        with self._part:
+            self._folders |= {
+                name: GroupFolder(self._gui, self._session, group, self._signs)
+                for name, group in groups.items()
+                if name not in self._folders
+            }
+        for name, group in groups.items():
+            self._folders[name].hold(group)
+        tuned = {quantity(field) for field in fields_of_groups(groups.values())}
+        for of, (unit, _) in self._units.items():
+            assign(unit, visible=of in tuned)
 
     def _show_details(self, solved: Solved) -> None:
         sensitivity = solved.findings.sensitivity
@@ -55,11 +76,15 @@ class MountsPanel:
         elif solved.findings.problem:
             self._effects = {}
         compared = compared_rates(self._session.vehicle, solved.state)
-        for folder in self._folders:
+        for folder in self._folders.values():
             folder.show(solved, compared, self._effects, is_old=sensitivity is None)
         self._form.show(solved)
 
-    def _add_unit(self, gui: viser.GuiApi, of: QuantityName) -> Binding:
+    def _add_unit(
+        self, gui: viser.GuiApi, of: QuantityName
+    ) -> tuple[viser.GuiDropdownHandle[str], Binding]:
         session, (label, units, hint) = self._session, UNITS[of]
         unit = gui.add_dropdown(label, units, initial_value=session.state.units[of], hint=hint)
-        return Binding(unit, session, lambda s: s.units[of], lambda to: session.do(ChooseUnit(of, to)))
+        return unit, Binding(
+            unit, session, lambda s: s.units[of], lambda to: session.do(ChooseUnit(of, to))
+        )

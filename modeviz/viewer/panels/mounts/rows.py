@@ -65,6 +65,12 @@ class RateRow:
             Binding(self._number, session, self._in_unit, self._type, write_back, typed=True),
         )
 
+    def hold(self, group: MountGroup) -> None:
+        """Has the bounds of a group of its name, if they are others."""
+        self._group = group
+        self._travel = self._widest_travel()
+        assign(self._slider, max=self._travel.length)
+
     def show(self, state: State, compared: Rates, effect: str) -> None:
         """Marks what was changed and what is locked.
 

@@ -4,6 +4,7 @@ from html import escape
 
 import viser
 
+from modeviz.vehicle.mount_rates import RATE_FIELDS
 from modeviz.viewer.page.html import HiddenButtons, span
 from modeviz.viewer.session.commands.decisions import ResetGroups, ResetRate, ToggleLock
 from modeviz.viewer.session.session import Session
@@ -21,15 +22,16 @@ BACK = (
     'd="M1.4 1.2l.4 3.5 3.2-1.4z"/></svg>'
 )
 
+N_RATES = len(RATE_FIELDS)
+
 
 class Signs:
     """A lock and a way back for each rate of the selected group, and a way back for all of them."""
 
     def __init__(self, gui: viser.GuiApi, session: Session) -> None:
-        """Makes as many buttons as the group with most rates needs."""
+        """Makes as many buttons as a group needs of which every rate is tuned."""
         self._session = session
-        self._n_rates = max((len(group.fields) for group in session.vehicle.mount_groups), default=0)
-        self._buttons = HiddenButtons(gui, 2 * self._n_rates + 1, self._press)
+        self._buttons = HiddenButtons(gui, 2 * N_RATES + 1, self._press)
 
     def lock(self, i: int, is_locked: bool) -> str:
         """Return what locks rate `i` of the selected group, or lets it move again."""
@@ -39,11 +41,11 @@ class Signs:
 
     def reset(self, i: int, against: str) -> str:
         """Return what sets rate `i` of the selected group back to a set."""
-        return self._sign(self._n_rates + i, BACK, f"Back to {against}")
+        return self._sign(N_RATES + i, BACK, f"Back to {against}")
 
     def reset_group(self, against: str) -> str:
         """Return what sets all rates of the selected group back to a set."""
-        return self._sign(2 * self._n_rates, BACK, f"Group back to {against}")
+        return self._sign(2 * N_RATES, BACK, f"Group back to {against}")
 
     def _sign(self, button: int, picture: str, meaning: str) -> str:
         """A picture that presses a button."""
@@ -51,7 +53,7 @@ class Signs:
 
     def _press(self, button: int) -> None:
         name = self._session.state.group
-        action, i = divmod(button, self._n_rates) if self._n_rates else (2, 0)
+        action, i = divmod(button, N_RATES)
         fields = self._session.vehicle.mount_group(name).fields
         if action == 2:
             self._session.do(ResetGroups((name,)))

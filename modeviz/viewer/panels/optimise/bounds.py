@@ -11,6 +11,8 @@ from modeviz.files.schema.scaling import written
 from modeviz.report.rate_fields import fields_of_groups, is_damping, quantity, spoken
 from modeviz.text.wording import sentence_case
 from modeviz.units import QuantityName, factor
+from modeviz.vehicle.mount_rates import DAMPING_FIELDS, RATE_FIELDS, STIFFNESS_FIELDS
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint, may_change_hint
 from modeviz.viewer.session.planning.group_plan import Ratios
@@ -31,17 +33,11 @@ class BoundsEditor:
             gui: where.
             session: whose state has a plan.
         """
-        self._vehicle = session.vehicle
+        self._session = session
         self._controls = controls = PlanControls(gui, session)
         with gui.add_folder("Bounds and ratios", expand_by_default=False):
-            controls.choose(
-                "Mounts",
-                {group.title: group.name for group in session.vehicle.mount_groups},
-                lambda _, plan: plan.shown_group,
-                lambda name: controls.put(shown_group=name),
-                "Whose limits are shown here",
-            )
-            self._fields = fields_of_groups(session.vehicle.mount_groups)
+            self._shown = self._choice_of_group(gui)
+            self._fields = _fields_of(session.vehicle)
             words = [sentence_case(spoken(field)) for field in self._fields]
             self._free = Pills(gui, "May change", words, self._toggle)
             self._bounds = [self._bound(field) for field in self._fields]
@@ -64,8 +60,10 @@ class BoundsEditor:
 
     def show(self, state: State, plan: Plan) -> None:
         """Brings the controls after the state."""
+        vehicle = self._session.with_parts_of(state)
+        assign(self._shown, options=tuple(group.title for group in vehicle.mount_groups))
         self._controls.show()
-        mounts = self._vehicle.mount_group(plan.shown_group)
+        mounts = vehicle.mount_group(plan.shown_group)
         for bound, field in zip(self._bounds, self._fields, strict=True):
             label = f"{sentence_case(spoken(field))}, {state.units[quantity(field)]}"
             assign(bound, label=label, visible=field in mounts.fields)
@@ -76,6 +74,20 @@ class BoundsEditor:
             [may_change_hint(on) for on in pressed.values()],
         )
         assign(self._wrong, content=complaint(partial(plan.group.design, mounts)))
+
+    def _choice_of_group(self, gui: viser.GuiApi) -> viser.GuiDropdownHandle[str]:
+        """The mount group whose limits are shown."""
+
+        def title(state: State, plan: Plan) -> str:
+            return self._session.with_parts_of(state).mount_group(plan.shown_group).title
+
+        def choose(title: str) -> None:
+            names = {group.title: group.name for group in self._session.vehicle.mount_groups}
+            self._controls.put(shown_group=names[title])
+
+        titles = tuple(group.title for group in self._session.vehicle.mount_groups)
+        choice = gui.add_dropdown("Mounts", titles, hint="Whose limits are shown here")
+        return self._controls.bind(choice, title, choose)
 
     def _bound(self, field: str) -> viser.GuiVector2Handle:
         """Boxes for the least and the most of one rate."""
@@ -114,3 +126,9 @@ def bounded(
         if written(getattr(rates, field), per_unit) != value:
             changed[name] = replace(rates, **{field: value * per_unit})
     return plan.with_group(**changed)
+
+
+def _fields_of(vehicle: Vehicle) -> tuple[str, ...]:
+    """The rates that are tuned in one of a vehicle's groups, or in an absorber that is added to it."""
+    tuned = {*fields_of_groups(vehicle.mount_groups), *STIFFNESS_FIELDS, *DAMPING_FIELDS}
+    return tuple(field for field in RATE_FIELDS if field in tuned)

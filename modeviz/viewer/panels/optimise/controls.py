@@ -117,6 +117,11 @@ class Pills:
         self._buttons = HiddenButtons(gui, len(words), press)
         self._text = gui.add_html("")
 
+    def name(self, words: Sequence[str]) -> None:
+        """Gives them other words, of as many pills as there are."""
+        self._words = words
+        self._buttons.reach(len(words))
+
     def show(self, pressed: Sequence[bool | None], hints: Sequence[str]) -> None:
         """Draws them, pressed or not, with what they mean; those are left out that are neither."""
         pills = []

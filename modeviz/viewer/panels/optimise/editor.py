@@ -14,6 +14,7 @@ from modeviz.optimise.starts import MOST_STARTS
 from modeviz.text.wording import file_name, sentence_case
 from modeviz.vehicle.default_problem import problem_called, problems
 from modeviz.vehicle.problem import GoalKind
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, span
 from modeviz.viewer.panels.modes import listed
@@ -55,7 +56,7 @@ class ProblemEditor:
         """
         self._gui, self._session = gui, session
         self._controls = PlanControls(gui, session)
-        self._groups = [group.name for group in session.vehicle.mount_groups]
+        self._groups = _names(session.vehicle)
         with gui.add_folder("Problem"):
             self._summary = gui.add_html("")
             self._add_goal()
@@ -95,6 +96,8 @@ class ProblemEditor:
             return
         assign(self._mode, options=tuple(self._modes(solved.named.results.get(ORIGINAL, solved.base))))
         self._controls.show()
+        self._groups = _names(self._session.with_parts_of(state))
+        self._pills.name(self._groups)
         for widget in self._band:
             assign(widget, visible=bool(plan.mode))
         self._pills.show([name in plan.free for name in self._groups], self._hints(plan))
@@ -176,7 +179,7 @@ class ProblemEditor:
 
     def _hints(self, plan: Plan) -> list[str]:
         """Return what a click on each group does, by group."""
-        vehicle = self._session.vehicle
+        vehicle = self._session.with_parts_of(self._session.state)
         now = {name: may_change_hint(name in plan.free) for name in self._groups}
         return [f"{vehicle.mount_group(name).label}: {hint}" for name, hint in now.items()]
 
@@ -194,9 +197,16 @@ class ProblemEditor:
         event.client.send_file_download(name, problem_text(problem).encode(), save_immediately=True)
 
     def _toggle(self, i: int) -> None:
-        self._controls.change(lambda _, plan: replace(plan, free=plan.free ^ {self._groups[i]}))
+        groups = self._groups
+        if i < len(groups):  # else one was removed between the click and here
+            self._controls.change(lambda _, plan: replace(plan, free=plan.free ^ {groups[i]}))
 
     def _take_problem(self, name: str) -> None:
         vehicle = self._session.vehicle
         found = problem_called(vehicle, name)
         self._controls.change(lambda _, plan: replace(plan_of(vehicle, found), n_starts=plan.n_starts))
+
+
+def _names(vehicle: Vehicle) -> list[str]:
+    """The names of all mount groups."""
+    return [group.name for group in vehicle.mount_groups]
