@@ -36,6 +36,8 @@ class ViewOptions(VehicleOptions, RoadOptions):
     """Whether a token is asked for at all."""
     dark: bool = False
     """Whether the page is dark."""
+    state: str | None = None
+    """A link to a view, or what stands in one behind "view="."""
 
     bodies: bool = False
     """Whether bodies are looked at one by one though they make a vehicle."""
@@ -53,7 +55,7 @@ class ViewOptions(VehicleOptions, RoadOptions):
 
     def check_no_vehicle(self) -> None:
         """Raises ModevizError if something is asked for that only a vehicle has."""
-        for option in ("rates", "settings", "places", "road", "speed"):
+        for option in ("rates", "settings", "places", "road", "speed", "state"):
             if getattr(self, option) != getattr(ViewOptions, option):
                 name = {"settings": "set", "places": "place"}.get(option, option)
                 raise ModevizError(f"--{name} is of a vehicle, and a component's files are given")
@@ -66,6 +68,7 @@ def view(options: ViewOptions) -> None:
         from modeviz.viewer.inspection.app import inspect
         from modeviz.viewer.inspection.sources import ResultFiles, VehicleFolder, finished_vehicle
         from modeviz.viewer.page.secret import chosen_secret
+        from modeviz.viewer.session.encoding.link import view_in
 
     what = options.what or (options.vehicle or builtin_vehicle(),)
     token = chosen_secret(options.token, options.token_file, options.has_token, what, remark)
@@ -85,7 +88,8 @@ def view(options: ViewOptions) -> None:
         return
     vehicle, start = options.with_rates(vehicle)
     vehicle, chosen = options.shown(vehicle)
-    serve(vehicle, start, chosen, *door, progress("preparing"), options.public_names)
+    link = None if options.state is None else view_in(options.state)
+    serve(vehicle, start, chosen, *door, progress("preparing"), options.public_names, link)
 
 
 def _add_options(command: ArgumentParser) -> None:
@@ -121,6 +125,11 @@ def _add_options(command: ArgumentParser) -> None:
         action="store_false",
         dest="has_token",
         help="let in whoever is on this machine",
+    )
+    command.add_argument(
+        "--state",
+        metavar="LINK",
+        help="what is shown first: a link that was copied on the page, or what it has behind view=",
     )
     command.add_argument("--dark", action="store_true", help="dark page")
     command.add_argument(

@@ -3,6 +3,7 @@
 import threading
 from collections.abc import Callable, Sequence
 from datetime import date
+from functools import cache
 
 import viser
 
@@ -10,6 +11,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.analysis.rubber import dynamic_groups
 from modeviz.compute.threads import one_thread
 from modeviz.errors import ModevizError
+from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import Picture, report
 from modeviz.text.log import our_mistake
@@ -61,9 +63,12 @@ from modeviz.viewer.session.commands.decisions import DragMounts, Swap
 from modeviz.viewer.session.commands.looks import SelectGroup
 from modeviz.viewer.session.cursor import has_ride, is_shaken
 from modeviz.viewer.session.design import variant_name
+from modeviz.viewer.session.encoding.link import link_of, opening_of_link
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
+from modeviz.viewer.session.opening import Opening
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
+from modeviz.viewer.session.view import CameraPose
 from modeviz.viewer.session.worker import StuckError
 from modeviz.viewer.tasks.front_task import FrontTask
 from modeviz.viewer.tasks.scatter_task import ScatterTask
@@ -90,6 +95,7 @@ class App:
         conditions: Conditions,
         server: Server,
         dark: bool = False,
+        opening: Opening | None = None,
     ) -> None:
         """Builds the page; nothing is solved before `start`.
 
@@ -99,12 +105,20 @@ class App:
             conditions: to start with.
             server: an open one, see `page.server.open_server`.
             dark: whether the page is dark.
+            opening: what to show first in place of rates and conditions, and what there was before.
+
+        Raises:
+            ModevizError: the vehicle cannot have what it opens with.
         """
         self.server: Server = server
+        self._fingerprint = cache(lambda: fingerprint_of(vehicle).digest)
         self._gui = server.gui
         self._title, self._dark = Title(server), dark
-        first = first_state(vehicle, rates, conditions)
-        self.session: Session = Session(vehicle, first, self._hear)
+        opening = opening or Opening(first_state(vehicle, rates, conditions))
+        state, self._opening = opening.state, opening
+        self.session: Session = Session(
+            vehicle, state, self._hear, past=opening.past, future=opening.future
+        )
         session, mistake = self.session, server.mistake
         self.search_task: SearchTask = SearchTask(session, lambda: self._optimise.follow(), mistake)
         self.front_task: FrontTask = FrontTask(session, lambda: self._trade_off.follow(), mistake)
@@ -115,7 +129,7 @@ class App:
         scripts.run(self._gui, "page/zoom.js")
         scripts.run(self._gui, "page/no_drop.js")
         choose_theme(self._gui, dark)
-        self._scene = Scene(server, vehicle, dark, self._select)
+        self._scene = Scene(server, self.session.vehicle, dark, self._select, opening.camera)
         self._scene.let_drag(self._drag, mistake)
         self._hotkeys = Hotkeys(self._gui)
         self._lay_out(dark)
@@ -156,6 +170,18 @@ class App:
         variant = variant_name(self.session.vehicle, solved.state.design)
         with self._scene.without_handle():
             return offline_page(self.server, solved, variant, self._dark, position, look_at)
+
+    def link(self, camera: CameraPose) -> str:
+        """Return what is shown as a text that `opening_of_link` reads.
+
+        Args:
+            camera: from where it is seen.
+
+        Raises:
+            ModevizError: it does not fit into an address.
+        """
+        session, fingerprint = self.session, self._fingerprint()
+        return link_of(session.state, self._animation.animation, camera, session.vehicle, fingerprint)
 
     def report(self, pictures: Sequence[Picture]) -> bytes:
         """The present rates against the set they are compared with, see `report.html`.
@@ -202,7 +228,7 @@ class App:
             self._trade_off = TradeOffPanel(gui, session, self.front_task)
             self._scatter = ScatterPanel(gui, session, self.scatter_task)
         with tabs.add_tab("View", viser.Icon.EYE):
-            self._view = ViewPanel(gui, session, self._scene.look)
+            self._view = ViewPanel(gui, session, self._scene.look, self.link)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             theme = DARK if dark else LIGHT
             self._pictures = PicturePanel(
@@ -216,7 +242,7 @@ class App:
                 self._illustrated_report,
             )
             self._data = DataPanel(gui, session, self._pictures.downloads, self._solved)
-        self._status = StatusPanel(gui, session.vehicle.notes)
+        self._status = StatusPanel(gui, session.vehicle.notes, self._opening.remarks)
         self.guide: Guide = Guide(self.server, self._hotkeys)
 
         right = gui.add_panel()
@@ -256,7 +282,8 @@ class App:
 
         card = gui.add_panel()
         with card.add_tab("Motion", viser.Icon.PLAYER_PLAY):
-            self._animation = AnimationCard(gui, self._scene.driver, self._step_mode)
+            driver, animation = self._scene.driver, self._opening.animation
+            self._animation = AnimationCard(gui, driver, self._step_mode, animation)
         with card.add_tab("What moves", viser.Icon.WAVE_SINE):
             self._shape = ShapePanel(gui, session)
         card.float(x=24, y=-24)
@@ -382,6 +409,7 @@ def serve(
     dark: bool,
     progress: Callable[[float], None] | None = None,
     public_names: Sequence[str] = (),
+    link: str | None = None,
 ) -> None:
     """Shows a vehicle until interrupted.
 
@@ -395,15 +423,20 @@ def serve(
         dark: whether the page is dark.
         progress: told the fraction of the preparation that is done.
         public_names: under which a proxy makes the page known.
+        link: what is shown first in place of rates and conditions, see `opening_of_link`.
 
     Raises:
-        ModevizError: the port is in use, the address needs a token, or the road does not go with the
-            speed.
+        ModevizError: the port is in use, the address needs a token, the road does not go with the
+            speed, or the link is none.
     """
+    opening = None
+    if link is not None:
+        usual, fingerprint = first_state(vehicle, rates, conditions), fingerprint_of(vehicle)
+        opening = opening_of_link(link, usual, vehicle, fingerprint.digest)
     with one_thread():
         server = open_server(host, port, token, f"{vehicle.name} · modeviz", public_names)
         try:
-            app = App(vehicle, rates, conditions, server, dark)
+            app = App(vehicle, rates, conditions, server, dark, opening)
             app.guide.welcome_first()
         except ModevizError:
             server.stop()

@@ -115,9 +115,10 @@ def test_the_link_of_a_server_for_others_names_an_address_of_this_machine(link):
         (["--token", ""], "--token: expected letters"),
         (["--token-file", "no/such/file"], "--token-file no/such/file: No such file"),
         (["--public-name", "http://tool/"], "--public-name: found 'http://tool/'"),
+        (["--state", "http://tool/?view=x"], "state link: found 'x', which is cut off or altered"),
     ],
 )
-def test_what_would_let_others_in_or_nobody_is_refused(folder, capsys, arguments, message):
+def test_what_lets_others_in_or_nobody_or_is_no_view_is_refused(folder, capsys, arguments, message):
     assert main(["view", folder, "--port", "0", *arguments]) == 2
     captured = capsys.readouterr()
     assert captured.out == ""

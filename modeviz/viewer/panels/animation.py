@@ -15,9 +15,14 @@ from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.scene.driver import ShapeDriver
 from modeviz.viewer.session.coloring import ColorScale
+from modeviz.viewer.session.view import (
+    FASTEST_HZ,
+    LARGEST_AMPLITUDE,
+    WHOLE_TURN,
+    Animation,
+)
 
-START_SPEED_HZ = 0.5
-START_PHASE = 90.0
+USUAL = Animation()
 PLAY, PAUSE, PREVIOUS, NEXT = "Play", "Pause", "◀ Mode", "Mode ▶"
 
 
@@ -54,7 +59,11 @@ class AnimationCard:
     """Name and frequency of the shown mode, amplitude, speed, phase, play, previous and next."""
 
     def __init__(
-        self, gui: viser.GuiApi, driver: ShapeDriver, step_mode: Callable[[int], None]
+        self,
+        gui: viser.GuiApi,
+        driver: ShapeDriver,
+        step_mode: Callable[[int], None],
+        animation: Animation = USUAL,
     ) -> None:
         """Builds the controls and sets the shapes in motion.
 
@@ -62,32 +71,39 @@ class AnimationCard:
             gui: where.
             driver: what moves the shapes.
             step_mode: shows the next mode (+1) or the one before (-1).
+            animation: how they move at first.
         """
         self._driver, self._step_mode = driver, step_mode
         self._write_back = WriteBack()
         self._head = gui.add_html("")
         self._amplitude = gui.add_slider(
-            "Amplitude", 0.0, 3.0, 0.05, 1.0, marks=(1.0,), hint="How far the shape is drawn"
+            "Amplitude",
+            0.0,
+            LARGEST_AMPLITUDE,
+            0.05,
+            animation.amplitude,
+            marks=(USUAL.amplitude,),
+            hint="How far the shape is drawn",
         )
         self._speed = gui.add_slider(
             "Speed",
             0.0,
-            2.0,
+            FASTEST_HZ,
             0.05,
-            START_SPEED_HZ,
-            marks=(START_SPEED_HZ,),
+            animation.speed_hz,
+            marks=(USUAL.speed_hz,),
             hint="Cycles a second on screen",
         )
         self._phase = gui.add_slider(
             "Phase",
             0.0,
-            360.0,
+            WHOLE_TURN,
             5.0,
-            START_PHASE,
+            animation.phase,
             marks=(90.0, 180.0, 270.0),
             hint="Stops at this phase, degrees",
         )
-        self._stands = gui.add_number("Stands at", START_PHASE, visible=False)
+        self._stands = gui.add_number("Stands at", animation.phase, visible=False)
         self._transport = gui.add_button_group(
             "Motion", (PAUSE, PREVIOUS, NEXT), hint="Stop or go on; the mode before or after this one"
         )
@@ -96,9 +112,18 @@ class AnimationCard:
         self._phase.on_update(self._hold)
         self._stands.on_update(lambda _: self._say_phase())
         self._transport.on_click(lambda event: self._press(self._transport.value, event.client))
-        driver.drive(frequency_hz=START_SPEED_HZ, running=True)
-        self._is_running = True
+        driver.drive(amplitude=animation.amplitude, frequency_hz=animation.speed_hz)
+        if not animation.is_running:
+            driver.seek(np.deg2rad(animation.phase))
         self._ran_before_still: bool | None = None
+        self._run(animation.is_running)
+
+    @property
+    def animation(self) -> Animation:
+        """How what moves is drawn."""
+        amplitude, speed_hz, phase = (s.value for s in (self._amplitude, self._speed, self._phase))
+        is_running = self._is_running if self._ran_before_still is None else self._ran_before_still
+        return Animation(amplitude, speed_hz, phase, is_running)
 
     def show(self, moving: Moving, scale: ColorScale | None) -> None:
         """Names what moves, and says what the colours of bodies mean, if they do."""

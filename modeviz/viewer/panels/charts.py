@@ -6,13 +6,10 @@ from html import escape
 import numpy as np
 import viser
 
-from modeviz.dynamics.mount_rates import turning_axes
 from modeviz.ride.psd import FLOOR
 from modeviz.text.axes import shown_hz
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.connections import MOTIONS
-from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
@@ -20,10 +17,11 @@ from modeviz.viewer.page.html import block, heading, title
 from modeviz.viewer.panels.plots import Line, ResponsePlot, Scale, set_line
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ChooseCurve
+from modeviz.viewer.session.curves import known_curves
 from modeviz.viewer.session.design import set_numbers
 from modeviz.viewer.session.responses import Responses, curve_label
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.session.state import ChartCurve, ForceCurve, ResponseCurve, State
+from modeviz.viewer.session.state import ChartCurve, State
 from modeviz.viewer.session.wheel_responses import NOW
 
 
@@ -142,21 +140,8 @@ def end_colors(dark: bool) -> tuple[str, str]:
 
 
 def curve_labels(vehicle: Vehicle) -> dict[str, ChartCurve]:
-    """All responses there are, by what they are called: accelerations of points, then forces of mounts.
-
-    Along the vehicle's axes too where a mount's own are others.
-    """
-    curves: list[ChartCurve] = [
-        ResponseCurve(i, d) for i in range(len(vehicle.response_points)) for d in DIRECTIONS
-    ]
-    turns = turning_axes(vehicle)
-    for mount, about in zip(vehicle.mounts, turns, strict=True):
-        own = [*MOTIONS[:3], *(m for m, does in zip(MOTIONS[3:], about, strict=True) if does)]
-        curves += [ForceCurve(mount.name, motion) for motion in own]
-        if not np.array_equal(mount.axes, np.eye(3)):
-            every = MOTIONS if about.any() else MOTIONS[:3]
-            curves += [ForceCurve(mount.name, motion, in_vehicle_axes=True) for motion in every]
-    return {curve_label(vehicle, curve): curve for curve in curves}
+    """The `known_curves` by what they are called."""
+    return {curve_label(vehicle, curve): curve for curve in known_curves(vehicle)}
 
 
 def legend(lines: list[Line], solved: Solved) -> str:

@@ -20,6 +20,7 @@ from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import color_scale
 from modeviz.viewer.session.commands.looks import ChangeMotion
+from modeviz.viewer.session.movement import n_free_modes
 from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import MotionKind, State
@@ -189,12 +190,6 @@ ABOUT: dict[MotionKind, str] = {
     "sag": "Nothing moves: this is where the vehicle stands in the load case that the Static tab says, "
     "exaggerated. Outlines at rest are where it is unloaded.",
 }
-
-
-def n_free_modes(vehicle: Vehicle, body: str) -> int:
-    """Return the number of free modes of a body: its rigid ones, and its elastic ones."""
-    its = vehicle.body(body)
-    return its.n_normal if isinstance(its, FlexibleBody) else 6
 
 
 def own_mode(vehicle: Vehicle, state: State) -> int:

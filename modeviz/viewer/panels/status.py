@@ -1,6 +1,6 @@
 """Left column, foot: how long an answer took, and how far it can be trusted."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from html import escape
 
 import viser
@@ -9,6 +9,7 @@ from modeviz.analysis.results import Results
 from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.report.components import believed, change_words, is_doubtful
 from modeviz.report.tables import own_frequencies
+from modeviz.text.wording import sentence_case
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, span, title
@@ -25,9 +26,20 @@ ALARMING = 1e-3
 class StatusPanel:
     """Progress while the vehicle is prepared, then time, health and check of every answer."""
 
-    def __init__(self, gui: viser.GuiApi, notes: Sequence[str] = ()) -> None:
-        """Makes room; `notes` of the vehicle stand below everything else until there is an answer."""
-        self._notes = _listed(notes)
+    def __init__(
+        self, gui: viser.GuiApi, notes: Sequence[str] = (), remarks: Sequence[str] = ()
+    ) -> None:
+        """Makes room.
+
+        Args:
+            gui: where.
+            notes: of the vehicle, which stand below everything else until there is an answer.
+            remarks: on what the session opened with, sentences without their stops, which stay.
+        """
+        self._notes, self._remarks = (
+            _listed(notes),
+            _listed(f"{sentence_case(each)}." for each in remarks),
+        )
         self._content = gui.add_html("")
 
     def show_progress(self, fraction: float) -> None:
@@ -47,10 +59,10 @@ class StatusPanel:
         self._draw(_solved(solved), f'<div class="dim">{text}</div>')
 
     def _draw(self, *content: str) -> None:
-        assign(self._content, content=block(*content, self._notes))
+        assign(self._content, content=block(*content, self._remarks, self._notes))
 
 
-def _listed(notes: Sequence[str]) -> str:
+def _listed(notes: Iterable[str]) -> str:
     return "".join(f'<div class="note">{escape(note)}</div>' for note in notes)
 
 

@@ -10,10 +10,12 @@ from modeviz.text.wording import sentence_case
 from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, Read, Write, show_all
+from modeviz.viewer.panels.state_link import add_link_button
 from modeviz.viewer.scene.cameras import add_view_buttons
 from modeviz.viewer.session.commands.looks import ChangeLook, ShowBody, ShowClassicError, ShowGhost
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import Coloring
+from modeviz.viewer.session.view import CameraPose
 
 COLORINGS = {sentence_case(name): name for name in get_args(Coloring)}
 GHOSTS = {"None": "none", "At rest": "rest", "Compared set": "compared"}
@@ -23,7 +25,11 @@ class ViewPanel:
     """Camera presets, colours, outlines, which bodies are drawn, the error of the classic method."""
 
     def __init__(
-        self, gui: viser.GuiApi, session: Session, look: Callable[[viser.ClientHandle, str], None]
+        self,
+        gui: viser.GuiApi,
+        session: Session,
+        look: Callable[[viser.ClientHandle, str], None],
+        link: Callable[[CameraPose], str],
     ) -> None:
         """Builds the controls.
 
@@ -31,9 +37,11 @@ class ViewPanel:
             gui: where.
             session: what the choices change.
             look: turns a page's camera to one of `stage.VIEWS`.
+            link: gives the link to what is shown.
         """
         self._gui, self._session = gui, session
         add_view_buttons(gui, look)
+        add_link_button(gui, link)
         self._bindings = [
             self._choice(
                 "Colours",

@@ -11,6 +11,7 @@ import viser
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page import scripts
 from modeviz.viewer.scene.stage import FAR, FIELD_OF_VIEW, ISO, NEAR, VIEWS, Box, camera
+from modeviz.viewer.session.view import CameraPose
 
 UNTOUCHED = 2e-4
 """Of what is framed: a camera this close to where it was put has not been moved by anybody."""
@@ -39,23 +40,34 @@ def add_view_buttons(gui: viser.GuiApi, look: Callable[[viser.ClientHandle, str]
 class Cameras:
     """Every page has its own camera; all of them look at the same."""
 
-    def __init__(self, server: viser.ViserServer, box: Box) -> None:
-        """Points the cameras of pages to come at a vehicle; their pictures' sizes are in CSS pixels."""
-        self._server, self._box = server, box
+    def __init__(self, server: viser.ViserServer, box: Box, begin: CameraPose | None = None) -> None:
+        """Points the cameras of pages to come at a vehicle; their pictures' sizes are in CSS pixels.
+
+        Args:
+            server: of the pages.
+            box: the space that is framed.
+            begin: where cameras are at first; None: where all of that is seen.
+        """
+        self._server, self._box, self._begin = server, box, begin
         self._before = box
+        self._is_framed = begin is None
         self._views: dict[int, tuple[str, Floats]] = {}
         self._lock = threading.RLock()  # pages tell of their cameras in several threads
         self._moves: Counter[int] = Counter()
         """How often each page's camera was sent somewhere; only the last counts."""
         initial = server.initial_camera
-        initial.position, initial.look_at = camera(box, ISO, 1000, 1000)
+        if begin is None:
+            initial.position, initial.look_at = camera(box, ISO, 1000, 1000)
+        else:
+            initial.position, initial.look_at = begin.position, begin.look_at
         initial.fov = FIELD_OF_VIEW
         initial.near, initial.far = NEAR * box.length, FAR * box.length
         scripts.run(server.scene, "page/css_pixels.js")
 
         @server.on_client_connect
         def _(client: viser.ClientHandle) -> None:
-            self.look(client, ISO)
+            if begin is None:
+                self.look(client, ISO)
             client.camera.on_update(lambda _: self._keep_framed(client))
 
         @server.on_client_disconnect
@@ -73,6 +85,8 @@ class Cameras:
 
     def frame(self, box: Box) -> None:
         """Glides all cameras, as turned as they are, to a space that fills their pictures."""
+        if not self._is_framed:  # cameras that begin somewhere are where they should be
+            self._is_framed, self._box = True, box
         if box == self._box:
             return
         self._before, self._box = self._box, box
@@ -101,7 +115,8 @@ class Cameras:
         """Return the end of a glide: framed as before, or aimed at the middle if somebody moved it."""
         position, look_at = client.camera.position, client.camera.look_at
         view, put = self._views.get(client.client_id, (ISO, position))
-        if self._is_at(position, put):
+        was_sent = self._begin is None or client.client_id in self._views
+        if was_sent and self._is_at(position, put):
             framed = self._framed(client, view)
             self._views[client.client_id] = view, framed[0]
             return framed

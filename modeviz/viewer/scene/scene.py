@@ -33,6 +33,7 @@ from modeviz.viewer.session.coloring import (
     strain_shares,
 )
 from modeviz.viewer.session.state import State
+from modeviz.viewer.session.view import CameraPose
 
 
 class Scene:
@@ -44,6 +45,7 @@ class Scene:
         vehicle: Vehicle,
         dark: bool,
         on_select: Callable[[str], None],
+        camera: CameraPose | None = None,
     ) -> None:
         """Draws a vehicle at rest.
 
@@ -52,6 +54,7 @@ class Scene:
             vehicle: what.
             dark: whether the page is.
             on_select: called with the group of a clicked mount.
+            camera: where those of pages begin; None: where all is seen.
         """
         theme = self._theme = DARK if dark else LIGHT
         self._vehicle, self._box = vehicle, box(vehicle)
@@ -66,7 +69,7 @@ class Scene:
         )
         self._absorbers = {b.name: _at_rest(b) for b in vehicle.bodies if b.role == "absorber"}
         self._handle: MountHandle | None = None
-        self._cameras = Cameras(server, self._box)
+        self._cameras = Cameras(server, self._box, camera)
         self.exaggeration: float = 1.0
         """How many times as large as it is the shape is drawn at the driver's amplitude of one."""
 

@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -98,14 +98,22 @@ class Solved:
 class Answers:
     """Answers one state after the other, in one thread; `rebase` may be called in another."""
 
-    def __init__(self, vehicle: Vehicle) -> None:
-        """Nothing is solved before `prepare`."""
+    def __init__(self, vehicle: Vehicle, absorbers: Sequence[Absorber] = ()) -> None:
+        """Nothing is solved before `prepare`.
+
+        Args:
+            vehicle: as in its file.
+            absorbers: that it has besides.
+
+        Raises:
+            VehicleError: it cannot have them.
+        """
         self._preparations = Preparations(vehicle)
         self._lock = threading.Lock()
         self._alterations: Alterations | None = None
-        self._with_parts: tuple[tuple[Absorber, ...], Vehicle] = ((), vehicle)
-        self.vehicle: Vehicle = vehicle
-        """Altered as in the newest answer."""
+        self.vehicle: Vehicle = with_absorbers(vehicle, absorbers)
+        """Altered as in the newest answer; before the first, with the absorbers alone."""
+        self._with_parts: tuple[tuple[Absorber, ...], Vehicle] = (tuple(absorbers), self.vehicle)
         self.prepared: Prepared
         """That vehicle made ready, once `prepare` has."""
         self._drive: RoadExcitation

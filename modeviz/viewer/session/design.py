@@ -23,6 +23,10 @@ LINKED_DIGITS = 5
 """Of a rate that follows another: as many as a number on the page has room for."""
 
 
+STIFFEST = 1e9
+"""N/m, or whatever it is in SI: what is stiffer is rigid, or a slip of the finger."""
+
+
 @dataclass(frozen=True)
 class Variant:
     """A pinned set of rates."""

@@ -1,7 +1,7 @@
 """What was decided before, and what was undone."""
 
 import time
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import TypeVar
 
@@ -44,17 +44,22 @@ class History:
     """
 
     def __init__(
-        self, state: State, settled: Callable[[Design, State], State] = lambda _, state: state
+        self,
+        state: State,
+        settled: Callable[[Design, State], State] = lambda _, state: state,
+        past: Sequence[Change] = (),
+        future: Sequence[Change] = (),
     ) -> None:
-        """Starts with a state that cannot be undone.
+        """Starts with a state.
 
         Args:
             state: the first one.
             settled: makes looks fit the design of a state that was gone to, given the design before.
+            past: what can be undone, the next one last.
+            future: what can be redone, the next one last.
         """
         self._settled = settled
-        self._past: list[Change] = []
-        self._future: list[Change] = []
+        self._past, self._future = [*past], [*future]
         self.state: State = state
         self._step: Hashable = None
         self._changed_at = 0.0

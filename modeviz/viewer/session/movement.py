@@ -17,6 +17,8 @@ from modeviz.dynamics.components import (
 from modeviz.errors import SolveError
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.arrays import Array, Complexes
+from modeviz.vehicle.bodies import FlexibleBody
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.followed_mode import FollowedMode
 from modeviz.viewer.session.state import ResponseCurve, State
 from modeviz.viewer.session.static_answers import SolvedStatics
@@ -183,3 +185,9 @@ def _in_phase(shape: Array, shown: FollowedMode) -> Array:
     """A shape turned to move with the shown mode as far as it can; a real one stays real."""
     product = np.vdot(shape, shown.now.prepared.system.mass @ shown.shape)
     return shape * (product / abs(product)) if product else shape
+
+
+def n_free_modes(vehicle: Vehicle, body: str) -> int:
+    """Return the number of free modes of a body: its rigid ones, and its elastic ones."""
+    its = vehicle.body(body)
+    return its.n_normal if isinstance(its, FlexibleBody) else 6

@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -14,7 +14,7 @@ from modeviz.viewer.session.answers import Answers, Solved, asks_for_the_same
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
-from modeviz.viewer.session.history import History, Moment
+from modeviz.viewer.session.history import Change, History, Moment
 from modeviz.viewer.session.inspector import Inspector
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.state import State
@@ -64,6 +64,8 @@ class Session:
         state: State,
         notify: Callable[[Notification], None],
         patience: float = SOLVES_WITHIN,
+        past: Sequence[Change] = (),
+        future: Sequence[Change] = (),
     ) -> None:
         """Nothing is solved before `start`.
 
@@ -72,10 +74,15 @@ class Session:
             state: what to show first.
             notify: told of every answer and failure; what it raises is our mistake.
             patience: s that a solve may take.
+            past: what can be undone, the next one last.
+            future: what can be redone, the next one last.
+
+        Raises:
+            VehicleError: it cannot have the absorbers of the state.
         """
         self._notify = notify
         self._lock = threading.Lock()
-        self._history = History(state, self._settled)
+        self._history = History(state, self._settled, past, future)
         self._is_prepared = self._is_closed = False
         self._n_drawings, self._n_drawn = 0, -1
         self._told_at = 0.0
@@ -83,7 +90,7 @@ class Session:
         self._failure: Exception | None = None
         self._good: Moment | None = None
         self._is_refused = False
-        self._answers = Answers(vehicle)
+        self._answers = Answers(vehicle, state.design.alterations.absorbers)
         self._worker: Worker[_Job] = Worker(self._work, self._tell_failure, patience, self._leave)
         self._inspector = Inspector(
             self._rebase, self._is_current, self._answer_again, self._tell_failure

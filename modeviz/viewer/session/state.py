@@ -188,7 +188,7 @@ class State:
             variant = before.variants.get(name)
             return renamed.get(variant.number, name) if variant and name not in known else name
 
-        overlaid = frozenset(map(called, self.charts.overlaid)) & known.keys()
+        overlaid = frozenset(map(called, self.charts.overlaid)).intersection(known)
         against = called(self.against)
         charts = replace(self.charts, overlaid=overlaid)
         return replace(self, charts=charts, against=against if against in known else ORIGINAL)

@@ -16,12 +16,9 @@ from modeviz.viewer.page.handles import assign, mark
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.travel import Travel, travel
 from modeviz.viewer.session.commands.decisions import SetRate
-from modeviz.viewer.session.design import known_sets
+from modeviz.viewer.session.design import STIFFEST, known_sets
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State, compared_rates
-
-STIFFEST = 1e9
-"""N/m, or whatever it is in SI: what is stiffer is rigid, or a slip of the finger."""
 
 DECIMALS = 6
 """That a box shows at most."""

@@ -34,14 +34,14 @@ class Plan:
     loads: tuple[LoadPlan, ...]
     spare: LoadPlan
     """What is added where there is none."""
+    high_hz: float
+    """At the end of the vehicle's band and beyond there is no limit."""
     shown_group: str = field(compare=False)
     """The one of which the page shows what it may become."""
     shown_load: int = field(default=0, compare=False)
     mode: str = ""
     """The mode whose frequency is held, or none."""
     low_hz: float = 0.0
-    high_hz: float = math.inf
-    """At the end of the vehicle's band and beyond there is no limit."""
     is_inside: bool = True
     """Whether the mode is held in that band, or out of it."""
     n_starts: int = N_STARTS
@@ -111,8 +111,8 @@ def plan_of(vehicle: Vehicle, problem: Problem) -> Plan:
         tuple(group_plan(g, own.get(g.name) or DesignGroup(g.name)) for g in vehicle.mount_groups),
         tuple(load_plan(vehicle, performance) for performance in problem.performance),
         spare_load(vehicle),
+        vehicle.highest_frequency,
         problem.groups[0].group,
-        high_hz=vehicle.highest_frequency,
     )
     if not problem.windows:
         return plan

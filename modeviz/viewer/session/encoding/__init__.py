@@ -1,0 +1,1 @@
+"""States of a session as text and back, whoever wrote the text."""

@@ -1,0 +1,23 @@
+"""With what a session opens: a state that somebody left or sent, and what there was before it."""
+
+from dataclasses import dataclass, field
+
+from modeviz.viewer.session.history import Change
+from modeviz.viewer.session.state import State
+from modeviz.viewer.session.view import Animation, CameraPose
+
+
+@dataclass(frozen=True)
+class Opening:
+    """A session as it was left, or as a link shows it."""
+
+    state: State
+    past: tuple[Change, ...] = ()
+    """What can be undone, the next one last."""
+    future: tuple[Change, ...] = ()
+    """What can be redone, the next one last."""
+    animation: Animation = field(default_factory=Animation)
+    camera: CameraPose | None = None
+    """Of pages to come; None: the usual one."""
+    remarks: tuple[str, ...] = ()
+    """On what is other than it was, sentences without their stops."""
