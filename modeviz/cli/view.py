@@ -28,6 +28,12 @@ class ViewOptions(VehicleOptions, RoadOptions):
     """0 takes a free one."""
     public_names: tuple[str, ...] = ()
     """Under which a proxy makes the page known."""
+    frames: tuple[str, ...] = ()
+    """Origins of pages that may show it in a frame."""
+    proxies: tuple[str, ...] = ()
+    """Addresses of those that are believed in whom they say they ask for."""
+    path_prefix: str = ""
+    """Before the path of every address."""
     token: str | None = None
     """Asked of every visitor; None: that of a file, of the environment, or a new one."""
     token_file: Path | None = None
@@ -68,15 +74,17 @@ def view(options: ViewOptions) -> None:
         from modeviz.viewer.inspection.app import inspect
         from modeviz.viewer.inspection.sources import ResultFiles, VehicleFolder, finished_vehicle
         from modeviz.viewer.page.secret import chosen_secret
+        from modeviz.viewer.page.surroundings import surroundings
         from modeviz.viewer.session.encoding.link import view_in
 
     what = options.what or (options.vehicle or builtin_vehicle(),)
     token = chosen_secret(options.token, options.token_file, options.has_token, what, remark)
+    around = surroundings(options.public_names, options.frames, options.proxies, options.path_prefix)
     door = (options.host, options.port, token, options.dark)
     check_no_mounts(options.what)
     if are_results(options.what):
         options.check_no_vehicle()
-        inspect(ResultFiles(options.what), *door, options.public_names, remark)
+        inspect(ResultFiles(options.what), *door, around, remark)
         return
     check_are_read(options.what)
     options = options.of_folder()
@@ -84,12 +92,12 @@ def view(options: ViewOptions) -> None:
     vehicle = None if options.bodies else finished_vehicle(folder)
     if vehicle is None:
         source = VehicleFolder(folder, is_ours=options.vehicle is None)
-        inspect(source, *door, options.public_names, remark)
+        inspect(source, *door, around, remark)
         return
     vehicle, start = options.with_rates(vehicle)
     vehicle, chosen = options.shown(vehicle)
     link = None if options.state is None else view_in(options.state)
-    serve(vehicle, start, chosen, *door, progress("preparing"), options.public_names, link)
+    serve(vehicle, start, chosen, *door, progress("preparing"), around, link)
 
 
 def _add_options(command: ArgumentParser) -> None:
@@ -112,6 +120,27 @@ def _add_options(command: ArgumentParser) -> None:
         metavar="NAME",
         dest="public_names",
         help="under which a proxy makes the page known, such as tool.example.com; may be repeated",
+    )
+    command.add_argument(
+        "--allow-frame",
+        action="append",
+        metavar="ORIGIN",
+        dest="frames",
+        help="of pages that may show this one in a frame, such as https://wiki.example.com (default: "
+        "none may); may be repeated",
+    )
+    command.add_argument(
+        "--trust-proxy",
+        action="append",
+        metavar="ADDRESS",
+        dest="proxies",
+        help="of a proxy, or its network, whose X-Forwarded-For, -Host and -Proto say who asks where; "
+        "may be repeated",
+    )
+    command.add_argument(
+        "--path-prefix",
+        metavar="PATH",
+        help="before every address, such as /bench, behind a proxy that takes it off or leaves it",
     )
     token = command.add_mutually_exclusive_group()
     token.add_argument(

@@ -27,6 +27,7 @@ from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import Server, open_server
+from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 from modeviz.viewer.page.theme import choose_theme
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
@@ -408,7 +409,7 @@ def serve(
     token: Secret | None,
     dark: bool,
     progress: Callable[[float], None] | None = None,
-    public_names: Sequence[str] = (),
+    around: Surroundings = NOTHING_AROUND,
     link: str | None = None,
 ) -> None:
     """Shows a vehicle until interrupted.
@@ -422,7 +423,7 @@ def serve(
         token: asked of every visitor, if any.
         dark: whether the page is dark.
         progress: told the fraction of the preparation that is done.
-        public_names: under which a proxy makes the page known.
+        around: the server.
         link: what is shown first in place of rates and conditions, see `opening_of_link`.
 
     Raises:
@@ -434,7 +435,7 @@ def serve(
         usual, fingerprint = first_state(vehicle, rates, conditions), fingerprint_of(vehicle)
         opening = opening_of_link(link, usual, vehicle, fingerprint.digest)
     with one_thread():
-        server = open_server(host, port, token, f"{vehicle.name} · modeviz", public_names)
+        server = open_server(host, port, token, f"{vehicle.name} · modeviz", around)
         try:
             app = App(vehicle, rates, conditions, server, dark, opening)
             app.guide.welcome_first()

@@ -1,7 +1,7 @@
 """The page of bodies as a whole."""
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,6 +24,7 @@ from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import Server, open_server
+from modeviz.viewer.page.surroundings import Surroundings
 from modeviz.viewer.page.theme import choose_theme
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
@@ -182,7 +183,7 @@ def inspect(
     port: int,
     token: Secret | None,
     dark: bool,
-    public_names: Sequence[str],
+    around: Surroundings,
     tell: Callable[[str], None],
 ) -> None:
     """Shows bodies until interrupted.
@@ -193,14 +194,14 @@ def inspect(
         port: to listen on.
         token: asked of every visitor, if any.
         dark: whether the page is dark.
-        public_names: under which a proxy makes the page known.
+        around: the server.
         tell: told what cannot be computed yet, a sentence at a time.
 
     Raises:
         ModevizError: they cannot be read, the port is in use, or the address needs a token.
     """
     with ExitStack() as ending:
-        server = open_server(host, port, token, "modeviz", public_names)
+        server = open_server(host, port, token, "modeviz", around)
         ending.callback(server.stop)
         app = InspectionApp(server, source, dark)
         ending.callback(app.end)

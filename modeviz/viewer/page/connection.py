@@ -14,6 +14,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 
 from modeviz.viewer.page.decoding import LARGEST_MESSAGE, MessageError, TooMuchError, checked
+from modeviz.viewer.page.forwarded import NO_PROXIES, Proxies
 from modeviz.viewer.page.limits import Allowance, Places, client_of, most_connections
 from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.page.turns import MOST_WAITING, Turns, page_heard
@@ -55,6 +56,8 @@ class House:
     """The limits that the connections to an address share, whichever session they are of."""
 
     notices: Notices
+    proxies: Proxies = NO_PROXIES
+    """Whose connections are those of many clients."""
     arrivals: Places = field(default_factory=lambda: Places(most_connections(), MOST_OF_ONE))
     """Of connections that have not said yet what they want."""
     connections: Places = field(default_factory=lambda: Places(most_connections(), MOST_OF_ONE))
@@ -73,6 +76,8 @@ class PageConnection(ServerConnection):
         self._house, self._turns = house, turns
         self.client: str = "a client"
         """Who it is, see `client_of`."""
+        self.is_secure: bool = False
+        """Whether it came by TLS, to a proxy."""
         self._places: list[Places] = []
         self._messages = Allowance(MESSAGES_PER_S, MOST_MESSAGES)
         self._bytes = Allowance(BYTES_PER_S, MOST_BYTES)
@@ -87,7 +92,8 @@ class PageConnection(ServerConnection):
         """Begins a connection, or ends it where there is no place for it."""
         peer = transport.get_extra_info("peername")
         self.client = client_of(peer[0]) if peer else "a client"
-        if self._take(self._house.connections):
+        is_proxy = peer is not None and self._house.proxies.trusts(peer[0])
+        if self._take(self._house.connections, is_one=not is_proxy):
             super().connection_made(transport)
         else:
             self._note("opened more connections than it may: the last are refused")
@@ -108,6 +114,17 @@ class PageConnection(ServerConnection):
         for places in self._places:
             places.leave(self.client)
         self._places.clear()
+
+    def speak_for(self, address: str) -> bool:
+        """Counts it as one of who asked a proxy; whether that one may have it."""
+        client = client_of(address)
+        if client == self.client:
+            return True
+        if not self._house.connections.take(client):
+            return False
+        self._house.connections.leave(self.client)
+        self.client = client
+        return True
 
     def take_page(self) -> bool:
         """Takes a place for a page; whether there is one."""
@@ -205,8 +222,8 @@ class PageConnection(ServerConnection):
     def _note(self, what: str) -> None:
         self._house.notices.note(self.client, what)
 
-    def _take(self, places: Places) -> bool:
-        if not places.take(self.client):
+    def _take(self, places: Places, is_one: bool = True) -> bool:
+        if not places.take(self.client, is_one):
             return False
         self._places.append(places)
         return True

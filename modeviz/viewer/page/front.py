@@ -60,7 +60,7 @@ class Front:
             ModevizError: the port is in use, or the address is not this machine's.
         """
         self.door: Door = door
-        self.house: House = House(notices)
+        self.house: House = House(notices, door.around.proxies)
         self._listening = _listening(door.host, port)
         self.port: int = self._listening.getsockname()[1]
         self._loop = asyncio.SelectorEventLoop()
@@ -73,12 +73,12 @@ class Front:
     @property
     def link(self) -> str:
         """The address of the page for everybody who can reach it, with its token."""
-        return link(self.door.host, self.port, self.door.token)
+        return link(self.door.host, self.port, self.door.token, self.door.around.prefix)
 
     @property
     def local_link(self) -> str:
         """The address of the page for a browser of this machine; ready for `&name=value`."""
-        return local_link(self.door.host, self.port, self.door.token)
+        return local_link(self.door.host, self.port, self.door.token, self.door.around.prefix)
 
     def open(self, site: Site) -> None:
         """Lets people in to what is behind."""
@@ -130,14 +130,15 @@ class Front:
                 report(self.house.notices, self._loop, {"exception": error, "message": ""})
                 await asyncio.sleep(SOON)
                 continue
-            task = self._loop.create_task(self._receive(connection, client_of(peer[0])))
+            task = self._loop.create_task(self._receive(connection, peer[0]))
             tasks.add(task)
             task.add_done_callback(tasks.discard)
 
-    async def _receive(self, connection: socket.socket, client: str) -> None:
+    async def _receive(self, connection: socket.socket, address: str) -> None:
         """Hands a connection to who is to serve it, as soon as it is known what it wants."""
         connection.setblocking(False)
-        if not self.house.arrivals.take(client):
+        client = client_of(address)
+        if not self.house.arrivals.take(client, is_one=not self.house.proxies.trusts(address)):
             self.house.notices.note(client, "opened more connections than it may: the last are refused")
             connection.close()
             return

@@ -23,6 +23,7 @@ from modeviz.viewer.page.connection import PageConnection
 from modeviz.viewer.page.guesses import Guesses
 from modeviz.viewer.page.kept_tokens import LIFE_S, RENEWED_S
 from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 REFUSED_PARAMETERS = ("websocket", "playbackPath")
@@ -31,6 +32,7 @@ REFUSED_PARAMETERS = ("websocket", "playbackPath")
 NO_TOKEN = "open the whole link that modeviz printed, with its token"
 OTHER_VERSION = "this page is of another version of modeviz: load it again"
 BUSY = "many pages are being opened: this one is tried again"
+TOO_MANY_CONNECTIONS = "your address has more connections than it may"
 TOO_MANY = "there are as many pages open as this server takes: close some"
 
 ANCESTORS = " ".join(
@@ -77,8 +79,7 @@ class Door:
     secret: Secret | None
     """What opens it; without one whoever is on this machine gets in."""
     title: str
-    public_names: tuple[str, ...] = ()
-    """Names of this server besides its own, lower case."""
+    around: Surroundings = NOTHING_AROUND
     is_framed: bool = False
     """Whether notebooks may show it in a frame, whatever name their server has; it has a token, without
     which a name that was pointed here gets nowhere."""
@@ -103,11 +104,26 @@ class Door:
         async def process_request(connection: ServerConnection, request: Request) -> Response | None:
             assert isinstance(connection, PageConnection)
             try:
-                return await self._response(inner, connection, request)
+                return self._seen_through(connection, request) or await self._response(
+                    inner, connection, request
+                )
             except ValueError:  # of an address or a header that is none
                 return answer(400, "this request cannot be read")
 
         return process_request
+
+    def _seen_through(self, connection: PageConnection, request: Request) -> Response | None:
+        """Makes of a request what it was before proxies; the answer if it can't stay at that."""
+        asked = self.around.proxies.asked(connection.remote_address[0], request.headers)
+        connection.is_secure = asked.is_secure
+        if asked.host is not None:
+            _set(request.headers, "Host", asked.host)
+        path = self.around.local_path(request.path)
+        if path is None:
+            folder = self.around.prefix.rpartition("/")[2]
+            return answer(303, Location=f"./{folder}/{request.path[len(self.around.prefix) :]}")
+        request.path = path
+        return None if connection.speak_for(asked.client) else answer(429, TOO_MANY_CONNECTIONS)
 
     async def _response(
         self, inner: Guarded, connection: PageConnection, request: Request
@@ -138,7 +154,8 @@ class Door:
                 403,
                 "a page of another site may not use this server: this one is at "
                 f"{', '.join(origins) or 'no address'}, and the server is asked as {hosts[0]}; "
-                "a proxy between them has to pass the header Host on",
+                "a proxy between them has to pass the header Host on, or with --trust-proxy "
+                "X-Forwarded-Host",
             )
         for name, _ in parse_qsl(urlsplit(request.path).query, keep_blank_values=True):
             if name in REFUSED_PARAMETERS:
@@ -170,7 +187,8 @@ class Door:
 
     def _give_cookie(self, secret: Secret, connection: PageConnection, response: Response) -> None:
         cookie = f"{_cookie_name(connection)}={secret.cookie()}; Max-Age={LIFE_S:.0f}; HttpOnly"
-        for kept in (STRICT, FRAMED) if self.is_framed else (STRICT,):
+        alone = f"{STRICT}; Secure" if connection.is_secure else STRICT
+        for kept in (alone, FRAMED) if self.is_framed or self.around.frames else (alone,):
             response.headers["Set-Cookie"] = f"{cookie}; {kept}"
 
     def _age(self, connection: PageConnection, request: Request) -> float | None:
@@ -227,9 +245,10 @@ class Door:
 
     def policy(self, request: Request) -> str:
         """Return what a page may do, and who may show it, as Content-Security-Policy says it."""
-        hosts = [request.headers["Host"], *(f"{name}:*" for name in self.public_names)]
+        hosts = [request.headers["Host"], *(f"{name}:*" for name in self.around.public_names)]
         sockets = " ".join(f"ws://{host} wss://{host}" for host in hosts)
-        ancestors = ANCESTORS if self.is_framed else "'none'"
+        frames = (*((ANCESTORS,) if self.is_framed else ()), *self.around.frames)
+        ancestors = " ".join(frames) or "'none'"
         return (
             f"frame-ancestors {ancestors}; connect-src 'self' {sockets} data: blob:; "
             "object-src 'none'; base-uri 'none'"
@@ -244,7 +263,7 @@ class Door:
         if match is None:
             return False
         name = (match[1] or match[2]).lower()
-        if name in self.public_names or (self.is_framed and self.token):
+        if name in self.around.public_names or (self.is_framed and self.token):
             return True
         if name in LOOPBACK or self.host in LOOPBACK:
             return name in LOOPBACK
@@ -258,7 +277,7 @@ class Door:
         if scheme not in ("http", "https"):
             return False
         match = HOST.fullmatch(site)
-        is_public = match is not None and (match[1] or match[2]) in self.public_names
+        is_public = match is not None and (match[1] or match[2]) in self.around.public_names
         return site == host.lower() or is_public
 
 

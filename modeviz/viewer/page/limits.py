@@ -28,10 +28,15 @@ class Places:
         self._lock = threading.Lock()
         self._taken: Counter[str] = Counter()
 
-    def take(self, client: str) -> bool:
-        """Takes one; whether there was one for that client."""
+    def take(self, client: str, is_one: bool = True) -> bool:
+        """Takes one; whether there was one for that client.
+
+        Args:
+            client: who takes it.
+            is_one: whether it is one client, and not a proxy of many.
+        """
         with self._lock:
-            if not self._is_free(client):
+            if not self._is_free(client, is_one):
                 return False
             self._taken[client] += 1
             return True
@@ -48,8 +53,9 @@ class Places:
         with self._lock:
             return self._is_free(client)
 
-    def _is_free(self, client: str) -> bool:
-        return self._taken.total() < self._most and self._taken[client] < self._most_of_one
+    def _is_free(self, client: str, is_one: bool = True) -> bool:
+        most = self._most_of_one if is_one else self._most
+        return self._taken.total() < self._most and self._taken[client] < most
 
 
 class Allowance:

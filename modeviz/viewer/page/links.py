@@ -10,17 +10,17 @@ EVERYWHERE = {
 """Addresses that mean all of this machine's, and of each kind one that nobody has."""
 
 
-def local_link(host: str, port: int, token: str | None) -> str:
+def local_link(host: str, port: int, token: str | None, prefix: str = "") -> str:
     """The address of the page for a browser of this machine; ready for `&name=value`."""
     family, _ = EVERYWHERE.get(host, (None, ""))
     here = {socket.AF_INET: "127.0.0.1", socket.AF_INET6: "::1", None: host}[family]
-    return f"{_site(here, port)}/?token={token or ''}"
+    return f"{_site(here, port)}{prefix}/?token={token or ''}"
 
 
-def link(host: str, port: int, token: str | None) -> str:
+def link(host: str, port: int, token: str | None, prefix: str = "") -> str:
     """Return the address for everybody who can reach a server that listens on `host`."""
     query = f"?token={token}" if token else ""
-    return f"{_site(_reachable(host), port)}/{query}"
+    return f"{_site(_reachable(host), port)}{prefix}/{query}"
 
 
 def _site(host: str, port: int) -> str:

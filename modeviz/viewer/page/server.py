@@ -6,9 +6,8 @@ tests/viewer/page/test_server.py fails when viser changes.
 
 import asyncio
 import io
-import re
 import threading
-from collections.abc import Callable, Coroutine, Hashable, Iterator, Sequence
+from collections.abc import Callable, Coroutine, Hashable, Iterator
 from contextlib import contextmanager, redirect_stdout
 from functools import partial
 from typing import Any
@@ -33,6 +32,7 @@ from modeviz.viewer.page.message_filter import gate_messages
 from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.page.one_page import OnePage
 from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 from modeviz.viewer.page.tokens import checked_token
 from modeviz.viewer.page.turns import Turns
 
@@ -127,7 +127,7 @@ def open_server(
     port: int = 8080,
     token: str | Secret | None = None,
     title: str = "modeviz",
-    public_names: Sequence[str] = (),
+    around: Surroundings = NOTHING_AROUND,
     is_framed: bool = False,
 ) -> Server:
     """A server of one session that only who has the token, or else who is on this machine, can reach.
@@ -137,13 +137,13 @@ def open_server(
         port: to listen on; 0 takes a free one.
         token: what a link must carry, `?token=…`; needed beyond this machine.
         title: of the page.
-        public_names: under which a proxy makes the page known.
+        around: it, see there.
         is_framed: whether notebooks may show it in a frame, and under any name of their server.
 
     Raises:
         ModevizError: as `open_front`.
     """
-    front = open_front(host, port, token, title, public_names, is_framed)
+    front = open_front(host, port, token, title, around, is_framed)
     try:
         return LoneServer(front)
     except BaseException:
@@ -156,27 +156,21 @@ def open_front(
     port: int = 8080,
     token: str | Secret | None = None,
     title: str = "modeviz",
-    public_names: Sequence[str] = (),
+    around: Surroundings = NOTHING_AROUND,
     is_framed: bool = False,
 ) -> Front:
     """Return a front that has its address and lets nobody in yet; arguments as of `open_server`.
 
     Raises:
-        ModevizError: the port is none or in use, the address is not this machine's, a name is none, or
-            the token is missing or no good one.
+        ModevizError: the port is none or in use, the address is not this machine's, or the
+            token is missing or no good one.
     """
     if host not in LOOPBACK and token is None:
         raise ModevizError(f"other machines reach {host}: a token is needed, so leave out --no-token")
     secret = Secret(checked_token(token, "token")) if isinstance(token, str) else token
-    for name in public_names:
-        if not re.fullmatch(r"[\w.-]+", name, re.ASCII):
-            raise ModevizError(
-                f"--public-name: found {name!r}, expected a name such as tool.example.com"
-            )
     if not 0 <= port <= 65535:
         raise ModevizError(f"port: found {port}, expected 0 to 65535")
-    names = tuple(map(str.lower, public_names))
-    return Front(Door(host, secret, title, names, is_framed), port, Notices())
+    return Front(Door(host, secret, title, around, is_framed), port, Notices())
 
 
 @contextmanager

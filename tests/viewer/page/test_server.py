@@ -20,6 +20,7 @@ from modeviz.viewer.page.handshake import WHY
 from modeviz.viewer.page.kept_tokens import LIFE_S, KeptToken
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.page.surroundings import surroundings
 
 
 @pytest.fixture(scope="module")
@@ -202,7 +203,7 @@ def test_shared_server_knows_its_addresses_but_no_foreign_name(locked):
 @pytest.fixture(scope="module")
 def public():
     """A server that a proxy makes known under a name."""
-    server = open_server(port=0, public_names=("Tool.example.com",))
+    server = open_server(port=0, around=surroundings(("Tool.example.com",)))
     yield server
     server.stop()
 
