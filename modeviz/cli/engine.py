@@ -27,7 +27,10 @@ def print_engine(options: EngineOptions) -> None:
     need(vehicle, "response point", (*vehicle.response_points, *vehicle.mounts))
     engine = vehicle.engines[0] if options.engine is None else vehicle.engine(options.engine)
     results = solve_engine(prepare_telling(vehicle), rates, engine)
-    print_result((engine_record if options.json else engine_table)(vehicle.with_rates(rates), results))
+    print_result(
+        (engine_record if options.json else engine_table)(vehicle.with_rates(rates), results),
+        options.placements,
+    )
 
 
 def _add_options(command: ArgumentParser) -> None:

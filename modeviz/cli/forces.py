@@ -28,7 +28,9 @@ def print_forces(options: ForcesOptions) -> None:
     """Prints the forces of mounts, transmissibilities and dissipated energy under a load."""
     check_printable()
     found = options.forces(*options.read())
-    print_result((forces_record if options.json else forces_table)(found, options.all))
+    print_result(
+        (forces_record if options.json else forces_table)(found, options.all), options.placements
+    )
 
 
 def _add_options(command: ArgumentParser) -> None:

@@ -35,7 +35,9 @@ def print_modes(options: ModesOptions) -> None:
     top_hz = max(options.below, vehicle.highest_frequency)
     original = prepare_modes(given, top_hz) if options.places else None
     followed = solve_followed(prepare_modes(vehicle, top_hz), rates, options.method, original)
-    print_result((modes_record if options.json else modes_table)(followed, options.below))
+    print_result(
+        (modes_record if options.json else modes_table)(followed, options.below), options.placements
+    )
 
 
 def _add_options(command: ArgumentParser) -> None:

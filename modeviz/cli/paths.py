@@ -37,7 +37,9 @@ def print_paths(options: PathsOptions) -> None:
     paths = point_paths(
         vehicle, options.point, options.direction, lambda: options.forces(vehicle, rates)
     )
-    print_result(paths_record(paths) if options.json else paths_table(paths, options.by))
+    print_result(
+        paths_record(paths) if options.json else paths_table(paths, options.by), options.placements
+    )
 
 
 def _add_options(command: ArgumentParser) -> None:

@@ -30,7 +30,7 @@ def print_psd(options: PsdOptions) -> None:
     vehicle, rates = options.read()
     conditions = options.conditions(vehicle)
     results = solve(prepare_telling(vehicle), rates, conditions)
-    print_result((psd_record if options.json else psd_table)(results))
+    print_result((psd_record if options.json else psd_table)(results), options.placements)
 
 
 def _add_options(command: ArgumentParser) -> None:

@@ -6,7 +6,9 @@ from collections.abc import Callable
 
 from modeviz.cli.streams import Printed, plain
 from modeviz.errors import ModevizError
+from modeviz.report.places import placements_record
 from modeviz.report.records import Record
+from modeviz.vehicle.placement import Placements
 
 
 def check_printable() -> None:
@@ -19,14 +21,20 @@ def check_printable() -> None:
         sys.stdout.check()
 
 
-def print_result(result: Record | str) -> None:
+def print_result(result: Record | str, placements: Placements | None = None) -> None:
     """Prints a table, or the record that `--json` asks for; with the errors if nowhere else.
 
     Of a record names stay to the letter, whatever letters the terminal has.
 
+    Args:
+        result: the one or the other.
+        placements: where mounts are, which a record has too where they were moved; None: as given.
+
     Raises:
         ModevizError: standard output cannot be written.
     """
+    if isinstance(result, dict) and placements:
+        result = {**result, "placements": placements_record(placements)}
     text = result if isinstance(result, str) else _json(result)
     try:
         print(text, flush=True)

@@ -37,7 +37,10 @@ def print_rigid(options: RigidOptions) -> None:
     top_hz = max(options.up_to or 0.0, vehicle.highest_frequency)
     results = solve_modal(prepare_modes(vehicle, top_hz), rates)
     bodies = rigid_figures(results, options.axes, chosen)
-    print_result((rigid_record if options.json else rigid_table)(results, bodies, options.axes))
+    print_result(
+        (rigid_record if options.json else rigid_table)(results, bodies, options.axes),
+        options.placements,
+    )
 
 
 def _add_options(command: ArgumentParser) -> None:

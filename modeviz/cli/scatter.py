@@ -74,7 +74,7 @@ def scatter_mounts(options: ScatterCommandOptions) -> None:
         n_driven = len(told.scatter.goal)
         if n_driven < options.samples:
             remark(f"ended after {n_driven} of {options.samples} vehicles")
-        print_result(scatter_record(told) if options.json else scatter_table(told))
+        print_result(scatter_record(told) if options.json else scatter_table(told), options.placements)
 
 
 def _add_options(command: ArgumentParser) -> None:

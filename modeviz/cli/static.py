@@ -28,7 +28,7 @@ def print_static(options: StaticOptions) -> None:
     with of_file(vehicle.file):
         statics = solve_statics(prepare_statics(assemble(vehicle)), rates)
     chosen = statics.chosen(options.cases)
-    print_result((statics_record if options.json else statics_table)(chosen))
+    print_result((statics_record if options.json else statics_table)(chosen), options.placements)
 
 
 def _add_options(command: ArgumentParser) -> None:

@@ -25,7 +25,7 @@ def print_wheels(options: WheelsOptions) -> None:
     need(vehicle, "wheel load", vehicle.harmonic_loads)
     results = solve_wheels(prepare_telling(vehicle), rates)
     tuned = vehicle.with_rates(rates)
-    print_result((wheels_record if options.json else wheels_table)(tuned, results))
+    print_result((wheels_record if options.json else wheels_table)(tuned, results), options.placements)
 
 
 def _add_options(command: ArgumentParser) -> None:

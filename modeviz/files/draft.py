@@ -13,7 +13,7 @@ import numpy as np
 
 from modeviz.errors import Fault
 from modeviz.files.own_tables import BODIES, MOUNTS
-from modeviz.files.records.vehicle import CONNECTION_KINDS, VehicleRecord
+from modeviz.files.records.vehicle import CONNECTION_KINDS, TUNED_KINDS, VehicleRecord
 from modeviz.files.schema.hints import is_record, joined
 from modeviz.files.schema.mismatches import faults_of
 from modeviz.files.schema.scaling import WRITTEN_UNITS
@@ -61,16 +61,24 @@ Step = tuple[Any, Any, Any]
 class Draft:
     """The tables of a vehicle file, which get fewer."""
 
-    def __init__(self, tables: dict[str, Any], table_bodies: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        tables: dict[str, Any],
+        table_bodies: Sequence[str] = (),
+        table_mounts: Sequence[str] = (),
+    ) -> None:
         self.tables: dict[str, Any] = tables
         """What is left; those given are changed."""
         self._table_bodies: Sequence[str] = table_bodies
         """The bodies in the file that the key `BODIES` names."""
+        self._table_mounts: Sequence[str] = table_mounts
+        """The mounts and their groups in the one that `MOUNTS` names."""
         self._taken: set[tuple[int, str]] = set()
         self._paths: dict[int, str] = {id(table): path for path, table in each_table(tables)}
         self._lost: set[str] = set()
         self._lost_bodies: set[str] = set()
         self._had_engines: bool = bool(tables.get("engine"))
+        self._was_grounded: bool = MOUNTS in tables or self._is_grounded()
 
     @property
     def stand_ins(self) -> tuple[RigidBody, ...]:
@@ -149,6 +157,9 @@ class Draft:
         lost = self._lost - self._names()
         if MOUNTS in self.tables and BODIES not in self.tables and lost & {*self._table_bodies}:
             yield MOUNTS
+        if self._was_grounded and not (MOUNTS in self.tables or self._is_grounded()):
+            motions = each_table(self.tables.get("base_motion", []), "base_motion")
+            yield from (path for path, _ in motions)
         if self._had_engines and not self.tables.get("engine"):
             problems = each_table(self.tables.get("problem", []), "problem")
             yield from (path for path, table in problems if table.get("goal") == "idle")
@@ -157,6 +168,28 @@ class Draft:
                 yield re.sub(r"^(problem\[\d+\]).*", r"\1", path)
             if path.startswith("rates."):
                 yield from (joined(path, key) for key in table if key in lost)
+
+    def drop_empty_groups(self) -> bool:
+        """Take out groups whose springs or dampers were taken out; return whether there were any."""
+        taken = [self._take_out(self._steps(path)) for path in self._empty_groups()]
+        return any(taken)
+
+    def _empty_groups(self) -> list[str]:
+        in_table = {*self._table_mounts} if MOUNTS in self.tables else set[str]()
+        return [
+            path
+            for kind in TUNED_KINDS
+            for path, table in each_table(self.tables.get(f"{kind}_group", []), f"{kind}_group")
+            if table.get("name") in self._lost - in_table - self._groups_of(kind)
+        ]
+
+    def _groups_of(self, kind: str) -> set[str]:
+        """The groups of what is left of springs or dampers."""
+        return {str(table.get("group", f"{kind}s")) for table in self.tables.get(kind, [])}
+
+    def _is_grounded(self) -> bool:
+        """Whether something that is left holds on to the ground."""
+        return any(GROUND in table.get("bodies", ()) for _, table in each_table(self.tables))
 
     def _names(self) -> set[str]:
         """The names of all that is left."""
@@ -219,6 +252,8 @@ class Draft:
                         container.setdefault(SUPPLIES[each], STAND_INS[SUPPLIES[each]])
                 if container is self.tables and key == BODIES:
                     self._lost_bodies |= {*self._table_bodies}
+                if container is self.tables and key == MOUNTS:
+                    self._lost |= {*self._table_mounts}
                 return item or joined(self._paths[id(container)], key)
             else:
                 item = ""
@@ -236,7 +271,10 @@ class Draft:
 
     def _lose(self, value: Any) -> None:
         for _, table in each_table(value):
-            is_body = self._paths[id(table)].startswith(TABLES["body"])
+            path = self._paths[id(table)]
+            is_body = path.startswith(TABLES["body"])
+            if (kind := path.partition("[")[0]) in TUNED_KINDS:
+                self._lost.add(str(table.get("group", f"{kind}s")))
             if "name" in table:
                 (self._lost_bodies if is_body else self._lost).add(str(table["name"]))
 

@@ -10,7 +10,7 @@ from modeviz.files.body_tables.table import TableBody, names_in, read_body_table
 from modeviz.files.mount_tables.bushing import Bushing
 from modeviz.files.mount_tables.reading import Reading, named_directions
 from modeviz.files.mount_tables.records import Joined, connection_tables
-from modeviz.files.mount_tables.table import read_mount_table
+from modeviz.files.mount_tables.table import mount_names_in, read_mount_table
 from modeviz.files.records.record import Record
 from modeviz.files.records.vehicle import VehicleRecord
 from modeviz.files.source import Source
@@ -89,6 +89,14 @@ def names_in_body_table(name: object, source: Source) -> tuple[str, ...]:
     """
     try:
         return names_in(source.path(name)) if isinstance(name, str) else ()
+    except ModevizError:
+        return ()
+
+
+def names_in_mount_table(name: object, source: Source) -> tuple[str, ...]:
+    """Return the names of mounts and groups in a file of the folder; as `names_in_body_table`."""
+    try:
+        return mount_names_in(source.path(name)) if isinstance(name, str) else ()
     except ModevizError:
         return ()
 

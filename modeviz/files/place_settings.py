@@ -21,14 +21,20 @@ def parse_placements(texts: Iterable[str]) -> Placements:
         texts: "GROUP=X,Y,Z UNIT", along or about the vehicle's axes.
 
     Raises:
-        VehicleError: one is not of that form, or has a unit of neither lengths nor angles.
+        VehicleError: one is not of that form, or has a unit of neither lengths nor angles; or two say
+            the same of a group.
     """
     placements: dict[str, Placement] = {}
+    said: set[tuple[str, str]] = set()
     for text in texts:
         group, _, value = text.partition("=")
         group = group.strip()
         with located(f"place {quoted(text)}"):
             field, values = _parse(value)
+            if (group, field) in said:
+                way = "moved" if field == "offset" else "turned"
+                raise VehicleError(f"{quoted(group)} is {way} twice, expected once")
+            said.add((group, field))
             placements[group] = replace(placements.get(group, Placement()), **{field: values})
     return placements
 

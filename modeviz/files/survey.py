@@ -15,7 +15,7 @@ from modeviz.files.broken_lines import without_broken_lines
 from modeviz.files.draft import Draft
 from modeviz.files.folder import VEHICLE_FILE, read_vehicle_text, vehicle_of
 from modeviz.files.key_lines import key_lines, line_of
-from modeviz.files.own_tables import BODIES, names_in_body_table
+from modeviz.files.own_tables import BODIES, MOUNTS, names_in_body_table, names_in_mount_table
 from modeviz.files.source import Source
 from modeviz.files.toml_reader import tables_of
 from modeviz.files.workload import check_workload
@@ -77,7 +77,8 @@ def survey(folder: Path | str) -> Survey:
     if text is None:
         return Survey(None, tuple(problems))
     tables, source, lines = tables_of(text), Source(folder), list(key_lines(text))
-    draft = Draft(tables, names_in_body_table(tables.get(BODIES), source))
+    bodies, mounts = tables.get(BODIES), tables.get(MOUNTS)
+    draft = Draft(tables, names_in_body_table(bodies, source), names_in_mount_table(mounts, source))
     problems += [
         Problem(VEHICLE_FILE, f.path, _inside(folder, f.words), line_of(f.path, lines), left_out)
         for f, left_out in islice(_mended(draft, source), MOST_PROBLEMS)
@@ -128,7 +129,7 @@ def _taken_out(draft: Draft, error: ModevizError) -> Sequence[tuple[Fault, str]]
     None where the error is about something that only missed what was taken out before.
     """
     if isinstance(error, FaultsError):
-        return draft.without(error.faults)
+        return () if draft.drop_empty_groups() else draft.without(error.faults)
     if draft.drop_orphans():
         return ()
     if isinstance(error, PartError):

@@ -32,3 +32,16 @@ def test_lengths_move_and_angles_turn():
 def test_what_is_no_place_is_refused(text, words):
     with pytest.raises(VehicleError, match=words):
         parse_placements([text])
+
+
+@pytest.mark.parametrize(
+    ("second", "words"),
+    [("C1=5,0,0 cm", "place 'C1=5,0,0 cm': 'C1' is moved twice"), ("C1 = 0,0,1 deg", None)],
+)
+def test_a_group_is_moved_once_and_turned_once(second, words):
+    texts = ["C1=20,0,-10 mm", second]
+    if words is None:
+        assert parse_placements(texts)["C1"].offset[0] == pytest.approx(0.02)
+        return
+    with pytest.raises(VehicleError, match=words):
+        parse_placements(texts)

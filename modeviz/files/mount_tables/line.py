@@ -1,6 +1,6 @@
 """A line of a mount table as a bushing."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,17 +49,18 @@ class MountLine(TableLine):
                 return rate_unit(self.text("units"))
         return super().factor(column)
 
-    def bushing(self, path: Path, before: Mapping[str, Bushing]) -> Bushing:
+    def bushing(self, path: Path, before: Mapping[str, Bushing], refused: Collection[str]) -> Bushing:
         """The mount of this line.
 
         Args:
             path: of the table.
             before: the mounts of the lines above it, by name.
+            refused: groups of lines above it that are wrong, of which it may have what it does not say.
         """
         name = self.required("name", "the mount's name")
         group = self.text("group") if "group" in self.columns else name
         twin = next((b for b in before.values() if group and b.group == group), None)
-        stiffness, damping = self._rates(path, twin)
+        stiffness, damping = self._rates(path, twin, refused)
         loss_factor = self.number("loss_factor", 0)
         if loss_factor is None:
             loss_factor = twin.loss_factor if twin else 0.0
@@ -151,7 +152,7 @@ class MountLine(TableLine):
             )
         return 0.5 if value is None else value
 
-    def _rates(self, path: Path, twin: Bushing | None) -> SixRates:
+    def _rates(self, path: Path, twin: Bushing | None, refused: Collection[str]) -> SixRates:
         """Stiffness and damping of a line, or else of the first of its group."""
         stiffness, damping = self._directed("k", RATES, 0.0), self.numbers(DAMPINGS, 0)
         is_said = stiffness is not None or damping is not None
@@ -164,7 +165,7 @@ class MountLine(TableLine):
                 return self.reading.read_property(inside(path.parent, file, "the folder of the table"))
         if twin and not is_said:
             return twin.stiffness, twin.damping
-        if not is_said:
+        if not is_said and self.text("group") not in refused:
             raise VehicleError(
                 f"{self.row.where(self.columns['name'].header)}: {quoted(self.text('name'))} has no "
                 "rates; expected numbers in k_x, k_y, k_z or others"

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeviz.errors import VehicleError, listed, located, quoted, unknown
+from modeviz.errors import ModevizError, VehicleError, listed, located, quoted, unknown
 from modeviz.files.columns import takes_given
 from modeviz.files.headed_table import HeadedTable, header_at
 from modeviz.files.mount_tables.bushing import Bushing
@@ -42,9 +42,14 @@ def read_mount_table(path: Path, reading: Reading) -> tuple[Bushing, ...]:
         raise VehicleError(f"{path.name}: found a header and no mounts")
     lines = [MountLine(row, table.by_name, reading.units, reading) for row in rows]
     bushings: dict[str, Bushing] = {}
+    refused: set[str] = set()
 
     def read(line: MountLine) -> None:
-        bushing = line.bushing(path, bushings)
+        try:
+            bushing = line.bushing(path, bushings, refused)
+        except ModevizError:
+            refused.update(filter(None, [line.text("group")]))
+            raise
         if bushing.name in bushings:
             raise VehicleError(
                 f"{line.where('name')}: {quoted(bushing.name)} is there twice, in "
@@ -54,6 +59,18 @@ def read_mount_table(path: Path, reading: Reading) -> tuple[Bushing, ...]:
 
     of_each_line(path.name, lines, read)
     return tuple(bushings.values())
+
+
+def mount_names_in(path: Path) -> tuple[str, ...]:
+    """Return the names of the mounts of a table and of their groups, some of which may be wrong.
+
+    Raises:
+        VehicleError: no such table.
+    """
+    sheet = read_sheet(path, SHEET)
+    table = HeadedTable.of(sheet, read_headers)
+    headers = [table.by_name[name].header for name in ("name", "group") if name in table.by_name]
+    return tuple(row.cells[header] for row in table.rows(sheet) for header in headers)
 
 
 def is_mount_table(path: Path) -> bool:

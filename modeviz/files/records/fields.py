@@ -8,6 +8,7 @@ from msgspec import Meta
 from modeviz.files.schema.axes import (
     Turns,
     turn_direction,
+    turn_ends,
     turn_frame,
     turn_inertia,
     turn_motions,
@@ -86,7 +87,9 @@ Frame = Annotated[tuple[Vector, ...], Meta(min_length=2, max_length=3), UNITLESS
 """Local axes as rows: all three, or x and y."""
 Angles = Annotated[Vector, Quantity("angle"), Turns(turn_vectors)]
 """About x, y and z."""
-AngleEnds = Annotated[tuple[Vector, Vector], Quantity("angle"), Turns(turn_vectors)]
+AngleEnds = Annotated[tuple[Vector, Vector], Quantity("angle"), Turns(turn_ends)]
+OffsetEnds = Annotated[tuple[Vector, Vector], Quantity("length"), Turns(turn_ends)]
+"""The least and the most about, or along, x, y and z."""
 AngleOrder = Annotated[str, Turns(turn_order)]
 Motions = Annotated[bool | tuple[str, ...], Turns(turn_motions)]
 """Some of `MOTIONS`, or whether all."""

@@ -14,6 +14,6 @@ def ends_of(bounds: PlaceBounds) -> tuple[Vector, Vector] | None:
 
 
 def bounds_of(ends: tuple[Vector, Vector] | None) -> PlaceBounds:
-    """Return the bounds of the axes that have any; in axes that were turned the most may come first."""
+    """Return the bounds of the axes that have any."""
     pairs = zip(AXES, *(ends or ((), ())), strict=False)
-    return {axis: (min(pair), max(pair)) for axis, *pair in pairs if any(pair)}
+    return {axis: (least, most) for axis, least, most in pairs if least or most}

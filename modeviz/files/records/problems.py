@@ -9,10 +9,10 @@ from msgspec import Meta, field
 from modeviz.errors import VehicleError
 from modeviz.files.records.fields import (
     AngleEnds,
-    Ends,
     Frequency,
     LowestFrequency,
     Name,
+    OffsetEnds,
     Ratio,
     RatioLimits,
 )
@@ -52,7 +52,7 @@ class DesignGroupRecord(Record, kw_only=True):
     stiffest: SomeRatesRecord | None = None
     ratio_limits: RatioLimits | Literal["none"] | None = None
     fixed_ratios: bool = False
-    offset: Ends | None = None
+    offset: OffsetEnds | None = None
     """The least and the most along x, y, z; an axis with twice zero is none to be moved along."""
     angles: AngleEnds | None = None
     """Likewise about x, y, z."""

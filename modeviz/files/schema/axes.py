@@ -105,6 +105,14 @@ def turn_range(axis: int, value: Any, T: Floats) -> Any:
     return [0.0 - bound for bound in reversed(value)] if T[axis].sum() < 0 else value
 
 
+def turn_ends(value: Any, T: Floats) -> Any:
+    """The least along or about x, y and z, and the most, in others; a pair keeps its order."""
+    least, most = np.array(value, float)
+    is_reversed = T.sum(axis=0) < 0
+    ends = np.where(is_reversed, -most, least), np.where(is_reversed, -least, most)
+    return [(np.abs(T) @ end + 0.0).tolist() for end in ends]
+
+
 def turn_frame(value: Any, T: Floats) -> Any:
     """Local axes as rows; the one along the file's x becomes the one along our axis there."""
     return (T @ whole_frame(value) @ T.T + 0.0).tolist()
