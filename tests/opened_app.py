@@ -10,8 +10,8 @@ SOON = 60
 """s: within which a small vehicle is solved on a busy machine."""
 
 
-def opened_app(vehicle, conditions):
-    server = open_server(port=0, token="open-sesame-open")
+def opened_app(vehicle, conditions, token="open-sesame-open"):
+    server = open_server(port=0, token=token)
     app = App(vehicle, vehicle.rates, conditions, server)
     app.start()
     assert app.session.wait(SOON)

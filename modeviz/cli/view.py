@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from modeviz.cli.command import Command
-from modeviz.cli.interrupt import ended_by_interrupt
+from modeviz.cli.interrupt import ended_by_interrupt, stopped_by_signal
+from modeviz.cli.logs import LogOptions, add_log, logged
 from modeviz.cli.options import RoadOptions, VehicleOptions, add_rates, add_road
 from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError
@@ -17,7 +18,7 @@ DEFAULT_PORT = 8080
 
 
 @dataclass(frozen=True, kw_only=True)
-class ViewOptions(VehicleOptions, RoadOptions):
+class ViewOptions(VehicleOptions, RoadOptions, LogOptions):
     """What `modeviz view` is asked for."""
 
     what: tuple[Path, ...] = ()
@@ -72,7 +73,12 @@ def view(options: ViewOptions) -> None:
     with ended_by_interrupt():
         from modeviz.viewer.app import serve  # viser alone takes a second to import
         from modeviz.viewer.inspection.app import inspect
-        from modeviz.viewer.inspection.sources import ResultFiles, VehicleFolder, finished_vehicle
+        from modeviz.viewer.inspection.sources import (
+            ResultFiles,
+            Source,
+            VehicleFolder,
+            finished_vehicle,
+        )
         from modeviz.viewer.page.secret import chosen_secret
         from modeviz.viewer.page.surroundings import surroundings
         from modeviz.viewer.session.encoding.link import view_in
@@ -81,23 +87,28 @@ def view(options: ViewOptions) -> None:
     token = chosen_secret(options.token, options.token_file, options.has_token, what, remark)
     around = surroundings(options.public_names, options.frames, options.proxies, options.path_prefix)
     door = (options.host, options.port, token, options.dark)
+
+    def look_at(source: Source) -> None:
+        with logged(options), stopped_by_signal() as stop:
+            inspect(source, *door, around, remark, stop)
+
     check_no_mounts(options.what)
     if are_results(options.what):
         options.check_no_vehicle()
-        inspect(ResultFiles(options.what), *door, around, remark)
+        look_at(ResultFiles(options.what))
         return
     check_are_read(options.what)
     options = options.of_folder()
     folder = options.vehicle or builtin_vehicle()
     vehicle = None if options.bodies else finished_vehicle(folder)
     if vehicle is None:
-        source = VehicleFolder(folder, is_ours=options.vehicle is None)
-        inspect(source, *door, around, remark)
+        look_at(VehicleFolder(folder, is_ours=options.vehicle is None))
         return
     vehicle, start = options.with_rates(vehicle)
     vehicle, chosen = options.shown(vehicle)
     link = None if options.state is None else view_in(options.state)
-    serve(vehicle, start, chosen, *door, progress("preparing"), around, link)
+    with logged(options), stopped_by_signal() as stop:
+        serve(vehicle, start, chosen, *door, progress("preparing"), around, link, stop)
 
 
 def _add_options(command: ArgumentParser) -> None:
@@ -160,6 +171,7 @@ def _add_options(command: ArgumentParser) -> None:
         metavar="LINK",
         help="what is shown first: a link that was copied on the page, or what it has behind view=",
     )
+    add_log(command)
     command.add_argument("--dark", action="store_true", help="dark page")
     command.add_argument(
         "--bodies",

@@ -17,7 +17,7 @@ FIELDS = ("event", "id", "session", "client")
 """Of a record, beside its time, level and text."""
 
 SECRET = re.compile(
-    r"\b(token|session|review|cookie|view)(['\"]?\s*[=:]\s*['\"]?)[^\s&;'\"]+", re.IGNORECASE
+    r"(\w*(?:token|session|review|cookie)\d*)(['\"]?\s*[=:]\s*['\"]?)[^\s&;'\"]+", re.IGNORECASE
 )
 
 

@@ -1,14 +1,14 @@
 """The page as a whole: opens the server, lays out the panels and draws every answer."""
 
-import threading
 from collections.abc import Callable, Sequence
 from datetime import date
-from functools import cache
+from functools import cache, partial
 
 import viser
 
 from modeviz.analysis.results import Conditions
 from modeviz.analysis.rubber import dynamic_groups
+from modeviz.compute.stop import Stop
 from modeviz.compute.threads import one_thread
 from modeviz.errors import ModevizError
 from modeviz.journal.fingerprint import fingerprint_of
@@ -411,6 +411,7 @@ def serve(
     progress: Callable[[float], None] | None = None,
     around: Surroundings = NOTHING_AROUND,
     link: str | None = None,
+    stop: Stop | None = None,
 ) -> None:
     """Shows a vehicle until interrupted.
 
@@ -425,6 +426,7 @@ def serve(
         progress: told the fraction of the preparation that is done.
         around: the server.
         link: what is shown first in place of rates and conditions, see `opening_of_link`.
+        stop: ends it; if not given, only an exception in the main thread does.
 
     Raises:
         ModevizError: the port is in use, the address needs a token, the road does not go with the
@@ -444,7 +446,6 @@ def serve(
             raise
         print(f"{vehicle.name} is at {server.link}  (Ctrl+C ends)", flush=True)
         try:
-            app.start(progress)
-            threading.Event().wait()
+            (stop or Stop()).wait(partial(app.start, progress))
         finally:
             app.close()

@@ -18,8 +18,7 @@ BAD, GOOD = 3.3e5, 2e5
 
 @pytest.fixture(scope="module")
 def app():
-    app = opened_app(mounted_cabin(), Conditions("flat", 20.0))
-    app.server._front.door.token = None  # pages come without it
+    app = opened_app(mounted_cabin(), Conditions("flat", 20.0), token=None)
     yield app
     app.close()
 

@@ -1,6 +1,5 @@
 """The page of bodies as a whole."""
 
-import threading
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -8,6 +7,7 @@ from pathlib import Path
 
 import viser
 
+from modeviz.compute.stop import Stop
 from modeviz.errors import ModevizError
 from modeviz.formats.component import UNIT_SYSTEMS, Component
 from modeviz.formats.solving import Wanted, solved
@@ -185,6 +185,7 @@ def inspect(
     dark: bool,
     around: Surroundings,
     tell: Callable[[str], None],
+    stop: Stop | None = None,
 ) -> None:
     """Shows bodies until interrupted.
 
@@ -196,6 +197,7 @@ def inspect(
         dark: whether the page is dark.
         around: the server.
         tell: told what cannot be computed yet, a sentence at a time.
+        stop: ends it; if not given, only an exception in the main thread does.
 
     Raises:
         ModevizError: they cannot be read, the port is in use, or the address needs a token.
@@ -208,4 +210,4 @@ def inspect(
         for sentence in app.content.missing:
             tell(sentence)
         print(f"{app.content.name} is at {server.link}  (Ctrl+C ends)", flush=True)
-        threading.Event().wait()
+        (stop or Stop()).wait()

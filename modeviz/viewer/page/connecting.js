@@ -17,8 +17,11 @@
     "back, or the server is busy";
   const GONE = "the server does not answer: start modeviz again, and open the link it prints";
 
+  const UNSAID = ["Connection closed", "WebSocket construction failed"]; // viser's, where there is no reason
+
   let waiting = 0;
   let isOpen = false;
+  let ended = ""; // why the server closed the connection, if it said so
   let notice = null;
 
   const address = () => location.href.split(/[?#]/)[0];
@@ -32,22 +35,26 @@
       "position:fixed;top:12px;left:50%;transform:translateX(-50%);z-index:10000;padding:8px 14px;" +
       "max-width:min(640px,90vw);background:#c2452d;color:#fff;font:13px sans-serif;border-radius:4px";
     document.body?.append(notice);
+    document.documentElement.dataset.modevizConnected = "no";
   }
 
   function heard() {
     clearTimeout(waiting);
     waiting = 0;
+    ended = "";
     notice?.remove();
+    delete document.documentElement.dataset.modevizConnected;
   }
 
-  function closed() {
+  function closed(reason) {
     isOpen = false;
+    if (reason && !UNSAID.includes(reason)) show((ended = reason));
     if (!waiting) waiting = setTimeout(explain, PATIENCE);
   }
 
   async function explain() {
     const asked = waiting;
-    let text = GONE;
+    let text = ended || GONE;
     try {
       const query = new URLSearchParams({ origin: location.origin, subprotocol });
       const address = new URL(why, location.href.split(/[?#]/)[0]);
@@ -65,7 +72,7 @@
       this.addEventListener("message", ({ data }) => {
         if (data?.type === "connected") isOpen = true;
         if (data?.type === "message_batch" && waiting) heard();
-        if (data?.type === "closed") closed();
+        if (data?.type === "closed") closed(data.closeReason);
       });
     }
 

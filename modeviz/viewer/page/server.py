@@ -8,6 +8,7 @@ import asyncio
 import io
 import threading
 from collections.abc import Callable, Coroutine, Hashable, Iterator
+from concurrent.futures import wait
 from contextlib import contextmanager, redirect_stdout
 from functools import partial
 from typing import Any
@@ -18,6 +19,7 @@ from viser import _messages
 from viser.infra import ClientId
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
+from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
 
 from modeviz.errors import ModevizError
@@ -35,6 +37,12 @@ from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 from modeviz.viewer.page.tokens import checked_token
 from modeviz.viewer.page.turns import Turns
+
+STOPPED = "modeviz was stopped: what you did is kept, and this page goes on once it runs again"
+"""Pages show it; at most 123 bytes go with the end of a connection."""
+
+DISMISSED_WITHIN = 1.0
+"""s that pages have to answer that they close."""
 
 _one_server_at_a_time = threading.Lock()
 
@@ -67,6 +75,8 @@ class Server(viser.ViserServer):
         for caller in (self, self.gui, self.scene):
             caller._thread_executor = turns
         gate_messages(self, self._tell_client)
+        self.on_client_connect(lambda client: self._note_page(client, "opened"))
+        self.on_client_disconnect(lambda client: self._note_page(client, "closed"))
 
     @property
     def link(self) -> str:
@@ -99,8 +109,25 @@ class Server(viser.ViserServer):
         return None
 
     def stop(self) -> None:
+        """Tells all pages that it stops, and stops."""
+        self._dismiss(STOPPED)
         with redirect_stdout(io.StringIO()):
             super().stop()
+
+    def _note_page(self, client: viser.ClientHandle, what: str) -> None:
+        self.notices.tell(f"a page was {what}", f"page {what}", client=f"page {client.client_id}")
+
+    def _dismiss(self, why: str) -> None:
+        """Closes all connections with a reason, which pages show; waits for nobody who is silent."""
+        server = self._websock_server
+        loop = server._background_event_loop
+        if loop is None or not loop.is_running():
+            return
+        closing = [
+            asyncio.run_coroutine_threadsafe(each.close(CloseCode.GOING_AWAY, why), loop)
+            for each in tuple(server._live_connections.values())
+        ]
+        wait(closing, DISMISSED_WITHIN)
 
 
 class LoneServer(Server):

@@ -59,7 +59,9 @@ class StatusPanel:
         self._draw(_solved(solved), f'<div class="dim">{text}</div>')
 
     def _draw(self, *content: str) -> None:
-        assign(self._content, content=block(*content, self._remarks, self._notes))
+        """Shows content as long as a page is connected: else it is not known whether it still holds."""
+        status = f'<div class="status">{"".join(content)}</div>'
+        assign(self._content, content=block(status, self._remarks, self._notes))
 
 
 def _listed(notes: Iterable[str]) -> str:
