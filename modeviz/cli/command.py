@@ -35,6 +35,16 @@ class Command(Generic[Options]):
             return self.options(**{n: _frozen(v) for n, v in vars(given).items() if n in named})
 
 
+@dataclass(frozen=True)
+class CommandGroup:
+    """Commands that stand behind a word of their own: `modeviz study log`."""
+
+    name: str
+    help: str
+    """What they are about, as the list of commands says it."""
+    commands: tuple[Command[Any], ...]
+
+
 @contextmanager
 def of_options() -> Iterator[None]:
     """Names what is wrong inside the block as an option is written: "--seed" for "seed".

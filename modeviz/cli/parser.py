@@ -2,15 +2,16 @@
 
 import argparse
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from functools import partial
 from importlib.metadata import version
 from itertools import takewhile
 from pathlib import Path
+from typing import Any
 
 from modeviz.cli.check import CHECK
-from modeviz.cli.command import Command
+from modeviz.cli.command import Command, CommandGroup
 from modeviz.cli.engine import ENGINE
 from modeviz.cli.export import EXPORT
 from modeviz.cli.forces import FORCES
@@ -25,6 +26,7 @@ from modeviz.cli.report import REPORT
 from modeviz.cli.rigid import RIGID
 from modeviz.cli.scatter import SCATTER
 from modeviz.cli.static import STATIC
+from modeviz.cli.studies.study import STUDY
 from modeviz.cli.token import TOKEN
 from modeviz.cli.view import VIEW
 from modeviz.cli.wheels import WHEELS
@@ -49,6 +51,7 @@ COMMANDS = (
     IMPORT,
     CHECK,
     EXPORT,
+    STUDY,
 )
 
 
@@ -66,8 +69,10 @@ def parse(arguments: Sequence[str]) -> Callable[[], None]:
         _check_no_command(arguments[:1], names)
         arguments = [VIEW.name, *arguments]
     parser, of_commands = _parsers()
-    if own := of_commands.get(arguments[0]):
-        _check_options(arguments[1:], own)
+    _check_in_group(arguments, of_commands)
+    for n_words in (1, 2):
+        if own := of_commands.get(tuple(arguments[:n_words])):
+            _check_options(arguments[n_words:], own)
     given = parser.parse_args(arguments)
     command: Command = given.command
     return partial(command.run, command.asked(given))
@@ -80,6 +85,14 @@ def _check_no_command(first: Sequence[str], names: Sequence[str]) -> None:
             raise ModevizError(unknown("command", word, names))
 
 
+def _check_in_group(arguments: Sequence[str], of_commands: Iterable[tuple[str, ...]]) -> None:
+    """Raises ModevizError for a command that a group does not have."""
+    inner = [words[1] for words in of_commands if words[:-1] == tuple(arguments[:1])]
+    for word in arguments[1:2] if inner else ():
+        if not word.startswith("-") and word not in inner:
+            raise ModevizError(unknown(f"command of {arguments[0]}", word, inner))
+
+
 def _check_options(arguments: Sequence[str], own: argparse.ArgumentParser) -> None:
     """Raises ModevizError for an option that a command does not have."""
     known = ["--help", *OPTION.findall(own.format_usage())]
@@ -89,8 +102,8 @@ def _check_options(arguments: Sequence[str], own: argparse.ArgumentParser) -> No
             raise ModevizError(f"{own.prog}: {unknown('option', name, known)}")
 
 
-def _parsers() -> tuple[argparse.ArgumentParser, Mapping[str, argparse.ArgumentParser]]:
-    """The program's parser, and those of its commands by name."""
+def _parsers() -> tuple[argparse.ArgumentParser, Mapping[tuple[str, ...], argparse.ArgumentParser]]:
+    """The program's parser, and those of its commands by the words that choose them."""
     parser = argparse.ArgumentParser(
         prog="modeviz",
         description="Modes, ride and mount tuning of a vehicle. Without a command: view.",
@@ -99,14 +112,29 @@ def _parsers() -> tuple[argparse.ArgumentParser, Mapping[str, argparse.ArgumentP
     vars(parser)["color"] = False  # by escape sequences, since Python 3.14
     parser.add_argument("--version", action="version", version=f"modeviz {version('modeviz')}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    found: dict[tuple[str, ...], argparse.ArgumentParser] = {}
     for command in COMMANDS:
-        own = commands.add_parser(
-            command.name,
-            help=command.help,
-            description=command.help.capitalize() + ".",
-            argument_default=argparse.SUPPRESS,  # what is not given is as the command's options say
-            allow_abbrev=False,
-        )
-        own.set_defaults(command=command)
-        command.add_options(own)
-    return parser, commands.choices
+        if isinstance(command, Command):
+            found[(command.name,)] = _add(commands, command)
+            continue
+        inner = _parser_of(commands, command).add_subparsers(required=True, metavar="COMMAND")
+        found |= {(command.name, each.name): _add(inner, each) for each in command.commands}
+    return parser, found
+
+
+def _add(commands: Any, command: Command[Any]) -> argparse.ArgumentParser:
+    """Adds the parser of a command, and returns it."""
+    own = _parser_of(commands, command)
+    own.set_defaults(command=command)
+    command.add_options(own)
+    return own
+
+
+def _parser_of(commands: Any, command: Command[Any] | CommandGroup) -> argparse.ArgumentParser:
+    return commands.add_parser(
+        command.name,
+        help=command.help,
+        description=command.help.capitalize() + ".",
+        argument_default=argparse.SUPPRESS,  # what is not given is as the command's options say
+        allow_abbrev=False,
+    )

@@ -42,4 +42,5 @@ def notes(connection: Connection, session: int | None) -> tuple[Note, ...]:
         "SELECT session, text, kind, name, author, time, token FROM note WHERE removed IS NULL"
         " ORDER BY id"
     )
-    return tuple(Note(*row) for of, *row in rows if session is None or of in (session, None))
+    wanted = ((of, row) for of, *row in rows if session is None or of in (session, None))
+    return tuple(Note(*row, is_for_all=of is None) for of, row in wanted)

@@ -58,19 +58,16 @@ def begin(
     now: float,
 ) -> None:
     """Writes that a session is used with a vehicle; it is a new one, or one that goes on."""
-    number = _put_vehicle(connection, vehicle)
+    of_vehicle = _put_vehicle(connection, vehicle)
+    if known_number(connection, session) >= 0:
+        update = "UPDATE session SET used = ?, vehicle = ? WHERE digest = ?"
+        connection.execute(update, (now, of_vehicle, session))
+        return
+    tuning = put_text(connection, pinned_text(Pinned({})))
     connection.execute(
-        "INSERT INTO session (digest, title, author, begun, used, vehicle, state, tuning)"
-        " VALUES (:id, :title, :author, :now, :now, :vehicle, NULL, :tuning)"
-        " ON CONFLICT (digest) DO UPDATE SET used = :now, vehicle = :vehicle",
-        {
-            "id": session,
-            "title": title,
-            "author": author,
-            "now": now,
-            "vehicle": number,
-            "tuning": put_text(connection, pinned_text(Pinned({}))),
-        },
+        "INSERT INTO session (digest, title, author, begun, used, vehicle, tuning)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?)",
+        (session, title, author, now, now, of_vehicle, tuning),
     )
 
 

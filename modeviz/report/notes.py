@@ -24,6 +24,8 @@ class Note:
     """When it was written, s since 1970."""
     token: str = ""
     """By which it is found again."""
+    is_for_all: bool = False
+    """Whether every session of the study has it."""
 
     def __post_init__(self) -> None:
         if not self.text.strip():

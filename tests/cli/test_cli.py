@@ -11,12 +11,14 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
+from modeviz.cli.command import Command
 from modeviz.cli.export import EXPORT
 from modeviz.cli.importing import IMPORT
 from modeviz.cli.new import NEW
 from modeviz.cli.parser import COMMANDS, parse
 from modeviz.cli.render import RENDER
 from modeviz.cli.scatter import ScatterCommandOptions
+from modeviz.cli.studies.study import STUDY
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.files import write_vehicle
@@ -270,14 +272,28 @@ NEEDED = {
     IMPORT.name: (["x.unv"], {"files": (Path("x.unv"),)}),
     EXPORT.name: (["x.csv"], {"files": (Path("x.csv"),)}),
     NEW.name: (["cab", "x"], {"kind": "cab", "folder": Path("x")}),
+    "study note": (["x", "soft"], {"study": Path("x"), "text": "soft"}),
+    "study export": (["x", "y.json"], {"study": Path("x"), "file": Path("y.json")}),
+    "study diff": (["x", "y"], {"first": Path("x"), "second": Path("y")}),
+    "study backup": (["x", "y"], {"study": Path("x"), "to": Path("y")}),
 }
 """What a command cannot do without, as it is typed and as an option."""
 
 
 def test_what_is_not_given_is_as_the_options_of_a_command_say():
-    for command in COMMANDS:
-        given, needed = NEEDED.get(command.name, ([], {}))
-        assert parse([command.name, *given]).args == (command.options(**needed),)
+    alone = [(each.name, each) for each in COMMANDS if isinstance(each, Command)]
+    behind = [(f"{STUDY.name} {each.name}", each) for each in STUDY.commands]
+    for words, command in (*alone, *behind):
+        given, needed = NEEDED.get(words, ([], {}))
+        assert parse([*words.split(), *given]).args == (command.options(**needed),)
+
+
+def test_a_command_that_a_group_does_not_have_is_said_with_the_one_that_is_meant(capsys):
+    assert main(["study", "lgo"]) == 2
+    expected = "unknown command of study 'lgo': did you mean 'log'? there are log, note, export"
+    assert expected in capsys.readouterr().err
+    assert main(["study", "log", "--sesion", "1"]) == 2
+    assert "modeviz study log: unknown option '--sesion'" in capsys.readouterr().err
 
 
 def test_options_are_read_by_the_names_and_types_of_their_fields():

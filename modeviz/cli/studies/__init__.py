@@ -1,0 +1,1 @@
+"""The commands on studies: `modeviz study log|export|diff|backup|note`."""

@@ -1,0 +1,179 @@
+"""A study is read, compared, copied and noted on from the command line."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from journal_studies import KEY, change, opened
+
+from modeviz.cli import main
+from modeviz.journal.places import own_folder, study_path
+from modeviz.journal.records import Records
+from modeviz.journal.runs import Run
+from modeviz.report.notes import Note
+
+OTHER = "a" * 64
+"""The id of another session."""
+
+
+@pytest.fixture
+def study(tmp_path):
+    """A study beside a vehicle's folder, in which somebody tuned a mount."""
+    (tmp_path / "truck").mkdir()
+    study = opened(study_path(tmp_path / "truck"))
+    study.begin(KEY, "Ada", "softer cab")
+    study.record(KEY, change(131, 140))
+    study.record(KEY, change(140, 150, v1=150))
+    study.record(KEY, change(140, 150, "undo", v1=150))
+    study.put_note(KEY, Note("too soft\nin roll", "mount", "C2 left", "Bob"))
+    study.put_note(None, Note("for Monday"))
+    study.put_run(KEY, Run("search", "paper, 20 starts", '{"best": 1.3}', "Ada", 12.0))
+    study.put_picture(KEY, b"\x89PNG", "Cab yaw", "Ada")
+    assert study.close()
+    return study.path
+
+
+def printed(capsys, *words) -> str:
+    assert main(["study", *map(str, words)]) == 0
+    return capsys.readouterr().out
+
+
+def failed(capsys, *words) -> str:
+    assert main(["study", *map(str, words)]) == 2
+    return capsys.readouterr().err
+
+
+@pytest.mark.parametrize("of", [Path.absolute, lambda path: path.parent / "truck"])
+def test_the_log_tells_when_by_whom_and_what_in_an_engineers_units(study, capsys, of):
+    lines = printed(capsys, "log", of(study)).splitlines()
+    assert lines[0].startswith("truck.modeviz: study of Truck, begun 20")
+    assert lines[1].startswith("session 1 'softer cab', begun ")
+    assert lines[3].endswith("1  Ada  Set C2.lateral: C2.lateral 131 → 140 N/mm")
+    assert lines[4].endswith("Set C2.lateral: C2.lateral 140 → 150 N/mm (undone)")
+    assert lines[5].endswith("undo: Set C2.lateral")
+    assert lines[6].endswith("  1  Bob  note: mount C2 left: too soft in roll")
+    assert lines[7].endswith("  all  -  note: study: for Monday")
+    assert [line.split("  ")[-1] for line in lines[8:]] == [
+        "search: paper, 20 starts",
+        "picture: Cab yaw",
+    ]
+
+
+def test_the_log_as_json_has_its_documented_structure(study, capsys):
+    record = json.loads(printed(capsys, "log", study, "--session", 1, "--json"))
+    assert set(record) == {"vehicle", "begun", "sessions", "entries"}
+    assert record["sessions"][0]["variants"] == ["v1"]
+    difference = {"what": "C2.lateral", "before": "131 N/mm", "after": "140 N/mm"}
+    assert record["entries"][0]["differences"] == [difference]
+
+
+def test_the_pickups_study_is_in_the_users_own_folder(tmp_path, monkeypatch, capsys):
+    for name in ("XDG_STATE_HOME", "LOCALAPPDATA"):
+        monkeypatch.setenv(name, str(tmp_path))
+    monkeypatch.setattr(Path, "home", lambda: tmp_path)
+    assert "there is no such file" in failed(capsys, "log")
+    path = own_folder() / "truck.modeviz"
+    assert opened(path).close()
+    assert "nothing happened yet" in printed(capsys, "log")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("log", "missing"), "missing: there is no such folder"),
+        (("log", "{study}", "--session", "7"), "--session: found 7, expected one of 1"),
+        (("note", "{study}", "x", "--variant", "v2"), "unknown variant 'v2': there are v1"),
+        (("note", "{study}", " "), "a note: found no text"),
+        (("export", "{study}", "x.txt"), "expected .json for all of a study, or .csv"),
+        (("backup", "{study}", "{study}"), "is there already"),
+        (("diff", "{study}", "nowhere"), "nowhere: there is no such folder"),
+    ],
+)
+def test_what_the_user_can_put_right_is_one_sentence(study, capsys, words, message):
+    assert message in failed(capsys, *(word.format(study=study) for word in words))
+
+
+def test_a_note_is_written_while_the_study_is_used(study, capsys):
+    used = opened(study)
+    printed(capsys, "note", study, "ready", "--variant", "v1", "--author", "Eve", "--session", "1")
+    printed(capsys, "note", study, "all read this")
+    assert [(n.about, n.text, n.author) for n in used.notes(KEY)][2] == ("variant v1", "ready", "Eve")
+    assert used.notes(OTHER)[-1].text == "all read this"
+    used.record(KEY, change(140, 141))
+    assert used.close()
+
+
+def test_an_export_has_everything_and_no_key(study, tmp_path, capsys):
+    printed(capsys, "export", study, tmp_path / "all.json")
+    text = (tmp_path / "all.json").read_text()
+    assert KEY not in text
+    (session,) = json.loads(text)["sessions"]
+    assert session["rates"]["C2"]["lateral"] == pytest.approx(140)
+    assert session["pinned"]["v1"]["rates"]["C2"]["lateral"] == pytest.approx(150)
+    assert (session["state"], len(session["undo"]), len(session["redo"])) == ("state 140", 1, 1)
+    assert session["notes"][0]["text"] == "too soft\nin roll"
+    assert session["runs"][0]["record"] == {"best": 1.3}
+    assert session["pictures"][0]["png_base64"] == "iVBORw=="
+    record = json.loads(text)
+    assert [note["text"] for note in record["notes"]] == ["for Monday"]
+    assert [entry["kind"] for entry in record["history"]][:3] == ["step", "step", "undo"]
+
+
+def test_variants_are_exported_as_a_table(study, tmp_path, capsys):
+    printed(capsys, "export", study, tmp_path / "variants.csv")
+    with (tmp_path / "variants.csv").open() as file:
+        (row,) = csv.DictReader(file)
+    assert (row["variant"], row["group"]) == ("v1", "C2")
+    assert float(row["lateral (N/mm)"]) == pytest.approx(150)
+
+
+def test_a_backup_is_the_study_and_stays_so_while_the_study_goes_on(study, tmp_path, capsys):
+    used = opened(study)
+    used.record(KEY, change(140, 160))
+    assert used.flush(5)
+    printed(capsys, "backup", study, tmp_path / "copy.modeviz")
+    used.record(KEY, change(160, 170))
+    assert used.close()
+    copy = Records.of_file(tmp_path / "copy.modeviz").restore(KEY)
+    assert copy
+    assert copy.state == "state 160"
+    assert not list(tmp_path.glob("copy.modeviz-*"))
+    (tmp_path / "kept").mkdir()
+    printed(capsys, "backup", study, tmp_path / "kept")
+    assert len(list((tmp_path / "kept").glob("truck-20*.modeviz"))) == 1
+
+
+def test_a_diff_tells_rates_variants_notes_and_runs(study, tmp_path, capsys):
+    copy = tmp_path / "copy.modeviz"
+    printed(capsys, "backup", study, copy)
+    assert "no difference" in printed(capsys, "diff", study, copy)
+    used = opened(copy)
+    used.begin(KEY)
+    used.record(KEY, change(140, 145, v1=155, v2=145))
+    used.put_note(KEY, Note("better", "mode", "cab yaw"))
+    used.put_run(KEY, Run("front", "two goals", "{}"))
+    used.begin(OTHER)
+    assert used.close()
+    lines = printed(capsys, "diff", study, copy).splitlines()
+    assert lines == [
+        "- truck.modeviz",
+        "+ copy.modeviz",
+        "+ session 2",
+        "session 1 and session 1:",
+        "  C2.lateral 140 → 145 N/mm",
+        "  variant v1: C2.lateral 150 → 155 N/mm",
+        "  + variant v2",
+        "  + note on mode cab yaw: better",
+        "  + front: two goals",
+    ]
+    record = json.loads(printed(capsys, "diff", study, copy, "--json"))
+    assert record["sessions"][0]["only_second"][0] == "variant v2"
+
+
+def test_studies_that_share_no_session_are_compared_by_those_last_used(study, tmp_path, capsys):
+    other = opened(tmp_path / "other.modeviz")
+    other.begin(OTHER)
+    other.record(OTHER, change(131, 133))
+    assert other.close()
+    assert "C2.lateral 140 → 133 N/mm" in printed(capsys, "diff", study, other.path)
