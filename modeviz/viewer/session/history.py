@@ -3,7 +3,8 @@
 import time
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import TypeVar
+from itertools import takewhile
+from typing import Literal, TypeVar
 
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.state import State
@@ -22,6 +23,25 @@ class Change:
 
     before: State
     after: State
+
+
+Kind = Literal["step", "longer", "back", "undo", "redo", "look"]
+"""A "step" can be undone; a "longer" one is the last step that goes on, as while dragging; one that
+leads "back" to where that began leaves no step. A "look" decides nothing."""
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """What became of the newest state."""
+
+    kind: Kind
+    change: Change
+    """The states around the step that it is, or is part of; of a look those before and after it."""
+
+    @property
+    def state(self) -> State:
+        """The newest one."""
+        return self.change.before if self.kind in ("undo", "back") else self.change.after
 
 
 @dataclass(frozen=True)
@@ -64,7 +84,7 @@ class History:
         self._step: Hashable = None
         self._changed_at = 0.0
 
-    def put(self, state: State, step: Hashable = None, within: float = MERGE_WITHIN) -> None:
+    def put(self, state: State, step: Hashable = None, within: float = MERGE_WITHIN) -> Accepted:
         """Goes on to a state; if it has another design, what was undone is gone.
 
         Args:
@@ -74,29 +94,40 @@ class History:
         """
         before, self.state = self.state, state
         if state.design == before.design:
-            return
+            return Accepted("look", Change(before, state))
         now = time.monotonic()
         goes_on = step is not None and step == self._step and now - self._changed_at < within
-        first = before
+        first, kind = before, "step"
         if goes_on and self._past:
             change = self._past.pop()  # looks since then are no part of it
-            first = merged(change.before, change.after, before)
+            first, kind = merged(change.before, change.after, before), "longer"
         self._past = [*self._past[1 - LONGEST :], Change(first, state)]
         self._future.clear()
         self._step, self._changed_at = step, now
         if first.design == state.design:  # all the way back is no step
             self._past.pop()
             self._step = None
+            return Accepted("back", Change(state, before))
+        return Accepted(kind, Change(first, state))
 
     @property
     def moment(self) -> Moment:
         """The present one."""
         return Moment(self.state, tuple(self._past), tuple(self._future), self._step, self._changed_at)
 
-    def put_back(self, moment: Moment) -> None:
+    def put_back(self, moment: Moment) -> tuple[Accepted, ...]:
         """Goes to a moment before, as if nothing had happened since."""
+        pairs = zip(self._past, moment.past, strict=False)
+        n_kept = sum(1 for _ in takewhile(lambda pair: pair[0] is pair[1], pairs))
+        gone, again = self._past[n_kept:], moment.past[n_kept:]
+        told = (
+            *(Accepted("back", change) for change in reversed(gone)),
+            *(Accepted("step", change) for change in again),
+            Accepted("look", Change(self.state, moment.state)),
+        )
         self.state, self._past, self._future = moment.state, [*moment.past], [*moment.future]
         self._step, self._changed_at = moment.step, moment.changed_at
+        return told
 
     @property
     def can_undo(self) -> bool:
@@ -106,23 +137,23 @@ class History:
     def can_redo(self) -> bool:
         return bool(self._future)
 
-    def undo(self) -> bool:
-        """Goes back; whether there was anything to go back to."""
+    def undo(self) -> Accepted | None:
+        """Goes back; None if there was nothing to go back to."""
         if not self._past:
-            return False
+            return None
         change, after = self._past.pop(), self.state
         self._go(change.after, change.before)
         self._future.append(Change(self.state, after))
-        return True
+        return Accepted("undo", self._future[-1])
 
-    def redo(self) -> bool:
-        """Goes forward again; whether there was anything undone."""
+    def redo(self) -> Accepted | None:
+        """Goes forward again; None if nothing was undone."""
         if not self._future:
-            return False
+            return None
         change, before = self._future.pop(), self.state
         self._go(change.before, change.after)
         self._past.append(Change(before, self.state))
-        return True
+        return Accepted("redo", self._past[-1])
 
     def _go(self, old: State, new: State) -> None:
         self.state, self._step = self._settled(self.state.design, merged(self.state, old, new)), None

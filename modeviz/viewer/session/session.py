@@ -14,7 +14,7 @@ from modeviz.viewer.session.answers import Answers, Solved, asks_for_the_same
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
-from modeviz.viewer.session.history import Change, History, Moment
+from modeviz.viewer.session.history import Accepted, Change, History, Moment
 from modeviz.viewer.session.inspector import Inspector
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.state import State
@@ -83,6 +83,7 @@ class Session:
         self._notify = notify
         self._lock = threading.Lock()
         self._history = History(state, self._settled, past, future)
+        self._watchers: list[Callable[[Accepted], None]] = []
         self._is_prepared = self._is_closed = False
         self._n_drawings, self._n_drawn = 0, -1
         self._told_at = 0.0
@@ -155,7 +156,7 @@ class Session:
                 vehicle = self.with_parts_of(state)
                 check_placements(vehicle, state.design.alterations.placements)
                 state = state.with_known_parts(self.state.design, vehicle)
-            self._history.put(state, command.step, command.within)
+            self._accept(self._history.put(state, command.step, command.within))
             self._submit()
 
     def undo(self) -> None:
@@ -213,10 +214,25 @@ class Session:
         self._worker.close()
         self._inspector.close()
 
-    def _go(self, step: Callable[[], bool]) -> None:
+    def watch(self, watcher: Callable[[Accepted], None]) -> None:
+        """Has somebody told of all that is accepted from now on.
+
+        Args:
+            watcher: called in the thread that asked for it, before it is answered; the session waits.
+        """
+        with self._lock:
+            self._watchers.append(watcher)
+
+    def _accept(self, *accepted: Accepted) -> None:
+        for each in accepted:
+            for watcher in self._watchers:
+                watcher(each)
+
+    def _go(self, step: Callable[[], Accepted | None]) -> None:
         with self._lock:
             self._is_refused = False
-            if step():
+            if accepted := step():
+                self._accept(accepted)
                 self._submit()
 
     def _settled(self, before: Design, state: State) -> State:
@@ -290,9 +306,10 @@ class Session:
             is_back = is_asked and good is not None and good.state is not job.state
             if is_back:
                 assert good is not None
-                self._history.put_back(good)
-            elif is_asked and good is None:
-                is_back = self._history.undo()
+                self._accept(*self._history.put_back(good))
+            elif is_asked and good is None and (undone := self._history.undo()):
+                self._accept(undone)
+                is_back = True
             self._is_refused = is_back
             if is_back or not is_asked:
                 self._submit()

@@ -1,0 +1,63 @@
+"""A session as a study file has it, opened with the vehicle as it is now."""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+
+from modeviz.errors import ModevizError
+from modeviz.journal.changes import Step
+from modeviz.journal.records import Records
+from modeviz.journal.sessions import SessionId
+from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.session.encoding.fit_design import outside_bounds
+from modeviz.viewer.session.encoding.fitting import fitted
+from modeviz.viewer.session.encoding.text import value_of_text
+from modeviz.viewer.session.history import Change
+from modeviz.viewer.session.opening import Opening
+from modeviz.viewer.session.state import State
+
+WHAT = "session"
+
+
+def recorded(
+    study: Records, name: SessionId, usual: State, vehicle: Vehicle, fingerprint: str
+) -> Opening | None:
+    """Return a session as it was left, with what can be undone and redone; None if there is none.
+
+    Of a vehicle that has changed since, what still fits is taken, and the rest is said.
+
+    Args:
+        study: that may have it.
+        name: under which the study knows it.
+        usual: the first state of the vehicle, for what does not fit.
+        vehicle: as in its files.
+        fingerprint: of that.
+
+    Raises:
+        ModevizError: the study cannot be read, or is damaged.
+    """
+    stored = study.restore(name)
+    if stored is None or stored.state is None:
+        return None
+    found = fitted(value_of_text(stored.state, State, WHAT), usual, vehicle)
+    told = found.remarks
+    if stored.vehicle.digest != fingerprint:
+        has_changed = f"vehicle {vehicle.name!r} has changed since this session was left"
+        told = (has_changed, *told, *outside_bounds(found.state.design, vehicle))
+
+    @cache
+    def state_of(text: str) -> State:
+        return fitted(value_of_text(text, State, WHAT), usual, vehicle).state
+
+    past, future = (_changes(steps, state_of) for steps in (stored.past, stored.future))
+    return Opening(found.state, past, future, remarks=told)
+
+
+def _changes(steps: Sequence[Step], state_of: Callable[[str], State]) -> tuple[Change, ...]:
+    """What can be gone back over, from the nearest on until there is one that is not read."""
+    changes: list[Change] = []
+    for step in reversed(steps):
+        try:
+            changes.append(Change(state_of(step.before), state_of(step.after)))
+        except ModevizError:
+            break
+    return tuple(reversed(changes))

@@ -1,0 +1,174 @@
+"""Writes what a session accepts to a study file, in a thread of its own: no hand waits for it."""
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from modeviz.journal.changes import Change
+from modeviz.journal.sessions import SessionId
+from modeviz.journal.study_file import StudyFile
+from modeviz.journal.tuning import Pinned, Tuning
+from modeviz.viewer.session.design import Design
+from modeviz.viewer.session.differences import differences, title
+from modeviz.viewer.session.encoding.text import text_of
+from modeviz.viewer.session.history import Accepted
+from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.state import State
+
+PACE = 0.2
+"""s between two writes of one drag, or of looks: of those between the last counts."""
+
+PATIENCE = 5.0
+"""s that closing waits for the disk."""
+
+WORDS = {"undo": "Undo: ", "redo": "Redo: "}
+
+
+@dataclass(frozen=True)
+class _Entry:
+    accepted: Accepted
+    author: str
+
+
+class Recorder:
+    """Keeps a session in a study file from now on: every change, undo and redo, and how one looks.
+
+    A session is opened with what `recorded` gives, and then recorded:
+
+        opening = recorded(study, name, usual, vehicle)
+        app = App(vehicle, rates, conditions, server, opening=opening)
+        recorder = Recorder(app.session, study, name, author, server.mistake)
+        ...
+        recorder.close()
+
+    `StudyFile.trouble` says what cannot be saved; nothing is lost by that while the process lives.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        study: StudyFile,
+        name: SessionId,
+        author: Callable[[], str],
+        mistake: Callable[[Exception], None],
+    ) -> None:
+        """Begins.
+
+        Args:
+            session: what is recorded.
+            study: where.
+            name: under which the study file knows it.
+            author: says who makes a change, in the thread in which it is made.
+            mistake: told what is our mistake; what is accepted after that is recorded all the same.
+        """
+        self._study, self._name = study, name
+        self._author, self._mistake = author, mistake
+        self._changed = threading.Condition()
+        self._waiting: list[_Entry] = []
+        self._is_busy = self._is_closed = False
+        self._n_hurried = 0
+        self._written_at = 0.0
+        self._texts: list[tuple[State, str]] = []
+        study.begin(name, author())
+        study.look(name, text_of(session.state))
+        self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
+        self._thread.start()
+        session.watch(self._take)
+
+    def flush(self, timeout: float = PATIENCE) -> bool:
+        """Waits until all that was accepted is on the disk; whether that came within `timeout` s."""
+        end = time.monotonic() + timeout
+        with self._changed:
+            self._n_hurried += 1
+            self._changed.notify_all()
+            is_done = self._changed.wait_for(lambda: not (self._waiting or self._is_busy), timeout)
+            self._n_hurried -= 1
+        return is_done and self._study.flush(max(0.0, end - time.monotonic()))
+
+    def close(self, timeout: float = PATIENCE) -> bool:
+        """Writes what is left and ends; whether all was on the disk within `timeout` s."""
+        is_saved = self.flush(timeout)
+        with self._changed:
+            self._is_closed = True
+            self._changed.notify_all()
+        self._thread.join(timeout)
+        return is_saved
+
+    def _take(self, accepted: Accepted) -> None:
+        """Notes what is to be written, in place of what that overtakes."""
+        entry = _Entry(accepted, self._author())
+        with self._changed:
+            last = self._waiting[-1].accepted.kind if self._waiting else None
+            if accepted.kind == "longer" and last in ("step", "longer"):
+                assert last is not None
+                joined = replace(accepted, kind=last)
+                self._waiting[-1] = replace(entry, accepted=joined)
+            elif accepted.kind == last == "look":
+                self._waiting[-1] = entry
+            else:
+                self._waiting.append(entry)
+            self._changed.notify_all()
+
+    def _run(self) -> None:
+        while (entry := self._next()) is not None:
+            try:
+                self._write(entry)
+            except Exception as error:
+                self._mistake(error)
+
+    def _next(self) -> _Entry | None:
+        """The next entry, once it is due; None when there will be no more."""
+        with self._changed:
+            self._is_busy = False
+            self._changed.notify_all()
+            while (wait := self._not_yet()) != 0.0:
+                if not self._waiting and self._is_closed:
+                    return None
+                self._changed.wait(wait)
+            self._is_busy, self._written_at = True, time.monotonic()
+            return self._waiting.pop(0)
+
+    def _not_yet(self) -> float | None:
+        """How long the next entry may wait for one that overtakes it, s; None where there is none."""
+        if not self._waiting:
+            return None
+        is_last = len(self._waiting) == 1 and self._waiting[0].accepted.kind in ("longer", "look")
+        if not is_last or self._n_hurried or self._is_closed:
+            return 0.0
+        return max(0.0, self._written_at + PACE - time.monotonic())
+
+    def _write(self, entry: _Entry) -> None:
+        accepted = entry.accepted
+        if accepted.kind == "look":
+            self._study.look(self._name, self._text(accepted.state))
+            return
+        before, after = accepted.change.before, accepted.change.after
+        self._study.record(
+            self._name,
+            Change(
+                accepted.kind,
+                WORDS.get(accepted.kind, "") + title(before.design, after.design),
+                self._text(before),
+                self._text(after),
+                entry.author,
+                differences(before.design, after.design),
+                tuning_of(accepted.state.design),
+            ),
+        )
+
+    def _text(self, state: State) -> str:
+        """A state as text, that of the last few made once."""
+        known = next((text for each, text in self._texts if each is state), None)
+        text = text_of(state) if known is None else known
+        self._texts = [*self._texts[-2:], (state, text)]
+        return text
+
+
+def tuning_of(design: Design) -> Tuning:
+    """Return of a design what a study file tells in words."""
+    return Tuning(
+        design.rates,
+        design.alterations.placements,
+        {name: Pinned(each.rates, each.placements) for name, each in design.variants.items()},
+    )
