@@ -27,8 +27,8 @@ from benchmarks.attacks import ATTACKS, WITH_CHROMIUM, Attack
 from benchmarks.websocket import Page, free_port, open_page, say, wait_for_answer, widgets
 from modeviz.analysis.results import Conditions
 from modeviz.files import builtin_vehicle, read_vehicle
-from modeviz.viewer.app import serve
 from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.serving.serve import serve
 
 QUIET_S = 4.0
 """How long is looked before and after an attack."""

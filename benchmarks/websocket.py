@@ -20,7 +20,7 @@ from websockets.sync.connection import Connection as Page
 from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, wire
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.study.conditions import road_conditions
-from modeviz.viewer.app import serve
+from modeviz.viewer.serving.serve import serve
 
 N_FIRST = 6
 """Moves that are not counted: the server rests before them, and gives up what it does then."""

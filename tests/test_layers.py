@@ -32,7 +32,7 @@ LAYERS = [
     {"viewer.panels"},
     {"viewer.offline", "viewer.inspection"},
     {"viewer.app"},
-    {"viewer.rendering"},
+    {"viewer.rendering", "viewer.serving"},
     {"study"},
     {"public"},
     {"__init__"},
@@ -128,7 +128,7 @@ def test_only_what_begins_work_limits_the_threads_of_blas():
         if "modeviz.compute.threads.one_thread" in imports(path)
     }
     study = {"study/output.py", "study/page.py", "study/study.py"}
-    assert limiting == study | {"cli/__init__.py", "compute/cluster.py", "viewer/app.py"}
+    assert limiting == study | {"cli/__init__.py", "compute/cluster.py", "viewer/serving/serve.py"}
 
 
 def test_importing_modeviz_leaves_the_viewer_and_the_extras_unloaded():

@@ -71,7 +71,6 @@ class ViewOptions(VehicleOptions, RoadOptions, LogOptions):
 def view(options: ViewOptions) -> None:
     """Serves the page until it is stopped."""
     with ended_by_interrupt():
-        from modeviz.viewer.app import serve  # viser alone takes a second to import
         from modeviz.viewer.inspection.app import inspect
         from modeviz.viewer.inspection.sources import (
             ResultFiles,
@@ -81,6 +80,7 @@ def view(options: ViewOptions) -> None:
         )
         from modeviz.viewer.page.secret import chosen_secret
         from modeviz.viewer.page.surroundings import surroundings
+        from modeviz.viewer.serving.serve import serve  # viser alone takes a second to import
         from modeviz.viewer.session.encoding.link import view_in
 
     what = options.what or (options.vehicle or builtin_vehicle(),)

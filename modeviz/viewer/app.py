@@ -2,14 +2,12 @@
 
 from collections.abc import Callable, Sequence
 from datetime import date
-from functools import cache, partial
+from functools import cache
 
 import viser
 
 from modeviz.analysis.results import Conditions
 from modeviz.analysis.rubber import dynamic_groups
-from modeviz.compute.stop import Stop
-from modeviz.compute.threads import one_thread
 from modeviz.errors import ModevizError
 from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.report.comparison import RateSet, compare
@@ -25,9 +23,7 @@ from modeviz.viewer.page.binding import READ_WITHIN
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
-from modeviz.viewer.page.secret import Secret
-from modeviz.viewer.page.server import Server, open_server
-from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
+from modeviz.viewer.page.server import Server
 from modeviz.viewer.page.theme import choose_theme
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
@@ -64,9 +60,10 @@ from modeviz.viewer.session.commands.decisions import DragMounts, Swap
 from modeviz.viewer.session.commands.looks import SelectGroup
 from modeviz.viewer.session.cursor import has_ride, is_shaken
 from modeviz.viewer.session.design import variant_name
-from modeviz.viewer.session.encoding.link import link_of, opening_of_link
+from modeviz.viewer.session.encoding.link import link_of
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.opening import Opening
+from modeviz.viewer.session.preparations import Preparations
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
 from modeviz.viewer.session.view import CameraPose
@@ -87,7 +84,7 @@ BACK = " You are back at the last state that was solved."
 
 
 class App:
-    """A server with one tuning session; everybody who opens the page sees the same."""
+    """The page of one tuning session, on a server of its own; all who open it see the same."""
 
     def __init__(
         self,
@@ -97,6 +94,7 @@ class App:
         server: Server,
         dark: bool = False,
         opening: Opening | None = None,
+        preparations: Preparations | None = None,
     ) -> None:
         """Builds the page; nothing is solved before `start`.
 
@@ -107,6 +105,7 @@ class App:
             server: an open one, see `page.server.open_server`.
             dark: whether the page is dark.
             opening: what to show first in place of rates and conditions, and what there was before.
+            preparations: of the vehicle, where other sessions share them.
 
         Raises:
             ModevizError: the vehicle cannot have what it opens with.
@@ -118,7 +117,12 @@ class App:
         opening = opening or Opening(first_state(vehicle, rates, conditions))
         state, self._opening = opening.state, opening
         self.session: Session = Session(
-            vehicle, state, self._hear, past=opening.past, future=opening.future
+            vehicle,
+            state,
+            self._hear,
+            past=opening.past,
+            future=opening.future,
+            preparations=preparations,
         )
         session, mistake = self.session, server.mistake
         self.search_task: SearchTask = SearchTask(session, lambda: self._optimise.follow(), mistake)
@@ -156,6 +160,12 @@ class App:
     def scene(self) -> Scene:
         """The scene in the middle of every page."""
         return self._scene
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a search or something like it is at work, which nobody need look at."""
+        jobs = (task.job for task in (self.search_task, self.front_task, self.scatter_task))
+        return any(job is not None and job.is_running for job in jobs)
 
     def offline(self, position: Floats, look_at: Floats) -> bytes:
         """Return what is shown as a file that needs no server, see `offline_page`.
@@ -308,7 +318,7 @@ class App:
                 self._status.show(solved)
                 self.server.flush()
             case Failed():
-                self._tell_failure(notification)
+                self.tell_failure(notification)
 
     def _show(self, solved: Solved) -> None:
         """Draws an answer: the panels in one batch, the scene in another, which waits for a frame.
@@ -363,7 +373,7 @@ class App:
         caption = f"{moving.heading}, {variant}"
         return self.report([Picture(caption, png)])
 
-    def _tell_failure(self, failed: Failed) -> None:
+    def tell_failure(self, failed: Failed) -> None:
         """Says what went wrong; the last good answer stays on the screen."""
         error, name = failed.error, NOT_SOLVED
         text = str(error)
@@ -398,54 +408,3 @@ class App:
         """Return the subject of a picture: "Pickup cab yaw"."""
         last = self.session.answer
         return f"{self.session.vehicle.name} {last.movement.subject if last else ''}"
-
-
-def serve(
-    vehicle: Vehicle,
-    rates: Rates,
-    conditions: Conditions,
-    host: str,
-    port: int,
-    token: Secret | None,
-    dark: bool,
-    progress: Callable[[float], None] | None = None,
-    around: Surroundings = NOTHING_AROUND,
-    link: str | None = None,
-    stop: Stop | None = None,
-) -> None:
-    """Shows a vehicle until interrupted.
-
-    Args:
-        vehicle: with the rates that all is compared with.
-        rates: to start with.
-        conditions: to start with.
-        host: address to listen on.
-        port: to listen on.
-        token: asked of every visitor, if any.
-        dark: whether the page is dark.
-        progress: told the fraction of the preparation that is done.
-        around: the server.
-        link: what is shown first in place of rates and conditions, see `opening_of_link`.
-        stop: ends it; if not given, only an exception in the main thread does.
-
-    Raises:
-        ModevizError: the port is in use, the address needs a token, the road does not go with the
-            speed, or the link is none.
-    """
-    opening = None
-    if link is not None:
-        usual, fingerprint = first_state(vehicle, rates, conditions), fingerprint_of(vehicle)
-        opening = opening_of_link(link, usual, vehicle, fingerprint.digest)
-    with one_thread():
-        server = open_server(host, port, token, f"{vehicle.name} · modeviz", around)
-        try:
-            app = App(vehicle, rates, conditions, server, dark, opening)
-            app.guide.welcome_first()
-        except ModevizError:
-            server.stop()
-            raise
-        print(f"{vehicle.name} is at {server.link}  (Ctrl+C ends)", flush=True)
-        try:
-            (stop or Stop()).wait(partial(app.start, progress))
-        finally:
-            app.close()

@@ -80,7 +80,7 @@ def link(monkeypatch, folder):
         assert main(["view", folder, "--port", "0", *options]) == 0
         return servers[-1].link
 
-    monkeypatch.setattr("modeviz.viewer.app.serve", serve)
+    monkeypatch.setattr("modeviz.viewer.serving.serve.serve", serve)
     yield link
     for server in servers:
         server.stop()

@@ -9,6 +9,8 @@
   const PATIENCE = 3000; // ms until a page that is not connected says so
   const AGAIN = 5000; // ms between two questions what is wrong
 
+  const OURS = ["vehicle", "session", "review", "view"]; // of the page's address, for its websocket
+
   const BLOCKED =
     "the page is served, but its live connection, a WebSocket, does not get through: a proxy or firewall in " +
     "between has to let it, and pass the headers Upgrade and Connection on";
@@ -25,6 +27,12 @@
   let notice = null;
 
   const address = () => location.href.split(/[?#]/)[0];
+
+  function visit() {
+    const all = new URLSearchParams(location.search);
+    const ours = [...all].filter(([name]) => OURS.includes(name));
+    return ours.length ? `?${new URLSearchParams(ours)}` : "";
+  }
 
   function show(text) {
     notice ??= document.createElement("div");
@@ -77,7 +85,7 @@
     }
 
     postMessage(message, ...rest) {
-      if (message?.type === "set_server") message = { ...message, server: address().replace(/^http/, "ws") };
+      if (message?.type === "set_server") message = { ...message, server: address().replace(/^http/, "ws") + visit() };
       super.postMessage(message, ...rest);
     }
   };

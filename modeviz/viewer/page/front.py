@@ -20,7 +20,7 @@ from modeviz.viewer.page.handshake import Door, answer
 from modeviz.viewer.page.limits import client_of
 from modeviz.viewer.page.links import link, local_link
 from modeviz.viewer.page.notices import Notices
-from modeviz.viewer.page.request_head import RequestHead, request_head
+from modeviz.viewer.page.request_head import is_websocket, request_head
 
 HANDSHAKE_S = 10.0
 """s: how long a client may take to say what it wants."""
@@ -40,8 +40,8 @@ class Site(Protocol):
         """Return the answer to a request for a page, which the door has let in."""
         ...
 
-    async def acceptor(self, head: RequestHead) -> Acceptor | None:
-        """Return what serves a websocket, or None if there is no such session."""
+    async def acceptor(self, request: Request) -> Acceptor | None:
+        """Return what serves a websocket that the door lets in; None if there is no such session."""
         ...
 
 
@@ -62,7 +62,6 @@ class Front:
         self.door: Door = door
         self.house: House = House(notices, door.around.proxies)
         self._listening = _listening(door.host, port)
-        self.port: int = self._listening.getsockname()[1]
         self._loop = asyncio.SelectorEventLoop()
         self._own = Acceptor()
         self._site: Site
@@ -73,12 +72,16 @@ class Front:
     @property
     def link(self) -> str:
         """The address of the page for everybody who can reach it, with its token."""
-        return link(self.door.host, self.port, self.door.token, self.door.around.prefix)
+        return link(self.door.host, self.get_port(), self.door.token, self.door.around.prefix)
 
     @property
     def local_link(self) -> str:
         """The address of the page for a browser of this machine; ready for `&name=value`."""
-        return local_link(self.door.host, self.port, self.door.token, self.door.around.prefix)
+        return local_link(self.door.host, self.get_port(), self.door.token, self.door.around.prefix)
+
+    def get_port(self) -> int:
+        """Return the port it listens on."""
+        return self._listening.getsockname()[1]
 
     def open(self, site: Site) -> None:
         """Lets people in to what is behind."""
@@ -145,8 +148,9 @@ class Front:
             return
         try:
             async with asyncio.timeout(HANDSHAKE_S):
-                head = await _peeked(self._loop, connection)
-            acceptor = await self._site.acceptor(head) if head.is_websocket else None
+                request = await _peeked(self._loop, connection)
+            is_ours = is_websocket(request) and self._is_admitted(connection, request)
+            acceptor = await self._site.acceptor(request) if is_ours else None
         except (OSError, TimeoutError):
             connection.close()
         except BaseException:
@@ -157,14 +161,19 @@ class Front:
         finally:
             self.house.arrivals.leave(client)
 
+    def _is_admitted(self, connection: socket.socket, request: Request) -> bool:
+        """Whether the door lets a request in, whoever is to serve it."""
+        address, *_ = connection.getpeername()
+        return self.door.admits(request, address, self.get_port())
+
     async def _answer(self, connection: PageConnection, request: Request) -> Response | None:
         """Return the answer to who has passed the door: a page, or that there is no such session."""
-        if request.headers.get("Upgrade", "").lower() == "websocket":
+        if is_websocket(request):
             return answer(404, NO_SESSION)
         return await self._site.page(connection, request)
 
 
-async def _peeked(loop: asyncio.AbstractEventLoop, connection: socket.socket) -> RequestHead:
+async def _peeked(loop: asyncio.AbstractEventLoop, connection: socket.socket) -> Request:
     """Return what a connection asks for, which stays to be read.
 
     Raises:
@@ -176,9 +185,9 @@ async def _peeked(loop: asyncio.AbstractEventLoop, connection: socket.socket) ->
         await came
     finally:
         loop.remove_reader(connection)
-    while (head := request_head(connection)) is None:
+    while (request := request_head(connection)) is None:
         await asyncio.sleep(SOON)
-    return head
+    return request
 
 
 async def _no_websocket(connection: ServerConnection) -> None:

@@ -20,8 +20,10 @@ from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
 from modeviz.viewer.page.connection import PageConnection
+from modeviz.viewer.page.forwarded import Asked
 from modeviz.viewer.page.guesses import Guesses
 from modeviz.viewer.page.kept_tokens import LIFE_S, RENEWED_S
+from modeviz.viewer.page.request_head import is_websocket, query_of
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 
@@ -114,16 +116,20 @@ class Door:
 
     def _seen_through(self, connection: PageConnection, request: Request) -> Response | None:
         """Makes of a request what it was before proxies; the answer if it can't stay at that."""
-        asked = self.around.proxies.asked(connection.remote_address[0], request.headers)
+        asked, path = self._unwrapped(connection.remote_address[0], request)
         connection.is_secure = asked.is_secure
-        if asked.host is not None:
-            _set(request.headers, "Host", asked.host)
-        path = self.around.local_path(request.path)
         if path is None:
             folder = self.around.prefix.rpartition("/")[2]
             return answer(303, Location=f"./{folder}/{request.path[len(self.around.prefix) :]}")
         request.path = path
         return None if connection.speak_for(asked.client) else answer(429, TOO_MANY_CONNECTIONS)
+
+    def _unwrapped(self, address: str, request: Request) -> tuple[Asked, str | None]:
+        """Gives a request its own Host again; returns what else was asked, and the path in our folder."""
+        asked = self.around.proxies.asked(address, request.headers)
+        if asked.host is not None:
+            _set(request.headers, "Host", asked.host)
+        return asked, self.around.local_path(request.path)
 
     async def _response(
         self, inner: Guarded, connection: PageConnection, request: Request
@@ -136,7 +142,7 @@ class Door:
         if urlsplit(request.path).path.endswith(f"/{ALIVE}"):
             return answer(200, ICON, **{"Content-Type": "image/svg+xml", "Cache-Control": "no-store"})
         response = await inner(connection, request)
-        if _is_websocket(request):
+        if is_websocket(request):
             return response or self._admit(connection, request)
         return self._renewed(response, connection, request)
 
@@ -149,7 +155,7 @@ class Door:
                 403,
                 f"{name} is not a name of this server: if it should be, start it with --public-name",
             )
-        if (origins or _is_websocket(request)) and not self._is_same_site(origins, hosts[0]):
+        if (origins or is_websocket(request)) and not self._is_same_site(origins, hosts[0]):
             return answer(
                 403,
                 "a page of another site may not use this server: this one is at "
@@ -162,6 +168,15 @@ class Door:
                 return answer(403, f"the parameter {name!r} is refused")
         return None
 
+    def admits(self, request: Request, address: str, port: int) -> bool:
+        """Whether a request, from an address at a port, may get more than an answer from this door."""
+        try:
+            _, path = self._unwrapped(address, request)
+            is_refused = path is None or self.refusal(request) is not None
+        except ValueError:
+            return False
+        return not is_refused and self._has_entered(request, port)
+
     async def _token_answer(self, connection: PageConnection, request: Request) -> Response | None:
         """The answer to who has no token, or brings it in the link and gets a cookie for it.
 
@@ -169,9 +184,9 @@ class Door:
         """
         if self.secret is None:
             return None
-        client, has_entered = connection.client, self._has_entered(connection, request)
-        given = _query(request).get("token")
-        if not given or _is_websocket(request):
+        client, has_entered = connection.client, self._has_entered(request, _port(connection))
+        given = query_of(request).get("token")
+        if not given or is_websocket(request):
             return None if has_entered else answer(403, NO_TOKEN)
         if not has_entered and (left := self.guesses.locked(client)):
             return answer(
@@ -186,25 +201,25 @@ class Door:
         return entered
 
     def _give_cookie(self, secret: Secret, connection: PageConnection, response: Response) -> None:
-        cookie = f"{_cookie_name(connection)}={secret.cookie()}; Max-Age={LIFE_S:.0f}; HttpOnly"
+        cookie = f"{_cookie_name(_port(connection))}={secret.cookie()}; Max-Age={LIFE_S:.0f}; HttpOnly"
         alone = f"{STRICT}; Secure" if connection.is_secure else STRICT
         for kept in (alone, FRAMED) if self.is_framed or self.around.frames else (alone,):
             response.headers["Set-Cookie"] = f"{cookie}; {kept}"
 
-    def _age(self, connection: PageConnection, request: Request) -> float | None:
+    def _age(self, request: Request, port: int) -> float | None:
         """Return the time since a request's cookie was given out, s; None if it has none that holds."""
-        given = _cookies(request).get(_cookie_name(connection), "")
+        given = cookies(request).get(_cookie_name(port), "")
         return self.secret and self.secret.age(given)
 
-    def _has_entered(self, connection: PageConnection, request: Request) -> bool:
+    def _has_entered(self, request: Request, port: int) -> bool:
         """Whether a request has the cookie of who has brought the token, if one is asked for."""
-        return self.secret is None or self._age(connection, request) is not None
+        return self.secret is None or self._age(request, port) is not None
 
     def _renewed(
         self, response: Response | None, connection: PageConnection, request: Request
     ) -> Response | None:
         """Return an answer with a new cookie, if that of the request is a day old."""
-        if response and self.secret and (self._age(connection, request) or 0.0) > RENEWED_S:
+        if response and self.secret and (self._age(request, _port(connection)) or 0.0) > RENEWED_S:
             self._give_cookie(self.secret, connection, response)
         return response
 
@@ -212,7 +227,7 @@ class Door:
         """Remembers a websocket that opens; the answer if the token has changed meanwhile."""
         with self.lock:
             self.inside.add(connection)
-        return None if self._has_entered(connection, request) else answer(403, NO_TOKEN)
+        return None if self._has_entered(request, _port(connection)) else answer(403, NO_TOKEN)
 
     def _throw_out(self) -> None:
         """Ends all websockets, as the token has changed: who has brought the new one comes back."""
@@ -231,13 +246,13 @@ class Door:
 
     def _why(self, connection: PageConnection, request: Request) -> Response:
         """Return why a page's websocket is refused, which says its address and language, or ""."""
-        query = _query(request)
+        query = query_of(request)
         asked = Request(request.path, Headers(request.headers))
         _set(asked.headers, "Origin", query.get("origin", ""))
         _set(asked.headers, "Upgrade", "websocket")
         if refusal := self.refusal(asked):
             return answer(200, refusal.body.decode())
-        if not self._has_entered(connection, request):
+        if not self._has_entered(request, _port(connection)):
             return answer(200, NO_TOKEN)
         if query.get("subprotocol") != SUBPROTOCOL:
             return answer(200, OTHER_VERSION)
@@ -293,10 +308,6 @@ def answer(status: int, text: str = "", **headers: str) -> Response:
     return Response(status, http.HTTPStatus(status).phrase, Headers({**common, **headers}), body)
 
 
-def _is_websocket(request: Request) -> bool:
-    return request.headers.get("Upgrade", "").lower() == "websocket"
-
-
 def _is_address(name: str) -> bool:
     try:
         ipaddress.ip_address(name)
@@ -305,18 +316,20 @@ def _is_address(name: str) -> bool:
     return True
 
 
-def _cookies(request: Request) -> dict[str, str]:
+def cookies(request: Request) -> dict[str, str]:
+    """Return the cookies that come with a request, by name."""
     pairs = (pair for line in request.headers.get_all("Cookie") for pair in line.split(";"))
     return {name: value for name, _, value in (pair.strip().partition("=") for pair in pairs)}
 
 
-def _cookie_name(connection: PageConnection) -> str:
+def _port(connection: PageConnection) -> int:
+    """Return the port at which a connection came in."""
+    return connection.local_address[1]
+
+
+def _cookie_name(port: int) -> str:
     """Cookies are shared by all ports of a host."""
-    return f"modeviz{connection.local_address[1]}"
-
-
-def _query(request: Request) -> dict[str, str]:
-    return dict(parse_qsl(urlsplit(request.path).query, keep_blank_values=True))
+    return f"modeviz{port}"
 
 
 def _without_token(path: str) -> str:

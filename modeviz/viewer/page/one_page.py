@@ -8,7 +8,6 @@ from modeviz.viewer.page.acceptor import Acceptor
 from modeviz.viewer.page.connection import PageConnection
 from modeviz.viewer.page.handshake import Door, answer
 from modeviz.viewer.page.page_file import PageFile
-from modeviz.viewer.page.request_head import RequestHead
 
 PATHS = ("/", "/index.html")
 
@@ -30,6 +29,6 @@ class OnePage:
         is_page = urlsplit(request.path).path in PATHS
         return self._page.response(request) if is_page else answer(404, "there is no such page")
 
-    async def acceptor(self, head: RequestHead) -> Acceptor | None:
+    async def acceptor(self, request: Request) -> Acceptor | None:
         """Return what serves its websocket."""
         return self._acceptor

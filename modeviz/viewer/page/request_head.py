@@ -1,24 +1,19 @@
 """The first lines of a request, looked at before anybody reads them."""
 
 import socket
-from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlsplit
 
+from websockets import Headers
+from websockets.http11 import Request
+
 LARGEST = 65536
-"""Bytes of what is looked at; a request that asks for a page or a websocket has far fewer."""
+"""Bytes of what is looked at; a request for a page or a websocket has far fewer."""
 
 
-@dataclass(frozen=True)
-class RequestHead:
-    """What a request wants."""
+def request_head(connection: socket.socket) -> Request | None:
+    """Return the request that comes, and leave it to be read; None if there is more to come.
 
-    query: dict[str, str]
-    """Of its address."""
-    is_websocket: bool
-
-
-def request_head(connection: socket.socket) -> RequestHead | None:
-    """Return what came of a request, and leave it to be read; None if more is to come.
+    Who reads it judges whether it is a good one: of what is none, this is no request for anything.
 
     Raises:
         OSError: the connection is closed.
@@ -35,14 +30,22 @@ def request_head(connection: socket.socket) -> RequestHead | None:
     return _parsed(head.decode("latin-1"))
 
 
-def _parsed(head: str) -> RequestHead:
-    """Return what a head wants; who serves it judges whether it is a good one."""
-    line, *headers = head.split("\r\n")
-    parts = line.split(" ")
-    names = [header.partition(":")[::2] for header in headers]
-    upgrades = [value.strip().lower() for name, value in names if name.strip().lower() == "upgrade"]
-    try:
-        query = dict(parse_qsl(urlsplit(parts[1]).query)) if len(parts) > 1 else {}
-    except ValueError:
-        query = {}
-    return RequestHead(query, "websocket" in upgrades)
+def query_of(request: Request) -> dict[str, str]:
+    """Return what the address of a request says after its question mark.
+
+    Raises:
+        ValueError: it is no address.
+    """
+    return dict(parse_qsl(urlsplit(request.path).query, keep_blank_values=True))
+
+
+def is_websocket(request: Request) -> bool:
+    """Return whether a request wants a websocket."""
+    return "websocket" in (each.lower() for each in request.headers.get_all("Upgrade"))
+
+
+def _parsed(head: str) -> Request:
+    line, *others = head.split("\r\n")
+    path = line.split(" ")[1] if line.count(" ") == 2 else ""
+    pairs = (each.partition(":")[::2] for each in others)
+    return Request(path, Headers([(name.strip(), value.strip()) for name, value in pairs]))

@@ -62,10 +62,10 @@ class Server(viser.ViserServer):
         self.notices: Notices = front.house.notices
         self.acceptor: Acceptor = Acceptor()
         self._front, self._address = front, address
-        turns = Turns(self._tell_page)
-        with _behind(front, turns, self.acceptor), redirect_stdout(io.StringIO()):
+        self._turns = Turns(self._tell_page)
+        with _behind(front, self._turns, self.acceptor), redirect_stdout(io.StringIO()):
             door = front.door
-            super().__init__(host=door.host, port=front.port, label=door.title, verbose=False)
+            super().__init__(host=door.host, port=front.get_port(), label=door.title, verbose=False)
         if not self.acceptor.is_ready:
             self.stop()
             raise RuntimeError("viser no longer starts through websockets.asyncio.server.serve")
@@ -73,7 +73,7 @@ class Server(viser.ViserServer):
             self._websock_server.unregister_handler(request)
         self._thread_executor.shutdown()
         for caller in (self, self.gui, self.scene):
-            caller._thread_executor = turns
+            caller._thread_executor = self._turns
         gate_messages(self, self._tell_client)
         self.on_client_connect(lambda client: self._note_page(client, "opened"))
         self.on_client_disconnect(lambda client: self._note_page(client, "closed"))
@@ -113,6 +113,7 @@ class Server(viser.ViserServer):
         self._dismiss(STOPPED)
         with redirect_stdout(io.StringIO()):
             super().stop()
+        self._turns.shutdown(wait=False, cancel_futures=True)
 
     def _note_page(self, client: viser.ClientHandle, what: str) -> None:
         self.notices.tell(f"a page was {what}", f"page {what}", client=f"page {client.client_id}")

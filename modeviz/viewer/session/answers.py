@@ -98,17 +98,18 @@ class Solved:
 class Answers:
     """Answers one state after the other, in one thread; `rebase` may be called in another."""
 
-    def __init__(self, vehicle: Vehicle, absorbers: Sequence[Absorber] = ()) -> None:
+    def __init__(self, preparations: Preparations, absorbers: Sequence[Absorber] = ()) -> None:
         """Nothing is solved before `prepare`.
 
         Args:
-            vehicle: as in its file.
+            preparations: of the vehicle.
             absorbers: that it has besides.
 
         Raises:
             VehicleError: it cannot have them.
         """
-        self._preparations = Preparations(vehicle)
+        vehicle = preparations.vehicle
+        self._preparations = preparations
         self._lock = threading.Lock()
         self._alterations: Alterations | None = None
         self.vehicle: Vehicle = with_absorbers(vehicle, absorbers)
@@ -150,9 +151,7 @@ class Answers:
 
     def afresh(self) -> "Answers":
         """Return others that have only what is prepared: something failed or hangs in these."""
-        others = Answers(self._preparations.vehicle)
-        others._preparations = self._preparations.copied()
-        others._named = NamedResults(others._preparations)
+        others = Answers(self._preparations.copied())
         with self._lock:
             others.vehicle, others.prepared, others._drive = self.vehicle, self.prepared, self._drive
         return others

@@ -6,22 +6,27 @@ from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.vehicle.alterations import Alterations, altered
 from modeviz.vehicle.vehicle import Vehicle
 
+Preparing = Callable[[Callable[[float], None] | None], Prepared]
+
 
 class Preparations:
     """Makes a vehicle ready with alterations, which takes long, and keeps it."""
 
-    def __init__(self, vehicle: Vehicle) -> None:
+    def __init__(self, vehicle: Vehicle, unaltered: Preparing | None = None) -> None:
         """Prepares nothing.
 
         Args:
             vehicle: without alterations.
+            unaltered: makes it ready as it is, where others want that too; told whom to tell how far
+                that is.
         """
         self.vehicle: Vehicle = vehicle
+        self._unaltered = unaltered
         self._kept: list[tuple[Alterations, Prepared]] = []
 
     def copied(self) -> "Preparations":
         """Return others that have what is ready here."""
-        others = Preparations(self.vehicle)
+        others = Preparations(self.vehicle, self._unaltered)
         others._kept = [*self._kept]
         return others
 
@@ -40,7 +45,10 @@ class Preparations:
         known = self._known(alterations)
         if known is not None:
             return known
-        prepared = prepare(altered(self.vehicle, alterations), progress=progress)
+        if self._unaltered and alterations == Alterations():
+            prepared = self._unaltered(progress)
+        else:
+            prepared = prepare(altered(self.vehicle, alterations), progress=progress)
         self._kept.append((alterations, prepared))
         return prepared
 

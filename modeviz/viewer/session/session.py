@@ -17,6 +17,7 @@ from modeviz.viewer.session.followed_mode import DETAILS_EVERY
 from modeviz.viewer.session.history import Accepted, Change, History, Moment
 from modeviz.viewer.session.inspector import Inspector
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
+from modeviz.viewer.session.preparations import Preparations
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.worker import StuckError, Worker
 
@@ -66,6 +67,7 @@ class Session:
         patience: float = SOLVES_WITHIN,
         past: Sequence[Change] = (),
         future: Sequence[Change] = (),
+        preparations: Preparations | None = None,
     ) -> None:
         """Nothing is solved before `start`.
 
@@ -76,6 +78,7 @@ class Session:
             patience: s that a solve may take.
             past: what can be undone, the next one last.
             future: what can be redone, the next one last.
+            preparations: of the vehicle, where other sessions share them.
 
         Raises:
             VehicleError: it cannot have the absorbers of the state.
@@ -91,7 +94,9 @@ class Session:
         self._failure: Exception | None = None
         self._good: Moment | None = None
         self._is_refused = False
-        self._answers = Answers(vehicle, state.design.alterations.absorbers)
+        self._answers = Answers(
+            preparations or Preparations(vehicle), state.design.alterations.absorbers
+        )
         self._worker: Worker[_Job] = Worker(self._work, self._tell_failure, patience, self._leave)
         self._inspector = Inspector(
             self._rebase, self._is_current, self._answer_again, self._tell_failure

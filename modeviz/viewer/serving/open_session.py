@@ -1,0 +1,63 @@
+"""A session in memory: its page, its server, and what becomes of it when nobody looks."""
+
+import threading
+import time
+
+from modeviz.viewer.app import App
+from modeviz.viewer.page.front import Front
+from modeviz.viewer.page.server import Server
+from modeviz.viewer.serving.bench import Bench
+from modeviz.viewer.session.notifications import Failed
+from modeviz.viewer.session.opening import Opening
+
+
+class OpenSession:
+    """A session that pages can look at."""
+
+    def __init__(self, bench: Bench, opening: Opening, front: Front, address: str, dark: bool) -> None:
+        """Builds the page; the vehicle is prepared and solved in a thread of its own.
+
+        Args:
+            bench: with the vehicle.
+            opening: what is shown first.
+            front: where pages come in.
+            address: of the session, after the token.
+            dark: whether the page is.
+        """
+        self.bench: Bench = bench
+        self.server: Server = Server(front, address)
+        self.app: App = App(
+            bench.vehicle,
+            bench.rates,
+            bench.conditions,
+            self.server,
+            dark,
+            opening,
+            bench.preparations(),
+        )
+        self.app.guide.welcome_first()
+        self._looked_at = time.monotonic()
+        self._starting = threading.Thread(target=self._start, name="start session", daemon=True)
+        self._starting.start()
+
+    @property
+    def idle(self) -> float:
+        """How long nobody has looked at it, s; 0 while it has pages or is at work."""
+        now = time.monotonic()
+        if self.server.get_clients() or self._starting.is_alive() or self.app.is_busy:
+            self._looked_at = now
+        return now - self._looked_at
+
+    def touch(self) -> None:
+        """Keeps it open for somebody who is about to come."""
+        self._looked_at = time.monotonic()
+
+    def close(self) -> None:
+        """Ends it and gives its memory back."""
+        self.app.close()
+
+    def _start(self) -> None:
+        try:
+            self.app.start()
+        except Exception as error:
+            self.app.tell_failure(Failed(error))

@@ -1,0 +1,106 @@
+"""Which session a page is of, over real connections."""
+
+import time
+
+import pytest
+import viser
+from serving_cabin import key_of, page_at, serving, way
+from visitors import TOKEN, get, knock, own_origin, update, wait_until
+from websockets.exceptions import InvalidStatus
+
+from modeviz.journal.keys import digest_of
+from modeviz.viewer.serving import directory as rules
+
+
+@pytest.fixture(scope="module")
+def served():
+    with serving() as both:
+        yield both
+
+
+def test_who_comes_without_a_session_is_sent_to_a_new_one_and_back_to_it_another_time(served):
+    front, _ = served
+    first, second = way(front), way(front)
+    assert key_of(first) != key_of(second)
+    status, headers, page = get(front, first)
+    assert status == 200
+    assert b"modeviz</title>" in page
+    cookie = headers["Set-Cookie"].split(";")[0]
+    assert way(front, Cookie=cookie) == first
+    assert key_of(way(front, "/?new", Cookie=cookie)) != key_of(first)
+
+
+def test_pages_alone_open_no_session(served):
+    front, directory = served
+    before = len(directory._open)
+    for _ in range(5):
+        get(front, way(front))
+    assert len(directory._open) == before
+
+
+@pytest.mark.parametrize(
+    "path", ["/?session=x", "/?session=", "/other", "/?vehicle=none", "/?review=a"]
+)
+def test_there_is_nothing_at_other_addresses(served, path):
+    front, directory = served
+    before = len(directory._open)
+    assert get(front, path)[0] == 404
+    with pytest.raises(InvalidStatus) as refusal, knock(front, own_origin(front), path):
+        pass
+    assert refusal.value.response.status_code == 404
+    assert len(directory._open) == before
+
+
+def n_looked_at(directory):
+    return sum(not each.idle for each in directory._open.values())
+
+
+def slider(session):
+    """The first slider on a session's page, of a mount rate."""
+    handles = session.server.gui._gui_input_handle_from_uuid.values()
+    return next(each for each in handles if isinstance(each, viser.GuiSliderHandle))
+
+
+def test_a_session_is_moved_by_its_own_pages_alone(served):
+    front, directory = served
+    ways = way(front), way(front)
+    with page_at(front, ways[0]) as mine, page_at(front, ways[1]) as stranger, page_at(front, ways[0]):
+        mine_id, other_id = (digest_of(key_of(each)) for each in ways)
+        wait_until(lambda: {mine_id, other_id} <= directory._open.keys())
+        one, other = directory._open[mine_id], directory._open[other_id]
+        wait_until(lambda: one.app.session.answer and other.app.session.answer, 60)
+        wait_until(lambda: len(one.server.get_clients()) == 2)
+        before = one.app.session.state.design.rates
+        stranger.send(update(slider(one), slider(one).value + 7))
+        mine.send(update(slider(one), slider(one).value + 20))
+        wait_until(lambda: one.app.session.state.design.rates != before)
+        moved = one.app.session.state.design.rates
+        time.sleep(0.3)  # the stranger's word has long been heard
+        assert one.app.session.state.design.rates == moved
+        assert other.app.session.state.design.rates == before
+        assert one.app.session.prepared is other.app.session.prepared
+
+
+def test_a_session_that_nobody_looks_at_is_closed_and_others_stay(served, monkeypatch):
+    front, directory = served
+    with page_at(front, way(front)), page_at(front, way(front)) as left:
+        wait_until(lambda: n_looked_at(directory) == 2, 60)
+        wait_until(lambda: all(each.app.session.answer for each in directory._open.values()), 60)
+        left.close()
+        wait_until(lambda: n_looked_at(directory) == 1)
+        monkeypatch.setattr(rules, "MOST_OPEN", 2)
+        with page_at(front, way(front)):
+            wait_until(lambda: n_looked_at(directory) == 2)
+            assert len(directory._open) == 2
+
+
+def test_without_the_token_no_session_is_opened():
+    with serving(token=TOKEN) as (front, directory):
+        path = "/?session=" + "a" * 22
+        assert get(front)[0] == get(front, path)[0] == 403
+        with pytest.raises(InvalidStatus) as refusal, knock(front, own_origin(front), path):
+            pass
+        assert refusal.value.response.status_code == 403
+        with pytest.raises(InvalidStatus), knock(front, "http://elsewhere.example", path):
+            pass
+        assert not directory._open
