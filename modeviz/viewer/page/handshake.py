@@ -125,7 +125,7 @@ class Door:
         return None if connection.speak_for(asked.client) else answer(429, TOO_MANY_CONNECTIONS)
 
     def _unwrapped(self, address: str, request: Request) -> tuple[Asked, str | None]:
-        """Gives a request its own Host again; returns what else was asked, and the path in our folder."""
+        """Gives a request its own Host; returns what else was asked, and the path in our folder."""
         asked = self.around.proxies.asked(address, request.headers)
         if asked.host is not None:
             _set(request.headers, "Host", asked.host)
