@@ -88,7 +88,7 @@ class Front:
         self._site = site
         self._listening.listen(BACKLOG)
         self._thread.start()
-        self.house.notices.tell(f"listens on port {self.port} of {self.door.host}", "started")
+        self.house.notices.tell(f"listens on port {self.get_port()} of {self.door.host}", "started")
 
     def close(self) -> None:
         """Gives the address back; who is in stays in."""
