@@ -6,15 +6,18 @@ from functools import partial
 from pathlib import Path
 
 from modeviz.analysis.results import Conditions
-from modeviz.cli.command import Command
+from modeviz.cli.command import Command, of_options
 from modeviz.cli.interrupt import ended_by_interrupt
 from modeviz.cli.options import RoadOptions, VehicleOptions, add_road, add_vehicle, prepare_telling
+from modeviz.cli.studies.options import add_session, file_of, session_of
 from modeviz.cli.terminal import Teller, say
 from modeviz.errors import ModevizError
 from modeviz.files.disk import check_writable
 from modeviz.files.rate_settings import ORIGINAL, resolve_rates
+from modeviz.journal.records import Records
 from modeviz.report.comparison import RateSet
 from modeviz.report.html import Picture
+from modeviz.report.notes import Note
 from modeviz.study.pictures import report_pictures
 from modeviz.study.reporting import write_report
 from modeviz.vehicle.vehicle import Vehicle
@@ -29,6 +32,20 @@ class ReportOptions(VehicleOptions, RoadOptions):
     output: Path = Path("report.html")
     pictures: bool = True
     """Whether it has some."""
+    notes: Path | None = None
+    """The file of a study whose notes are told, or the folder of its vehicle."""
+    session: int | None = None
+    """Whose notes; None: those of all sessions."""
+
+    def remarks(self) -> tuple[Note, ...]:
+        """Return the notes; raises ModevizError if there is no such study or session."""
+        if self.notes is None:
+            if self.session is not None:
+                raise ModevizError("--session is of a study, which --notes names")
+            return ()
+        records = Records.of_file(file_of(self.notes))
+        with of_options():
+            return records.notes(session_of(records, self.session))
 
 
 def compare_rates(options: ReportOptions) -> None:
@@ -40,12 +57,13 @@ def compare_rates(options: ReportOptions) -> None:
     now = RateSet(_name(options.rates, is_changed), rates, options.placements)
     conditions = options.ride(vehicle)
     check_writable(options.output)
+    remarks = options.remarks()
     pictures = []
     if options.pictures and conditions is not None:
         pictures = _pictures(given, (base, now), conditions)
     vehicles = (given, vehicle) if options.places else (vehicle,)
     prepare = [partial(prepare_telling, each) for each in vehicles]
-    write_report(options.output, prepare, (base, now), conditions, pictures, Teller())
+    write_report(options.output, prepare, (base, now), conditions, pictures, Teller(), remarks)
     print(f"{options.output}: {now.name} against {base.name}")
 
 
@@ -82,6 +100,13 @@ def _add_options(command: ArgumentParser) -> None:
         dest="pictures",
         help="without the pictures, for which a Chromium is needed",
     )
+    command.add_argument(
+        "--notes",
+        type=Path,
+        metavar="STUDY",
+        help="with the notes of a study: its file, or the folder of its vehicle",
+    )
+    add_session(command)
 
 
 REPORT = Command(

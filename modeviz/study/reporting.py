@@ -11,6 +11,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.files.disk import write_text
 from modeviz.report.comparison import Comparison, RateSet, compare
 from modeviz.report.html import Picture, report
+from modeviz.report.notes import Note
 from modeviz.study.telling import Tell
 
 
@@ -21,6 +22,7 @@ def write_report(
     conditions: Conditions | None,
     pictures: Sequence[Picture],
     tell: Tell,
+    remarks: Sequence[Note] = (),
 ) -> None:
     """Solves with both sets of rates, checks the second against the full model and writes the file.
 
@@ -31,13 +33,14 @@ def write_report(
         conditions: road and speed; None for a vehicle without a road.
         pictures: what it begins with.
         tell: told how far it is.
+        remarks: what people noted on the study.
 
     Raises:
         ModevizError: it cannot be solved, or the file cannot be written.
     """
     ready = [each() for each in prepare]
     comparison = compare(ready[-1], *sets, conditions, ready[0])
-    page = report(comparison, date.today(), pictures, _checked(comparison, tell))
+    page = report(comparison, date.today(), pictures, _checked(comparison, tell), remarks)
     write_text(path, page)
 
 

@@ -15,11 +15,13 @@ from modeviz.report.html.engines import engines
 from modeviz.report.html.exactness import exactness
 from modeviz.report.html.forces import forces, paths
 from modeviz.report.html.modes import frequencies, objective, participation, rates
+from modeviz.report.html.notes import study_notes
 from modeviz.report.html.ride import levels, spectra
 from modeviz.report.html.rigid import rigid
 from modeviz.report.html.rubber import rubber
 from modeviz.report.html.statics import statics
 from modeviz.report.html.wheels import wheels
+from modeviz.report.notes import Note
 from modeviz.text.markup import change, named_small, section, span
 from modeviz.text.wording import number, signed
 from modeviz.units import factor
@@ -36,7 +38,11 @@ class Picture:
 
 
 def report(
-    comparison: Comparison, made: date, pictures: Sequence[Picture] = (), check: Check | None = None
+    comparison: Comparison,
+    made: date,
+    pictures: Sequence[Picture] = (),
+    check: Check | None = None,
+    remarks: Sequence[Note] = (),
 ) -> str:
     """A comparison as one HTML document: no scripts, nothing to load, light, dark and for paper.
 
@@ -45,6 +51,7 @@ def report(
         made: the date on it.
         pictures: shown after the figures that count.
         check: how far the second of both sets is from the exact answer.
+        remarks: what people noted on the study.
     """
     first, second = map(escape, comparison.names)
     heading = f"{escape(comparison.vehicle.name)}: {second} against {first}"
@@ -53,6 +60,7 @@ def report(
             f"<header><h1>{heading}</h1>{_about(comparison, made)}</header>",
             _figures(comparison),
             _pictures(pictures),
+            study_notes(remarks),
             rates(comparison),
             objective(comparison),
             frequencies(comparison),
