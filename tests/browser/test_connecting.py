@@ -7,6 +7,7 @@ from pages import wait_for
 from small_proxy import proxy
 from visitors import TOKEN
 
+from modeviz.viewer.page.handshake import WHY
 from modeviz.viewer.page.server import open_server
 
 NOTICE = "document.getElementById('modeviz-connection')?.textContent"
@@ -51,6 +52,17 @@ def silent_to_sockets(path, headers):
     return None if "Upgrade" in headers else (path, headers)
 
 
+def silent_to_all_but_the_page(path, headers):
+    return None if "Upgrade" in headers or WHY in path else (path, headers)
+
+
+def said_in_time(page):
+    """What a page says is wrong, within 5 s after it was asked for."""
+    said, passed = wait_for(page, f"{NOTICE} && [{NOTICE}, performance.now()]")
+    assert passed < 5000.0
+    return said
+
+
 def other_host(port):
     return lambda path, headers: (path, {**headers, "Host": f"127.0.0.1:{port}"})
 
@@ -74,7 +86,7 @@ def test_page_behind_the_token_works_in_a_browser(locked, show):
 def test_a_page_whose_socket_is_blocked_says_so(locked, show, change):
     with proxy(locked.get_port(), change) as port:
         page = show(f"http://127.0.0.1:{port}/?token={TOKEN}")
-        said = wait_for(page, NOTICE)
+        said = said_in_time(page)
         assert said.startswith("Not connected: ")
         assert "WebSocket, does not get through: a proxy or firewall" in said
 
@@ -82,13 +94,19 @@ def test_a_page_whose_socket_is_blocked_says_so(locked, show, change):
 def test_a_page_whose_socket_opens_and_stays_silent_says_so(locked, show):
     with proxy(locked.get_port(), lambda path, headers: (path, headers), is_mute=True) as port:
         page = show(f"http://127.0.0.1:{port}/?token={TOKEN}")
-        assert "is open, but nothing has come through it yet" in wait_for(page, NOTICE)
+        assert "is open, but nothing has come through it yet" in said_in_time(page)
+
+
+def test_a_page_of_which_all_that_follows_is_held_back_says_so(locked, show):
+    with proxy(locked.get_port(), silent_to_all_but_the_page) as port:
+        page = show(f"http://127.0.0.1:{port}/?token={TOKEN}")
+        assert "the server does not answer" in said_in_time(page)
 
 
 def test_a_page_whose_socket_is_refused_says_why(locked, show):
     with proxy(locked.get_port(), other_host(locked.get_port())) as port:
         page = show(f"http://127.0.0.1:{port}/?token={TOKEN}")
-        said = wait_for(page, NOTICE)
+        said = said_in_time(page)
         assert f"this one is at http://127.0.0.1:{port}" in said
         assert "has to pass the header Host on" in said
 
@@ -110,7 +128,7 @@ def test_a_page_whose_server_has_ended_says_so_until_there_is_one_again(show):
     page = show(server.link)
     wait_for(page, "document.body.innerText.includes('live')")
     server.stop()
-    assert "the server does not answer" in wait_for(page, NOTICE)
+    assert "modeviz was stopped" in wait_for(page, NOTICE)
     server = open_server(port=port)
     page.bring_to_front()
     wait_for(page, f"!{NOTICE}")

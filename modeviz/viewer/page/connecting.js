@@ -7,6 +7,7 @@
 // proxy has made of the request.
 (why, subprotocol) => {
   const PATIENCE = 3000; // ms until a page that is not connected says so
+  const LONGEST = 1500; // ms that an answer to what is wrong may take: a proxy may hold it back, too
   const AGAIN = 5000; // ms between two questions what is wrong
 
   const OURS = ["vehicle", "session", "review", "view"]; // of the page's address, for its websocket
@@ -17,7 +18,7 @@
   const SILENT =
     "the live connection, a WebSocket, is open, but nothing has come through it yet: a proxy in between holds it " +
     "back, or the server is busy";
-  const GONE = "the server does not answer: start modeviz again, and open the link it prints";
+  const GONE = "the server does not answer: start modeviz again, and this page goes on, or open the link it prints";
 
   const UNSAID = ["Connection closed", "WebSocket construction failed"]; // viser's, where there is no reason
 
@@ -66,7 +67,10 @@
     try {
       const query = new URLSearchParams({ origin: location.origin, subprotocol });
       const address = new URL(why, location.href.split(/[?#]/)[0]);
-      const answer = await fetch(`${address}?${query}`, { cache: "no-store" });
+      const answer = await fetch(`${address}?${query}`, {
+        cache: "no-store",
+        signal: AbortSignal.timeout(LONGEST),
+      });
       text = (answer.headers.get("Content-Type") ?? "").startsWith("text/plain") ? await answer.text() : BLOCKED;
     } catch {}
     if (waiting !== asked) return; // it has been connected meanwhile

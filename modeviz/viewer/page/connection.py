@@ -137,6 +137,10 @@ class PageConnection(ServerConnection):
         """Whether a page would get one."""
         return self._house.pages.is_free(self.client)
 
+    def must_wait(self) -> bool:
+        """Whether so many pages are being opened that another would have to wait."""
+        return self._house.openings.take(0.0) > 0.0
+
     def throw_out(self) -> None:
         """Ends the connection at once; from any thread."""
         with suppress(RuntimeError):  # its loop has ended

@@ -256,7 +256,9 @@ class Door:
             return answer(200, NO_TOKEN)
         if query.get("subprotocol") != SUBPROTOCOL:
             return answer(200, OTHER_VERSION)
-        return answer(200, "" if connection.has_page_place() else TOO_MANY)
+        if not connection.has_page_place():
+            return answer(200, TOO_MANY)
+        return answer(200, BUSY if connection.must_wait() else "")
 
     def policy(self, request: Request) -> str:
         """Return what a page may do, and who may show it, as Content-Security-Policy says it."""

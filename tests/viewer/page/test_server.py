@@ -16,6 +16,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from benchmarks.page_client import messages as decoded
 from modeviz.errors import ModevizError
+from modeviz.viewer.page.connection import MOST_OPENINGS
 from modeviz.viewer.page.handshake import WHY
 from modeviz.viewer.page.kept_tokens import LIFE_S, KeptToken
 from modeviz.viewer.page.secret import Secret
@@ -242,6 +243,9 @@ def test_a_page_is_told_why_its_websocket_is_refused(server, locked):
     assert "another version" in why(server, subprotocol="viser-v0.2")
     assert "whole link" in why(locked)
     assert why(locked, headers={"Cookie": cookie_of(locked)}) == ""
+    locked._front.house.openings.take(MOST_OPENINGS + 1.0)
+    assert "many pages are being opened" in why(locked, headers={"Cookie": cookie_of(locked)})
+    locked._front.house.openings.take(-MOST_OPENINGS - 1.0)
     assert get(server, f"/{WHY}", Host="evil.example")[0] == 403
 
 
