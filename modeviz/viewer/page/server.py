@@ -13,6 +13,7 @@ from contextlib import contextmanager, redirect_stdout
 from functools import partial
 from typing import Any
 
+import rich
 import viser
 import websockets.asyncio.server
 from viser import _messages
@@ -63,7 +64,7 @@ class Server(viser.ViserServer):
         self.acceptor: Acceptor = Acceptor()
         self._front, self._address = front, address
         self._turns = Turns(self._tell_page)
-        with _behind(front, self._turns, self.acceptor), redirect_stdout(io.StringIO()):
+        with _behind(front, self._turns, self.acceptor), _quietly():
             door = front.door
             super().__init__(host=door.host, port=front.get_port(), label=door.title, verbose=False)
         if not self.acceptor.is_ready:
@@ -111,7 +112,7 @@ class Server(viser.ViserServer):
     def stop(self) -> None:
         """Tells all pages that it stops, and stops."""
         self._dismiss(STOPPED)
-        with redirect_stdout(io.StringIO()):
+        with _quietly():
             super().stop()
         self._turns.shutdown(wait=False, cancel_futures=True)
 
@@ -199,6 +200,18 @@ def open_front(
     if not 0 <= port <= 65535:
         raise ModevizError(f"port: found {port}, expected 0 to 65535")
     return Front(Door(host, secret, title, around, is_framed), port, Notices())
+
+
+@contextmanager
+def _quietly() -> Iterator[None]:
+    """While this lasts, viser says nothing; in a notebook rich shows it past what stdout is."""
+    console = rich.get_console()
+    was_quiet, console.quiet = console.quiet, True
+    try:
+        with redirect_stdout(io.StringIO()):
+            yield
+    finally:
+        console.quiet = was_quiet
 
 
 @contextmanager

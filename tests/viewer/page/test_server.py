@@ -9,6 +9,7 @@ from functools import partial
 from urllib.parse import urlencode
 
 import pytest
+import rich
 import viser
 from viser import _messages
 from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin
@@ -52,6 +53,14 @@ def test_page_has_our_title_and_icon_and_may_not_be_framed(server):
     assert b"<title>modeviz</title>" in page
     assert b'href="data:image/svg+xml;base64,' in page
     assert "frame-ancestors 'none'" in headers["Content-Security-Policy"]
+
+
+def test_a_server_says_nothing_by_itself_wherever_rich_would_show_it(capsys):
+    with rich.get_console().capture() as shown:  # as in a notebook, where rich needs no stdout
+        open_server(port=0).stop()
+    assert shown.get() == ""
+    assert capsys.readouterr().out == ""
+    assert not rich.get_console().quiet
 
 
 def test_zipped_page_is_the_same_page(server):
