@@ -79,9 +79,13 @@ class Worker(Generic[Job]):
                 self._due = time.monotonic() + (patience or self._patience)
 
     def wait(self, timeout: float) -> bool:
-        """Waits until nothing is left to do; whether that came within `timeout` seconds."""
+        """Waits until nothing is left to do; whether that came within `timeout` seconds.
+
+        Of a closed one nobody waits for what it leaves undone.
+        """
         with self._changed:
-            return self._changed.wait_for(lambda: not (self._busy or self._waiting), timeout)
+            self._changed.wait_for(lambda: self._is_done() or self._closed.is_set(), timeout)
+            return self._is_done()
 
     def close(self) -> None:
         """Ends the thread after the job it is at, for which nobody waits long."""
@@ -91,6 +95,9 @@ class Worker(Generic[Job]):
             thread = self._thread
         if thread.is_alive():
             thread.join(CLOSING_S)
+
+    def _is_done(self) -> bool:
+        return not (self._busy or self._waiting)
 
     def _new_thread(self) -> threading.Thread:
         return threading.Thread(target=self._run, name="worker", daemon=True)

@@ -1,4 +1,5 @@
 import threading
+import time
 
 from modeviz.viewer.session.worker import Worker
 
@@ -20,6 +21,24 @@ def test_a_burst_ends_with_its_last_job_and_skips_what_was_overtaken():
     assert worker.wait(5)
     assert done == [0, 49]
     worker.close()
+
+
+def test_nobody_waits_for_what_a_closed_one_leaves_undone():
+    started, go_on = threading.Event(), threading.Event()
+
+    def work(_):
+        started.set()
+        go_on.wait(20)
+
+    worker = Worker(work, fail=lambda e: None)
+    worker.submit("first")
+    started.wait(5)
+    worker.submit("left undone")
+    threading.Timer(0.1, go_on.set).start()
+    worker.close()
+    begin = time.monotonic()
+    assert not worker.wait(20)
+    assert time.monotonic() - begin < 10
 
 
 def test_jobs_never_overlap():
