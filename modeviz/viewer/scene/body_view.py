@@ -21,6 +21,11 @@ SHEET_ROLES = ("cabin", "bed")
 SEE_THROUGH = 0.5
 
 
+def is_sheet(body: Body) -> bool:
+    """Whether a body hides others."""
+    return body.role in SHEET_ROLES or not (body.mesh or body.role == "absorber")
+
+
 class DrawnBody:
     """A body's meshes in the page, and what moves them."""
 
@@ -66,8 +71,7 @@ class DrawnBody:
     def of(cls, driver: ShapeDriver, body: Body, theme: Theme) -> Self:
         """Return a body of a vehicle, drawn at rest."""
         drawn = surface(drawn_mesh(body))
-        is_rigid = isinstance(body, RigidBody)
-        is_sheet = body.role in SHEET_ROLES or not (body.mesh or body.role == "absorber")
+        is_rigid, sheet = isinstance(body, RigidBody), is_sheet(body)
         return cls(
             driver,
             body.name,
@@ -75,9 +79,9 @@ class DrawnBody:
             vertex_shapes(body, drawn.vertices),
             theme,
             is_rigid=is_rigid,
-            is_sheet=is_sheet,
+            is_sheet=sheet,
             # Those of axles, wheels and engine would be many lines that tell little.
-            has_ghost=is_sheet or not is_rigid,
+            has_ghost=sheet or not is_rigid,
         )
 
     def displacement(self, coordinates: Array) -> Array:
