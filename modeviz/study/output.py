@@ -10,7 +10,8 @@ from modeviz.files.disk import check_writable
 from modeviz.files.rate_settings import ORIGINAL, resolve_rates
 from modeviz.report.comparison import RateSet
 from modeviz.study.exporting import export_files
-from modeviz.study.page import Page, is_notebook, open_page
+from modeviz.study.notebooks import OpenPages, is_notebook, this_cell
+from modeviz.study.page import Page, PageOptions, open_page
 from modeviz.study.pictures import (
     Background,
     Colors,
@@ -25,6 +26,9 @@ from modeviz.study.pictures import (
 from modeviz.study.reporting import write_report
 from modeviz.study.telling import Tell
 from modeviz.study.tuned_vehicle import TunedVehicle
+
+OPEN = OpenPages()
+"""In notebooks."""
 
 
 class StudyOutput:
@@ -152,18 +156,29 @@ class StudyOutput:
         return WrittenFile(Path(path))
 
     def show(
-        self, road: str | None = None, *, port: int = 0, dark: bool = False, height: int = 720
+        self,
+        road: str | None = None,
+        *,
+        port: int = 0,
+        dark: bool = False,
+        height: int = 720,
+        through: str = "",
+        offline: bool = True,
     ) -> Page:
         """Open the page: in a notebook in the cell, elsewhere until Ctrl+C, printing its link.
 
         A notebook goes on at once, and a page that it showed before is closed. Only this machine can
-        reach it; `modeviz view` has more to choose.
+        reach it, or who uses the notebook through a Jupyter server on it that has jupyter-server-proxy;
+        others see a still of it. `modeviz view` has more to choose.
 
         Args:
             road: as of `ride`.
             port: to listen on; 0 takes a free one.
             dark: whether the page is dark.
             height: in a notebook, pixels.
+            through: the address at which a notebook's browser reaches the page, with "{port}" in it,
+                such as "https://code.example.com/proxy/{port}/"; "": the cell finds out.
+            offline: whether the cell keeps what plays without a server, about a megabyte.
 
         Raises:
             ModevizError: the port is in use, or there is no such road.
@@ -173,10 +188,13 @@ class StudyOutput:
             self._page = None
         vehicle, conditions = self._tuned.shown(road)
         rates = self._tuned.rates.by_group
-        page = open_page(vehicle, rates, conditions, port, dark, height, self._tell)
+        options = PageOptions(port, dark, height, through, offline)
+        page = open_page(vehicle, rates, conditions, options, self._tell)
         print(f"{vehicle.name} is at {page.link}", flush=True)
         if is_notebook():
             self._page = page
+            OPEN.add(page, this_cell())
+            page.limit.callback(OPEN.forget, page)
         else:
             page.wait()
         return page

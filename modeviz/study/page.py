@@ -1,21 +1,54 @@
 """The page of a study: in a browser, or in a notebook's cell."""
 
-import sys
+import os
 import threading
-from contextlib import ExitStack
+from base64 import b64encode
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
 from functools import partial
-from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from modeviz.analysis.results import Conditions
 from modeviz.compute.threads import one_thread
+from modeviz.errors import ModevizError
+from modeviz.report.images import png_bytes
+from modeviz.study.cell import Cell
 from modeviz.study.telling import Tell
 from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.vehicle.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from modeviz.viewer.app import App
+    from modeviz.viewer.session.answers import Solved
+
+
+STILL = 960, 480
+"""Pixels."""
+
+N_COLORS = 128
+"""Of the still, which are enough for flat shades."""
+
+PATIENCE_S = 60.0
+"""How long a cell waits for the first answer, to have a still."""
+
+HUB_PREFIX = "JUPYTERHUB_SERVICE_PREFIX"
+"""The environment variable by which a hub tells kernels where its notebook's server is."""
+
+
+@dataclass(frozen=True)
+class PageOptions:
+    """How a page is opened, and shown in a cell."""
+
+    port: int = 0
+    """To listen on, on this machine alone; 0 takes a free one."""
+    dark: bool = False
+    """Whether it is dark."""
+    height: int = 720
+    """In a notebook, pixels."""
+    through: str = ""
+    """The address at which a notebook's browser reaches it, with "{port}"; "": the cell finds out."""
+    offline: bool = True
+    """Whether the cell keeps what plays without a server."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +62,7 @@ class Page:
 
     link: str
     """What opens it, with its token: whoever has the link gets in."""
-    height: int
-    """In a notebook, pixels."""
+    options: PageOptions = field(repr=False)
     app: "App" = field(repr=False)
     """What is shown, as the viewer has it."""
     limit: ExitStack = field(repr=False)
@@ -55,40 +87,59 @@ class Page:
         self.app.close()
         self.limit.close()
 
-    def _repr_html_(self) -> str:
-        link = escape(self.link, quote=True)
-        return (
-            f'<iframe title="modeviz" src="{link}" width="100%" height="{self.height}" '
-            'style="border:0" allow="fullscreen"></iframe>'
-            f'<div>Empty? <a href="{link}" target="_blank">Open it in a tab of its own</a>.</div>'
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        cell = self._cell()
+        bundle = {"text/plain": repr(self), "text/html": cell.html()}
+        return bundle | ({"image/png": b64encode(cell.png).decode()} if cell.png else {})
+
+    def _mime_(self) -> tuple[str, str]:
+        """Return the same for marimo, which runs no scripts but in a frame."""
+        return "text/html", self._cell().framed_html()
+
+    def _newest(self) -> "Solved | None":
+        """Return what is on the page, once what was asked for is; None if nothing ever was."""
+        with suppress(ModevizError):
+            return self.app.session.wait_for_answer(PATIENCE_S)
+        return self.app.session.answer
+
+    def _cell(self) -> Cell:
+        """Return what a cell shows of the page as it is."""
+        from modeviz.viewer.pictures.still import still
+        from modeviz.viewer.scene.stage import ISO, box, camera
+
+        session, options = self.app.session, self.options
+        moving, png, page = "There is no answer yet.", b"", b""
+        if solved := self._newest():
+            moving = f"{solved.movement.heading}, at its largest"
+            png = png_bytes(still(solved, options.dark, *STILL).quantize(N_COLORS))
+            if options.offline:
+                page = self.app.offline(*camera(box(session.vehicle), ISO, STILL[0], options.height))
+        return Cell(
+            name=session.vehicle.name,
+            link=self.link,
+            through=options.through,
+            prefix=os.environ.get(HUB_PREFIX, ""),
+            height=options.height,
+            moving=moving,
+            png=png,
+            page=page,
         )
-
-
-def is_notebook() -> bool:
-    """Return whether this runs in a notebook's kernel."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython else None
-    return hasattr(shell, "kernel")
 
 
 def open_page(
     vehicle: Vehicle,
     rates: Rates,
     conditions: Conditions,
-    port: int,
-    dark: bool,
-    height: int,
+    options: PageOptions,
     tell: Tell,
 ) -> Page:
-    """Return a page that pages of this machine, such as a notebook, may show in a frame.
+    """Return a page that a notebook may show in a frame.
 
     Args:
         vehicle: with the rates that all is compared with.
         rates: to start with.
         conditions: to start with.
-        port: to listen on, on this machine alone; 0 takes a free one.
-        dark: whether the page is dark.
-        height: in a notebook, pixels.
+        options: of the page.
         tell: told how far the preparation is.
 
     Raises:
@@ -101,11 +152,11 @@ def open_page(
     title = f"{vehicle.name} · modeviz"
     with ExitStack() as limit:
         limit.enter_context(one_thread())
-        server = open_server(port=port, token=new_token(), title=title, is_framed=True)
+        server = open_server(port=options.port, token=new_token(), title=title, is_framed=True)
         try:
-            app = App(vehicle, rates, conditions, server, dark)
+            app = App(vehicle, rates, conditions, server, options.dark)
             app.start(partial(tell, "preparing"))
         except BaseException:
             server.stop()
             raise
-        return Page(server.link, height, app, limit.pop_all())
+        return Page(server.link, options, app, limit.pop_all())

@@ -4,7 +4,7 @@
 // there is, as soon as the page is connected. It leaves out the last slash of
 // the page's address, without which a proxy may not know the page's place, and writes the websocket's address
 // into the page's own, which the server then refuses. What is wrong is asked of the server, which sees what a
-// proxy has made of the request.
+// proxy has made of the request. A page that shows this one in a frame is told whether there is a server.
 (why, subprotocol) => {
   const PATIENCE = 3000; // ms until a page that is not connected says so
   const LONGEST = 1500; // ms that an answer to what is wrong may take: a proxy may hold it back, too
@@ -28,6 +28,7 @@
   let notice = null;
 
   const address = () => location.href.split(/[?#]/)[0];
+  const tell = (modeviz) => parent !== window && parent.postMessage({ modeviz }, "*");
 
   function visit() {
     const all = new URLSearchParams(location.search);
@@ -53,6 +54,7 @@
     ended = "";
     notice?.remove();
     delete document.documentElement.dataset.modevizConnected;
+    tell("here");
   }
 
   function closed(reason) {
@@ -64,6 +66,7 @@
   async function explain() {
     const asked = waiting;
     let text = ended || GONE;
+    let isGone = true;
     try {
       const query = new URLSearchParams({ origin: location.origin, subprotocol });
       const address = new URL(why, location.href.split(/[?#]/)[0]);
@@ -71,10 +74,15 @@
         cache: "no-store",
         signal: AbortSignal.timeout(LONGEST),
       });
-      text = (answer.headers.get("Content-Type") ?? "").startsWith("text/plain") ? await answer.text() : BLOCKED;
-    } catch {}
+      const isOurs = (answer.headers.get("Content-Type") ?? "").startsWith("text/plain");
+      isGone = !isOurs && answer.status >= 500; // a proxy says that there is nobody
+      if (!isGone) text = isOurs ? await answer.text() : BLOCKED;
+    } catch (error) {
+      isGone = error.name !== "TimeoutError";
+    }
     if (waiting !== asked) return; // it has been connected meanwhile
     show(text || (isOpen ? SILENT : BLOCKED));
+    if (isGone) tell("gone");
     waiting = setTimeout(explain, AGAIN);
   }
 
