@@ -1,6 +1,7 @@
 """One connection of a client: counted from its first byte, read no faster than it may speak."""
 
 import asyncio
+import socket
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -47,6 +48,15 @@ CLOSING_S = 2.0
 SILENT = 30.0
 """s: a page tells of its camera as soon as it is connected."""
 
+READS_WITHIN = 15.0
+"""s that may pass until a page reads on."""
+
+MOST_UNSENT = 65536
+"""Bytes that the system keeps to send."""
+
+SLOWEST = 1000.0
+"""Bytes a second that a page must read then; what is newer replaces what waits for it meanwhile."""
+
 SOON = 0.02
 """s between two looks whether a page has less to do."""
 
@@ -87,6 +97,7 @@ class PageConnection(ServerConnection):
         self._n_wrong = 0
         self._is_heard = self._is_ending = False
         self._is_asked = False
+        self._looking: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Begins a connection, or ends it where there is no place for it."""
@@ -94,6 +105,7 @@ class PageConnection(ServerConnection):
         self.client = client_of(peer[0]) if peer else "a client"
         is_proxy = peer is not None and self._house.proxies.trusts(peer[0])
         if self._take(self._house.connections, is_one=not is_proxy):
+            _hold_little(transport)
             super().connection_made(transport)
         else:
             self._note("opened more connections than it may: the last are refused")
@@ -107,8 +119,36 @@ class PageConnection(ServerConnection):
             self._is_ending = True
             self.loop.call_later(CLOSING_S, self.transport.abort)
 
+    def pause_writing(self) -> None:
+        """Waits with what is to be sent, but not for ever for somebody who does not read it."""
+        super().pause_writing()
+        self._look_later()
+
+    def resume_writing(self) -> None:
+        """Goes on: so much has been read."""
+        super().resume_writing()
+        self._stop_looking()
+
+    def _look_later(self) -> None:
+        n_bytes = self.transport.get_write_buffer_size()
+        self._looking = self.loop.call_later(READS_WITHIN, self._end_if_behind, n_bytes)
+
+    def _stop_looking(self) -> None:
+        if self._looking is not None:
+            self._looking.cancel()
+
+    def _end_if_behind(self, n_before: int) -> None:
+        """Ends a page that has hardly read: it would hold up what is for it alone, and comes again."""
+        n_read = n_before - self.transport.get_write_buffer_size()
+        if n_read < READS_WITHIN * SLOWEST:
+            self._note("reads too slowly: its page is closed, and comes again by itself")
+            self.transport.abort()
+        else:
+            self._look_later()
+
     def connection_lost(self, exc: Exception | None) -> None:
         """Gives its places back."""
+        self._stop_looking()
         if self._places:
             super().connection_lost(exc)
         for places in self._places:
@@ -231,6 +271,13 @@ class PageConnection(ServerConnection):
             return False
         self._places.append(places)
         return True
+
+
+def _hold_little(transport: asyncio.BaseTransport) -> None:
+    """Has the system keep little of what is not sent yet: here it is replaced by what is newer."""
+    connection = transport.get_extra_info("socket")
+    if connection is not None and hasattr(socket, "TCP_NOTSENT_LOWAT"):
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, MOST_UNSENT)
 
 
 @contextmanager
