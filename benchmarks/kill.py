@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 
-from modeviz.journal.changes import Change, Kind, Step
+from modeviz.journal.changes import LONGEST, Change, Kind, Step
 from modeviz.journal.fingerprint import Fingerprint
 from modeviz.journal.records import Records
 from modeviz.journal.sessions import StoredSession
@@ -69,7 +69,7 @@ class Model:
                 past = (*past[:-1], Step(past[-1].before, act.state))
             case _:
                 past = (*past, Step(self.state, act.state))
-        return Model(act.state, past[-500:], (), self.n_notes, **more)
+        return Model(act.state, past, (), self.n_notes, **more)
 
 
 @dataclass(frozen=True)
@@ -205,7 +205,10 @@ def _check(path: Path, model: Model, seed: int, told: bytes, killed: Killed) -> 
     found = _found(path)
     expected = [model, *(after for _, after in islice(acts(model, seed), n_asked))]
     possible = [k for k in range(n_saved, n_asked + 1) if _is(found, expected[k])]
-    assert possible, f"{path}: after {n_saved} saved of {n_asked} acts the study is {found}"
+    assert possible, (
+        f"{path.name}: after {n_saved} saved of {n_asked} acts the study is {_brief(found)}, expected "
+        f"one of {[_brief(each) for each in expected[n_saved:]]}"
+    )
     killed.in_flight.append(n_asked - n_saved)
     killed.lost.append(n_asked - possible[-1])
     return expected[possible[-1]]
@@ -223,14 +226,27 @@ def _found(path: Path) -> tuple[StoredSession | None, int]:
         study.close()
 
 
+def _brief(found: tuple[StoredSession | None, int] | Model) -> str:
+    """What there is, with states by the numbers with which they begin."""
+    session, n_notes = (found, found.n_notes) if isinstance(found, Model) else found
+    if session is None:
+        return f"no session and {n_notes} notes"
+    stacks = (
+        ", ".join(f"{step.before.split()[0]} to {step.after.split()[0]}" for step in steps)
+        for steps in (session.past, session.future)
+    )
+    state = (session.state or "none").split()[0]
+    return "state {}, past {}, future {}, {} notes".format(state, *stacks, n_notes)
+
+
 def _is(found: tuple[StoredSession | None, int], model: Model) -> bool:
     session, n_notes = found
     if session is None or session.state is None:
         return (n_notes, model.past, model.future, model.state) == (model.n_notes, (), (), "0")
     return (session.state, session.past, session.future, n_notes) == (
         model.state,
-        model.past,
-        model.future,
+        model.past[-LONGEST:],
+        model.future[-LONGEST:],
         model.n_notes,
     )
 

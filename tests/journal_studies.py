@@ -27,7 +27,7 @@ def change(
     now = pinned(before if kind in ("undo", "back") else after)
     return Change(
         kind,
-        "Set C2.lateral",
+        "Undo: set C2.lateral" if kind == "undo" else "Set C2.lateral",
         f"state {before:g}",
         f"state {after:g}",
         author,

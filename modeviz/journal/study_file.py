@@ -23,12 +23,15 @@ from modeviz.journal.places import own_folder
 from modeviz.journal.records import Records
 from modeviz.journal.runs import Run, write_run
 from modeviz.journal.schema import create
-from modeviz.journal.sessions import SessionId
+from modeviz.journal.sessions import SessionId, StoredSession
 from modeviz.journal.writer import Writer
 from modeviz.report.notes import Note
 
 PATIENCE = 5.0
 """s that reading waits for what was written before."""
+
+IMPATIENCE = 0.2
+"""s for the same while nothing can be written."""
 
 
 class StudyFile(Records):
@@ -105,26 +108,27 @@ class StudyFile(Records):
     def begin(self, session: SessionId, author: str = "", title: str = "") -> None:
         """Writes that a session is used from now on with this vehicle, a new one or an old one."""
         now, vehicle = time.time(), self.vehicle
-        self._writer.put(lambda c: stored.begin(c, session, vehicle, author, title, now))
+        self._writer.put(lambda c: stored.begin(c, session, vehicle, author, title, now), session)
 
     def rename(self, session: SessionId, title: str) -> None:
         """Gives a session another title."""
-        self._writer.put(lambda c: stored.rename(c, session, title))
+        self._writer.put(lambda c: stored.rename(c, session, title), session)
 
     def record(self, session: SessionId, change: Change) -> None:
         """Writes a change that a session accepted."""
         now = time.time()
-        self._writer.put(lambda c: stored.record(c, session, change, now), self._key(session, change))
+        key = self._key(session, change)
+        self._writer.put(lambda c: stored.record(c, session, change, now), session, key)
 
     def look(self, session: SessionId, state: str) -> None:
         """Writes how a session is looked at now; of several the newest counts."""
         now = time.time()
-        self._writer.put(lambda c: stored.look(c, session, state, now), ("look", session))
+        self._writer.put(lambda c: stored.look(c, session, state, now), session, ("look", session))
 
     def share(self, session: SessionId, review: SessionId, author: str = "") -> None:
         """Writes that a review shows a session."""
         now = time.time()
-        self._writer.put(lambda c: stored.share(c, session, review, author, now))
+        self._writer.put(lambda c: stored.share(c, session, review, author, now), session)
 
     def end_review(self, review: SessionId) -> None:
         """Writes that a review shows nothing any more."""
@@ -137,27 +141,44 @@ class StudyFile(Records):
         A note whose token is there already takes its place.
         """
         written = replace(note, token=note.token or new_token(), time=time.time())
-        self._writer.put(lambda c: remarks.write_note(c, _number(c, session), written))
+        self._writer.put(lambda c: remarks.write_note(c, _number(c, session), written), session or "")
         return written.token
 
     def remove_note(self, session: SessionId | None, token: str) -> None:
         """Takes a note away."""
         now = time.time()
-        self._writer.put(lambda c: remarks.remove_note(c, _number(c, session), token, now))
+        self._writer.put(
+            lambda c: remarks.remove_note(c, _number(c, session), token, now), session or ""
+        )
 
     def put_run(self, session: SessionId, run: Run) -> str:
         """Writes a run of a session, in place of one of its token; returns that."""
         written = replace(run, token=run.token or new_token(), time=time.time())
-        self._writer.put(
-            lambda c: write_run(c, stored.number_of(c, session), written), ("run", written.token)
-        )
+        key = ("run", written.token)
+        self._writer.put(lambda c: write_run(c, stored.number_of(c, session), written), session, key)
         return written.token
 
     def put_picture(self, session: SessionId, png: bytes, caption: str, author: str = "") -> str:
         """Writes a picture of a session; returns its token."""
         line = PictureLine(new_token(), caption, author, time.time())
-        self._writer.put(lambda c: write_picture(c, stored.number_of(c, session), line, png))
+        self._writer.put(lambda c: write_picture(c, stored.number_of(c, session), line, png), session)
         return line.token
+
+    def is_saved(self, session: SessionId) -> bool:
+        """Whether all of a session is on the disk."""
+        return not self._writer.holds(session)
+
+    def restore(self, session: SessionId) -> StoredSession | None:
+        """Return a session as it was left; None where there is none.
+
+        Raises:
+            ModevizError: it cannot be read, or is not saved yet, so that what there is of it is old.
+        """
+        found = super().restore(session)
+        if not self.is_saved(session):
+            trouble = self.trouble or "not saved yet"
+            raise ModevizError(f"{self.path}: the session cannot be opened now ({trouble}); try again")
+        return found
 
     def flush(self, timeout: float) -> bool:
         """Waits until all is on the disk; whether that came within `timeout` s."""
@@ -180,7 +201,7 @@ class StudyFile(Records):
 
     def _connect_after_writing(self) -> Connection:
         """A connection that sees what was asked to be written before, if it could be."""
-        self.flush(PATIENCE)
+        self.flush(IMPATIENCE if self.trouble else PATIENCE)
         return sqlite3.connect(f"{self.path.as_uri()}?mode=ro", uri=True, isolation_level=None)
 
 

@@ -14,6 +14,9 @@ from modeviz.report.records import Record
 MOST_DIFFERENCES = 6
 """Of a change in a line; the others are counted."""
 
+CHANGES = ("step", "undo", "redo")
+"""Kinds of entries whose titles say what was done."""
+
 LONGEST_TITLE = 200
 """Letters of what is told in a line."""
 
@@ -40,7 +43,7 @@ def log_text(name: str, study: Study, sessions: Iterable[SessionLine], entries: 
 def entry_text(entry: Entry) -> str:
     """Return an entry in a line."""
     session = "all" if entry.session is None else f"{entry.session:>3}"
-    kind = "" if entry.kind == "step" else f"{entry.kind}: "
+    kind = "" if entry.kind in CHANGES else f"{entry.kind}: "
     title = cut(" ".join(entry.title.split()), LONGEST_TITLE)
     differences = [] if entry.kind in ("undo", "redo") else [told(d) for d in entry.differences]
     n_more = len(differences) - MOST_DIFFERENCES

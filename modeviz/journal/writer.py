@@ -4,6 +4,7 @@ import logging
 import sqlite3
 import threading
 from collections.abc import Callable, Hashable
+from dataclasses import dataclass
 from pathlib import Path
 from sqlite3 import Connection
 
@@ -19,6 +20,14 @@ RETRY = 2.0
 """s between tries while nothing can be written."""
 
 log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, eq=False)
+class _Waiting:
+    """A write that is in memory."""
+
+    write: Write
+    owner: str
 
 
 class Writer:
@@ -40,7 +49,7 @@ class Writer:
         """
         self._path, self._tell = path, tell
         self._changed = threading.Condition()
-        self._waiting: dict[Hashable, Write] = {}
+        self._waiting: dict[Hashable, _Waiting] = {}
         self._n_put = 0
         self._is_writing = self._is_closed = False
         self._trouble = ""
@@ -60,18 +69,24 @@ class Writer:
         with self._changed:
             return len(self._waiting)
 
-    def put(self, write: Write, key: Hashable = None) -> None:
+    def holds(self, owner: str) -> bool:
+        """Whether something of an owner is in memory alone."""
+        with self._changed:
+            return any(waiting.owner == owner for waiting in self._waiting.values())
+
+    def put(self, write: Write, owner: str = "", key: Hashable = None) -> None:
         """Asks for a write; returns at once.
 
         Args:
             write: what to do with a connection that is in a transaction.
+            owner: whose it is, see `holds`.
             key: of what is overtaken by the next of that key; None: nothing overtakes it.
         """
         with self._changed:
             self._n_put += 1
             name = ("alone", self._n_put) if key is None else key
             self._waiting.pop(name, None)
-            self._waiting[name] = write
+            self._waiting[name] = _Waiting(write, owner)
             self._changed.notify_all()
 
     def flush(self, timeout: float) -> bool:
@@ -104,31 +119,37 @@ class Writer:
             self._settle({} if trouble else writes, trouble)
         self._disconnect()
 
-    def _settle(self, written: dict[Hashable, Write], trouble: str) -> None:
+    def _settle(self, written: dict[Hashable, _Waiting], trouble: str) -> None:
         """Forgets what is written, tells what is new, and waits where nothing can be."""
         with self._changed:
-            for name, write in written.items():
-                if self._waiting.get(name) is write:
+            for name, waiting in written.items():
+                if self._waiting.get(name) is waiting:
                     del self._waiting[name]
             self._is_writing = False
             news = trouble != self._trouble
             self._trouble = trouble
             self._changed.notify_all()
         if news:
-            self._tell(trouble)
+            self._tell_on(trouble)
         if trouble:
             with self._changed:
                 if not self._is_closed:
                     self._changed.wait(RETRY)
 
-    def _try(self, writes: dict[Hashable, Write]) -> str:
+    def _tell_on(self, trouble: str) -> None:
+        try:
+            self._tell(trouble)
+        except Exception:
+            log.exception("nobody was told: %s", trouble or "saved again")
+
+    def _try(self, writes: dict[Hashable, _Waiting]) -> str:
         """Commits some writes; returns why not, or ""."""
         try:
             self._check_there()
             if self._connection is None:
                 self._connection = open_to_write(self._path)
-            _commit(self._connection, list(writes.values()))
-        except (sqlite3.Error, OSError) as error:
+            _commit(self._connection, [waiting.write for waiting in writes.values()])
+        except (sqlite3.Error, OSError, MemoryError) as error:
             self._disconnect()
             return f"not saved: {_words(error)}"
         return ""
@@ -155,9 +176,11 @@ def _commit(connection: Connection, writes: list[Write]) -> None:
         connection.execute("SAVEPOINT one")
         try:
             write(connection)
-        except (sqlite3.OperationalError, MemoryError):
-            raise
-        except Exception:
+        except Exception as error:
+            if isinstance(error, sqlite3.OperationalError | MemoryError) or (
+                type(error) is sqlite3.DatabaseError  # a file that is damaged
+            ):
+                raise
             log.exception("a write to the study was left out")
             connection.execute("ROLLBACK TO one")
         connection.execute("RELEASE one")

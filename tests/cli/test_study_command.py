@@ -51,7 +51,7 @@ def test_the_log_tells_when_by_whom_and_what_in_an_engineers_units(study, capsys
     assert lines[1].startswith("session 1 'softer cab', begun ")
     assert lines[3].endswith("1  Ada  Set C2.lateral: C2.lateral 131 → 140 N/mm")
     assert lines[4].endswith("Set C2.lateral: C2.lateral 140 → 150 N/mm (undone)")
-    assert lines[5].endswith("undo: Set C2.lateral")
+    assert lines[5].endswith("Ada  Undo: set C2.lateral")
     assert lines[6].endswith("  1  Bob  note: mount C2 left: too soft in roll")
     assert lines[7].endswith("  all  -  note: study: for Monday")
     assert [line.split("  ")[-1] for line in lines[8:]] == [

@@ -77,6 +77,13 @@ def written(path):
     return path
 
 
+def fails_with(error: Exception):
+    def fails(*_):
+        raise error
+
+    return fails
+
+
 def restored(path: Path) -> StoredSession:
     session = Records.of_file(path).restore(KEY)
     assert session
@@ -121,15 +128,58 @@ def test_what_a_full_disk_keeps_from_being_saved_is_saved_once_there_is_room(pat
 def test_a_full_disk_is_called_so(path, monkeypatch, words):
     study = opened(path)
 
-    def fails(*_):
-        raise sqlite3.OperationalError(words) if "database" in words else OSError(28, words)
-
-    monkeypatch.setattr("modeviz.journal.writer._commit", fails)
+    error = sqlite3.OperationalError(words) if "database" in words else OSError(28, words)
+    monkeypatch.setattr("modeviz.journal.writer._commit", fails_with(error))
     study.begin(KEY)
     assert not study.flush(0.5)
     assert study.trouble == "not saved: the disk is full"
     monkeypatch.undo()
     assert study.close()
+
+
+def test_a_session_that_is_not_saved_is_not_opened_as_it_was_before(path, monkeypatch):
+    study = opened(path)
+    study.begin(KEY)
+    assert study.flush(5)
+    monkeypatch.setattr(
+        "modeviz.journal.writer._commit", fails_with(sqlite3.DatabaseError("malformed"))
+    )
+    study.record(KEY, change(1, 2))
+    assert not study.is_saved(KEY)
+    with pytest.raises(ModevizError, match=r"cannot be opened now \(not saved"):
+        study.restore(KEY)
+    assert study.restore("another session") is None
+    monkeypatch.undo()
+    session = study.restore(KEY)
+    assert session
+    assert session.state == "state 2"
+    assert study.is_saved(KEY)
+    assert study.close()
+
+
+def test_who_fails_to_hear_of_trouble_does_not_end_the_writing(path, monkeypatch):
+    def deaf(trouble):
+        raise RuntimeError("not now")
+
+    study = opened(path, tell=deaf)
+    monkeypatch.setattr("modeviz.journal.writer._commit", fails_with(MemoryError()))
+    study.begin(KEY)
+    assert not study.flush(0.3)
+    monkeypatch.undo()
+    assert study.close()
+
+
+def test_a_damaged_table_keeps_what_is_written_in_memory(path, monkeypatch):
+    study = opened(path)
+    monkeypatch.setattr(
+        "modeviz.journal.sessions.begin",
+        fails_with(sqlite3.DatabaseError("database disk is malformed")),
+    )
+    study.begin(KEY)
+    assert not study.flush(0.3)
+    assert study.trouble == "not saved: database disk is malformed"
+    monkeypatch.undo()
+    study.close(0.1)
 
 
 def test_a_second_process_is_told_who_has_the_study(path):
