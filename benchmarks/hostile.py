@@ -28,6 +28,7 @@ from benchmarks.websocket import Page, free_port, open_page, say, wait_for_answe
 from modeviz.analysis.results import Conditions
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.serve import serve
 
 QUIET_S = 4.0
@@ -196,9 +197,7 @@ def _serve(port: int, token: str | None, terminal: str) -> None:
     vehicle = read_vehicle(builtin_vehicle())
     conditions = Conditions(vehicle.roads[0].name, vehicle.speed)
     serve(
-        vehicle,
-        vehicle.rates,
-        conditions,
+        {vehicle.name: Bench(vehicle, vehicle.rates, conditions)},
         "127.0.0.1",
         port,
         token=Secret(token) if token else None,

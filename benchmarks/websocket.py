@@ -20,6 +20,7 @@ from websockets.sync.connection import Connection as Page
 from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, wire
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.study.conditions import road_conditions
+from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.serve import serve
 
 N_FIRST = 6
@@ -162,7 +163,8 @@ def _serve(folder: Path, port: int, clock: Connection) -> None:
     vehicle = read_vehicle(folder)
     conditions = road_conditions(vehicle, None, vehicle.speed)
     with redirect_stdout(io.StringIO()):
-        serve(vehicle, vehicle.rates, conditions, "127.0.0.1", port, token=None, dark=False)
+        bench = Bench(vehicle, vehicle.rates, conditions)
+        serve({vehicle.name: bench}, "127.0.0.1", port, token=None, dark=False)
 
 
 def _tell_processor_s(clock: Connection) -> None:

@@ -1,6 +1,7 @@
 """The command that opens a vehicle, or files of another program, in the browser."""
 
 from argparse import ArgumentParser
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,6 +14,10 @@ from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
 from modeviz.formats.mounts.imported import check_no_mounts
 from modeviz.formats.reading import are_results, check_are_read
+from modeviz.journal.fingerprint import fingerprint_of
+from modeviz.journal.places import study_path
+from modeviz.journal.study_file import StudyFile
+from modeviz.vehicle.vehicle import Vehicle
 
 DEFAULT_PORT = 8080
 
@@ -46,6 +51,10 @@ class ViewOptions(VehicleOptions, RoadOptions, LogOptions):
     state: str | None = None
     """A link to a view, or what stands in one behind "view="."""
 
+    study: Path | None = None
+    """The file that remembers sessions; None: beside the vehicle."""
+    is_forgetful: bool = False
+    """Whether no file does."""
     bodies: bool = False
     """Whether bodies are looked at one by one though they make a vehicle."""
 
@@ -80,6 +89,7 @@ def view(options: ViewOptions) -> None:
         )
         from modeviz.viewer.page.secret import chosen_secret
         from modeviz.viewer.page.surroundings import surroundings
+        from modeviz.viewer.serving.bench import Bench
         from modeviz.viewer.serving.serve import serve  # viser alone takes a second to import
         from modeviz.viewer.session.encoding.link import view_in
 
@@ -107,8 +117,25 @@ def view(options: ViewOptions) -> None:
     vehicle, start = options.with_rates(vehicle)
     vehicle, chosen = options.shown(vehicle)
     link = None if options.state is None else view_in(options.state)
-    with logged(options), stopped_by_signal() as stop:
-        serve(vehicle, start, chosen, *door, progress("preparing"), around, link, stop)
+    with ExitStack() as ending:
+        study = None
+        if not options.is_forgetful:
+            study = opened_study(options, folder, vehicle)
+            ending.callback(study.close)
+        bench = Bench(vehicle, start, chosen, link, study)
+        ending.enter_context(logged(options))
+        stop = ending.enter_context(stopped_by_signal())
+        serve({vehicle.name: bench}, *door, progress("preparing"), around, stop)
+
+
+def opened_study(options: ViewOptions, folder: Path, vehicle: Vehicle) -> StudyFile:
+    """Return the study that remembers the sessions of a vehicle.
+
+    Raises:
+        ModevizError: it is in use, damaged, or cannot be written.
+    """
+    path = options.study or study_path(folder, is_ours=options.vehicle is None)
+    return StudyFile.open(path, vehicle.name, fingerprint_of(vehicle))
 
 
 def _add_options(command: ArgumentParser) -> None:
@@ -172,6 +199,19 @@ def _add_options(command: ArgumentParser) -> None:
         help="what is shown first: a link that was copied on the page, or what it has behind view=",
     )
     add_log(command)
+    study = command.add_mutually_exclusive_group()
+    study.add_argument(
+        "--study",
+        type=Path,
+        metavar="FILE",
+        help="that remembers sessions, changes and variants (default: beside the vehicle folder)",
+    )
+    study.add_argument(
+        "--no-study",
+        action="store_true",
+        dest="is_forgetful",
+        help="forget sessions when the server ends",
+    )
     command.add_argument("--dark", action="store_true", help="dark page")
     command.add_argument(
         "--bodies",

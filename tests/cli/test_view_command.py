@@ -72,7 +72,7 @@ def link(monkeypatch, folder):
     """The link of the server that a command opens, on which no page is built."""
     servers = []
 
-    def serve(vehicle, rates, conditions, host, port, token, *_):
+    def serve(benches, host, port, token, *_):
         servers.append(open_server(host, port, token))
 
     def link(*options, token=""):

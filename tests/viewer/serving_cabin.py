@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
 from mounted_cabin import mounted_cabin
@@ -9,6 +10,8 @@ from visitors import CAMERA, encoded, get, knock, own_origin
 from websockets.sync.connection import Connection
 
 from modeviz.analysis.results import Conditions
+from modeviz.journal.fingerprint import fingerprint_of
+from modeviz.journal.study_file import StudyFile
 from modeviz.viewer.page.front import Front
 from modeviz.viewer.page.server import open_front
 from modeviz.viewer.serving.bench import Bench
@@ -16,11 +19,15 @@ from modeviz.viewer.serving.directory import Directory
 
 
 @contextmanager
-def serving(**options) -> Iterator[tuple[Front, Directory]]:
+def serving(study: Path | None = None, **options) -> Iterator[tuple[Front, Directory]]:
+    """The front and what is behind it, remembered in a file if one is named."""
     cabin = mounted_cabin()
     front = open_front(port=0, **options)
-    bench = Bench(cabin, cabin.rates, Conditions("flat", 20.0))
+    file = study and StudyFile.open(study, cabin.name, fingerprint_of(cabin))
+    bench = Bench(cabin, cabin.rates, Conditions("flat", 20.0), study=file)
     with ExitStack() as ending:
+        if file:
+            ending.callback(file.close)
         directory = Directory(front, {cabin.name: bench}, dark=False)
         ending.callback(directory.close)
         ending.callback(front.close)

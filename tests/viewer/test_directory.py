@@ -104,3 +104,52 @@ def test_without_the_token_no_session_is_opened():
         with pytest.raises(InvalidStatus), knock(front, "http://elsewhere.example", path):
             pass
         assert not directory._open
+
+
+def moved(front, directory, path):
+    """The rates of a session after its slider was moved on a page."""
+    with page_at(front, path) as page:
+        name = digest_of(key_of(path))
+        wait_until(lambda: name in directory._open)
+        session = directory._open[name]
+        wait_until(lambda: session.app.session.answer, 60)
+        before = session.app.session.state.design.rates
+        page.send(update(slider(session), slider(session).value + 20))
+        wait_until(lambda: session.app.session.state.design.rates != before)
+        return session.app.session.state.design.rates
+
+
+def rates_of(front, directory, path, name=None):
+    """The rates that a page finds, and whether they can be taken back."""
+    with page_at(front, path):
+        name = name or digest_of(key_of(path))
+        wait_until(lambda: name in directory._open)
+        session = directory._open[name].app.session
+        return session.state.design.rates, session.can_undo
+
+
+def test_a_session_goes_on_where_it_was_left_after_the_server_has_been_restarted(tmp_path):
+    study = tmp_path / "cabin.modeviz"
+    with serving(study) as (front, directory):
+        path = way(front)
+        left = moved(front, directory, path)
+        (bench,) = directory._benches.values()
+        review = f"/?review={bench.share(digest_of(key_of(path)))}"
+    with serving(study) as (front, directory):
+        assert rates_of(front, directory, path) == (left, True)
+        fresh, can_undo = rates_of(front, directory, way(front))
+        assert fresh != left
+        assert not can_undo
+        assert get(front, review)[0] == 200
+    with serving(study) as (front, directory):
+        assert rates_of(front, directory, review, digest_of(key_of(path))) == (left, True)
+
+
+def test_an_idle_session_goes_to_disk_and_comes_back(tmp_path, monkeypatch):
+    monkeypatch.setattr(rules, "IDLE", 0.2)
+    monkeypatch.setattr(rules, "LOOKS_EVERY", 0.1)
+    with serving(tmp_path / "cabin.modeviz") as (front, directory):
+        path = way(front)
+        left = moved(front, directory, path)
+        wait_until(lambda: not directory._open)
+        assert rates_of(front, directory, path) == (left, True)

@@ -1,5 +1,6 @@
-"""A vehicle on the bench: made ready once, for all its sessions."""
+"""A vehicle on the bench: made ready once for all its sessions, which its study remembers."""
 
+import secrets
 import threading
 from collections.abc import Callable
 from functools import cached_property
@@ -7,21 +8,30 @@ from functools import cached_property
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions
 from modeviz.journal.fingerprint import Fingerprint, fingerprint_of
+from modeviz.journal.keys import digest_of
+from modeviz.journal.sessions import SessionId
+from modeviz.journal.study_file import StudyFile
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.encoding.link import opening_of_link
 from modeviz.viewer.session.opening import Opening
 from modeviz.viewer.session.preparations import Preparations
-from modeviz.viewer.session.state import first_state
+from modeviz.viewer.session.recorded import recorded
+from modeviz.viewer.session.state import State, first_state
 
 Progress = Callable[[float], None]
 
 
 class Bench:
-    """What all sessions of a vehicle begin with."""
+    """What the sessions of a vehicle share."""
 
     def __init__(
-        self, vehicle: Vehicle, rates: Rates, conditions: Conditions, link: str | None = None
+        self,
+        vehicle: Vehicle,
+        rates: Rates,
+        conditions: Conditions,
+        link: str | None = None,
+        study: StudyFile | None = None,
     ) -> None:
         """Prepares nothing yet.
 
@@ -30,6 +40,7 @@ class Bench:
             rates: of a new session.
             conditions: of a new session.
             link: what a new session shows in their place, see `opening_of_link`.
+            study: remembers sessions; without it they end with memory.
 
         Raises:
             ModevizError: the link is none.
@@ -37,11 +48,18 @@ class Bench:
         self.vehicle: Vehicle = vehicle
         self.rates: Rates = rates
         self.conditions: Conditions = conditions
+        self.study: StudyFile | None = study
         self._link = link
+        self._reviews: dict[SessionId, SessionId] = {}
         self._lock = threading.Lock()
         self._prepared: Prepared | None = None
         self._told: list[Progress] = []
         self.opening()
+
+    @property
+    def title(self) -> str:
+        """Of its pages."""
+        return f"{self.vehicle.name} · modeviz"
 
     @cached_property
     def fingerprint(self) -> Fingerprint:
@@ -57,10 +75,44 @@ class Bench:
         Raises:
             ModevizError: the link is none.
         """
-        usual, shown = first_state(self.vehicle, self.rates, self.conditions), link or self._link
+        usual, shown = self._usual(), link or self._link
         if shown is None:
             return Opening(usual)
         return opening_of_link(shown, usual, self.vehicle, self.fingerprint.digest)
+
+    def left(self, session: SessionId) -> Opening | None:
+        """Return a session as it was left; None if it is a new one.
+
+        Raises:
+            ModevizError: the study cannot be read.
+        """
+        if self.study is None:
+            return None
+        return recorded(self.study, session, self._usual(), self.vehicle, self.fingerprint.digest)
+
+    def share(self, session: SessionId) -> str:
+        """Return the key of a new review of a session."""
+        key = secrets.token_urlsafe(16)
+        self._reviews[digest_of(key)] = session
+        if self.study:
+            self.study.share(session, digest_of(key))
+        return key
+
+    def end_review(self, key: str) -> None:
+        """Has the key of a review open nothing any more."""
+        self._reviews.pop(digest_of(key), None)
+        if self.study:
+            self.study.end_review(digest_of(key))
+
+    def reviewed(self, key: str) -> SessionId | None:
+        """Return the session that the key of a review opens, if any.
+
+        Raises:
+            ModevizError: the study cannot be read.
+        """
+        review = digest_of(key)
+        known = self._reviews.get(review)
+        return known or (self.study.reviewed(review) if self.study else None)
 
     def preparations(self) -> Preparations:
         """Return how a session gets the vehicle made ready: as it is from here, altered by itself."""
@@ -86,10 +138,8 @@ class Bench:
             if progress:
                 self._told.remove(progress)
 
-    @property
-    def title(self) -> str:
-        """Of its pages."""
-        return f"{self.vehicle.name} · modeviz"
+    def _usual(self) -> State:
+        return first_state(self.vehicle, self.rates, self.conditions)
 
     def _tell(self, fraction: float) -> None:
         for progress in tuple(self._told):

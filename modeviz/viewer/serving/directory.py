@@ -3,12 +3,13 @@
 import asyncio
 import secrets
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from re import fullmatch
+from typing import TypeVar
 from urllib.parse import urlencode, urlsplit
 
 from websockets.http11 import Request, Response
@@ -42,7 +43,9 @@ OPENERS = 4
 KEPT = 365 * 86400
 """s for which a browser remembers its last session."""
 
-KEY = r"[\w-]{22}"
+KEY = r"[A-Za-z0-9_-]{22}"
+
+Result = TypeVar("Result")
 
 NO_PAGE = "there is no such page"
 NO_KEY = "this is no session's address: open the link that modeviz printed"
@@ -54,10 +57,10 @@ NO_VEHICLE = "there is no such vehicle here: open the link that modeviz printed"
 class Visit:
     """What a page's address asks for."""
 
-    bench: Bench
+    vehicle: str
     session: SessionId
     key: str
-    """Of the session."""
+    """Of the session; "" to who comes with that of a review."""
     view: str | None
     """What a new session is to show, as a link says it."""
 
@@ -94,7 +97,7 @@ class Directory:
             return answer(404, NO_VEHICLE)
         if not {"session", "review"} & query.keys():
             return self._way_to_a_session(request, name, query)
-        if self._visit(query) is None:
+        if await self._in_a_thread(partial(self._visit, query)) is None:
             return answer(404, NO_REVIEW if "review" in query else NO_KEY)
         response = self._pages[name].response(request)
         if "session" in query:
@@ -104,36 +107,45 @@ class Directory:
 
     async def acceptor(self, request: Request) -> Acceptor | None:
         """Return what serves a page's websocket; its session is opened if nobody has it open."""
-        visit = self._visit(query_of(request))
-        if visit is None:
-            return None
-        loop = asyncio.get_running_loop()
-        session = await loop.run_in_executor(self._openers, partial(self._opened, visit))
+        session = await self._in_a_thread(partial(self._opened, query_of(request)))
         return session and session.server.acceptor
 
     def close(self) -> None:
-        """Ends all sessions."""
+        """Ends all sessions, side by side, and has their studies remember them."""
         self._ended.set()
         self._openers.shutdown(cancel_futures=True)
-        for session in self._open.values():
-            session.close()
+        with ThreadPoolExecutor(len(self._open) or 1, "close session") as closing:
+            list(closing.map(OpenSession.close, self._open.values()))
         self._watching.join(timeout=1.0)
+
+    async def _in_a_thread(self, work: Callable[[], Result]) -> Result:
+        """Return the result of what may wait for the disk or take long, and would hold others up."""
+        return await asyncio.get_running_loop().run_in_executor(self._openers, work)
 
     def _way_to_a_session(self, request: Request, name: str, query: dict[str, str]) -> Response:
         """Return the way to the last session of a browser, or to a new one if it has or wants one."""
         known = cookies(request).get(self._cookie(name), "")
         wants_new = {"new", "view"} & query.keys()
         key = known if fullmatch(KEY, known) and not wants_new else secrets.token_urlsafe(16)
-        rest = {key: value for key, value in query.items() if key != "new"}
-        return answer(303, Location=f"./?{urlencode({'session': key, **rest})}")
+        rest = {key: value for key, value in query.items() if key not in ("new", "vehicle")}
+        address = self._address(name, "session", key)
+        return answer(303, Location=f"./?{address}{'&' * bool(rest)}{urlencode(rest)}")
+
+    def _address(self, vehicle: str, kind: str, key: str) -> str:
+        """Return what an address says of a session or a review."""
+        several = {"vehicle": vehicle} if len(self._benches) > 1 else {}
+        return urlencode({**several, kind: key})
 
     def _visit(self, query: Mapping[str, str]) -> Visit | None:
         """Return what an address asks for; None if there is no such session."""
         name = self._vehicle_name(query)
-        key = query.get("session", "")
-        if name is None or not fullmatch(KEY, key):
+        key, review = query.get("session", ""), query.get("review", "")
+        if name is None:
             return None
-        return Visit(self._benches[name], digest_of(key), key, query.get("view"))
+        if fullmatch(KEY, review) and not key:
+            session = self._benches[name].reviewed(review)
+            return session and Visit(name, session, "", None)
+        return Visit(name, digest_of(key), key, query.get("view")) if fullmatch(KEY, key) else None
 
     def _vehicle_name(self, query: Mapping[str, str]) -> str | None:
         """Return the name of the vehicle an address asks for, the only one if it says none."""
@@ -146,18 +158,21 @@ class Directory:
         number = list(self._benches).index(name)
         return f"modeviz{self._front.get_port()}session{number}"
 
-    def _opened(self, visit: Visit) -> OpenSession | None:
-        """Return a session in memory; None if there is no place for it."""
+    def _opened(self, query: Mapping[str, str]) -> OpenSession | None:
+        """Return the session of an address; None if there is none, or no place for it."""
+        visit = self._visit(query)
+        if visit is None:
+            return None
         with self._one_at_a_time(visit.session):
             if session := self._open.get(visit.session):
                 session.touch()
                 return session
             if not self._make_room():
                 return None
-            address = f"&{urlencode({'session': visit.key})}"
-            opening = _opening(visit)
-            session = OpenSession(visit.bench, opening, self._front, address, self._dark)
-            self._open[visit.session] = session
+            bench, name = self._benches[visit.vehicle], visit.session
+            address = "&" + self._address(visit.vehicle, "session", visit.key)
+            session = OpenSession(bench, name, _opening(bench, visit), self._front, address, self._dark)
+            self._open[name] = session
             return session
 
     def _make_room(self) -> bool:
@@ -204,9 +219,9 @@ class Directory:
                     self._locks[session] = lock, n_waiting - 1
 
 
-def _opening(visit: Visit) -> Opening:
-    """Return what a session opens with: the usual, and why, if its link cannot be followed."""
+def _opening(bench: Bench, visit: Visit) -> Opening:
+    """Return what a session opens with; if it is none that was left or linked, the usual and why."""
     try:
-        return visit.bench.opening(visit.view)
+        return bench.left(visit.session) or bench.opening(visit.view)
     except ModevizError as error:
-        return replace(visit.bench.opening(), remarks=(str(error),))
+        return replace(bench.opening(), remarks=(str(error),))

@@ -1,30 +1,34 @@
-"""A session in memory: its page, its server, and what becomes of it when nobody looks."""
+"""A session in memory: its page, its server, what records it, and whether anybody looks."""
 
 import threading
 import time
 
+from modeviz.journal.sessions import SessionId
 from modeviz.viewer.app import App
 from modeviz.viewer.page.front import Front
 from modeviz.viewer.page.server import Server
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.session.notifications import Failed
 from modeviz.viewer.session.opening import Opening
+from modeviz.viewer.session.recorder import Recorder
 
 
 class OpenSession:
     """A session that pages can look at."""
 
-    def __init__(self, bench: Bench, opening: Opening, front: Front, address: str, dark: bool) -> None:
+    def __init__(
+        self, bench: Bench, name: SessionId, opening: Opening, front: Front, address: str, dark: bool
+    ) -> None:
         """Builds the page; the vehicle is prepared and solved in a thread of its own.
 
         Args:
             bench: with the vehicle.
+            name: under which its study knows the session.
             opening: what is shown first.
             front: where pages come in.
             address: of the session, after the token.
             dark: whether the page is.
         """
-        self.bench: Bench = bench
         self.server: Server = Server(front, address)
         self.app: App = App(
             bench.vehicle,
@@ -35,7 +39,13 @@ class OpenSession:
             opening,
             bench.preparations(),
         )
-        self.app.guide.welcome_first()
+        self._recorder = (
+            Recorder(self.app.session, bench.study, name, lambda: "", self._report)
+            if bench.study
+            else None
+        )
+        if not opening.past:
+            self.app.guide.welcome_first()
         self._looked_at = time.monotonic()
         self._starting = threading.Thread(target=self._start, name="start session", daemon=True)
         self._starting.start()
@@ -53,8 +63,14 @@ class OpenSession:
         self._looked_at = time.monotonic()
 
     def close(self) -> None:
-        """Ends it and gives its memory back."""
-        self.app.close()
+        """Ends it, has the study remember it, and gives its memory back."""
+        self.app.end()
+        if self._recorder:
+            self._recorder.close()
+        self.server.stop()
+
+    def _report(self, error: Exception) -> None:
+        self.server.mistake(error)
 
     def _start(self) -> None:
         try:
