@@ -10,6 +10,8 @@ from modeviz.analysis.results import Conditions
 from modeviz.analysis.rubber import dynamic_groups
 from modeviz.errors import ModevizError
 from modeviz.journal.fingerprint import fingerprint_of
+from modeviz.journal.sessions import SessionId
+from modeviz.journal.study_file import StudyFile
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import Picture, report
 from modeviz.text.log import our_mistake
@@ -38,6 +40,7 @@ from modeviz.viewer.panels.modes import ModesPanel, StepMode, listed
 from modeviz.viewer.panels.mounts.history_row import HistoryRow
 from modeviz.viewer.panels.mounts.opener import FolderOpener
 from modeviz.viewer.panels.mounts.panel import MountsPanel
+from modeviz.viewer.panels.optimise.earlier import add_earlier_runs
 from modeviz.viewer.panels.optimise.panel import OptimisePanel
 from modeviz.viewer.panels.paths import PathsPanel
 from modeviz.viewer.panels.pictures import PicturePanel
@@ -64,11 +67,13 @@ from modeviz.viewer.session.encoding.link import link_of
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.opening import Opening
 from modeviz.viewer.session.preparations import Preparations
+from modeviz.viewer.session.recorder import Recorder
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
 from modeviz.viewer.session.view import CameraPose
 from modeviz.viewer.session.worker import StuckError
 from modeviz.viewer.tasks.front_task import FrontTask
+from modeviz.viewer.tasks.run_recorder import RunRecorder
 from modeviz.viewer.tasks.scatter_task import ScatterTask
 from modeviz.viewer.tasks.search_task import SearchTask
 
@@ -137,6 +142,8 @@ class App:
         self._scene = Scene(server, self.session.vehicle, dark, self._select, opening.camera)
         self._scene.let_drag(self._drag, mistake)
         self._hotkeys = Hotkeys(self._gui)
+        self._recorder: Recorder | None = None
+        self._pictured: Callable[[bytes, str], object] | None = None
         self._lay_out(dark)
 
     def start(self, progress: Callable[[float], None] | None = None) -> None:
@@ -155,6 +162,28 @@ class App:
                 progress(fraction)
 
         self.session.start(tell)
+
+    def record(self, study: StudyFile, name: SessionId, author: Callable[[], str]) -> None:
+        """Keeps all that is done from now on in a study file, until the end; see `Recorder`.
+
+        Args:
+            study: where; what keeps it from being saved is told to `show_trouble`.
+            name: under which the study file knows the session.
+            author: says who does something, in the thread in which it is done.
+        """
+        self._recorder = Recorder(self.session, study, name, author, self.server.mistake)
+        RunRecorder(
+            study,
+            name,
+            author,
+            {"search": self.search_task, "front": self.front_task, "scatter": self.scatter_task},
+        )
+        self._pictured = lambda png, caption: study.put_picture(name, png, caption, author())
+
+    def show_trouble(self, trouble: str) -> None:
+        """Says on every page why what is done is not saved; "" once it is."""
+        self._status.show_trouble(trouble)
+        self.server.flush()
 
     @property
     def scene(self) -> Scene:
@@ -214,6 +243,8 @@ class App:
         self.search_task.close()
         self.front_task.cancel()
         self.scatter_task.cancel()
+        if self._recorder:
+            self._recorder.close()
         self._scene.close()
         self.session.close()
 
@@ -238,6 +269,7 @@ class App:
             self._optimise = OptimisePanel(gui, session, self.search_task, dark)
             self._trade_off = TradeOffPanel(gui, session, self.front_task)
             self._scatter = ScatterPanel(gui, session, self.scatter_task)
+            add_earlier_runs(gui, self._opening.runs)
         with tabs.add_tab("View", viser.Icon.EYE):
             self._view = ViewPanel(gui, session, self._scene.look, self.link)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
@@ -251,6 +283,7 @@ class App:
                 lambda: self._scene.color_scale(self._solved()),
                 self.offline,
                 self._illustrated_report,
+                self._keep_picture,
             )
             self._data = DataPanel(gui, session, self._pictures.downloads, self._solved)
         self._status = StatusPanel(gui, session.vehicle.notes, self._opening.remarks)
@@ -365,6 +398,13 @@ class App:
         if self.session.answer is None:
             raise ModevizError("nothing is solved yet: try again when the preparation is done")
         return self.session.answer
+
+    def _keep_picture(self, png: bytes, prefix: str) -> None:
+        """Keeps a picture of the scene in the study, if there is one."""
+        if self._pictured:
+            solved = self._solved()
+            variant = variant_name(self.session.vehicle, solved.state.design)
+            self._pictured(png, f"{prefix}{solved.movement.heading}, {variant}")
 
     def _illustrated_report(self, png: bytes) -> bytes:
         """The report with a picture of the scene as it is."""

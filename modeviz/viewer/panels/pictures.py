@@ -65,6 +65,7 @@ class PicturePanel:
         scale: Callable[[], ColorScale | None],
         offline: Callable[[Floats, Floats], bytes] | None = None,
         report: Callable[[bytes], bytes] | None = None,
+        taken: Callable[[bytes, str], None] = lambda png, kind: None,
     ) -> None:
         """Builds the controls.
 
@@ -78,9 +79,11 @@ class PicturePanel:
             offline: makes the file that needs no server, for a camera's place and what it looks at; if
                 not given, there is none.
             report: makes the report of the comparison, for a picture of the scene as PNG; likewise.
+            taken: given every picture of the scene as PNG that is saved, and with what.
         """
         self._server, self._theme = server, theme
         self._subject, self._is_real, self._scale = subject, is_real, scale
+        self._taken = taken
         self.downloads: Downloads = Downloads(server, N_JOBS)
         self._browsers = threading.Semaphore(N_BROWSERS)
         self._makers: dict[str, tuple[str, str, Callable[[viser.ClientHandle, Progress], bytes]]] = {
@@ -138,6 +141,11 @@ class PicturePanel:
 
     def _picture(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         """The 3-D view at this moment."""
+        png = self._photograph(client, tell)
+        self._taken(png, "")
+        return png
+
+    def _photograph(self, client: viser.ClientHandle, tell: Progress) -> bytes:
         tell(0.0)
         return png_bytes(picture(client, self._shot(client), Pose.of(client.camera)))
 
@@ -187,8 +195,9 @@ class PicturePanel:
         self, report: Callable[[bytes], bytes], client: viser.ClientHandle, tell: Progress
     ) -> bytes:
         """The comparison on paper."""
-        png = self._picture(client, tell)
+        png = self._photograph(client, tell)
         tell(0.5)
+        self._taken(png, "Report: ")
         return report(png)
 
 

@@ -36,11 +36,17 @@ class StatusPanel:
             notes: of the vehicle, which stand below everything else until there is an answer.
             remarks: on what the session opened with, sentences without their stops, which stay.
         """
-        self._notes, self._remarks = (
-            _listed(notes),
-            _listed(f"{sentence_case(each)}." for each in remarks),
-        )
+        self._notes = _listed(notes)
+        self._remarks = _listed(f"{sentence_case(each)}." for each in remarks)
+        self._trouble = ""
+        self._shown: tuple[str, ...] = ()
         self._content = gui.add_html("")
+
+    def show_trouble(self, trouble: str) -> None:
+        """Says why what is done here is not saved, above all else; "" once it is."""
+        said = span(f"{escape(sentence_case(trouble))}.", "bad")
+        self._trouble = f'<div role="alert">{said}</div>' if trouble else ""
+        self._draw(*self._shown)
 
     def show_progress(self, fraction: float) -> None:
         """Says how far the preparation is."""
@@ -61,7 +67,8 @@ class StatusPanel:
     def _draw(self, *content: str) -> None:
         """Shows content as long as a page is connected: else it is not known whether it still holds."""
         status = f'<div class="status">{"".join(content)}</div>'
-        assign(self._content, content=block(status, self._remarks, self._notes))
+        self._shown = content
+        assign(self._content, content=block(self._trouble, status, self._remarks, self._notes))
 
 
 def _listed(notes: Iterable[str]) -> str:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from modeviz.journal.runs import Run
 from modeviz.viewer.session.history import Change
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.view import Animation, CameraPose
@@ -19,5 +20,7 @@ class Opening:
     animation: Animation = field(default_factory=Animation)
     camera: CameraPose | None = None
     """Of pages to come; None: the usual one."""
+    runs: tuple[Run, ...] = ()
+    """What was computed at length before, the first one first."""
     remarks: tuple[str, ...] = ()
     """On what is other than it was, sentences without their stops."""

@@ -3,8 +3,9 @@
 from collections.abc import Callable, Sequence
 from functools import cache
 
-from modeviz.errors import ModevizError
+from modeviz.errors import ModevizError, listed
 from modeviz.journal.changes import Step
+from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.records import Records
 from modeviz.journal.sessions import SessionId
 from modeviz.vehicle.vehicle import Vehicle
@@ -41,7 +42,8 @@ def recorded(
     found = fitted(value_of_text(stored.state, State, WHAT), usual, vehicle)
     told = found.remarks
     if stored.vehicle.digest != fingerprint:
-        has_changed = f"vehicle {vehicle.name!r} has changed since this session was left"
+        parts = listed(fingerprint_of(vehicle).changed_since(stored.vehicle))
+        has_changed = f"vehicle {vehicle.name!r} has changed since this session was left: {parts}"
         told = (has_changed, *told, *outside_bounds(found.state.design, vehicle))
 
     @cache
@@ -49,7 +51,7 @@ def recorded(
         return fitted(value_of_text(text, State, WHAT), usual, vehicle).state
 
     past, future = (_changes(steps, state_of) for steps in (stored.past, stored.future))
-    return Opening(found.state, past, future, remarks=told)
+    return Opening(found.state, past, future, runs=study.runs(name), remarks=told)
 
 
 def _changes(steps: Sequence[Step], state_of: Callable[[str], State]) -> tuple[Change, ...]:

@@ -51,7 +51,7 @@ class Recorder:
         study: StudyFile,
         name: SessionId,
         author: Callable[[], str],
-        mistake: Callable[[Exception], None],
+        mistake: Callable[[Exception], object],
     ) -> None:
         """Begins.
 

@@ -86,7 +86,8 @@ class BackgroundTask(Generic[AnyJob]):
             report: told what is our mistake; gives the number under which it is logged.
             patience: s that the work may go on without asking its token.
         """
-        self._what, self._work, self._changed, self._report = what, work, changed, report
+        self._what, self._work, self._report = what, work, report
+        self._watchers: list[Callable[[AnyJob], None]] = [lambda _: changed()]
         self._patience = patience
         self._lock = threading.Lock()
         self._token = CancelToken()
@@ -94,6 +95,10 @@ class BackgroundTask(Generic[AnyJob]):
         self._left: list[threading.Thread] = []
         self.job: AnyJob | None = None
         """The newest; None before the first."""
+
+    def watch(self, watcher: Callable[[AnyJob], None]) -> None:
+        """Has somebody else given every job when there is something new, which may be over by then."""
+        self._watchers.append(watcher)
 
     def start(self, job: AnyJob) -> None:
         """Begins.
@@ -114,7 +119,7 @@ class BackgroundTask(Generic[AnyJob]):
             self.job, self._token, self._thread = job, token, thread
         thread.start()
         threading.Thread(target=self._watch, args=(token, thread), name="watch", daemon=True).start()
-        self._look()
+        self._look(job)
 
     def pause(self) -> None:
         """Holds what is running."""
@@ -131,8 +136,8 @@ class BackgroundTask(Generic[AnyJob]):
             job = self.job
             if job is None or not job.is_running:
                 return
-            self.job = replace(job, phase="ending" if job.is_awaited else "cancelled")
-        self._look()
+            self.job = job = replace(job, phase="ending" if job.is_awaited else "cancelled")
+        self._look(job)
 
     def close(self) -> None:
         """Ends what is running and waits for its thread, but not longer than anybody would."""
@@ -140,12 +145,13 @@ class BackgroundTask(Generic[AnyJob]):
         if self._thread is not None:
             self._thread.join(PATIENCE)
 
-    def _look(self) -> None:
+    def _look(self, job: AnyJob) -> None:
         """Has somebody look at what is new, who may fail: that is not the computation's fault."""
-        try:
-            self._changed()
-        except Exception as error:
-            self._report(error)
+        for watcher in tuple(self._watchers):
+            try:
+                watcher(job)
+            except Exception as error:
+                self._report(error)
 
     def _run(self, job: AnyJob, token: CancelToken) -> None:
         told = -math.inf  # then it was last said how far it is
@@ -153,9 +159,10 @@ class BackgroundTask(Generic[AnyJob]):
         def tell(at_once: bool = False, **news: Any) -> None:
             nonlocal told
             is_due = time.monotonic() - told > TELL_EVERY
-            if self._keep(token, **news) and (is_due or at_once):
+            kept = self._keep(token, **news)
+            if kept and (is_due or at_once):
                 told = told if at_once else time.monotonic()
-                self._look()
+                self._look(kept)
 
         try:
             found = self._work(job, token, tell)
@@ -174,8 +181,9 @@ class BackgroundTask(Generic[AnyJob]):
         error = stuck(thread, self._patience)
         if self._keep(token):
             failure = f"{error}. {our_mistake(self._report(error))}"
-            self._keep(token, phase="failed", failure=failure)
-            self._look()
+            failed = self._keep(token, phase="failed", failure=failure)
+            if failed:
+                self._look(failed)
 
     def _ending(self, error: Exception, token: CancelToken) -> dict[str, str]:
         """Return what there is to say of a job that an error ended."""
@@ -191,13 +199,13 @@ class BackgroundTask(Generic[AnyJob]):
             if self.job is None or self.job.phase != before:
                 return
             turn(self._token)
-            self.job = replace(self.job, phase=after)
-        self._look()
+            self.job = job = replace(self.job, phase=after)
+        self._look(job)
 
-    def _keep(self, token: CancelToken, **news: Any) -> bool:
-        """Keeps news of the newest as long as it runs; those of one that was cancelled are nobody's."""
+    def _keep(self, token: CancelToken, **news: Any) -> AnyJob | None:
+        """Keeps news of the newest while it runs, and returns it; None of one that was cancelled."""
         with self._lock:
             if token is not self._token or self.job is None or not self.job.is_running:
-                return False
-            self.job = replace(self.job, **news)
-        return True
+                return None
+            self.job = job = replace(self.job, **news)
+        return job

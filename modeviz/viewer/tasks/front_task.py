@@ -57,6 +57,10 @@ class FrontTask:
         """The newest search; None before the first."""
         return self._task.job
 
+    def watch(self, watcher: Callable[[Job[Trade, Designs]], None]) -> None:
+        """Has somebody else given every job when there is something new."""
+        self._task.watch(watcher)
+
     def offers(self) -> tuple[str, ...]:
         """Return what can be traded, as in "lateral against vertical".
 

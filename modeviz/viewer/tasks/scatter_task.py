@@ -75,6 +75,10 @@ class ScatterTask:
         """The newest scatter; None before the first."""
         return self._task.job
 
+    def watch(self, watcher: Callable[[Job[Build, ScatterOutcome]], None]) -> None:
+        """Has somebody else given every job when there is something new."""
+        self._task.watch(watcher)
+
     def start(self, n_samples: int) -> None:
         """Begins with so many vehicles.
 

@@ -163,6 +163,10 @@ class SearchTask:
         """The newest search; None before the first."""
         return self._task.job
 
+    def watch(self, watcher: Callable[[SearchStatus], None]) -> None:
+        """Has somebody else given every job when there is something new."""
+        self._task.watch(watcher)
+
     def start(self) -> None:
         """Begins a search from the present rates.
 

@@ -243,7 +243,9 @@ def test_of_a_vehicle_that_has_changed_what_fits_is_kept_and_the_rest_is_said(be
         bench.session.do(command)
     bench.restart(stiffer(VEHICLE))
     told, state = bench.opening.remarks, bench.session.state
-    assert told[0] == "vehicle 'cabin' has changed since this session was left"
+    assert told[0] == (
+        "vehicle 'cabin' has changed since this session was left: mount group A, no mount group B"
+    )
     assert any("mount group 'B'" in remark for remark in told)
     assert any("A lateral rate: found 200000, which is outside its bounds" in r for r in told)
     assert {*state.design.rates} == {*state.design.variants["Mine"].rates} == {"A"}

@@ -90,7 +90,7 @@ def opening_of_link(link: str, usual: State, vehicle: Vehicle, fingerprint: str)
         *found.remarks,
         *outside_bounds(found.state.design, vehicle),
     )
-    return Opening(found.state, (), (), linked.animation, linked.camera, remarks)
+    return Opening(found.state, animation=linked.animation, camera=linked.camera, remarks=remarks)
 
 
 def view_in(address: str) -> str:

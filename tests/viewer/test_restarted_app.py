@@ -1,0 +1,105 @@
+"""A page that is opened as its session was left: panels, scene and what there is to say."""
+
+from types import SimpleNamespace
+
+from every_command import ABSORBERS, FORE_AFT, VEHICLE
+from opened_app import SOON, text
+
+from modeviz.analysis.results import Conditions
+from modeviz.journal.fingerprint import fingerprint_of
+from modeviz.journal.runs import Run
+from modeviz.journal.study_file import StudyFile
+from modeviz.viewer.app import App
+from modeviz.viewer.page.server import open_server
+from modeviz.viewer.panels.optimise.earlier import add_earlier_runs
+from modeviz.viewer.session.commands import decisions, looks
+from modeviz.viewer.session.encoding.link import opening_of_link
+from modeviz.viewer.session.opening import Opening
+from modeviz.viewer.session.recorded import recorded
+from modeviz.viewer.session.state import ForceCurve, first_state
+from modeviz.viewer.session.view import Animation, CameraPose
+
+FLAT = Conditions("flat", 20.0)
+FIRST = first_state(VEHICLE, VEHICLE.rates, FLAT)
+PRINT = fingerprint_of(VEHICLE)
+KEY = StudyFile.session_id("a key")
+CAMERA = CameraPose((3.0, -4.0, 2.5), (1.0, 0.0, 0.7))
+MOVING = Animation(1.85, 0.75, 215.0, False)
+
+
+def opened(opening):
+    server = open_server(port=0, token="open-sesame-open")
+    app = App(VEHICLE, VEHICLE.rates, FLAT, server, opening=opening)
+    app.start()
+    assert app.session.wait(SOON)
+    return app
+
+
+def test_a_session_with_an_absorber_is_there_after_a_restart_and_can_lose_it(tmp_path):
+    study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
+    app = opened(Opening(FIRST))
+    app.record(study, KEY, lambda: "Ada")
+    app.session.do(decisions.SetRate("B", "lateral", 123456.0))
+    app.session.do(ABSORBERS[0])
+    app.session.do(looks.ChooseCurve(0, ForceCurve("roof", "z")))
+    app.session.do(looks.ChangeLook(coloring="kinetic energy"))
+    state = app.session.state
+    app.close()
+    again = opened(recorded(study, KEY, FIRST, VEHICLE, PRINT.digest))
+    again.record(study, KEY, lambda: "Bea")
+    try:
+        assert again.session.state == state
+        assert again.session.answer.now.rates["roof"] == state.design.rates["roof"]
+        assert "roof" in text(again._modes._content)
+        again.session.undo()
+        assert again.session.wait(SOON)
+        assert not again.session.state.design.alterations.absorbers
+        assert again.session.state.charts.curves[0] == FIRST.charts.curves[0]
+        again.session.undo()
+        assert again.session.state.design == FIRST.design
+    finally:
+        again.close()
+        study.close()
+
+
+def test_what_the_page_links_to_opens_the_same_view():
+    begin = Opening(FIRST, animation=MOVING, camera=CAMERA, remarks=("mount group 'C' is gone",))
+    app = opened(begin)
+    try:
+        app.session.do(decisions.SetRate("B", "lateral", 123456.0))
+        app.session.do(looks.ChooseCurve(1, FORE_AFT))
+        link = app.link(CAMERA)
+        found = opening_of_link(link, FIRST, VEHICLE, PRINT.digest)
+        assert found.state == app.session.state
+        assert (found.animation, found.camera) == (MOVING, CAMERA)
+        initial = app.server.initial_camera
+        assert tuple(initial.position) == CAMERA.position
+        assert tuple(initial.look_at) == CAMERA.look_at
+        assert "Mount group 'C' is gone." in text(app._status._content)
+    finally:
+        app.close()
+
+
+def test_what_was_computed_before_is_listed_the_newest_first():
+    runs = [Run("search", f"paper <{i}>", "{}", "Ada", time=1e9) for i in range(3)]
+    page = SimpleNamespace(add_html=lambda content: said.append(content))
+    said = []
+    add_earlier_runs(page, runs)
+    add_earlier_runs(page, ())
+    (content,) = said
+    assert content.index("paper &lt;2&gt;") < content.index("paper &lt;0&gt;")
+    assert "Ada" in content
+
+
+def test_a_page_says_what_cannot_be_saved_until_it_can():
+    app = opened(Opening(FIRST))
+    try:
+        app.show_trouble("not saved: the disk is full")
+        assert "Not saved: the disk is full." in text(app._status._content)
+        app.session.do(decisions.SetRate("B", "lateral", 123456.0))
+        assert app.session.wait(SOON)
+        assert "Not saved: the disk is full." in text(app._status._content)
+        app.show_trouble("")
+        assert "Not saved" not in text(app._status._content)
+    finally:
+        app.close()
