@@ -13,6 +13,7 @@ import numpy as np
 
 from modeviz.analysis.modal_results import ModalResults, solve_modal
 from modeviz.analysis.preparation import PreparedModes
+from modeviz.analysis.shared_bodies import carried_momentum
 from modeviz.dynamics.band import Method
 from modeviz.dynamics.naming import ModeName
 from modeviz.dynamics.tracking import Track, track_modes
@@ -49,8 +50,13 @@ def solve_followed(
 
 
 def follow(base: ModalResults, now: ModalResults) -> Track:
-    """Return where the modes of one set of rates are with another of the same vehicle."""
-    return track_modes(base.momentum, base.modes, now.modes)
+    """Return where the modes of one set of rates are with another.
+
+    Where one of both has bodies more, such as an absorber, shapes are compared by the bodies that both
+    have: what of a mode is in others is no share of any.
+    """
+    momentum = carried_momentum(base.momentum, base.prepared.system, now.prepared.system)
+    return track_modes(momentum, base.modes, now.modes)
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """The forces of mounts at any rates, from receptances: quick enough to follow a drag."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,7 +15,7 @@ from modeviz.mounting.forces import N_MOTIONS
 from modeviz.mounting.levels import InputSpectra, input_spectra
 from modeviz.ride.excitation import acting_lines
 from modeviz.vehicle.arrays import Complexes, Floats
-from modeviz.vehicle.connections import MOTIONS
+from modeviz.vehicle.connections import MOTIONS, Mount
 from modeviz.vehicle.loads import HarmonicLoad
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
@@ -74,6 +75,16 @@ class MountForces:
         n_freqs, n_mounts, _, n_inputs = force.shape
         flat = self.spectra.rms(force.reshape(n_freqs, -1, n_inputs))
         return flat.reshape(n_mounts, N_MOTIONS)
+
+
+def figures_of(mounts: Sequence[Mount], vehicle: Vehicle, figures: Floats) -> Floats:
+    """Return figures of a vehicle's mounts, (n_vehicle_mounts, ...), for some mounts, by their names.
+
+    No numbers for one that the vehicle is without.
+    """
+    rows = {mount.name: row for mount, row in zip(vehicle.mounts, figures, strict=True)}
+    none = np.full(figures.shape[1:], np.nan)
+    return np.array([rows.get(mount.name, none) for mount in mounts]).reshape(-1, *figures.shape[1:])
 
 
 def along_vehicle(vehicle: Vehicle, force: Complexes) -> Complexes:

@@ -10,7 +10,7 @@ from modeviz.analysis.wheel_results import WheelResults, solve_wheels
 from modeviz.dynamics.tracking import Track
 from modeviz.errors import VehicleError
 from modeviz.optimise.design_space import DesignSpace, design_space
-from modeviz.optimise.goals import prepare_goal
+from modeviz.optimise.goals import Goal, prepare_goal
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.placement import Placements
 from modeviz.vehicle.problem import UNSHAKEN, Problem
@@ -79,6 +79,7 @@ def compare(
     now: RateSet,
     conditions: Conditions | None,
     prepared_base: Prepared | None = None,
+    given: Vehicle | None = None,
 ) -> Comparison:
     """Solves a vehicle with two sets of rates, all that it has loads for.
 
@@ -87,7 +88,9 @@ def compare(
         base: what is compared with.
         now: the other.
         conditions: road and speed; None for a vehicle that has no roads or no response points.
-        prepared_base: the vehicle that is compared with, if its mounts are elsewhere.
+        prepared_base: the vehicle that is compared with, if its mounts are elsewhere or it has other
+            absorbers.
+        given: the vehicle as in its file, by which goals are measured; None: that compared with.
 
     Raises:
         VehicleError: a group or a road that the vehicle does not have.
@@ -103,23 +106,34 @@ def compare(
     if vehicle.harmonic_loads and vehicle.response_points:
         wheels = solve_wheels(*sets[0]), solve_wheels(*sets[1])
     track = follow(first, second)
-    worth = _worth(vehicle, base.rates, now.rates, conditions.speed if conditions else vehicle.speed)
+    speed = conditions.speed if conditions else vehicle.speed
+    worth = _worth(given or first.prepared.vehicle, first, second, speed)
     return Comparison((base.name, now.name), first, second, track, wheels, worth)
 
 
-def _worth(vehicle: Vehicle, base: Rates, now: Rates, speed: float) -> ObjectiveValues | None:
-    if not vehicle.problems:
+def _worth(
+    given: Vehicle, base: ModalResults, now: ModalResults, speed: float
+) -> ObjectiveValues | None:
+    if not given.problems:
         return None
-    problem = vehicle.problems[0]
+    problem = given.problems[0]
     try:
-        goal = prepare_goal(vehicle, problem, vehicle.rates, speed)
+        goal = prepare_goal(given, problem, given.rates, speed)
     except VehicleError:
         if problem.goal in UNSHAKEN:
             return None  # as of mounts whose rates depend on frequency: a search says why
         raise
-    reference = goal.value(vehicle.rate_sets[problem.reference]) if problem.reference else None
-    values = goal.value({}), goal.value(base), goal.value(now)
-    return ObjectiveValues(problem, *values, reference, _space(vehicle, problem))
+    reference = goal.value(given.rate_sets[problem.reference]) if problem.reference else None
+    before, after = (_value(goal, given, results) for results in (base, now))
+    space = _space(now.prepared.vehicle, problem)
+    return ObjectiveValues(problem, goal.value({}), before, after, reference, space)
+
+
+def _value(goal: Goal, given: Vehicle, results: ModalResults) -> float:
+    """A goal of one vehicle for another that has its mounts elsewhere, or absorbers besides."""
+    vehicle = results.prepared.vehicle
+    own = goal if vehicle is given else goal.of_vehicle(vehicle)
+    return own.value(results.rates)
 
 
 def _space(vehicle: Vehicle, problem: Problem) -> DesignSpace | None:

@@ -235,7 +235,9 @@ class App:
         now = RateSet(name if name != state.against else f"{name}, now", state.design.rates)
         base = RateSet(state.against, solved.base.rates)
         conditions = state.conditions if has_ride(vehicle) else None
-        comparison = compare(solved.now.prepared, base, now, conditions, solved.base.prepared)
+        comparison = compare(
+            solved.now.prepared, base, now, conditions, solved.base.prepared, self.session.original
+        )
         return report(comparison, date.today(), pictures, solved.findings.check).encode()
 
     def end(self) -> None:

@@ -107,6 +107,7 @@ def _chart(solved: Solved, responses: Responses, lines: Sequence[Line], response
     curves = [
         Curve("", f, db if state.charts.decibels else level, line.color, line.thickness, dash=line.dash)
         for line, (f, level), db in zip(lines, every, decibels, strict=True)
+        if not np.isnan(level).all()
     ]
     curves[-1] = replace(curves[-1], peaks=strongest(responses, response, solved))
     inside = [db[(f >= shown[0]) & (f <= shown[1])] for (f, _), db in zip(every, decibels, strict=True)]
@@ -144,7 +145,8 @@ def _rate_table(solved: Solved, kind: str, fields: Sequence[str]) -> str:
     rows = []
     for group in solved.now.prepared.vehicle.mount_groups:
         if not set(fields).isdisjoint(group.fields):
-            now, base = (results.rates[group.name] for results in (solved.now, solved.base))
+            now = solved.now.rates[group.name]
+            base = solved.base.rates.get(group.name, now)
             cells = (_rate_cell(getattr(now, f), getattr(base, f), per_unit) for f in fields)
             rows.append(row([escape(group.name), *cells]))
     listing = table(("Group", *map(direction, fields)), rows)

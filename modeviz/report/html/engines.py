@@ -6,6 +6,7 @@ from html import escape
 import numpy as np
 
 from modeviz.analysis.engine_results import EngineResults, solve_engine
+from modeviz.analysis.mount_forces import figures_of
 from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import AXIS
 from modeviz.report.charts import BASE, NOW, Curve, line_chart
@@ -68,6 +69,7 @@ def _engine(comparison: Comparison, prepared: Sequence[Prepared], engine: Engine
     ):
         if vehicle.mounts:
             mounts, (before, after) = [mount.name for mount in vehicle.mounts], forces
+            before = figures_of(vehicle.mounts, sets[0].vehicle, before)
             told = by_direction(comparison, mounts, before[:, :3], after[:, :3], 2)
             yield f"<h3>{heading}: {what}, N</h3>{told}"
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from modeviz.analysis.line_forces import prepare_line
 from modeviz.analysis.modal_results import ModalResults
-from modeviz.analysis.mount_forces import MountForces, harmonic_mount_forces
+from modeviz.analysis.mount_forces import MountForces, figures_of, harmonic_mount_forces
 from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import AXIS, Results
 from modeviz.mounting.levels import input_spectra
@@ -35,7 +35,7 @@ def forces(comparison: Comparison) -> str:
     if load is None or not mounts:
         return ""
     found = [_mount_forces(r, load) for r in (comparison.base, comparison.now)]
-    base, now = (each.figures[:, :3] for each in found)
+    base, now = (figures_of(mounts, each.vehicle, each.figures)[:, :3] for each in found)
     f = found[1].frequency_hz
     what = "RMS" if found[1].is_random else "Largest peak"
     return section(
@@ -80,7 +80,9 @@ def _paths_at_peak(comparison: Comparison, load: Load, direction: str) -> str:
     if f is None:
         return ""
     sides = [_shares(r, load, f, direction) for r in (comparison.base, comparison.now)]
-    (_, before), (together, after) = sides
+    (earlier, known), (together, after) = sides
+    shares = {path.connection: share for path, share in zip(earlier.paths, known, strict=True)}
+    before = [shares.get(path.connection, 0.0) for path in together.paths]
     order = [i for i in np.argsort(-np.abs(after)) if max(abs(after[i]), abs(before[i])) >= LEAST_SHOWN]
     rows = [
         [title(together.paths[i].connection), *(_percent(float(s[i])) for s in (before, after))]

@@ -36,8 +36,9 @@ def rates(comparison: Comparison) -> str:
         (comparison.names[1], comparison.now.vehicle),
         *_reference(comparison),
     ]
-    columns = zip(*(vehicle.mount_groups for _, vehicle in sets), strict=True)
-    rows = [row for groups in columns for row in _group_rows(groups)]
+    known = [{group.name: group for group in vehicle.mount_groups} for _, vehicle in sets]
+    names = dict.fromkeys(name for groups in known for name in groups)
+    rows = [row for name in names for row in _group_rows([groups.get(name) for groups in known])]
     if not rows:
         return ""
     first, *others = (f"{escape(name)}, N/mm" for name, _ in sets)
@@ -79,7 +80,8 @@ def _space(comparison: Comparison, worth: ObjectiveValues) -> list[str]:
     ratios = ratio_words(worth.space)
     said = [f"A search from the original rates keeps {ratios}"] if ratios else []
     for name, vehicle in sets:
-        rates = {g.name: replace(g.rates, loss_factor=g.loss_factor) for g in vehicle.mount_groups}
+        sought = [group for group in vehicle.mount_groups if group.name in worth.space.vehicle.rates]
+        rates = {g.name: replace(g.rates, loss_factor=g.loss_factor) for g in sought}
         said.append(outside_words(f"“{name}”", outside_space(worth.space, rates)))
     return [text for text in said if text]
 
@@ -93,20 +95,25 @@ def _reference(comparison: Comparison) -> list[tuple[str, Vehicle]]:
     return [(name, vehicle.with_rates(vehicle.rate_sets[name]))]
 
 
-def _group_rows(groups: Sequence[MountGroup]) -> Iterator[list[str]]:
-    """Rows of one group's rates with each set."""
-    yield [named_small(groups[0].name, groups[0].label)]
-    for field in listed_fields(groups[0], *(group.rates for group in groups)):
-        yield [with_unit(field), *_rate_cells([written_rate(group.rates, field) for group in groups])]
-    loss_factors = [group.loss_factor for group in groups]
-    if len(set(loss_factors)) > 1:
-        yield ["loss factor", *_rate_cells(loss_factors)]
+def _group_rows(groups: Sequence[MountGroup | None]) -> Iterator[list[str]]:
+    """Rows of one group's rates with each set; None where a set is without it."""
+    first, *others = there = [group for group in groups if group is not None]
+    yield [named_small(first.name, first.label)]
+    for field in listed_fields(first, *(group.rates for group in others)):
+        rates = [None if group is None else written_rate(group.rates, field) for group in groups]
+        yield [with_unit(field), *_rate_cells(rates)]
+    if len({group.loss_factor for group in there}) > 1:
+        yield ["loss factor", *_rate_cells([group and group.loss_factor for group in groups])]
 
 
-def _rate_cells(values: Sequence[float]) -> list[str]:
-    """The first, and each other with its change."""
+def _rate_cells(values: Sequence[float | None]) -> list[str]:
+    """The first, and each other with its change; nothing where there is none."""
     base, *others = values
-    return [significant(base), *(t for now in others for t in (significant(now), _change(now, base)))]
+    cells = [NONE if base is None else significant(base)]
+    for now in others:
+        change = NONE if now is None or base is None else _change(now, base)
+        cells += [NONE if now is None else significant(now), change]
+    return cells
 
 
 def frequencies(comparison: Comparison) -> str:

@@ -18,7 +18,8 @@ def rigid(comparison: Comparison) -> str:
     """Return purity and frequency of each direction's mode, and the axes of each body on mounts."""
     vehicle = comparison.vehicle
     on_mounts = {name for mount in vehicle.mounts for name in mount.bodies}
-    bodies = [name for name in main_bodies(vehicle) if name in on_mounts]
+    compared = {body.name for body in comparison.base.prepared.vehicle.bodies}
+    bodies = [name for name in main_bodies(vehicle) if name in on_mounts & compared]
     if not bodies:
         return ""
     sets = [rigid_figures(results, bodies=bodies) for results in (comparison.base, comparison.now)]

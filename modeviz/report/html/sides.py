@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from html import escape
+from math import isnan
 
 from modeviz.analysis.results import AXIS
 from modeviz.report.charts import BASE, NOW, Curve, line_chart
 from modeviz.report.comparison import Comparison
 from modeviz.text.axes import Axis, decibel_axis, shown_hz
-from modeviz.text.markup import change, table, title
+from modeviz.text.markup import NONE, change, table, title
 from modeviz.text.wording import number
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import DIRECTIONS
@@ -73,6 +74,8 @@ def by_direction(
 
 
 def compared(values: Sequence[float], decimals: int) -> list[str]:
-    """Base, now and the change, of what had better be less."""
+    """Base, now and the change, of what had better be less; no base where that is no number."""
     base, now = values
+    if isnan(base):
+        return [NONE, number(now, decimals), NONE]
     return [number(base, decimals), number(now, decimals), change(now, base)]

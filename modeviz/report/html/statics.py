@@ -9,7 +9,7 @@ from modeviz.mounting.statics import StaticCase, Statics, solve_statics
 from modeviz.mounting.travel import Travel, travels
 from modeviz.report.comparison import Comparison
 from modeviz.report.statics import carried_cells, motion_cells
-from modeviz.text.markup import note, section, span, table, title
+from modeviz.text.markup import NONE, note, section, span, table, title
 from modeviz.text.wording import number, sentence_case
 
 AXES = ("x", "y", "z")
@@ -49,7 +49,7 @@ def _mounts(comparison: Comparison, cases: Sequence[StaticCase]) -> str:
     rows = [
         [
             escape(mount.name),
-            *(c for case in cases for c in carried_cells(case.connections[mount.name])),
+            *(c for case in cases for c in _carried(case, mount.name)),
         ]
         for mount in comparison.vehicle.mounts
     ]
@@ -57,14 +57,24 @@ def _mounts(comparison: Comparison, cases: Sequence[StaticCase]) -> str:
     return table(["Mount", *AXES * 4], rows, groups)
 
 
+def _carried(case: StaticCase, mount: str) -> list[str]:
+    carried = case.connections.get(mount)
+    return [NONE] * 6 if carried is None else carried_cells(carried)
+
+
 def _bodies(comparison: Comparison, cases: Sequence[StaticCase]) -> str:
     rows = [
-        [title(body.label) if first else "", escape(name), *motion_cells(case.bodies[body.name])]
+        [title(body.label) if first else "", escape(name), *_motion(case, body.name)]
         for body in comparison.vehicle.bodies
         for first, name, case in zip((True, False), comparison.names, cases, strict=True)
     ]
     header = [*(f"{axis}, mm" for axis in AXES), *(f"r{axis}, °" for axis in AXES)]
     return table(["Body", "", *header], rows)
+
+
+def _motion(case: StaticCase, body: str) -> list[str]:
+    motion = case.bodies.get(body)
+    return [NONE] * 6 if motion is None else motion_cells(motion)
 
 
 def _travel(comparison: Comparison, sets: Sequence[Statics]) -> Iterator[str]:

@@ -130,7 +130,9 @@ def _shares(energy: Mapping, mode: int | None) -> Shares | None:
 
 
 def _worth_listing(now: Shares, base: Shares | None) -> set[str]:
-    return {n for n, share in now.items() if max(share, base[n] if base else 0.0) > LEAST_SHOWN}
+    return {
+        n for n, share in now.items() if max(share, base.get(n, 0.0) if base else 0.0) > LEAST_SHOWN
+    }
 
 
 def _largest(now: Shares, base: Shares | None) -> float:
@@ -139,7 +141,7 @@ def _largest(now: Shares, base: Shares | None) -> float:
 
 def _cells(label: str, name: str, now: Shares, base: Shares | None, largest: float) -> list[str]:
     """A label, the share now above the one before as parts of the largest, and both in numbers."""
-    before = base[name] if base else 0.0
+    before = base.get(name, 0.0) if base else 0.0
     bars = "".join(
         f'<div class="bar" style="height:{height}px;margin-top:1px">'
         f'<i style="width:{100 * share / (largest or 1.0):.1f}%;background:var({color})"></i></div>'

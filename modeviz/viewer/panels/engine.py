@@ -183,6 +183,8 @@ def _table_unit(solved: Solved) -> tuple[float, str]:
 def _compared(base: float, now: float) -> list[str]:
     if np.isnan(now):
         return ["", span("beyond the band", "dim"), ""]
-    texts = (significant(float(f"{value:.3g}")) for value in (base, now))
-    before, after = texts
+    after = significant(float(f"{now:.3g}"))
+    if np.isnan(base):
+        return [span("without", "dim"), after, ""]
+    before = significant(float(f"{base:.3g}"))
     return [span(before, "dim"), after, change(now, base)]

@@ -11,7 +11,7 @@ from modeviz.text.wording import file_name
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.commands.decisions import AddVariant
-from modeviz.viewer.session.design import rate_sets, variant_name
+from modeviz.viewer.session.design import NamedSet, named_sets, variant_name
 from modeviz.viewer.session.session import Session
 
 FORMATS = {file_format.upper(): file_format for file_format in get_args(RatesFormat)}
@@ -63,8 +63,8 @@ class ExchangePanel:
         """Pins rates under a name, or a like one if that is taken; gives the name that they have."""
         self._session.do(AddVariant(name, rates))
         vehicle, design = self._session.vehicle, self._session.state.design
-        every = vehicle.all_rates(rates)
-        named = (n for n, known in rate_sets(vehicle, design).items() if known == every)
+        wanted = NamedSet(vehicle.all_rates(rates), design.alterations)
+        named = (n for n, known in named_sets(vehicle, design).items() if known == wanted)
         return next((n for n in named if n.startswith(name)), name)
 
 

@@ -6,6 +6,7 @@ from html import escape
 import numpy as np
 import viser
 
+from modeviz.analysis.mount_forces import figures_of
 from modeviz.errors import ModevizError
 from modeviz.mounting.forces import N_MOTIONS
 from modeviz.text.markup import NONE
@@ -71,7 +72,10 @@ class ForcesPanel:
         responses = Responses(solved)
         axes = solved.state.charts.in_vehicle_axes
         found = [responses.mount_forces(name) for name in (NOW, solved.state.against)]
-        values = [each.vehicle_figures if axes else each.figures for each in found]
+        values = [
+            figures_of(self._mounts, each.vehicle, each.vehicle_figures if axes else each.figures)
+            for each in found
+        ]
         what = "RMS" if responses.harmonic_load is None else "Largest peak"
         shaking = title(solved.state.charts.load or solved.now.conditions.road)
         tables = []
@@ -125,8 +129,10 @@ def _compared(now: Floats, base: Floats) -> list[str]:
 
 
 def _changed(now: float, base: float) -> str:
-    if not (now or base):
+    if not now and not base > 0:
         return NONE
+    if np.isnan(base):
+        return f"{significant(float(f'{now:.3g}'))} {span('new', 'dim')}"
     change = percent_change(now, base)
     more = "" if change == "0.0 %" else f" {span(change, 'dim')}"
     return f"{significant(float(f'{now:.3g}'))}{more}"

@@ -104,7 +104,7 @@ class PathsPanel:
         by = solved.state.charts.paths_by
         now, shares = _paths(solved, solved.now)
         key = solved.base, solved.state.charts, solved.state.conditions
-        before = self._base.get(key, lambda: _paths(solved, solved.base))[1]
+        before = _shares_of(now, by, *self._base.get(key, lambda: _paths(solved, solved.base)))
         order = [i for i in np.argsort(-np.abs(shares)) if abs(shares[i]) >= LEAST_SHOWN][:N_SHOWN]
         self._groups = [_group(now.paths[i], by, self._own) for i in order]
         largest = max([np.abs(shares).max(initial=0.0), np.abs(before).max(initial=0.0)]) or 1.0
@@ -131,6 +131,12 @@ class PathsPanel:
     def _select(self, place: int) -> None:
         if place < len(self._groups) and self._groups[place]:
             self._session.do(SelectGroup(self._groups[place]))
+
+
+def _shares_of(now: Paths, by: By, other: Paths, shares: Floats) -> Floats:
+    """The shares of another set's paths, for those of this one by what they are called, (n_paths,)."""
+    known = {path.called(by): share for path, share in zip(other.paths, shares, strict=True)}
+    return np.array([known.get(path.called(by), 0.0) for path in now.paths])
 
 
 def _paths(solved: Solved, results: Results) -> tuple[Paths, Floats]:

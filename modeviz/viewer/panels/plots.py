@@ -218,6 +218,7 @@ def _thinned(ticks: list[tuple[float, str]]) -> list[tuple[float, str]]:
 
 def level_range(decibels: Floats) -> tuple[int, int]:
     """Whole tens of dB that hold the curves, at most `DECIBELS` below the top."""
+    decibels = decibels[np.isfinite(decibels)]
     if not decibels.size:
         return -80, -20
     top = 10 * math.ceil((decibels.max() + HEADROOM) / 10)

@@ -10,6 +10,7 @@ from modeviz.analysis.results import Results
 from modeviz.report.rate_fields import plain, quantity, with_unit
 from modeviz.text.wording import number, sentence_case, signed
 from modeviz.units import QuantityName, factor
+from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS
 from modeviz.vehicle.placement import Placement
 from modeviz.viewer.page.html import change, heading, named, row, span, table
@@ -31,14 +32,33 @@ def side_by_side(solved: Solved) -> str:
     state, base, now = solved.state, solved.base, solved.now
     names = escape(state.against), escape(variant_name(now.prepared.vehicle, state.design))
     rates, places = _rates(base, now, state.units), _places(solved)
-    if not rates and not places:
+    parts = _absorbers(solved)
+    if not rates and not places and not parts:
         same = f"The present rates are those of {names[0]}: change one, or compare with another set."
         return heading("Side by side") + span(same, "dim")
     sections = [(f"Rates, {state.units['stiffness']}", rates), ("Modes, Hz", _modes(solved))]
     sections.append(("Driver", _figures(solved)))
     tables = "".join(table((what, *names, "change"), rows) for what, rows in sections if rows)
     placed = table(("Mounts placed", *names), places) if places else ""
-    return heading("Side by side") + f'<div class="beside">{placed}{tables}</div>'
+    added = table(("Absorbers", *names), parts) if parts else ""
+    return heading("Side by side") + f'<div class="beside">{added}{placed}{tables}</div>'
+
+
+def _absorbers(solved: Solved) -> list[str]:
+    """Absorbers that were added in one of both, or are of another mass in them."""
+    design, vehicle = solved.state.design, solved.now.prepared.vehicle
+    sides = named_sets(vehicle, design)[solved.state.against].alterations, design.alterations
+    names = dict.fromkeys(absorber.name for side in sides for absorber in side.absorbers)
+    found = ((name, [side.absorber(name) for side in sides]) for name in names)
+    return [
+        row([named(name), *map(_weight, both)])
+        for name, both in found
+        if _weight(both[0]) != _weight(both[1])
+    ]
+
+
+def _weight(absorber: Absorber | None) -> str:
+    return f"{absorber.mass:.4g} kg" if absorber else "–"
 
 
 def _places(solved: Solved) -> list[str]:
@@ -46,7 +66,7 @@ def _places(solved: Solved) -> list[str]:
     design, vehicle = solved.state.design, solved.now.prepared.vehicle
     before = named_sets(vehicle, design)[solved.state.against].alterations
     rows = []
-    for group in solved.now.rates:
+    for group in filter(solved.base.rates.__contains__, solved.now.rates):
         placements = before.placement(group), design.alterations.placement(group)
         if placements[0] != placements[1]:
             rows.append(row([named(group), *map(_placed, placements)]))
@@ -68,8 +88,10 @@ def _placed(placement: Placement) -> str:
 def _rates(base: Results, now: Results, units: Mapping[QuantityName, str]) -> list[str]:
     """Rates that differ; those that are not along axes with their unit."""
     rows = []
-    for group, new in now.rates.items():
-        old = base.rates[group]
+    shared = (
+        (group, base.rates[group], new) for group, new in now.rates.items() if group in base.rates
+    )
+    for group, old, new in shared:
         for field in RATE_FIELDS:
             of = quantity(field)
             before, after = (getattr(rates, field) / factor(units[of], of) for rates in (old, new))

@@ -33,7 +33,7 @@ class CursorForces:
         def prepare() -> LineForces:
             return prepare_line(prepared, results.rates, load, f, speed)
 
-        line = self._line.get((load, speed, f), prepare)
+        line = self._line.get((prepared, load, speed, f), prepare)
         forces = line.forces(prepared.mount_stiffness(results.rates))
         return forces, input_spectra(load, forces.frequency_hz, speed), load
 

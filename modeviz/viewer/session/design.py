@@ -37,12 +37,13 @@ class Variant:
     """Its own among the pinned sets while it lives: its colour goes by it."""
     placements: Placements = field(default_factory=dict)
     """Where mounts were with these rates, of the groups that were placed otherwise."""
+    absorbers: tuple[Absorber, ...] = ()
+    """Those that it has and the file does not."""
 
-    def without_group(self, name: str) -> "Variant":
-        """Return it without all that it says of a mount group."""
-        rates = {group: rates for group, rates in self.rates.items() if group != name}
-        placements = {group: placed for group, placed in self.placements.items() if group != name}
-        return replace(self, rates=rates, placements=placements)
+    @property
+    def alterations(self) -> Alterations:
+        """What is other with it than in the vehicle's file."""
+        return Alterations(self.placements, self.absorbers)
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,7 @@ class NamedSet:
     """What a name stands for: rates, and the vehicle that has them."""
 
     rates: Rates
-    """Of every mount group."""
+    """Of every mount group that this vehicle has."""
     alterations: Alterations
 
 
@@ -110,28 +111,41 @@ class Design:
         return replace(self, alterations=alterations, rates=rates, plan=plan)
 
     def without_absorber(self, name: str) -> "Design":
-        """Return it without an absorber that was added, and without all that is said of its mounts."""
+        """Return it without an absorber that was added, and without all that is said of its mounts.
+
+        Sets that were pinned with it keep it.
+        """
         return replace(
             self,
             alterations=self.alterations.without_absorber(name),
             rates={group: rates for group, rates in self.rates.items() if group != name},
-            variants={title: v.without_group(name) for title, v in self.variants.items()},
             locked=frozenset(key for key in self.locked if key[0] != name),
             linked=self.linked - {name},
             plan=self.plan and self.plan.without_mounts(name),
         )
+
+    def with_set(self, wanted: NamedSet) -> "Design":
+        """Return it as a set has it: its rates, locked ones too, its places and its absorbers."""
+        design, absorbers = self, wanted.alterations.absorbers
+        for absorber in self.alterations.absorbers:
+            if wanted.alterations.absorber(absorber.name) is None:
+                design = design.without_absorber(absorber.name)
+        for absorber in absorbers:
+            design = design.with_absorber(absorber)
+        return replace(design, rates=wanted.rates, alterations=wanted.alterations)
 
     def with_placements(self, placements: Placements) -> "Design":
         """Return it with all mounts but those of absorbers placed so."""
         return replace(self, alterations=self.alterations.with_mounts(placements))
 
     def with_variant(self, name: str, rates: Rates) -> "Design":
-        """Return it with rates pinned, and where mounts are; in place of another by its number."""
+        """Return it with rates pinned as all else is now; in place of another by its number."""
         taken = {variant.number for variant in self.variants.values()}
         before = self.variants.get(name)
-        placements = self.alterations.placements
         number = before.number if before else next(i for i in count() if i not in taken)
-        return replace(self, variants={**self.variants, name: Variant(dict(rates), number, placements)})
+        alterations = self.alterations
+        pinned = Variant(dict(rates), number, alterations.placements, alterations.absorbers)
+        return replace(self, variants={**self.variants, name: pinned})
 
     def _unlocked(self, group: str, new: MountRates) -> MountRates:
         """New rates of a group, with its locked ones as they are."""
@@ -148,21 +162,20 @@ def known_sets(vehicle: Vehicle) -> dict[str, Rates]:
 
 
 def named_sets(vehicle: Vehicle, design: Design) -> dict[str, NamedSet]:
-    """Return every set that has a name: the vehicle's, mounts as in its file, then the pinned ones.
+    """Return every set that has a name: the vehicle's, all as in its file, then the pinned ones.
 
-    What is altered besides where mounts are is so with all of them; groups that came after a set was
-    pinned have the vehicle's own rates in it.
+    Each is as it was, without what has been added since.
+
+    Args:
+        vehicle: altered as in the design, or not.
+        design: what is decided.
     """
-
-    def placed(rates: Rates, placements: Placements) -> NamedSet:
-        return NamedSet(dict(rates), replace(design.alterations, placements=placements))
-
-    known = {name: placed(rates, {}) for name, rates in known_sets(vehicle).items()}
-    own = vehicle.rates
-    pinned = {
-        name: placed({g: each.rates.get(g, rates) for g, rates in own.items()}, each.placements)
-        for name, each in design.variants.items()
+    given = [group for group in design.rates if design.alterations.absorber(group) is None]
+    known = {
+        name: NamedSet({group: rates[group] for group in given}, Alterations())
+        for name, rates in known_sets(vehicle).items()
     }
+    pinned = {n: NamedSet(dict(each.rates), each.alterations) for n, each in design.variants.items()}
     return {**known, **pinned}
 
 

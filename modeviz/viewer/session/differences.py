@@ -183,8 +183,8 @@ def _of_tuning(before: Design, after: Design) -> Iterator[str]:
 
 def _loaded(before: Design, after: Design) -> str:
     """The variant of before that the rates and places after are; "" if they are none."""
-    now = {**after.rates}, {**after.alterations.placements}
-    same = (n for n, v in before.variants.items() if ({**v.rates}, {**v.placements}) == now)
+    now = {**after.rates}, after.alterations
+    same = (n for n, v in before.variants.items() if ({**v.rates}, v.alterations) == now)
     return next(same, "")
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeviz.analysis.deflection_shapes import complex_mode, road_shape, wheel_shape
 from modeviz.analysis.results import Results
+from modeviz.analysis.shared_bodies import carried_over
 from modeviz.dynamics.components import (
     ComponentModes,
     ComponentShare,
@@ -79,7 +80,7 @@ def movement(state: State, shown: FollowedMode, static: SolvedStatics | None = N
             return _component(state, shown)
         case "sag":
             assert static is not None
-            return _sag(state, static)
+            return _sag(state, shown, static)
 
 
 def asks(state: State) -> tuple[object, ...]:
@@ -115,7 +116,9 @@ def _operating(state: State, shown: FollowedMode) -> Movement:
         curve = _reference(state)
         point = now.prepared.vehicle.response_points[curve.point].name
         about = f"{now.conditions.road}, as at {point}, {curve.direction}"
-    other = _excited(state, shown.base) if state.look.ghost == "compared" else None
+    other = None
+    if state.look.ghost == "compared":
+        other = _in_coordinates_of(shown, _excited(state, shown.base))
     f, shape = state.motion.operating_hz, _excited(state, now)
     return Movement("Operating shape", f"operating shape {f:.1f} Hz", f, about, shape, other)
 
@@ -153,10 +156,12 @@ def _component(state: State, shown: FollowedMode) -> Movement:
     )
 
 
-def _sag(state: State, static: SolvedStatics) -> Movement:
+def _sag(state: State, shown: FollowedMode, static: SolvedStatics) -> Movement:
     """The shape in which the vehicle stands in a load case, from where it is unloaded."""
     case = static.now.case(state.motion.load_case)
-    other = static.base.case(case.name).motion if state.look.ghost == "compared" else None
+    other = None
+    if state.look.ghost == "compared":
+        other = _in_coordinates_of(shown, static.base.case(case.name).motion)
     return Movement(
         f"Sag: {case.name}",
         f"sag {case.name}",
@@ -178,7 +183,12 @@ def _same_mode(
     """The shape of the base's mode that is compared with the shown one, if it is wanted."""
     if state.look.ghost != "compared" or shown.same is None:
         return None
-    return _in_phase(shape(shown.base, shown.same), shown)
+    return _in_phase(_in_coordinates_of(shown, shape(shown.base, shown.same)), shown)
+
+
+def _in_coordinates_of(shown: FollowedMode, shape: Array) -> Array:
+    """A shape of the vehicle compared with in the coordinates of the present one."""
+    return carried_over(shape, shown.base.prepared.system, shown.now.prepared.system)
 
 
 def _in_phase(shape: Array, shown: FollowedMode) -> Array:

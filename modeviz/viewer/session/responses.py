@@ -89,9 +89,15 @@ class Responses:
         return FORCE_PSD if curve.motion in MOTIONS[:3] else MOMENT_PSD
 
     def of(self, name: str, curve: ChartCurve) -> Floats:
-        """The response with a set's rates, or `NOW`, (n_freqs,), in the unit of `quantity_of`."""
+        """The response with a set's rates, or `NOW`, (n_freqs,), in the unit of `quantity_of`.
+
+        No numbers where the set is without the mount.
+        """
         if isinstance(curve, ForceCurve):
-            mount = mount_number(self._solved.now.prepared.vehicle, curve.mount)
+            vehicle = self._results(name).prepared.vehicle
+            if not has_mount(vehicle, curve.mount):
+                return np.full(len(self.lines(name)), np.nan)
+            mount = mount_number(vehicle, curve.mount)
             return self.mount_forces(name).level(mount, curve.motion, curve.in_vehicle_axes)
         if self.is_random:
             return self._results(name).response(curve.point, curve.direction)
@@ -182,9 +188,14 @@ class Responses:
 
 
 def order_peaks(results: EngineResults, curve: ChartCurve) -> Floats:
-    """Peaks of a response to each order of a running engine, (n_speeds, n_orders), g, N or N m."""
+    """Peaks of a response to each order of a running engine, (n_speeds, n_orders), g, N or N m.
+
+    No numbers where the vehicle is without the mount.
+    """
     if isinstance(curve, ResponseCurve):
         return results.acceleration_g[:, :, curve.point, AXIS[curve.direction]]
+    if not has_mount(results.vehicle, curve.mount):
+        return np.full(results.acceleration_g.shape[:2], np.nan)
     every = results.force_in_vehicle_axes if curve.in_vehicle_axes else results.force
     number = mount_number(results.vehicle, curve.mount)
     return np.abs(every[:, :, number, MOTIONS.index(curve.motion)])
@@ -195,6 +206,11 @@ def peak_unit(curve: ChartCurve) -> LevelUnit:
     if isinstance(curve, ResponseCurve):
         return PEAK_ACCELERATION
     return PEAK_FORCE if curve.motion in MOTIONS[:3] else PEAK_MOMENT
+
+
+def has_mount(vehicle: Vehicle, name: str) -> bool:
+    """Whether a vehicle has a mount of that name."""
+    return any(mount.name == name for mount in vehicle.mounts)
 
 
 def mount_number(vehicle: Vehicle, name: str) -> int:

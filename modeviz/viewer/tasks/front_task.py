@@ -79,7 +79,8 @@ class FrontTask:
         state, vehicle = self._session.state, self._session.vehicle
         problem = self._problem(state)
         pair = chosen_sides(vehicle, problem, name)
-        known = (state.design.rates, *rate_sets(vehicle, state.design).values())
+        own, sets = state.design.rates, rate_sets(vehicle, state.design).values()
+        known = (own, *({g: rates.get(g, own[g]) for g in own} for rates in sets))
         self._task.start(Job(Trade(problem, pair, state, known)))
 
     def cancel(self) -> None:

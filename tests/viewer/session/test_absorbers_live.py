@@ -7,24 +7,34 @@ import pytest
 from cabin_session import SOON, open_session
 from mounted_cabin import mounted_cabin
 
+from modeviz.analysis.mode_tracking import follow
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.errors import VehicleError
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.absorbers import with_absorbers
+from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.problem import DesignGroup, Performance, Problem
 from modeviz.viewer.session.commands.absorbers import AddAbsorber, RemoveAbsorber, WeighAbsorber
 from modeviz.viewer.session.commands.decisions import (
-    AddVariant,
     LinkRates,
     Load,
     Pin,
     PlaceMounts,
+    ResetGroups,
+    ResetRate,
     SetRate,
+    Swap,
     ToggleLock,
 )
-from modeviz.viewer.session.commands.looks import ChooseCurve, CompareWith, ShowMode
-from modeviz.viewer.session.design import rate_sets
+from modeviz.viewer.session.commands.looks import (
+    ChangeMotion,
+    ChooseCurve,
+    CompareWith,
+    ShowComparedGhost,
+    ShowMode,
+)
+from modeviz.viewer.session.design import ORIGINAL
 from modeviz.viewer.session.state import ForceCurve, ResponseCurve, first_state
 
 FLAT = Conditions("flat", 20.0)
@@ -56,12 +66,13 @@ def test_an_added_absorber_is_tuned_and_moved_as_a_mount_and_gives_what_a_fresh_
     assert session.answer.findings.check.error < 1e-6
 
 
-def test_added_and_removed_nothing_is_left_of_it(session):
+def test_removed_nothing_is_left_of_it_but_in_the_sets_that_were_pinned_with_it(session):
     before = session.state.design
     session.do(Pin("before"))
     pinned = session.state.design
     session.do(AddAbsorber(ROOF))
     session.do(Pin("with it"))
+    with_it = session.state.design
     session.do(ToggleLock("roof", "vertical"))
     session.do(LinkRates("roof", True))
     session.do(PlaceMounts("roof", "offset", (None, None, 0.05)))
@@ -73,13 +84,82 @@ def test_added_and_removed_nothing_is_left_of_it(session):
     assert session.wait_for_answer(SOON).now.vehicle.rates == mounted_cabin().rates
     assert after.group == ""
     assert after.charts.curves[0] == ResponseCurve(0, "lateral")
-    session.do(Load("with it"))
-    assert session.state.design.rates == before.rates
     left = {**session.state.design.variants}
     del left["with it"]
     assert left == pinned.variants
     for name in ("rates", "locked", "linked", "plan", "alterations"):
         assert getattr(session.state.design, name) == getattr(before, name)
+    session.do(Load("with it"))
+    assert session.state.design == with_it
+
+
+def test_sets_that_were_there_before_it_are_compared_without_it(session):
+    session.do(Pin("before"))
+    session.do(AddAbsorber(ROOF))
+    session.do(SetRate("A", "vertical", 5e5))
+    session.do(Pin("with it"))
+    fresh = solve(prepare(mounted_cabin()), {}, FLAT)
+    for name in (ORIGINAL, "before"):
+        session.do(CompareWith(name))
+        base = session.wait_for_answer(SOON).base
+        assert base.rates == mounted_cabin().rates
+        assert [body.name for body in base.prepared.vehicle.bodies] == ["cab", "chassis"]
+        np.testing.assert_allclose(base.psd, fresh.psd, rtol=1e-9, atol=0)
+    session.do(CompareWith("with it"))
+    session.do(RemoveAbsorber("roof"))
+    solved = session.wait_for_answer(SOON)
+    assert "roof" in solved.base.rates
+    assert "roof" not in solved.now.rates
+
+
+def test_swapping_takes_the_absorber_away_and_brings_it_back(session):
+    session.do(AddAbsorber(ROOF))
+    session.do(SetRate("roof", "vertical", 3e4))
+    added = session.state.design
+    session.do(Swap())
+    assert session.state.design.rates == mounted_cabin().rates
+    assert session.state.design.alterations == Alterations()
+    swapped = session.wait_for_answer(SOON)
+    assert "roof" in swapped.base.rates
+    session.do(Swap())
+    assert session.state.design.rates == added.rates
+    assert session.state.design.alterations == added.alterations
+    assert session.state.against == ORIGINAL
+
+
+def test_modes_are_paired_by_the_bodies_that_both_have_and_its_own_is_new(session):
+    session.do(AddAbsorber(ROOF))
+    solved = session.wait_for_answer(SOON)
+    base, now, track = solved.base, solved.now, solved.followed.track
+    shared = slice(0, 12)  # two rigid bodies, before the absorber's six coordinates
+    mass = base.prepared.system.mass
+    shares = (base.modes.shapes.T @ mass @ now.modes.shapes[shared]) ** 2
+    np.testing.assert_allclose(track.shares, shares, atol=1e-9)
+    pairs = {pair.after: pair.before for pair in solved.followed.pairs if pair.after is not None}
+    own = now.mode_index("roof bounce")
+    assert own is not None
+    assert pairs[own] is None
+    others = [mode for mode in pairs if mode != own and now.modes.frequency_hz[mode] > 0.5]
+    assert all(pairs[mode] is not None for mode in others)
+    back = follow(now, base)
+    np.testing.assert_allclose(back.shares, track.shares.T, atol=1e-9)
+
+
+def test_the_shape_compared_with_rests_where_it_has_no_body(session):
+    session.do(AddAbsorber(ROOF))
+    session.do(ShowComparedGhost(True))
+    for command in (
+        ChangeMotion(kind="mode"),
+        ChangeMotion(kind="operating shape"),
+        ChangeMotion(kind="sag"),
+    ):
+        session.do(command)
+        moving = session.wait_for_answer(SOON).movement
+        assert moving.problem == ""
+        assert moving.other is not None
+        assert len(moving.other) == len(moving.shape) == 18
+        assert not moving.other[12:].any()
+        assert moving.other[:12].any()
 
 
 def test_a_search_may_change_its_rate_and_its_damping():
@@ -107,14 +187,14 @@ def test_adding_and_removing_are_undone_and_redone(session):
     assert [body.name for body in with_it.bodies] == ["cab", "chassis", "roof mass"]
 
 
-def test_a_set_pinned_before_has_the_absorber_as_it_was_added(session):
-    session.do(AddVariant("soft", {"A": mounted_cabin().rate_sets["soft"]["A"]}))
+def test_rates_of_what_the_set_compared_with_is_without_stay_as_they_are(session):
     session.do(AddAbsorber(ROOF))
-    session.do(CompareWith("soft"))
-    base = session.wait_for_answer(SOON).base
-    own = session.vehicle.mount_group("roof").rates
-    assert base.rates["roof"] == own
-    assert rate_sets(session.vehicle, session.state.design)["soft"]["roof"] == own
+    session.do(SetRate("roof", "vertical", 3e4))
+    session.do(SetRate("A", "vertical", 5e5))
+    session.do(ResetRate("roof", "vertical"))
+    session.do(ResetGroups(tuple(session.state.design.rates)))
+    assert session.state.design.rates["roof"].vertical == 3e4
+    assert session.state.design.rates["A"] == mounted_cabin().rates["A"]
 
 
 def test_another_mass_keeps_its_frequency_and_what_it_was_tuned_to(session):

@@ -102,11 +102,25 @@ def test_a_link_says_nothing_of_what_is_not_shown():
 
 def test_a_view_with_an_absorber_has_a_plan_that_may_tune_it():
     absorber = Absorber("roof", "cab", (1.2, 0.0, 1.6), 10.0, 9.0, 0.1)
-    state = AddAbsorber(absorber).apply(SEEN, VEHICLE)
-    state = decisions.Load("Original").apply(state, with_absorbers(VEHICLE, [absorber]))
+    state = AddAbsorber(absorber).apply(decisions.Load("Original").apply(SEEN, VEHICLE), VEHICLE)
     opening = opened(link_of(state, MOVING, CAMERA, VEHICLE, PRINT))
     assert opening.state.design.alterations == state.design.alterations
     assert opening.state.design.plan == state.design.plan
+
+
+def test_a_set_that_was_pinned_with_an_absorber_has_it_behind_the_link():
+    absorber = Absorber("roof", "cab", (1.2, 0.0, 1.6), 10.0, 9.0, 0.1)
+    with_it = with_absorbers(VEHICLE, [absorber])
+    state = decisions.Load("Original").apply(SEEN, VEHICLE)
+    state = AddAbsorber(absorber).apply(state, VEHICLE)
+    state = decisions.Pin("Kept with it").apply(state, with_it)
+    state = decisions.Load("Original").apply(state, with_it)
+    state = replace(state, against="Kept with it").with_known_parts(state.design, VEHICLE)
+    opening = opened(link_of(state, MOVING, CAMERA, VEHICLE, PRINT))
+    assert opening.state.against == "Kept with it"
+    assert opening.state.design.variants["Kept with it"].absorbers == (absorber,)
+    assert opening.state.design.variants["Kept with it"].rates.keys() == with_it.rates.keys()
+    assert not opening.state.design.alterations.absorbers
 
 
 def test_a_link_of_a_vehicle_that_has_changed_says_so_and_takes_what_fits():

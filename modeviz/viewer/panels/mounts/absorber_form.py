@@ -230,7 +230,10 @@ class AbsorberDetails:
         )
         assign(box, precision=DECIMALS)
         self._text = gui.add_html("")
-        remove = gui.add_button("Remove absorber", hint="And all that was said of its rates")
+        remove = gui.add_button(
+            "Remove absorber",
+            hint="And what was said of its rates; sets keep it that were pinned with it",
+        )
         remove.on_click(lambda _: session.do(RemoveAbsorber(name)))
         self.bindings: tuple[Binding[State], ...] = (
             Binding(

@@ -86,7 +86,7 @@ class Details:
 
         Args:
             state: what is shown.
-            compared: the rates compared with.
+            compared: the rates compared with; not of a group that the set is without.
             effects: of all rates, or of none as yet.
             mode: what the shown mode is called.
             is_old: whether the effects are those of rates that were.
@@ -95,31 +95,33 @@ class Details:
         assign(self._part, visible=is_selected)
         if not is_selected:
             return
-        base = compared[self._group.name]
+        base = compared.get(self._group.name)
         old = " old" if is_old else ""
         listing = table(self._header(state, base, mode), self._rows(state, base, effects))
         assign(self._table, content=block(f'<div class="effects{old}">{listing}</div>'))
-        loss, its_base = self._loss_factor(state), self._group.loss_factor_with(base)
+        loss = self._loss_factor(state)
+        its_base = self._group.loss_factor_with(base or self._group.rates)
         assign(self._loss, label=row_label("loss factor", loss, its_base))
         mark(self._loss, its_base)
 
-    def _header(self, state: State, base: MountRates, mode: str) -> Sequence[str]:
+    def _header(self, state: State, base: MountRates | None, mode: str) -> Sequence[str]:
         reset = ""
-        if state.design.rates[self._group.name] != base:
+        if base is not None and state.design.rates[self._group.name] != base:
             reset = self._signs.reset_group(state.against)
         felt = [f'<div title="{FELT}">{word} RMS</div>' for word in ("lat.", "vert.") if self._is_felt]
         return ("+10 %", named(mode, f"Frequency of {mode}"), *felt, "", reset)
 
-    def _rows(self, state: State, base: MountRates, effects: Effects) -> list[str]:
+    def _rows(self, state: State, base: MountRates | None, effects: Effects) -> list[str]:
         fields, rows = self._group.fields, []
         for kind, its in sections(fields):
             rows += [row([span(kind, "dim")])] if kind else []
             rows += [self._row(fields.index(f), f, state, base, effects) for f in its]
         return rows
 
-    def _row(self, i: int, field: str, state: State, base: MountRates, effects: Effects) -> str:
+    def _row(self, i: int, field: str, state: State, base: MountRates | None, effects: Effects) -> str:
         key = self._group.name, field
-        is_changed = getattr(state.design.rates[self._group.name], field) != getattr(base, field)
+        now = getattr(state.design.rates[self._group.name], field)
+        is_changed = base is not None and now != getattr(base, field)
         shown = _cells(effects.get(key))[: 3 if self._is_felt else 1]
         lock = self._signs.lock(i, key in state.design.locked)
         reset = self._signs.reset(i, state.against) if is_changed else ""

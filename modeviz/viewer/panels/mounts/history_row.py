@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import viser
 
+from modeviz.vehicle.mount_rates import Rates
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.session.commands.decisions import ResetGroups
@@ -42,8 +43,14 @@ class HistoryRow:
         idle = {
             "undo": not self._session.can_undo,
             "redo": not self._session.can_redo,
-            "group": not group or state.design.rates[group] == compared[group],
-            "all": dict(state.design.rates) == dict(compared),
+            "group": not group or self._is_as(compared, state, group),
+            "all": all(self._is_as(compared, state, name) for name in state.design.rates),
         }
         words = " ".join(word for word, is_idle in idle.items() if is_idle)
         assign(self._marker, content=f'<div class="mv-history" data-idle="{words}"></div>')
+
+    @staticmethod
+    def _is_as(compared: Rates, state: State, group: str) -> bool:
+        """Whether a group's rates are those compared with, or there are none to compare with."""
+        own = state.design.rates[group]
+        return compared.get(group, own) == own

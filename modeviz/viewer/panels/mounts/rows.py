@@ -77,9 +77,10 @@ class RateRow:
             effect: what a change of this rate does, a sentence or nothing.
         """
         base, unit = self._rate_in(compared), self._unit(state)
+        before = state.against if self._group.name in compared else "As it was added"
         is_locked = (self._group.name, self._field) in state.design.locked
         in_unit = written(base, factor(unit, self._quantity))
-        about = f"{self._group.title}, {self._called}, {unit}. {state.against}: {in_unit:g}."
+        about = f"{self._group.title}, {self._called}, {unit}. {before}: {in_unit:g}."
         locked = " Locked: loading a set is all that moves it." if is_locked else ""
         assign(
             self._slider,

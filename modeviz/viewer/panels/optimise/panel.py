@@ -2,7 +2,6 @@
 
 import threading
 from collections.abc import Callable
-from dataclasses import replace
 from html import escape
 
 import viser
@@ -112,8 +111,8 @@ def offered(look: SearchStatus | None, state: State) -> tuple[str, ...]:
     if look is None or look.found is None:
         return OFFERED.get(look.stage, (START,)) if look else (START,)
     found = look.found.rates, look.found.placements
-    every, own = state.design.variants.values(), state.design.alterations
-    is_pinned = any((v.rates, replace(own, placements=v.placements).of_mounts) == found for v in every)
+    every = state.design.variants.values()
+    is_pinned = any((variant.rates, variant.alterations.of_mounts) == found for variant in every)
     is_present = design_of(state) == found
     accept = () if is_pinned and is_present else (ACCEPT,)
     go_back = (GO_BACK,) if is_present and not is_pinned else ()

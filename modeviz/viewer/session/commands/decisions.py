@@ -145,19 +145,19 @@ class TakeDesign(Command):
 
 @dataclass(frozen=True)
 class ResetGroups(Command):
-    """Sets groups back to the rates compared with; locked ones stay."""
+    """Sets groups back to the rates compared with; locked ones stay, and what has none there."""
 
     groups: tuple[str, ...]
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         compared = compared_rates(vehicle, state)
-        back = {group: compared[group] for group in self.groups if group}
+        back = {group: compared[group] for group in self.groups if group in compared}
         return replace(state, design=state.design.with_rates(back))
 
 
 @dataclass(frozen=True)
 class ResetRate(Command):
-    """Sets one rate back to that compared with, and no other, even of a linked group."""
+    """Sets one rate back to that compared with, if there is one, and no other of a linked group."""
 
     group: str
     field: str
@@ -165,8 +165,11 @@ class ResetRate(Command):
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         vehicle.mount_group(self.group)
-        compared = getattr(compared_rates(vehicle, state)[self.group], self.field)
-        rates = replace(state.design.rates[self.group], **{self.field: compared})
+        compared = compared_rates(vehicle, state).get(self.group)
+        if compared is None:
+            return state
+        changed = {self.field: getattr(compared, self.field)}
+        rates = replace(state.design.rates[self.group], **changed)
         return replace(state, design=state.design.with_rates({self.group: rates}))
 
 
@@ -265,7 +268,7 @@ class Load(Command):
         wanted = named_sets(vehicle, state.design).get(self.name)
         if wanted is None:
             return state
-        return _designed(state, rates=wanted.rates, alterations=wanted.alterations)
+        return replace(state, design=state.design.with_set(wanted))
 
 
 @dataclass(frozen=True)
@@ -282,8 +285,7 @@ class Swap(Command):
         if own is None:
             own = next_name(design)
             design = design.with_variant(own, design.rates)
-        taken = replace(design, rates=other.rates, alterations=other.alterations)
-        return replace(state, design=taken, against=own)
+        return replace(state, design=design.with_set(other), against=own)
 
 
 @dataclass(frozen=True)

@@ -53,12 +53,15 @@ def fitted_absorbers(
     return tuple(kept)
 
 
-def fitted_design(design: Design, usual: Design, vehicle: Vehicle, remarks: Remarks) -> Design:
+def fitted_design(
+    design: Design, usual: Design, given: Vehicle, vehicle: Vehicle, remarks: Remarks
+) -> Design:
     """Return what of a design a vehicle can have.
 
     Args:
         design: that is asked for, with absorbers that fit.
         usual: of the vehicle, for what does not.
+        given: the vehicle as in its file.
         vehicle: with these absorbers, and no mount moved.
         remarks: told of what does not fit.
     """
@@ -67,7 +70,7 @@ def fitted_design(design: Design, usual: Design, vehicle: Vehicle, remarks: Rema
     return replace(
         design,
         rates=_every_rate(design.rates, groups, vehicle, remarks),
-        variants=_variants(design.variants, vehicle, remarks),
+        variants=_variants(design.variants, given, remarks),
         locked=frozenset(_locked(design.locked, groups, remarks)),
         linked=frozenset(remarks.some("mount group", sorted(design.linked), groups)),
         plan=fitted_plan(design.plan, usual.plan, vehicle, remarks),
@@ -131,13 +134,12 @@ def _known_rates(vehicle: Vehicle, group: MountGroup, field: str) -> list[float]
 
 
 def _variants(
-    variants: Mapping[str, Variant], vehicle: Vehicle, remarks: Remarks
+    variants: Mapping[str, Variant], given: Vehicle, remarks: Remarks
 ) -> Mapping[str, Variant]:
     """Pinned sets by names that nothing else has, each with a number of its own."""
     if not remarks.few("variants", variants, MOST_VARIANTS):
         variants = dict([*variants.items()][:MOST_VARIANTS])
-    groups = {group.name: group for group in vehicle.mount_groups}
-    own, kept, numbers = known_sets(vehicle), dict[str, Variant](), set[int]()
+    own, kept, numbers = known_sets(given), dict[str, Variant](), set[int]()
     for name, variant in variants.items():
         if not remarks.short("variant", name, LONGEST_NAME):
             continue
@@ -149,12 +151,17 @@ def _variants(
             number = next(i for i in range(2 * MOST_VARIANTS) if i not in numbers)
             remarks.say(f"variant {name!r} has another colour: found number {variant.number}")
         numbers.add(number)
-        known = remarks.some("mount group", variant.rates, groups)
-        rates = {
-            group: _rates(variant.rates[group], groups[group], vehicle, remarks) for group in known
-        }
-        kept[called] = Variant(rates, number, _placements(variant.placements, vehicle, remarks))
+        kept[called] = _variant(variant, number, given, remarks)
     return kept
+
+
+def _variant(variant: Variant, number: int, given: Vehicle, remarks: Remarks) -> Variant:
+    """A pinned set with a number, of what the vehicle and the absorbers of the set have."""
+    absorbers = fitted_absorbers(variant.absorbers, given, remarks)
+    vehicle = with_absorbers(given, absorbers)
+    groups = {group.name: group for group in vehicle.mount_groups}
+    rates = _every_rate(variant.rates, groups, vehicle, remarks)
+    return Variant(rates, number, _placements(variant.placements, vehicle, remarks), absorbers)
 
 
 def _placements(placements: Placements, vehicle: Vehicle, remarks: Remarks) -> Placements:

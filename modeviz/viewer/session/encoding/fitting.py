@@ -33,7 +33,7 @@ def fitted(state: State, usual: State, vehicle: Vehicle) -> Fitted:
     absorbers = fitted_absorbers(alterations.absorbers, vehicle, remarks)
     whole = with_absorbers(vehicle, absorbers)
     near = replace(state.design, alterations=replace(alterations, absorbers=absorbers))
-    design = fitted_design(near, usual.design, whole, remarks)
+    design = fitted_design(near, usual.design, vehicle, whole, remarks)
     looking = fitted_looks(replace(state, design=design), usual, whole, remarks)
     return Fitted(looking, remarks.sentences)
 
