@@ -45,6 +45,7 @@ from modeviz.viewer.panels.optimise.panel import OptimisePanel
 from modeviz.viewer.panels.paths import PathsPanel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
+from modeviz.viewer.panels.review import ReviewPanel
 from modeviz.viewer.panels.rigid.panel import RigidPanel
 from modeviz.viewer.panels.rubber import RubberPanel
 from modeviz.viewer.panels.scatter import ScatterPanel
@@ -140,7 +141,7 @@ class App:
         scripts.run(self._gui, "page/no_drop.js")
         choose_theme(self._gui, dark)
         self._scene = Scene(server, self.session.vehicle, dark, self._select, opening.camera)
-        self._scene.let_drag(self._drag, mistake)
+        self._scene.let_drag(self._drag, mistake, server.visitors.has_control)
         self._hotkeys = Hotkeys(self._gui)
         self._recorder: Recorder | None = None
         self._pictured: Callable[[bytes, str], object] | None = None
@@ -248,6 +249,7 @@ class App:
         if self._recorder:
             self._recorder.close()
         self._scene.close()
+        self._review.close()
         self.session.close()
 
     def close(self) -> None:
@@ -290,6 +292,8 @@ class App:
             self._data = DataPanel(gui, session, self._pictures.downloads, self._solved)
         self._status = StatusPanel(gui, session.vehicle.notes, self._opening.remarks)
         self.guide: Guide = Guide(self.server, self._hotkeys)
+        self._review = ReviewPanel(self.server, self._scene.following.switch)
+        self.server.visitors.on_change(self._scene.following.look_again)
 
         right = gui.add_panel()
         with right.add_tab("Response", viser.Icon.CHART_LINE):

@@ -33,7 +33,19 @@
   function visit() {
     const all = new URLSearchParams(location.search);
     const ours = [...all].filter(([name]) => OURS.includes(name));
-    return ours.length ? `?${new URLSearchParams(ours)}` : "";
+    return `?${new URLSearchParams([...ours, ...Object.entries(visitor())])}`;
+  }
+
+  // Who looks: a key by which the server knows this browser again and nobody else does, and a name.
+  function visitor() {
+    const random = () => String.fromCharCode(...crypto.getRandomValues(new Uint8Array(18)));
+    try {
+      const key = localStorage.getItem("modeviz-visitor") ?? btoa(random()).replace(/[+/]/g, "-");
+      localStorage.setItem("modeviz-visitor", key);
+      return { visitor: key, name: localStorage.getItem("modeviz-name") ?? "" };
+    } catch {
+      return {}; // a browser that keeps nothing is a new visitor every time
+    }
   }
 
   function show(text) {
@@ -81,7 +93,7 @@
       isGone = error.name !== "TimeoutError";
     }
     if (waiting !== asked) return; // it has been connected meanwhile
-    show(text || (isOpen ? SILENT : BLOCKED));
+    show(text || ended || (isOpen ? SILENT : BLOCKED));
     if (isGone) tell("gone");
     waiting = setTimeout(explain, AGAIN);
   }

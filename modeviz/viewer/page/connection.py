@@ -88,6 +88,8 @@ class PageConnection(ServerConnection):
         """Who it is, see `client_of`."""
         self.is_secure: bool = False
         """Whether it came by TLS, to a proxy."""
+        self.visitor: str = ""
+        """Who looks at the page, see `Visitors`; "" before that is known."""
         self._places: list[Places] = []
         self._messages = Allowance(MESSAGES_PER_S, MOST_MESSAGES)
         self._bytes = Allowance(BYTES_PER_S, MOST_BYTES)

@@ -7,6 +7,7 @@ import viser
 from viser._messages import HotkeyKey, KeyModifier
 
 from modeviz.viewer.page import scripts
+from modeviz.viewer.page.looking import let_all_use
 
 SPOKEN = {"space": "Space", "cmd/ctrl": "Ctrl", "shift": "Shift"}
 """Keys as the guide writes them."""
@@ -44,6 +45,7 @@ class Hotkeys:
         key: HotkeyKey,
         press: Callable[[viser.CommandEvent], None],
         modifier: KeyModifier | None = None,
+        is_for_all: bool = False,
     ) -> None:
         """Gives a key something to do; it is in viser's command palette too.
 
@@ -52,7 +54,11 @@ class Hotkeys:
             key: such as "N", "1" or "space".
             press: called with the event, which has the page as `client`.
             modifier: such as "cmd/ctrl" or "cmd/ctrl+shift", to be held as well.
+            is_for_all: whether pages without control may press it.
         """
-        self._gui.add_command(label, hotkey=key, modifier=modifier).on_trigger(press)
+        command = self._gui.add_command(label, hotkey=key, modifier=modifier)
+        command.on_trigger(press)
+        if is_for_all:
+            let_all_use(command)
         held = modifier.split("+") if modifier else []
         self._listed.append(Hotkey(tuple(SPOKEN.get(k, k) for k in (*held, key)), label))

@@ -25,6 +25,10 @@ def block(*content: str) -> str:
     return f'<div class="mv">{"".join(content)}</div>'
 
 
+FOR_ALL = '<div class="mv-for-all"></div>'
+"""Stands before a widget that looks the same where one only looks, see `looking.let_all_use`."""
+
+
 def heading(left: str, right: str = "") -> str:
     """A line with a bold start and a quiet end."""
     quiet = f'<span class="dim">{right}</span>' if right else ""

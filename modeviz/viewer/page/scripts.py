@@ -24,3 +24,10 @@ def run(api: viser.SceneApi | viser.GuiApi, path: str, *arguments: Any) -> None:
 def say(client: viser.ClientHandle, source: str) -> None:
     """Runs some JavaScript in one page."""
     client._websock_connection.queue_message(_messages.RunJavascriptMessage(source))
+
+
+def say_newest(client: viser.ClientHandle, about: str, source: str) -> None:
+    """Runs some JavaScript in one page, in place of what it has not had yet about the same."""
+    message = _messages.RunJavascriptMessage(source)
+    vars(message)["redundancy_key"] = lambda: f"script {about}"
+    client._websock_connection.queue_message(message)

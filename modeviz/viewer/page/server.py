@@ -38,6 +38,7 @@ from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 from modeviz.viewer.page.tokens import checked_token
 from modeviz.viewer.page.turns import Turns
+from modeviz.viewer.page.visitors import Visitors
 
 STOPPED = "modeviz was stopped: what you did is kept, and this page goes on once it runs again"
 """Pages show it; at most 123 bytes go with the end of a connection."""
@@ -75,7 +76,8 @@ class Server(viser.ViserServer):
         self._thread_executor.shutdown()
         for caller in (self, self.gui, self.scene):
             caller._thread_executor = self._turns
-        gate_messages(self, self._tell_client)
+        self.visitors: Visitors = Visitors(self)
+        gate_messages(self, self._tell_client, self.visitors)
         self.on_client_connect(lambda client: self._note_page(client, "opened"))
         self.on_client_disconnect(lambda client: self._note_page(client, "closed"))
 

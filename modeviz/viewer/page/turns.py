@@ -18,7 +18,7 @@ MOST_WAITING = 20
 NOBODY = object()
 
 page_heard: ContextVar[Hashable] = ContextVar("page_heard", default=None)
-"""The page whose message is being handled."""
+"""The page whose message is being handled, in the server's loop and in the thread of what it called."""
 
 
 class Turns(ThreadPoolExecutor):
@@ -71,6 +71,7 @@ class Turns(ThreadPoolExecutor):
         return next(free, NOBODY)
 
     def _call(self, page: Hashable, future: Future[Any], call: Callable[[], Any]) -> None:
+        page_heard.set(page)
         try:
             result = call()
         except Exception as error:

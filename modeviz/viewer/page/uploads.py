@@ -58,14 +58,23 @@ def is_upload_allowed(
     )
 
 
-def refuse_upload(server: viser.ViserServer, client_id: ClientId, message: _messages.Message) -> None:
-    """Tells a page that its file is not taken, and ends its waiting for it."""
+def refuse_upload(
+    server: viser.ViserServer, client_id: ClientId, message: _messages.Message, why: str = ""
+) -> None:
+    """Tells a page that its file is not taken, and ends its waiting for it.
+
+    Args:
+        server: of the page.
+        client_id: of the page.
+        message: what it sent.
+        why: the reason, if it is none of size or number.
+    """
     client = server.get_clients().get(client_id)
     if client is None or not isinstance(message, _messages.FileTransferStartUpload):
         return
     largest = _largest_of(server, message)
-    reason = f"found {_size(message.size_bytes)}, expected a file of at most {_size(largest)}."
-    if message.size_bytes <= largest:
+    reason = why or f"found {_size(message.size_bytes)}, expected a file of at most {_size(largest)}."
+    if not why and message.size_bytes <= largest:
         reason = "others are still on their way; try again when they have come."
     client.add_notification("Not imported", f"{message.filename}: {reason}", color="red")
     done = _messages.FileTransferPartAck(

@@ -8,6 +8,8 @@ here by viser's private message.
 import threading
 import time
 from collections.abc import Callable
+from contextvars import copy_context
+from functools import partial
 from typing import Any
 
 import viser
@@ -38,6 +40,8 @@ class WriteBack:
             widget: the one moved.
             instead: what to do once it rests, if its value is not to be sent: somebody may type on.
         """
+        if instead:
+            instead = partial(copy_context().run, instead)  # for the page that is heard now
         with self._lock:
             is_first = not self._touched
             self._touched[widget._impl.uuid] = widget, instead

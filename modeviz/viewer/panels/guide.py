@@ -8,7 +8,8 @@ import viser
 
 from modeviz.viewer.page.handles import GuiModalHandle
 from modeviz.viewer.page.hotkeys import Hotkey, Hotkeys
-from modeviz.viewer.page.html import block
+from modeviz.viewer.page.html import FOR_ALL, block
+from modeviz.viewer.page.looking import let_all_use
 
 TOPICS = (
     (
@@ -51,11 +52,15 @@ class Guide:
         self._lock = threading.Lock()
         self._is_welcome_due = False
         self._open: dict[int, GuiModalHandle] = {}
+        server.gui.add_html(FOR_ALL)
         button = server.gui.add_button_group(
             "Help", ("What can I do here?",), hint="A short guide, and all keys"
         )
         button.on_click(lambda event: event.client and self.open(event.client))
-        hotkeys.add("This guide", "H", lambda event: event.client and self.open(event.client))
+        let_all_use(button)
+        hotkeys.add(
+            "This guide", "H", lambda event: event.client and self.open(event.client), is_for_all=True
+        )
         server.on_client_connect(self._welcome)
         server.on_client_disconnect(self._forget)
 

@@ -68,6 +68,9 @@ BARE = """
 UNSEEN = "window.__modevizUnseen = true"
 """Has the scene draw only what it is asked for; see driver.js."""
 
+NOBODY = "try { localStorage.setItem('modeviz-visitor', '%s') } catch {}"
+"""Has a page say that it is a browser of ours, and nobody who looks."""
+
 NO_NOTICES = """() => {
   const buttons = document.querySelectorAll(".mantine-Notification-closeButton");
   buttons.forEach((button) => button.click());
@@ -139,6 +142,7 @@ class HeadlessPage:
             self._page.set_default_timeout(1000 * PATIENCE)
             self._page.on("pageerror", lambda error: self._reported.append(str(error)))
             self._page.on("console", self._note)
+            self._page.add_init_script(NOBODY % self._server().visitors.own_key)
             if self._is_bare:
                 self._page.add_init_script(UNSEEN)
             self._page.goto(f"{self._server().local_link}&fixedDpr=1")

@@ -10,6 +10,8 @@ import viser
 
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page import scripts
+from modeviz.viewer.page.html import FOR_ALL
+from modeviz.viewer.page.looking import let_all_use
 from modeviz.viewer.scene.stage import FAR, FIELD_OF_VIEW, ISO, NEAR, VIEWS, Box, camera
 from modeviz.viewer.session.view import CameraPose
 
@@ -29,7 +31,9 @@ def add_view_buttons(gui: viser.GuiApi, look: Callable[[viser.ClientHandle, str]
         gui: where.
         look: turns a page's camera to one of `stage.VIEWS`.
     """
+    gui.add_html(FOR_ALL)
     views = gui.add_button_group("View", tuple(VIEWS), hint="Where to look from")
+    let_all_use(views)
 
     @views.on_click
     def _(event: viser.GuiEvent) -> None:
@@ -40,15 +44,22 @@ def add_view_buttons(gui: viser.GuiApi, look: Callable[[viser.ClientHandle, str]
 class Cameras:
     """Every page has its own camera; all of them look at the same."""
 
-    def __init__(self, server: viser.ViserServer, box: Box, begin: CameraPose | None = None) -> None:
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        box: Box,
+        begin: CameraPose | None = None,
+        is_led: Callable[[int], bool] = lambda _: False,
+    ) -> None:
         """Points the cameras of pages to come at a vehicle; their pictures' sizes are in CSS pixels.
 
         Args:
             server: of the pages.
             box: the space that is framed.
             begin: where cameras are at first; None: where all of that is seen.
+            is_led: whether a page's camera goes where another one goes, and is left alone here.
         """
-        self._server, self._box, self._begin = server, box, begin
+        self._server, self._box, self._begin, self._is_led = server, box, begin, is_led
         self._before = box
         self._is_framed = begin is None
         self._views: dict[int, tuple[str, Floats]] = {}
@@ -91,6 +102,8 @@ class Cameras:
             return
         self._before, self._box = self._box, box
         for client in self._server.get_clients().values():
+            if self._is_led(client.client_id):
+                continue
             move = self._next_move(client)
             threading.Thread(target=self._glide, args=(client, move), name="glide", daemon=True).start()
 
@@ -132,7 +145,7 @@ class Cameras:
         viser puts the camera back where pages begin, even after it was framed if a page loads slowly.
         """
         with self._lock:
-            if client.client_id not in self._views:
+            if client.client_id not in self._views or self._is_led(client.client_id):
                 return
             view, put = self._views[client.client_id]
             position, begin = client.camera.position, self._server.initial_camera.position

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import copy_context
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,6 +45,7 @@ class MountHandle:
         length: float,
         on_drag: Callable[[Dragged], None],
         mistake: Callable[[Exception], object],
+        has_control: Callable[[int], bool],
     ) -> None:
         """Makes it, and leaves it out.
 
@@ -52,10 +54,14 @@ class MountHandle:
             length: of the vehicle, m.
             on_drag: told where it was dragged to, in a thread; places that were overtaken are not.
             mistake: told what that raises.
+            has_control: whether a page may drag it on, and is there at all.
         """
-        self._teller = Worker(on_drag, mistake)
+        self._on_drag, self._has_control = on_drag, has_control
+        self._teller: Worker[Callable[[], None]] = Worker(lambda tell: tell(), mistake)
         self._held: tuple[MountGroup, int] | None = None
-        self._n_drags, self._is_dragged = 0, False
+        self._n_drags = 0
+        self._dragged_by: int | None = None
+        """The page."""
         self._handle = scene.add_transform_controls(
             "/mount handle", SIZE * length, line_width=3.0, depth_test=False, visible=False
         )
@@ -69,9 +75,9 @@ class MountHandle:
             mount: which of them.
             placement: of the group, as it is now.
         """
-        if self._is_dragged and self._held and self._held[0].name == group.name:
+        if self._is_in_hand and self._held and self._held[0].name == group.name:
             return  # it is where the hand has it
-        self._held, self._is_dragged = (group, mount), False
+        self._held, self._dragged_by = (group, mount), None
         own = placement.mirrored if mirrored_mounts(group)[mount] else placement
         axes = axes_of_angles(np.array(own.angles), TurnOrder())
         self._handle.position = group.mounts[mount].center + own.offset
@@ -80,7 +86,7 @@ class MountHandle:
 
     def hide(self) -> None:
         """Leaves it out."""
-        self._is_dragged = False
+        self._dragged_by = None
         assign(self._handle, visible=False)
 
     @contextmanager
@@ -97,6 +103,10 @@ class MountHandle:
         """Tells nobody any more."""
         self._teller.close()
 
+    @property
+    def _is_in_hand(self) -> bool:
+        return self._dragged_by is not None and self._has_control(self._dragged_by)
+
     async def _moved(self, event: viser.TransformControlsEvent) -> None:
         """Has it told where it is, in the order in which pages say so."""
         if self._held is None or not self._handle.visible:
@@ -104,8 +114,10 @@ class MountHandle:
         group, mount = self._held
         is_over = event.phase == "end"
         placement = _placement(self._handle, group, mount)
-        self._is_dragged = not is_over
-        self._teller.submit(Dragged(group.name, placement, self._n_drags, is_over, event.client))
+        self._dragged_by = None if is_over else event.client_id
+        dragged = Dragged(group.name, placement, self._n_drags, is_over, event.client)
+        heard = copy_context()  # its author is whose page is heard now
+        self._teller.submit(lambda: heard.run(self._on_drag, dragged))
         self._n_drags += is_over
 
 

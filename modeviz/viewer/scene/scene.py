@@ -14,9 +14,11 @@ from modeviz.text.wording import within_sentence
 from modeviz.vehicle.arrays import Array
 from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.page.server import Server
 from modeviz.viewer.scene.body_view import DrawnBody
 from modeviz.viewer.scene.cameras import Cameras
 from modeviz.viewer.scene.driver import LARGEST, ShapeDriver
+from modeviz.viewer.scene.following import Following
 from modeviz.viewer.scene.markers import Markers
 from modeviz.viewer.scene.mount_handle import Dragged, MountHandle
 from modeviz.viewer.scene.rigid_axes import RigidAxesMarks
@@ -41,7 +43,7 @@ class Scene:
 
     def __init__(
         self,
-        server: viser.ViserServer,
+        server: Server,
         vehicle: Vehicle,
         dark: bool,
         on_select: Callable[[str], None],
@@ -69,7 +71,9 @@ class Scene:
         )
         self._absorbers = {b.name: _at_rest(b) for b in vehicle.bodies if b.role == "absorber"}
         self._handle: MountHandle | None = None
-        self._cameras = Cameras(server, self._box, camera)
+        self.following: Following = Following(server, server.visitors.has_control)
+        """Lets cameras of pages that only look go where that of whoever presents goes."""
+        self._cameras = Cameras(server, self._box, camera, self.following.is_led)
         self.exaggeration: float = 1.0
         """How many times as large as it is the shape is drawn at the driver's amplitude of one."""
 
@@ -120,10 +124,14 @@ class Scene:
         self._absorbers = wanted
 
     def let_drag(
-        self, on_drag: Callable[[Dragged], None], mistake: Callable[[Exception], object]
+        self,
+        on_drag: Callable[[Dragged], None],
+        mistake: Callable[[Exception], object],
+        has_control: Callable[[int], bool],
     ) -> None:
         """Lets pages drag the mounts of a group by a handle, where it is wanted; as `MountHandle`."""
-        self._handle = MountHandle(self._server.scene, self._box.length, on_drag, mistake)
+        length = self._box.length
+        self._handle = MountHandle(self._server.scene, length, on_drag, mistake, has_control)
 
     def place(self, state: State) -> None:
         """Draws mounts where a state has them, and the handle of the selected group if it is wanted."""

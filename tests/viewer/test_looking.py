@@ -1,0 +1,204 @@
+"""A page of a review changes nothing, whatever it says: tried at the websocket with all there is."""
+
+import typing
+
+import pytest
+import viser
+from guests import guest, hand_over, heard, opened, take_back
+from mounted_cabin import mounted_cabin
+from visitors import PART_OF_FILE, encoded, update, wait_until
+
+from benchmarks.page_client import wire
+from modeviz.analysis.results import Conditions
+from modeviz.viewer.app import App
+from modeviz.viewer.page import decoding
+from modeviz.viewer.page.server import open_server
+from modeviz.viewer.session.commands.decisions import PlaceMounts
+from modeviz.viewer.session.commands.looks import ChangeLook, SelectGroup
+
+PATIENCE_S = 60
+FOR_ALL = {"View", "Help"}
+"""Labels of shared widgets with which a page changes only itself."""
+
+COMMANDS_FOR_ALL = {"This guide"}
+
+
+@pytest.fixture(scope="module")
+def app():
+    server, vehicle = open_server(port=0), mounted_cabin()
+    app = App(vehicle, vehicle.rates, Conditions("flat", 20.0), server)
+    app.start()
+    app.session.do(SelectGroup("A"))
+    app.session.do(ChangeLook(handle=True))
+    assert app.session.wait_checked(PATIENCE_S)
+    yield app
+    app.close()
+
+
+@pytest.fixture
+def onlooker(app):
+    with guest(app.server, "Anna") as page:
+        heard(page)
+        yield page
+
+
+def shared_widgets(app):
+    return dict(app.server.gui._gui_input_handle_from_uuid)
+
+
+def another_value(widget):
+    """One that the widget can have, and has not now."""
+    props, value = widget._impl.props, widget._impl.value
+    options = getattr(props, "options", None)
+    if options:
+        return next((option for option in options if option != value), value)
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, (int, float)):
+        low, high = getattr(props, "min", None), getattr(props, "max", None)
+        wanted = value + 1 if low is None or high is None else low if value != low else high
+        return type(value)(wanted)
+    return f"{value}x"
+
+
+def everything(app):
+    """All that pages show of the session: its state, its widgets, and its handle in the scene."""
+    handle = app.server.scene._handle_from_node_name["/mount handle"]
+    values = {
+        uuid: widget._impl.value
+        for uuid, widget in shared_widgets(app).items()
+        if not isinstance(widget, viser.GuiUploadButtonHandle)
+    }
+    return app.session.state, values, tuple(handle.position), tuple(handle.wxyz)
+
+
+def test_no_widget_of_the_page_is_changed_by_who_looks(app, onlooker):
+    before, widgets, events = everything(app), shared_widgets(app), []
+    used = []
+    for widget in widgets.values():
+        widget._impl.update_cb.append(lambda event: used.append(event.target._impl.props.label))
+    for uuid, widget in widgets.items():
+        if isinstance(widget, viser.GuiUploadButtonHandle) or widget.label in FOR_ALL:
+            continue
+        value = True if isinstance(widget, viser.GuiButtonHandle) else another_value(widget)
+        onlooker.send(wire("GuiUpdateMessage", uuid=uuid, updates={"value": value}))
+        events.append(uuid)
+    told = heard(onlooker, 2.0)
+    assert app.session.wait(PATIENCE_S)
+    assert used == []
+    assert everything(app) == before
+    assert len(events) > 80
+    # Each is put back: told its true value, however it was before.
+    put_back = {m["uuid"]: m["updates"]["value"] for m in told if "value" in m.get("updates", {})}
+    assert set(events) <= set(put_back)
+    assert {widget.label for widget in widgets.values() if vars(widget).get("is_for_all")} == FOR_ALL
+
+
+def test_no_command_is_obeyed_that_changes_anything(app, onlooker):
+    before, obeyed = everything(app), []
+    commands = app.server.gui._command_handle_from_uuid
+    for uuid, command in commands.items():
+        command.on_trigger(lambda event: obeyed.append(event.target._impl.props.label))
+        onlooker.send(wire("CommandTriggerMessage", uuid=uuid))
+    heard(onlooker)
+    wait_until(lambda: obeyed)
+    assert set(obeyed) == COMMANDS_FOR_ALL
+    assert everything(app) == before
+
+
+def scene_messages(app):
+    """What a page says of the scene, and of files."""
+    point = {"position": (0.0, 0.0, 0.0), "wxyz": (1.0, 0.0, 0.0, 0.0)}
+    upload = next(
+        uuid
+        for uuid, widget in shared_widgets(app).items()
+        if isinstance(widget, viser.GuiUploadButtonHandle)
+    )
+    click = {
+        "instance_index": None,
+        "ray_origin": (0.0, 0.0, 0.0),
+        "ray_direction": (1.0, 0.0, 0.0),
+        "screen_pos": (0.5, 0.5),
+        "modifier": None,
+    }
+    yield from (wire("SceneNodeClickMessage", name=name, **click) for name in clickable(app))
+    yield wire("TransformControlsDragStartMessage", name="/mount handle")
+    yield wire("TransformControlsUpdateMessage", name="/mount handle", **point)
+    yield wire("TransformControlsDragEndMessage", name="/mount handle")
+    file = {"source_component_uuid": upload, "transfer_uuid": "t"}
+    yield wire(
+        "FileTransferStartUpload",
+        **file, filename="v.csv", mime_type="text/csv", part_count=1, size_bytes=3,
+    )  # fmt: skip
+    yield encoded({**PART_OF_FILE, **file, "content": b"a,b"})
+
+
+def clickable(app):
+    nodes = app.server.scene._handle_from_node_name.items()
+    return [name for name, node in nodes if getattr(node._impl, "click_cb", None)]
+
+
+def test_no_click_no_drag_and_no_file_of_who_looks_changes_anything(app, onlooker):
+    app.session.do(SelectGroup("B"))
+    assert app.session.wait_checked(PATIENCE_S)
+    before = everything(app)
+    assert clickable(app)
+    for message in scene_messages(app):
+        onlooker.send(message)
+    told = heard(onlooker)
+    assert app.session.wait(PATIENCE_S)
+    assert everything(app) == before
+    assert app.server.gui._current_file_upload_states == {}
+    kinds = {message["type"] for message in told}
+    assert kinds >= {"SetPositionMessage", "SetOrientationMessage", "FileTransferPartAck"}
+    placed = next(m for m in told if m["type"] == "SetPositionMessage" and m["name"] == "/mount handle")
+    handle = app.server.scene._handle_from_node_name["/mount handle"]
+    assert placed["position"] == pytest.approx(tuple(handle.position))
+
+
+def test_every_kind_of_message_is_either_tried_here_or_a_pages_own():
+    """Of the kinds that are let through to viser: a new one has to be thought of here."""
+    kinds = {kind.__name__ for kind in typing.get_args(decoding._decoder.type)}
+    own = {"ViewerCameraMessage", "GetRenderResponseMessage", "FileTransferPartAck"}
+    tried = {
+        "GuiUpdateMessage",
+        "CommandTriggerMessage",
+        "SceneNodeClickMessage",
+        "TransformControlsDragStartMessage",
+        "TransformControlsUpdateMessage",
+        "TransformControlsDragEndMessage",
+        "FileTransferStartUpload",
+        "FileTransferPart",
+    }
+    assert kinds == own | tried
+
+
+def test_what_the_owner_may_change_he_may_not_while_somebody_else_presents(app):
+    slider = next(w for w in shared_widgets(app).values() if w.label == "Amplitude")
+    with opened(app.server) as owner, guest(app.server, "Anna") as anna:
+        hand_over(app.server, "Anna")
+        owner.send(update(slider, 2.0))
+        heard(owner)
+        assert slider.value == 1.0
+        anna.send(update(slider, 2.0))
+        wait_until(lambda: slider.value == 2.0)
+        take_back(app.server)
+        owner.send(update(slider, 1.0))
+        wait_until(lambda: slider.value == 1.0)
+
+
+def test_a_handle_in_the_hand_of_who_loses_control_is_let_go(app):
+    app.session.do(SelectGroup("A"))
+    assert app.session.wait_checked(PATIENCE_S)
+    handle = app.server.scene._handle_from_node_name["/mount handle"]
+    begin = handle.position.tolist()
+    there = {"position": (begin[0] + 0.1, *begin[1:]), "wxyz": (1.0, 0.0, 0.0, 0.0)}
+    with guest(app.server, "Anna") as anna:
+        hand_over(app.server, "Anna")
+        anna.send(wire("TransformControlsDragStartMessage", name="/mount handle"))
+        anna.send(wire("TransformControlsUpdateMessage", name="/mount handle", **there))
+        wait_until(lambda: app.session.state.design.alterations.placement("A").offset[0])
+        take_back(app.server)
+        anna.send(wire("TransformControlsDragEndMessage", name="/mount handle"))
+        app.session.do(PlaceMounts("A", "offset", (0.0, 0.0, 0.0)))
+        wait_until(lambda: handle.position == pytest.approx(begin))
