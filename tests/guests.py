@@ -37,7 +37,7 @@ def opened(server, **query: str) -> Iterator:
 @contextmanager
 def guest(server, name: str = "", key: str = "") -> Iterator:
     """A page of a review, which is shared."""
-    if not server.visitors.link:
+    if not server.visitors.is_shared:
         server.visitors.offer(SharedHere())
         server.visitors.share()
     with opened(server, review="r", name=name, visitor=key) as page:
@@ -58,7 +58,7 @@ def take_back(server) -> None:
         assert server.visitors.hand_over(page, server.visitors.of_page(page).number)
 
 
-def heard(page, seconds: float = 0.5) -> list:
+def heard(page, seconds: float = 0.3) -> list:
     """What a page is told until it is quiet for so long."""
     told = []
     try:

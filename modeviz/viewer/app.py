@@ -129,6 +129,7 @@ class App:
             past=opening.past,
             future=opening.future,
             preparations=preparations,
+            acting=server.visitors.acting,
         )
         session, mistake = self.session, server.mistake
         self.search_task: SearchTask = SearchTask(session, lambda: self._optimise.follow(), mistake)

@@ -1,7 +1,7 @@
 """What a page may say that only looks: what is its own, and what it says because it was asked.
 
 Everything else is refused, whatever kinds of messages or shared widgets are added: one of these is
-marked if using it changes nothing that others see.
+marked if using it changes nothing that others see, and a page's own widget is marked if using it does.
 """
 
 from typing import Any
@@ -27,6 +27,11 @@ DRAGS = (
 def let_all_use(handle: Any) -> None:
     """Lets pages without control use a shared widget or a command: others see nothing of it."""
     vars(handle)["is_for_all"] = True
+
+
+def leave_to_control(handle: Any) -> None:
+    """Keeps a page from using a widget of its own once it has no control: it decides something."""
+    vars(handle)["is_for_all"] = False
 
 
 def only_looks(server: viser.ViserServer, client_id: ClientId, message: _messages.Message) -> bool:

@@ -89,7 +89,7 @@ class Visitors:
         """The key of the visitor who is in control; "" while the owner is."""
         self._own_key = secrets.token_urlsafe()
         self._sharing: Sharing | None = None
-        self._link = ""
+        self._link, self._is_shared = "", False
         self._listeners: list[Changed] = []
         self._on_refusal: Callable[[int], None] = lambda _: None
         server._websock_server.on_client_connect(self._enter)
@@ -106,8 +106,13 @@ class Visitors:
         return self._sharing is not None
 
     @property
+    def is_shared(self) -> bool:
+        """Whether who has the link of a review may look."""
+        return self._is_shared
+
+    @property
     def link(self) -> str:
-        """That of the review; "" while there is none, and nobody else may look."""
+        """That of the review, if it was made since the session was opened; else ""."""
         return self._link
 
     @property
@@ -134,7 +139,7 @@ class Visitors:
             visitor = self.of_page(client_id)
             return visitor is not None and self._is_in_control(visitor)
 
-    def author(self) -> Author:
+    def acting(self) -> Author:
         """Return who asks for what is being done in this thread; the owner where nobody does."""
         page = page_heard.get()
         with self._lock:
@@ -184,9 +189,14 @@ class Visitors:
         self._tell()
         return taker
 
-    def offer(self, sharing: Sharing) -> None:
-        """Lets the owner share the session."""
-        self._sharing = sharing
+    def offer(self, sharing: Sharing, is_shared: bool = False) -> None:
+        """Lets the owner share the session.
+
+        Args:
+            sharing: makes the link.
+            is_shared: whether somebody has a link already that still counts.
+        """
+        self._sharing, self._is_shared = sharing, is_shared
         self._tell()
 
     def share(self) -> str:
@@ -196,8 +206,8 @@ class Visitors:
             ModevizError: nothing is offered to share.
         """
         if self._sharing is None:
-            raise ModevizError("this page cannot be shared: start modeviz without a notebook")
-        self._link = self._sharing.share()
+            raise ModevizError("this page cannot be shared")
+        self._link, self._is_shared = self._sharing.share(), True
         self._tell()
         return self._link
 
@@ -207,6 +217,7 @@ class Visitors:
             self._sharing.stop()
         with self._lock:
             self._link = self._presenter = ""
+            self._is_shared = False
             guests = [page for page, key in self._pages.items() if not self._known[key].is_owner]
         for page in guests:
             self._put_out(page)
@@ -225,7 +236,7 @@ class Visitors:
         is_owner = not self._came_to_look(connection.request)
         if said.key == self._own_key:
             return
-        if not is_owner and not self._link:
+        if not is_owner and not self._is_shared:
             await connection.close(CloseCode.POLICY_VIOLATION, ENDED)
             return
         with self._lock:

@@ -32,6 +32,7 @@ class Presence:
     """None: the owner."""
     has_control: bool
     link: str
+    is_shared: bool
     can_share: bool
 
     @property
@@ -111,10 +112,9 @@ class ReviewCard:
         if self._you is None or you.name != self._you.name:  # else somebody may be typing
             assign(self._name, value=you.name)
         assign(self._follow, visible=not now.has_control)
-        assign(self._share, visible=you.is_owner and now.can_share and not now.link)
-        link = f'<a href="{escape(now.link)}" target="_blank">The link of this review</a>'
-        assign(self._link, content=block(link) if you.is_owner and now.link else "")
-        assign(self._links, visible=you.is_owner and bool(now.link))
+        assign(self._share, visible=you.is_owner and now.can_share and not now.is_shared)
+        assign(self._link, content=block(_linked(now.link)) if you.is_owner and now.is_shared else "")
+        assign(self._links, visible=you.is_owner and now.is_shared)
         assign(self._to, options=tuple(self._numbers) or (NOBODY,), visible=may_give)
         assign(self._hand_over, visible=may_give)
         assign(self._take_back, visible=you.is_owner and not now.has_control)
@@ -162,8 +162,8 @@ class ReviewCard:
             return
         if button == STOP:
             self._visitors.stop_sharing()
-        elif self._visitors.link:
-            scripts.run(self._client.gui, "page/copy.js", self._visitors.link)
+        else:
+            scripts.run(self._client.gui, "page/copy.js", self._visitors.link or self._visitors.share())
 
     def _give(self, number: int | None) -> None:
         if number is None or self._visitors.hand_over(self._client.client_id, number) is None:
@@ -204,6 +204,8 @@ class ReviewPanel:
         with self._lock:
             self._cards[page] = ReviewCard(client, self._visitors, partial(self._follow, page))
             self._show(page)
+        if self._visitors.of_page(page) is None:  # it has left meanwhile
+            self._drop(client)
 
     def _drop(self, client: viser.ClientHandle) -> None:
         with self._lock:
@@ -222,7 +224,13 @@ class ReviewPanel:
         has_control = visitors.has_control(page)
         self._cards[page].show(
             Presence(
-                you, visitors.there, visitors.presenter, has_control, visitors.link, visitors.can_share
+                you,
+                visitors.there,
+                visitors.presenter,
+                has_control,
+                visitors.link,
+                visitors.is_shared,
+                visitors.can_share,
             )
         )
 
@@ -232,6 +240,13 @@ class ReviewPanel:
         if client is not None and now - self._pointed_out.get(page, -math.inf) > 0.5:
             self._pointed_out[page] = now
             scripts.run(client.gui, "page/refused.js")
+
+
+def _linked(link: str) -> str:
+    """The link of a review; one that was made before is known to those alone who have it."""
+    if not link:
+        return span("Shared by a link that was made before; a copy is another link.", "dim")
+    return f'<a href="{escape(link)}" target="_blank">The link of this review</a>'
 
 
 def _listing(now: Presence) -> str:

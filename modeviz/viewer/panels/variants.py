@@ -1,5 +1,6 @@
 """Left column: all sets of rates that have a name, kept, loaded and compared."""
 
+from collections.abc import Callable
 from html import escape
 
 import viser
@@ -11,12 +12,20 @@ from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
+from modeviz.viewer.page.question import ask
 from modeviz.viewer.panels.exchange import ExchangePanel
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.plots import set_line
 from modeviz.viewer.panels.side_by_side import side_by_side
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.commands.decisions import Forget, Load, Pin, Rename, Swap
+from modeviz.viewer.session.commands.decisions import (
+    Forget,
+    Load,
+    Pin,
+    Rename,
+    Swap,
+    TakenNameError,
+)
 from modeviz.viewer.session.commands.looks import CompareWith, Overlay, ShowComparedGhost
 from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.design import (
@@ -173,12 +182,32 @@ class NameBox:
         return current if current in state.design.variants else None
 
     def _press(self, button: str, event: viser.GuiEvent) -> None:
-        complaint = self._keep(button, self._box.value.strip())
+        name = self._box.value.strip()
+        try:
+            complaint = self._keep(button, name)
+        except TakenNameError as taken:
+            if event.client:
+                self._ask(event.client, taken)
+            return
         if complaint and event.client:
             event.client.add_notification("Not kept", complaint, color="red")
 
+    def _ask(self, client: viser.ClientHandle, taken: TakenNameError) -> None:
+        """Asks whether a set is to be replaced; what is pinned then are the rates of that time."""
+        do = self._session.do
+        answers: dict[str, Callable[[], None]] = {
+            f"Replace {taken.name}": lambda: do(Pin(taken.name, replaces=True)),
+            f"Pin as {taken.free}": lambda: do(Pin(taken.free)),
+        }
+        text = f"There is another set called {taken.name}. Undo would bring it back."
+        ask(client, f"Replace {taken.name}?", text, answers)
+
     def _keep(self, button: str, name: str) -> str | None:
-        """Pins or renames; says why not, if so."""
+        """Pins or renames; says why not, if so.
+
+        Raises:
+            TakenNameError: there is another set of that name.
+        """
         state, vehicle = self._session.state, self._session.vehicle
         if not name:
             return "The set needs a name: type one first."

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from itertools import takewhile
 from typing import Literal, TypeVar
 
+from modeviz.viewer.session.author import OWNER, Author
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.state import State
 
@@ -23,6 +24,7 @@ class Change:
 
     before: State
     after: State
+    author: Author = OWNER
 
 
 Kind = Literal["step", "longer", "back", "undo", "redo", "look"]
@@ -84,31 +86,38 @@ class History:
         self._step: Hashable = None
         self._changed_at = 0.0
 
-    def put(self, state: State, step: Hashable = None, within: float = MERGE_WITHIN) -> Accepted:
+    def put(
+        self,
+        state: State,
+        step: Hashable = None,
+        within: float = MERGE_WITHIN,
+        author: Author = OWNER,
+    ) -> Accepted:
         """Goes on to a state; if it has another design, what was undone is gone.
 
         Args:
             state: the new one.
             step: what the change is a part of, if many are to be undone as one; None if not.
             within: s, how closely they have to follow.
+            author: who changes it; one step is of one author.
         """
         before, self.state = self.state, state
         if state.design == before.design:
-            return Accepted("look", Change(before, state))
+            return Accepted("look", Change(before, state, author))
         now = time.monotonic()
         goes_on = step is not None and step == self._step and now - self._changed_at < within
         first, kind = before, "step"
-        if goes_on and self._past:
+        if goes_on and self._past and self._past[-1].author == author:
             change = self._past.pop()  # looks since then are no part of it
             first, kind = merged(change.before, change.after, before), "longer"
-        self._past = [*self._past[1 - LONGEST :], Change(first, state)]
+        self._past = [*self._past[1 - LONGEST :], Change(first, state, author)]
         self._future.clear()
         self._step, self._changed_at = step, now
         if first.design == state.design:  # all the way back is no step
             self._past.pop()
             self._step = None
-            return Accepted("back", Change(state, before))
-        return Accepted(kind, Change(first, state))
+            return Accepted("back", Change(state, before, author))
+        return Accepted(kind, self._past[-1])
 
     @property
     def moment(self) -> Moment:
@@ -137,13 +146,23 @@ class History:
     def can_redo(self) -> bool:
         return bool(self._future)
 
+    @property
+    def undone_next(self) -> Change | None:
+        """What `undo` takes back."""
+        return self._past[-1] if self._past else None
+
+    @property
+    def redone_next(self) -> Change | None:
+        """What `redo` makes again."""
+        return self._future[-1] if self._future else None
+
     def undo(self) -> Accepted | None:
         """Goes back; None if there was nothing to go back to."""
         if not self._past:
             return None
         change, after = self._past.pop(), self.state
         self._go(change.after, change.before)
-        self._future.append(Change(self.state, after))
+        self._future.append(Change(self.state, after, change.author))
         return Accepted("undo", self._future[-1])
 
     def redo(self) -> Accepted | None:
@@ -152,7 +171,7 @@ class History:
             return None
         change, before = self._future.pop(), self.state
         self._go(change.before, change.after)
-        self._past.append(Change(before, self.state))
+        self._past.append(Change(before, self.state, change.author))
         return Accepted("redo", self._past[-1])
 
     def _go(self, old: State, new: State) -> None:

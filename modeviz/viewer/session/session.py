@@ -11,6 +11,7 @@ from modeviz.errors import ModevizError
 from modeviz.vehicle.placement import check_placements
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Answers, Solved, asks_for_the_same
+from modeviz.viewer.session.author import OWNER, Author, NotOnesOwnError
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
@@ -68,6 +69,7 @@ class Session:
         past: Sequence[Change] = (),
         future: Sequence[Change] = (),
         preparations: Preparations | None = None,
+        acting: Callable[[], Author] = lambda: OWNER,
     ) -> None:
         """Nothing is solved before `start`.
 
@@ -79,11 +81,12 @@ class Session:
             past: what can be undone, the next one last.
             future: what can be redone, the next one last.
             preparations: of the vehicle, where other sessions share them.
+            acting: says who asks for what is done, in the thread in which it is.
 
         Raises:
             VehicleError: it cannot have the absorbers of the state.
         """
-        self._notify = notify
+        self._notify, self._acting = notify, acting
         self._lock = threading.Lock()
         self._history = History(state, self._settled, past, future)
         self._watchers: list[Callable[[Accepted], None]] = []
@@ -161,16 +164,25 @@ class Session:
                 vehicle = self.with_parts_of(state)
                 check_placements(vehicle, state.design.alterations.placements)
                 state = state.with_known_parts(self.state.design, vehicle)
-            self._accept(self._history.put(state, command.step, command.within))
+            self._accept(self._history.put(state, command.step, command.within, self._acting()))
             self._submit()
 
-    def undo(self) -> None:
-        """Goes back to what was decided before the last change."""
-        self._go(self._history.undo)
+    def undo(self, insists: bool = False) -> None:
+        """Goes back to what was decided before the last change.
 
-    def redo(self) -> None:
-        """Takes the last undoing back."""
-        self._go(self._history.redo)
+        Args:
+            insists: whether to go back over somebody else's, too, which the owner may.
+
+        Raises:
+            NotOnesOwnError: the last change is not one's own.
+        """
+        with self._lock:
+            self._go(self._history.undone_next, self._history.undo, insists)
+
+    def redo(self, insists: bool = False) -> None:
+        """Takes the last undoing back; as `undo`."""
+        with self._lock:
+            self._go(self._history.redone_next, self._history.redo, insists)
 
     def with_parts_of(self, state: State) -> Vehicle:
         """Return the vehicle with the parts that a state adds, and its mounts as they were given."""
@@ -233,12 +245,16 @@ class Session:
             for watcher in self._watchers:
                 watcher(each)
 
-    def _go(self, step: Callable[[], Accepted | None]) -> None:
-        with self._lock:
-            self._is_refused = False
-            if accepted := step():
-                self._accept(accepted)
-                self._submit()
+    def _go(self, change: Change | None, step: Callable[[], Accepted | None], insists: bool) -> None:
+        """Goes over a change, if there is one and it is one's own; the lock is held."""
+        acting = self._acting()
+        is_own = change is None or change.author == acting
+        if change is not None and not is_own and not (insists and acting.is_owner):
+            raise NotOnesOwnError(change.author, acting)
+        self._is_refused = False
+        if accepted := step():
+            self._accept(accepted)
+            self._submit()
 
     def _settled(self, before: Design, state: State) -> State:
         return state.with_known_parts(before, self.with_parts_of(state))

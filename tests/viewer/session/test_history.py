@@ -6,6 +6,7 @@ from session_commands import altered
 
 from modeviz.analysis.results import Conditions
 from modeviz.viewer.session import history
+from modeviz.viewer.session.author import Author
 from modeviz.viewer.session.design import Variant
 from modeviz.viewer.session.history import History
 from modeviz.viewer.session.state import first_state
@@ -35,8 +36,8 @@ class Bench:
     def state(self):
         return self.history.state
 
-    def put(self, value, step=None, **within):
-        self.history.put(self._with(self.state, value), step, **within)
+    def put(self, value, step=None, **options):
+        self.history.put(self._with(self.state, value), step, **options)
 
     def look(self, **fields):
         self.history.put(altered(self.state, **fields))
@@ -185,3 +186,35 @@ def test_what_a_decision_changed_of_the_looks_is_undone_with_it_unless_it_was_ch
     state = bench.state
     assert not state.design.variants
     assert (state.against, state.group, state.charts.decibels) == ("Original", "A", False)
+
+
+ANNA, BEN = Author("Anna", 2), Author("Ben", 3)
+
+
+def test_a_change_keeps_its_author_when_it_is_undone_and_redone():
+    bench = Bench(0)
+    bench.put(1, author=ANNA)
+    bench.put(2, author=BEN)
+    assert bench.history.undone_next.author == BEN
+    bench.history.undo()
+    assert bench.history.undone_next.author == ANNA
+    assert bench.history.redone_next.author == BEN
+    bench.history.redo()
+    assert bench.history.undone_next.author == BEN
+    assert Bench(0).history.undone_next is None
+    assert Bench(0).history.redone_next is None
+
+
+def test_one_step_is_of_one_author(clock):
+    bench = Bench(0)
+    bench.put(1, "a", author=ANNA)
+    bench.put(2, "a", author=BEN)
+    bench.put(3, "a", author=BEN)
+    bench.history.undo()
+    assert bench.value == 1
+    assert bench.history.undone_next.author == ANNA
+
+
+def test_an_author_is_the_same_under_another_name():
+    assert Author("Anna Berg", 2) == ANNA
+    assert Author("Anna", 3) != ANNA

@@ -13,6 +13,7 @@ from modeviz.analysis.results import Conditions, solve
 from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.errors import SolveError
 from modeviz.vehicle.mount_rates import MountRates
+from modeviz.viewer.session.author import OWNER, Author, NotOnesOwnError
 from modeviz.viewer.session.commands.decisions import (
     AddVariant,
     Forget,
@@ -20,6 +21,7 @@ from modeviz.viewer.session.commands.decisions import (
     Rename,
     SetRate,
     Swap,
+    TakenNameError,
     TakeRates,
 )
 from modeviz.viewer.session.commands.looks import ChangeCharts, CompareWith, Drive, Overlay, ShowMode
@@ -392,6 +394,41 @@ def test_the_vehicles_own_sets_cannot_be_replaced_or_forgotten(session):
     session.do(Pin("Original"))
     session.do(Forget("Soft"))
     assert not session.state.design.variants
+
+
+def test_pinning_replaces_no_other_set_without_a_word(session):
+    session.do(SetRate("A", "lateral", 1e5))
+    session.do(Pin("Mine"))
+    session.do(Pin("Mine"))  # it is that set
+    session.do(SetRate("A", "lateral", 2e5))
+    with pytest.raises(TakenNameError, match="another set called Mine") as refusal:
+        session.do(Pin("Mine"))
+    assert refusal.value.free == "Mine 2"
+    assert session.state.design.variants["Mine"].rates["A"].lateral == 1e5
+    session.do(Pin("Mine", replaces=True))
+    assert session.state.design.variants["Mine"].rates["A"].lateral == 2e5
+    session.undo()
+    assert session.state.design.variants["Mine"].rates["A"].lateral == 1e5
+
+
+def test_only_ones_own_changes_are_gone_over_and_by_the_owner_all(session):
+    anna, first = Author("Anna", 2), session.state
+    session._acting = lambda: anna
+    session.do(SetRate("A", "lateral", 1e5))
+    session._acting = lambda: Author("Ben", 3)
+    for insists in (False, True):
+        with pytest.raises(NotOnesOwnError, match="Anna's") as refusal:
+            session.undo(insists)
+        assert not refusal.value.may_insist
+    session._acting = lambda: OWNER
+    with pytest.raises(NotOnesOwnError) as refusal:
+        session.undo()
+    assert refusal.value.may_insist
+    session.undo(insists=True)
+    assert session.state.design == first.design
+    session._acting = lambda: anna
+    session.redo()
+    assert session.state.design != first.design
 
 
 def test_a_set_that_is_added_replaces_no_other(session):

@@ -1,12 +1,16 @@
 """The row of buttons that go back: undo, redo and resets."""
 
 from collections.abc import Callable
+from functools import partial
 
 import viser
 
+from modeviz.text.wording import sentence_case
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.hotkeys import Hotkeys
+from modeviz.viewer.page.question import ask
+from modeviz.viewer.session.author import NotOnesOwnError
 from modeviz.viewer.session.commands.decisions import ResetGroups
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State, compared_rates
@@ -15,7 +19,10 @@ UNDO, REDO, RESET_GROUP, RESET_ALL = "Undo", "Redo", "Reset group", "Reset all"
 
 
 class HistoryRow:
-    """Undo and redo of everything, and rates back to the set compared with; Ctrl+Z, Ctrl+Shift+Z."""
+    """Undo and redo of one's own changes, and rates back to the set compared with.
+
+    Of somebody else's the owner of the session is asked whether he means to, others are told.
+    """
 
     def __init__(self, gui: viser.GuiApi, session: Session, hotkeys: Hotkeys) -> None:
         """Builds the buttons and adds the hot keys."""
@@ -27,15 +34,15 @@ class HistoryRow:
             hint="One step back or forward (Ctrl+Z, Ctrl+Shift+Z); the selected group's rates, or all, "
             "back to the set compared with",
         )
-        presses: dict[str, Callable[[], None]] = {
-            UNDO: session.undo,
-            REDO: session.redo,
-            RESET_GROUP: lambda: session.do(ResetGroups((session.state.group,))),
-            RESET_ALL: lambda: session.do(ResetGroups(tuple(session.state.design.rates))),
+        presses: dict[str, Callable[[viser.ClientHandle | None], None]] = {
+            UNDO: lambda page: _go(session.undo, page),
+            REDO: lambda page: _go(session.redo, page),
+            RESET_GROUP: lambda _: session.do(ResetGroups((session.state.group,))),
+            RESET_ALL: lambda _: session.do(ResetGroups(tuple(session.state.design.rates))),
         }
-        self._buttons.on_click(lambda _: presses[self._buttons.value]())
-        hotkeys.add("Undo", "Z", lambda _: session.undo(), "cmd/ctrl")
-        hotkeys.add("Redo", "Z", lambda _: session.redo(), "cmd/ctrl+shift")
+        self._buttons.on_click(lambda event: presses[self._buttons.value](event.client))
+        hotkeys.add("Undo", "Z", lambda event: presses[UNDO](event.client), "cmd/ctrl")
+        hotkeys.add("Redo", "Z", lambda event: presses[REDO](event.client), "cmd/ctrl+shift")
 
     def show(self, state: State) -> None:
         """Dims what has nothing to do."""
@@ -54,3 +61,18 @@ class HistoryRow:
         """Whether a group's rates are those compared with, or there are none to compare with."""
         own = state.design.rates[group]
         return compared.get(group, own) == own
+
+
+def _go(step: Callable[[bool], None], client: viser.ClientHandle | None) -> None:
+    """Goes back or forward over one's own change, or asks or tells whose it is."""
+    try:
+        step(False)
+    except NotOnesOwnError as refusal:
+        if client is None:
+            return
+        if refusal.may_insist:
+            name = refusal.author.name
+            text = f"The change that this goes over is {name}'s."
+            ask(client, f"A change of {name}", text, {"Go over it": partial(step, True)})
+        else:
+            client.add_notification("Not yours", f"{sentence_case(str(refusal))}.", color="orange")

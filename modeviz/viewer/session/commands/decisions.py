@@ -5,6 +5,7 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from modeviz.errors import VehicleError
 from modeviz.text.wording import free_name
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.placement import Placement, Placements
@@ -199,18 +200,34 @@ class ToggleLock(Command):
         return _designed(state, locked=state.design.locked ^ {(self.group, self.field)})
 
 
+class TakenNameError(VehicleError):
+    """There is another pinned set of a name that the present rates are to have."""
+
+    def __init__(self, name: str, free: str) -> None:
+        """Says so, and which name like it is free."""
+        super().__init__(f"there is another set called {name}: replace it, or pin this as {free}")
+        self.name: str = name
+        self.free: str = free
+
+
 @dataclass(frozen=True)
 class Pin(Command):
     """Gives a name to the present rates, and to where mounts are, and keeps them.
 
-    A pinned set of that name is replaced; one that comes with the vehicle stays its own.
+    A set that comes with the vehicle stays its own. Raises TakenNameError where another set is pinned
+    under that name, unless it is to be replaced.
     """
 
     name: str
+    replaces: bool = False
 
     def apply(self, state: State, vehicle: Vehicle) -> State:
         if self.name in known_sets(vehicle):
             return state
+        sets = named_sets(vehicle, state.design)
+        present = NamedSet(dict(state.design.rates), state.design.alterations)
+        if not self.replaces and sets.get(self.name, present) != present:
+            raise TakenNameError(self.name, free_name(self.name, sets))
         return replace(state, design=state.design.with_variant(self.name, state.design.rates))
 
 

@@ -13,7 +13,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.viewer.app import App
 from modeviz.viewer.page import decoding
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.session.commands.decisions import PlaceMounts
+from modeviz.viewer.session.commands.decisions import Pin, PlaceMounts, SetRate
 from modeviz.viewer.session.commands.looks import ChangeLook, SelectGroup
 
 PATIENCE_S = 60
@@ -202,3 +202,96 @@ def test_a_handle_in_the_hand_of_who_loses_control_is_let_go(app):
         anna.send(wire("TransformControlsDragEndMessage", name="/mount handle"))
         app.session.do(PlaceMounts("A", "offset", (0.0, 0.0, 0.0)))
         wait_until(lambda: handle.position == pytest.approx(begin))
+
+
+def asked(messages):
+    """The buttons of the question that a page was asked, by their words."""
+    kinds = ("GuiButtonMessage",)
+    return {m["props"]["label"]: m["uuid"] for m in messages if m["type"] in kinds}
+
+
+def press(page, uuid):
+    page.send(wire("GuiUpdateMessage", uuid=uuid, updates={"value": True}))
+
+
+def press_of(app, page, label, option):
+    """Presses one of a group of buttons."""
+    group = next(w for w in shared_widgets(app).values() if w.label == label)
+    page.send(update(group, option))
+
+
+def rate(app):
+    return app.session.state.design.rates["A"].lateral
+
+
+def test_who_presents_takes_back_his_own_changes_and_is_told_whose_others_are(app):
+    first, lateral = rate(app), next(w for w in shared_widgets(app).values() if w.label == "Lateral")
+    with opened(app.server, name="Olga") as owner, guest(app.server, "Anna") as anna:
+        owner.send(update(lateral, another_value(lateral)))
+        wait_until(lambda: rate(app) != first)
+        owners = rate(app)
+        hand_over(app.server, "Anna")
+        assert app.session.wait(PATIENCE_S)
+        anna.send(update(lateral, lateral._impl.props.max))
+        wait_until(lambda: rate(app) != owners)
+        heard(anna)
+        press_of(app, anna, "History", "Undo")
+        wait_until(lambda: rate(app) == owners)
+        press_of(app, anna, "History", "Undo")
+        told = [m["props"]["body"] for m in heard(anna) if m["type"] == "NotificationShowMessage"]
+        assert rate(app) == owners
+        assert any("Olga" in body for body in told)
+
+        take_back(app.server)
+        press_of(app, owner, "History", "Redo")  # Anna's, so the owner is asked
+        buttons = asked(heard(owner))
+        assert rate(app) == owners
+        press(owner, buttons["Go over it"])
+        wait_until(lambda: rate(app) != owners)
+        press_of(app, owner, "History", "Undo")
+        press(owner, asked(heard(owner))["Go over it"])
+        wait_until(lambda: rate(app) == owners)
+        press_of(app, owner, "History", "Undo")
+        wait_until(lambda: rate(app) == first)
+
+
+def test_a_pinned_set_is_replaced_only_by_who_says_so(app):
+    def variants():
+        return app.session.state.design.variants
+
+    with opened(app.server) as owner, opened(app.server) as other:
+        app.session.do(Pin("v1"))
+        before = variants()["v1"]
+        app.session.do(SetRate("A", "vertical", 1.23e5))
+        owner.send(update(app._variants._name._box, "v1"))
+        heard(owner), heard(other)
+        press_of(app, owner, "Keep", "Pin")
+        buttons = asked(heard(owner))
+        assert set(buttons) == {"Leave it as it is", "Replace v1", "Pin as v1 2"}
+        assert asked(heard(other)) == {}
+        assert variants()["v1"] == before
+        press(owner, buttons["Pin as v1 2"])
+        wait_until(lambda: "v1 2" in variants())
+        assert variants()["v1"] == before
+
+        app.session.do(SetRate("A", "vertical", 2.34e5))
+        press_of(app, owner, "Keep", "Pin")
+        press(owner, asked(heard(owner))["Replace v1"])
+        wait_until(lambda: variants()["v1"] != before)
+        assert variants()["v1"].rates["A"].vertical == 2.34e5
+
+
+def test_a_question_is_not_answered_by_who_has_lost_control_meanwhile(app):
+    app.session.do(Pin("kept"))
+    app.session.do(SetRate("A", "vertical", 3.21e5))
+    before = app.session.state.design.variants["kept"]
+    with guest(app.server, "Anna") as anna:
+        hand_over(app.server, "Anna")
+        anna.send(update(app._variants._name._box, "kept"))
+        heard(anna)
+        press_of(app, anna, "Keep", "Pin")
+        buttons = asked(heard(anna))
+        take_back(app.server)
+        press(anna, buttons["Replace kept"])
+        heard(anna)
+        assert app.session.state.design.variants["kept"] == before
