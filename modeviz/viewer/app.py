@@ -40,6 +40,7 @@ from modeviz.viewer.panels.modes import ModesPanel, StepMode, listed
 from modeviz.viewer.panels.mounts.history_row import HistoryRow
 from modeviz.viewer.panels.mounts.opener import FolderOpener
 from modeviz.viewer.panels.mounts.panel import MountsPanel
+from modeviz.viewer.panels.notes import NotesPanel
 from modeviz.viewer.panels.optimise.earlier import add_earlier_runs
 from modeviz.viewer.panels.optimise.panel import OptimisePanel
 from modeviz.viewer.panels.paths import PathsPanel
@@ -181,6 +182,7 @@ class App:
             {"search": self.search_task, "front": self.front_task, "scatter": self.scatter_task},
         )
         self._pictured = lambda png, caption: study.put_picture(name, png, caption, author())
+        self._notes.keep_in(study, name, author)
 
     def show_trouble(self, trouble: str) -> None:
         """Says on every page why what is done is not saved; "" once it is."""
@@ -240,7 +242,8 @@ class App:
         comparison = compare(
             solved.now.prepared, base, now, conditions, solved.base.prepared, self.session.original
         )
-        return report(comparison, date.today(), pictures, solved.findings.check).encode()
+        check, remarks = solved.findings.check, self._notes.notes
+        return report(comparison, date.today(), pictures, check, remarks).encode()
 
     def end(self) -> None:
         """Ends the session, and what may be running in it."""
@@ -270,6 +273,7 @@ class App:
             self._mounts = MountsPanel(gui, session)
         with tabs.add_tab("Variants", viser.Icon.VERSIONS):
             self._variants = VariantsPanel(gui, session)
+            self._notes = NotesPanel(gui, session)
         with tabs.add_tab("Optimise", viser.Icon.TARGET_ARROW):
             self._optimise = OptimisePanel(gui, session, self.search_task, dark)
             self._trade_off = TradeOffPanel(gui, session, self.front_task)
@@ -379,6 +383,7 @@ class App:
                 for panel in self._of_ride:
                     panel.show(solved)
                 self._variants.show(solved)
+                self._notes.show(solved)
                 self._optimise.show(solved)
                 self._trade_off.follow()
                 self._scatter.follow()
