@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from itertools import takewhile
-from typing import Literal, TypeVar
+from typing import Literal, Protocol, TypeVar
 
 from modeviz.viewer.session.author import OWNER, Author
 from modeviz.viewer.session.design import Design
@@ -18,9 +18,19 @@ MERGE_WITHIN = 1.0
 LONGEST = 500
 
 
+class Step(Protocol):
+    """A state before and after something was decided."""
+
+    @property
+    def before(self) -> State: ...
+
+    @property
+    def after(self) -> State: ...
+
+
 @dataclass(frozen=True)
 class Change:
-    """A state before and after something was decided."""
+    """A step whose states are at hand."""
 
     before: State
     after: State
@@ -37,7 +47,7 @@ class Accepted:
     """What became of the newest state."""
 
     kind: Kind
-    change: Change
+    change: Step
     """The states around the step that it is, or is part of; of a look those before and after it."""
 
     @property
@@ -51,8 +61,8 @@ class Moment:
     """A state with what led there and what was undone: where `History` can be put back to."""
 
     state: State
-    past: tuple[Change, ...]
-    future: tuple[Change, ...]
+    past: tuple[Step, ...]
+    future: tuple[Step, ...]
     step: Hashable
     """What the last change was a part of."""
     changed_at: float
@@ -69,8 +79,8 @@ class History:
         self,
         state: State,
         settled: Callable[[Design, State], State] = lambda _, state: state,
-        past: Sequence[Change] = (),
-        future: Sequence[Change] = (),
+        past: Sequence[Step] = (),
+        future: Sequence[Step] = (),
     ) -> None:
         """Starts with a state.
 
@@ -81,7 +91,8 @@ class History:
             future: what can be redone, the next one last.
         """
         self._settled = settled
-        self._past, self._future = [*past], [*future]
+        self._past: list[Step] = [*past]
+        self._future: list[Step] = [*future]
         self.state: State = state
         self._step: Hashable = None
         self._changed_at = 0.0

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from modeviz.journal.runs import Run
-from modeviz.viewer.session.history import Change
+from modeviz.viewer.session.history import Step
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.view import Animation, CameraPose
 
@@ -13,9 +13,9 @@ class Opening:
     """A session as it was left, or as a link shows it."""
 
     state: State
-    past: tuple[Change, ...] = ()
+    past: tuple[Step, ...] = ()
     """What can be undone, the next one last."""
-    future: tuple[Change, ...] = ()
+    future: tuple[Step, ...] = ()
     """What can be redone, the next one last."""
     animation: Animation = field(default_factory=Animation)
     camera: CameraPose | None = None

@@ -1,10 +1,10 @@
 """A session as a study file has it, opened with the vehicle as it is now."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 
-from modeviz.errors import ModevizError, listed
-from modeviz.journal.changes import Step
+from modeviz.errors import listed
+from modeviz.journal import changes
 from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.records import Records
 from modeviz.journal.sessions import SessionId
@@ -12,7 +12,6 @@ from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.encoding.fit_design import outside_bounds
 from modeviz.viewer.session.encoding.fitting import fitted
 from modeviz.viewer.session.encoding.text import value_of_text
-from modeviz.viewer.session.history import Change
 from modeviz.viewer.session.opening import Opening
 from modeviz.viewer.session.state import State
 
@@ -50,16 +49,22 @@ def recorded(
     def state_of(text: str) -> State:
         return fitted(value_of_text(text, State, WHAT), usual, vehicle).state
 
-    past, future = (_changes(steps, state_of) for steps in (stored.past, stored.future))
+    past, future = (
+        tuple(_Recalled(step, state_of) for step in steps) for steps in (stored.past, stored.future)
+    )
     return Opening(found.state, past, future, runs=study.runs(name), remarks=told)
 
 
-def _changes(steps: Sequence[Step], state_of: Callable[[str], State]) -> tuple[Change, ...]:
-    """What can be gone back over, from the nearest on until there is one that is not read."""
-    changes: list[Change] = []
-    for step in reversed(steps):
-        try:
-            changes.append(Change(state_of(step.before), state_of(step.after)))
-        except ModevizError:
-            break
-    return tuple(reversed(changes))
+class _Recalled:
+    """A step of before, whose states are read when somebody goes back over it: there are hundreds."""
+
+    def __init__(self, step: changes.Step, state_of: Callable[[str], State]) -> None:
+        self._step, self._state_of = step, state_of
+
+    @property
+    def before(self) -> State:
+        return self._state_of(self._step.before)
+
+    @property
+    def after(self) -> State:
+        return self._state_of(self._step.after)

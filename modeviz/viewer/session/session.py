@@ -15,7 +15,7 @@ from modeviz.viewer.session.author import OWNER, Author, NotOnesOwnError
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
-from modeviz.viewer.session.history import Accepted, Change, History, Moment
+from modeviz.viewer.session.history import Accepted, History, Moment, Step
 from modeviz.viewer.session.inspector import Inspector
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.preparations import Preparations
@@ -66,8 +66,8 @@ class Session:
         state: State,
         notify: Callable[[Notification], None],
         patience: float = SOLVES_WITHIN,
-        past: Sequence[Change] = (),
-        future: Sequence[Change] = (),
+        past: Sequence[Step] = (),
+        future: Sequence[Step] = (),
         preparations: Preparations | None = None,
         acting: Callable[[], Author] = lambda: OWNER,
     ) -> None:

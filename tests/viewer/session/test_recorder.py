@@ -59,7 +59,8 @@ class Bench:
     def moment(self):
         """All that a session is: state, past and future, with fields that do not count otherwise."""
         moment = self.session._history.moment
-        changes = [plain_of(change) for change in (*moment.past, *moment.future)]
+        steps = (*moment.past, *moment.future)
+        changes = [(plain_of(step.before), plain_of(step.after)) for step in steps]
         return plain_of(moment.state), changes, len(moment.past)
 
     def history(self):
