@@ -4,9 +4,10 @@ import secrets
 import sqlite3
 import threading
 import time
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from sqlite3 import Connection
 
@@ -47,11 +48,12 @@ class StudyFile(Records):
         vehicle: Fingerprint,
         writer: Writer,
         ownership: Ownership,
+        watchers: list[Callable[[str], None]],
     ) -> None:
         """See `open`."""
         super().__init__(path, self._connect_after_writing)
         self.vehicle: Fingerprint = vehicle
-        self._writer, self._ownership = writer, ownership
+        self._writer, self._ownership, self._watchers = writer, ownership, watchers
         self._lock = threading.Lock()
         self._n_steps: dict[SessionId, int] = {}
 
@@ -81,14 +83,15 @@ class StudyFile(Records):
         try:
             if not check_file(path):
                 _create(path, vehicle_name)
-            writer = Writer(path, tell)
+            watchers = [tell]
+            writer = Writer(path, partial(_tell_all, watchers))
         except (sqlite3.Error, OSError) as error:
             ownership.release()
             raise ModevizError(f"{path}: cannot be written ({reason(error)})") from None
         except ModevizError:
             ownership.release()
             raise
-        return cls(path, vehicle, writer, ownership)
+        return cls(path, vehicle, writer, ownership, watchers)
 
     @staticmethod
     def session_id(key: str) -> SessionId:
@@ -104,6 +107,13 @@ class StudyFile(Records):
     def n_unsaved(self) -> int:
         """How many writes are in memory alone."""
         return self._writer.n_waiting
+
+    def watch(self, tell: Callable[[str], None]) -> Callable[[], None]:
+        """Has somebody else told of `trouble`, at once if there is some; returns what ends that."""
+        self._watchers.append(tell)
+        if self.trouble:
+            tell(self.trouble)
+        return lambda: self._watchers.remove(tell)
 
     def begin(self, session: SessionId, author: str = "", title: str = "") -> None:
         """Writes that a session is used from now on with this vehicle, a new one or an old one."""
@@ -203,6 +213,11 @@ class StudyFile(Records):
         """A connection that sees what was asked to be written before, if it could be."""
         self.flush(IMPATIENCE if self.trouble else PATIENCE)
         return sqlite3.connect(f"{self.path.as_uri()}?mode=ro", uri=True, isolation_level=None)
+
+
+def _tell_all(watchers: Sequence[Callable[[str], None]], trouble: str) -> None:
+    for tell in tuple(watchers):
+        tell(trouble)
 
 
 def new_token() -> str:

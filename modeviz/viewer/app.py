@@ -170,11 +170,12 @@ class App:
         """Keeps all that is done from now on in a study file, until the end; see `Recorder`.
 
         Args:
-            study: where; what keeps it from being saved is told to `show_trouble`.
+            study: where; what keeps it from being saved is said on every page.
             name: under which the study file knows the session.
             author: says who does something, in the thread in which it is done.
         """
         self._recorder = Recorder(self.session, study, name, author, self.server.mistake)
+        self._end_watching = study.watch(self._show_trouble)
         RunRecorder(
             study,
             name,
@@ -184,7 +185,7 @@ class App:
         self._pictured = lambda png, caption: study.put_picture(name, png, caption, author())
         self._notes.keep_in(study, name, author)
 
-    def show_trouble(self, trouble: str) -> None:
+    def _show_trouble(self, trouble: str) -> None:
         """Says on every page why what is done is not saved; "" once it is."""
         self._status.show_trouble(trouble)
         self.server.flush()
@@ -252,6 +253,7 @@ class App:
         self.scatter_task.cancel()
         if self._recorder:
             self._recorder.close()
+            self._end_watching()
         self._scene.close()
         self._review.close()
         self.session.close()

@@ -8,7 +8,7 @@ from opened_app import SOON, text
 from modeviz.analysis.results import Conditions
 from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.runs import Run
-from modeviz.journal.study_file import StudyFile
+from modeviz.journal.study_file import StudyFile, _tell_all
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
 from modeviz.viewer.panels.optimise.earlier import add_earlier_runs
@@ -91,15 +91,19 @@ def test_what_was_computed_before_is_listed_the_newest_first():
     assert "Ada" in content
 
 
-def test_a_page_says_what_cannot_be_saved_until_it_can():
+def test_a_page_says_what_cannot_be_saved_until_it_can(tmp_path):
+    study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
     app = opened(Opening(FIRST))
+    app.record(study, KEY, str)
     try:
-        app.show_trouble("not saved: the disk is full")
+        _tell_all(study._watchers, "not saved: the disk is full")
         assert "Not saved: the disk is full." in text(app._status._content)
         app.session.do(decisions.SetRate("B", "lateral", 123456.0))
         assert app.session.wait(SOON)
         assert "Not saved: the disk is full." in text(app._status._content)
-        app.show_trouble("")
+        _tell_all(study._watchers, "")
         assert "Not saved" not in text(app._status._content)
     finally:
         app.close()
+        _tell_all(study._watchers, "not saved: the page is gone")
+        study.close()

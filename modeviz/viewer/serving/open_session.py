@@ -10,7 +10,6 @@ from modeviz.viewer.page.server import Server
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.session.notifications import Failed
 from modeviz.viewer.session.opening import Opening
-from modeviz.viewer.session.recorder import Recorder
 
 
 class OpenSession:
@@ -39,11 +38,8 @@ class OpenSession:
             opening,
             bench.preparations(),
         )
-        self._recorder = (
-            Recorder(self.app.session, bench.study, name, lambda: "", self._report)
-            if bench.study
-            else None
-        )
+        if bench.study:
+            self.app.record(bench.study, name, lambda: self.server.visitors.acting().name)
         if not opening.past:
             self.app.guide.welcome_first()
         self._looked_at = time.monotonic()
@@ -64,13 +60,7 @@ class OpenSession:
 
     def close(self) -> None:
         """Ends it, has the study remember it, and gives its memory back."""
-        self.app.end()
-        if self._recorder:
-            self._recorder.close()
-        self.server.stop()
-
-    def _report(self, error: Exception) -> None:
-        self.server.mistake(error)
+        self.app.close()
 
     def _start(self) -> None:
         try:

@@ -27,6 +27,9 @@ class Step(Protocol):
     @property
     def after(self) -> State: ...
 
+    @property
+    def author(self) -> Author: ...
+
 
 @dataclass(frozen=True)
 class Change:
@@ -158,12 +161,12 @@ class History:
         return bool(self._future)
 
     @property
-    def undone_next(self) -> Change | None:
+    def undone_next(self) -> Step | None:
         """What `undo` takes back."""
         return self._past[-1] if self._past else None
 
     @property
-    def redone_next(self) -> Change | None:
+    def redone_next(self) -> Step | None:
         """What `redo` makes again."""
         return self._future[-1] if self._future else None
 

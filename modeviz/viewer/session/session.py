@@ -245,7 +245,7 @@ class Session:
             for watcher in self._watchers:
                 watcher(each)
 
-    def _go(self, change: Change | None, step: Callable[[], Accepted | None], insists: bool) -> None:
+    def _go(self, change: Step | None, step: Callable[[], Accepted | None], insists: bool) -> None:
         """Goes over a change, if there is one and it is one's own; the lock is held."""
         acting = self._acting()
         is_own = change is None or change.author == acting
