@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from typing import Self
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,13 +71,13 @@ class DrawnBody:
     @classmethod
     def of(cls, driver: ShapeDriver, body: Body, theme: Theme) -> Self:
         """Return a body of a vehicle, drawn at rest."""
-        drawn = surface(drawn_mesh(body))
+        drawn, shapes = _moving_surface(body)
         is_rigid, sheet = isinstance(body, RigidBody), is_sheet(body)
         return cls(
             driver,
             body.name,
             drawn,
-            vertex_shapes(body, drawn.vertices),
+            shapes,
             theme,
             is_rigid=is_rigid,
             is_sheet=sheet,
@@ -115,3 +116,15 @@ class DrawnBody:
         self._driver.remove(self.path)
         if self._has_ghost:
             self._driver.remove(self._ghost_path)
+
+
+def _moving_surface(body: Body) -> tuple[Surface, NDArray[np.float32]]:
+    """A body's surface and how that moves: large, and the same in every session of a vehicle."""
+    if body not in _surfaces:
+        drawn = surface(drawn_mesh(body))
+        _surfaces[body] = drawn, vertex_shapes(body, drawn.vertices)
+    return _surfaces[body]
+
+
+_surfaces: WeakKeyDictionary[Body, tuple[Surface, NDArray[np.float32]]] = WeakKeyDictionary()
+"""Of bodies that somebody still has."""

@@ -144,7 +144,7 @@ class Directory:
             return None
         if fullmatch(KEY, review) and not key:
             session = self._benches[name].reviewed(review)
-            return session and Visit(name, session, "", None)
+            return Visit(name, session, "", None) if session else None
         return Visit(name, digest_of(key), key, query.get("view")) if fullmatch(KEY, key) else None
 
     def _vehicle_name(self, query: Mapping[str, str]) -> str | None:
