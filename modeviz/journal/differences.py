@@ -1,12 +1,12 @@
-"""What two tunings differ in, in engineers' words and units: "C2.lateral 131 → 140 N/mm"."""
+"""What two sets of rates differ in, in engineers' words and units: "C2.lateral 131 → 140 N/mm"."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
 from modeviz.journal.changes import Difference
-from modeviz.journal.tuning import Pinned, Tuning
+from modeviz.journal.tuning import Pinned
 from modeviz.units import factor
 from modeviz.vehicle.mount_rates import (
     RATE_FIELDS,
@@ -24,14 +24,8 @@ FEWEST_DIGITS, MOST_DIGITS = 4, 10
 """Of a number: as many as tell two apart."""
 
 
-def tuning_differences(before: Tuning, after: Tuning) -> tuple[Difference, ...]:
-    """Return what was changed: rates, places and variants, and those alone."""
-    variants = _variant_differences(before.variants, after.variants)
-    return (*pinned_differences(before.present, after.present), *variants)
-
-
 def pinned_differences(before: Pinned, after: Pinned) -> tuple[Difference, ...]:
-    """Return in which rates and places two variants differ; a group that one lacks is told as gone."""
+    """Return in which rates and places two variants differ; a group that one lacks is told as such."""
     return tuple(_differences(before, after))
 
 
@@ -66,7 +60,7 @@ def _rate_differences(group: str, old: MountRates, new: MountRates) -> Iterator[
     if old.loss_factor != new.loss_factor:
         losses = (old.loss_factor, new.loss_factor)
         words = ("the group's" if loss is None else f"{loss:.6g}" for loss in losses)
-        yield Difference(f"{group}.loss_factor", *words)
+        yield Difference(f"{group}.loss-factor", *words)
 
 
 def _place_differences(group: str, old: Placement, new: Placement) -> Iterator[Difference]:
@@ -76,16 +70,6 @@ def _place_differences(group: str, old: Placement, new: Placement) -> Iterator[D
     if old.angles != new.angles:
         angles = (_three(np.degrees(place.angles), "deg") for place in (old, new))
         yield Difference(f"{group} turned", *angles)
-
-
-def _variant_differences(
-    before: Mapping[str, Pinned], after: Mapping[str, Pinned]
-) -> Iterator[Difference]:
-    for name in dict.fromkeys((*before, *after)):
-        old, new = before.get(name), after.get(name)
-        if old != new:
-            words = ("" if old is None else "pinned", "" if new is None else "pinned")
-            yield Difference(f"variant {name}", *(words if None in (old, new) else ("pinned", "anew")))
 
 
 def _apart(old: float, new: float) -> tuple[str, str]:

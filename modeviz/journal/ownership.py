@@ -44,8 +44,9 @@ class Ownership:
         self._path = lock_path(study)
         self._file = self._locked(study)
         owner = {"pid": os.getpid(), "host": socket.gethostname(), "since": now}
-        os.ftruncate(self._file, 0)
-        os.write(self._file, json.dumps(owner).encode())
+        with suppress(OSError):  # on a full disk it holds, and says nothing
+            os.ftruncate(self._file, 0)
+            os.write(self._file, json.dumps(owner).encode())
 
     def release(self) -> None:
         """Lets others have the file."""
@@ -59,7 +60,9 @@ class Ownership:
             try:
                 file = os.open(self._path, os.O_RDWR | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o600)
             except OSError as error:
-                raise ModevizError(f"{study}: cannot be locked ({reason(error)})") from None
+                raise ModevizError(
+                    f"{study}: cannot be locked ({reason(error)}): give another file with --study"
+                ) from None
             try:
                 _lock(file)
             except OSError:

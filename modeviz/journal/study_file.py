@@ -1,5 +1,6 @@
 """A study file that is open: what sessions write to it, and read back."""
 
+import os
 import secrets
 import sqlite3
 import threading
@@ -235,6 +236,8 @@ def _check_folder(path: Path) -> None:
             path.parent.mkdir(parents=True, exist_ok=True)
     if not path.parent.is_dir():
         raise ModevizError(f"{path}: cannot be written (there is no folder {path.parent})")
+    if path.is_file() and not os.access(path, os.W_OK):
+        raise ModevizError(f"{path}: is read-only: give another file with --study")
 
 
 def _create(path: Path, vehicle_name: str) -> None:

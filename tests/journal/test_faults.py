@@ -321,8 +321,27 @@ def test_a_folder_where_nothing_can_be_written_is_said(path, monkeypatch):
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr("modeviz.journal.ownership.os.open", refuses)
-    with pytest.raises(ModevizError, match=r"truck.modeviz: cannot be locked \(Permission denied\)"):
+    with pytest.raises(ModevizError, match=r"truck.modeviz: cannot be locked \(Permission"):
         opened(path)
+
+
+def test_a_file_that_is_read_only_is_said(written, monkeypatch):
+    monkeypatch.setattr("modeviz.journal.study_file.os.access", lambda *_: False)
+    with pytest.raises(ModevizError, match="is read-only: give another file with --study"):
+        opened(written)
+    assert not lock_path(written).exists()
+
+
+def test_who_has_no_room_to_say_so_has_the_lock_nevertheless(path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("modeviz.journal.ownership.os.write", full)
+    study = opened(path)
+    monkeypatch.undo()
+    with pytest.raises(ModevizError, match="is open already, in another process"):
+        opened(path)
+    assert study.close()
 
 
 def test_a_study_that_was_taken_away_says_so_and_goes_on_when_it_is_back(path, tmp_path):

@@ -2,15 +2,16 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
-from math import degrees
 from typing import Any, TypeVar
 
 from modeviz.errors import listed
 from modeviz.journal.changes import Difference
-from modeviz.report.rate_fields import plain, spoken, written_rate, written_unit
+from modeviz.journal.differences import pinned_differences
+from modeviz.journal.tuning import Pinned
+from modeviz.report.rate_fields import spoken
 from modeviz.vehicle.absorber import Absorber
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, Rates
-from modeviz.vehicle.placement import Placement, Placements, ThreeFloats
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
+from modeviz.vehicle.placement import Placement
 from modeviz.viewer.session.design import Design, Variant
 
 Thing = TypeVar("Thing")
@@ -22,10 +23,8 @@ FEW = 3
 
 def differences(before: Design, after: Design) -> tuple[Difference, ...]:
     """Return all that differs between two designs, in engineers' words and units."""
-    places = before.alterations.placements, after.alterations.placements
     return (
-        *_of_rates(before.rates, after.rates),
-        *_of_placements(*places),
+        *pinned_differences(_present(before), _present(after)),
         *_of_things("absorber", _absorbers(before), _absorbers(after), _absorber_words),
         *_of_things("variant", before.variants, after.variants, _variant_words),
         *_of_sets("lock", _locks(before), _locks(after)),
@@ -51,46 +50,8 @@ def title(before: Design, after: Design) -> str:
     return said[:1].upper() + said[1:]
 
 
-def _of_rates(before: Rates, after: Rates) -> Iterator[Difference]:
-    for group in _either(before, after):
-        old, new = before.get(group), after.get(group)
-        for field in RATE_FIELDS:
-            was, now = (getattr(rates, field, 0.0) for rates in (old, new))
-            if was != now:
-                words = _rate_words(old, field), _rate_words(new, field)
-                yield Difference(f"{group}.{spoken(field)}", *words)
-        losses = [_loss_words(each) for each in (old, new)]
-        if losses[0] != losses[1]:
-            yield Difference(f"{group}.loss-factor", *losses)
-
-
-def _rate_words(rates: MountRates | None, field: str) -> str:
-    if rates is None:
-        return ""
-    return f"{plain(written_rate(rates, field))} {written_unit(field)}"
-
-
-def _loss_words(rates: MountRates | None) -> str:
-    if rates is None:
-        return ""
-    return "the group's own" if rates.loss_factor is None else f"{rates.loss_factor:.4g}"
-
-
-def _of_placements(before: Placements, after: Placements) -> Iterator[Difference]:
-    for group in _either(before, after):
-        old, new = before.get(group, GIVEN), after.get(group, GIVEN)
-        if old.offset != new.offset:
-            yield Difference(f"{group} moved", _offset_words(old.offset), _offset_words(new.offset))
-        if old.angles != new.angles:
-            yield Difference(f"{group} turned", _angle_words(old.angles), _angle_words(new.angles))
-
-
-def _offset_words(offset: ThreeFloats) -> str:
-    return f"{', '.join(f'{1e3 * value:.4g}' for value in offset)} mm"
-
-
-def _angle_words(angles: ThreeFloats) -> str:
-    return f"{', '.join(f'{degrees(value):.4g}' for value in angles)}°"
+def _present(design: Design) -> Pinned:
+    return Pinned(design.rates, design.alterations.placements)
 
 
 def _of_things(
