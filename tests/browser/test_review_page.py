@@ -68,7 +68,7 @@ def test_a_visitor_looks_along_with_who_presents_until_he_looks_himself(
     wait_for(guest_page, f"{BANNER}.endsWith('Follow')")
     guest_page.wait_for_timeout(300)
     assert not are_together(owner, guest)
-    guest_page.click("#modeviz-presence label")
+    guest_page.click("#modeviz-presence button")
     wait_until(guest_page, lambda: are_together(owner, guest))
 
     server.visitors.hand_over(owner.client_id, server.visitors.of_page(guest.client_id).number)
@@ -76,7 +76,7 @@ def test_a_visitor_looks_along_with_who_presents_until_he_looks_himself(
     wait_for(guest_page, f"{BANNER} === undefined && !({INERT})")
     send(guest_page, amplitude, 2.0)
     wait_until(guest_page, lambda: amplitude.value == 2.0)
-    owner_page.click("#modeviz-presence label:last-child")
+    owner_page.click("#modeviz-presence button:last-child")
     wait_for(owner_page, f"{BANNER} === undefined")
 
     server.visitors.stop_sharing()
