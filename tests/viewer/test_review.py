@@ -83,7 +83,7 @@ def test_no_widget_of_the_page_is_changed_by_who_looks(app, onlooker):
         value = True if isinstance(widget, viser.GuiButtonHandle) else another_value(widget)
         onlooker.send(wire("GuiUpdateMessage", uuid=uuid, updates={"value": value}))
         events.append(uuid)
-    told = heard(onlooker, 2.0)
+    told = heard(onlooker, 0.8)
     assert app.session.wait(PATIENCE_S)
     assert used == []
     assert everything(app) == before
@@ -295,3 +295,18 @@ def test_a_question_is_not_answered_by_who_has_lost_control_meanwhile(app):
         press(anna, buttons["Replace kept"])
         heard(anna)
         assert app.session.state.design.variants["kept"] == before
+
+
+def test_what_a_page_has_for_itself_gives_a_visitor_no_control(app, onlooker):
+    visitors, page = app.server.visitors, max(app.server.get_clients())
+    before, card = everything(app), app._review._cards[page]
+    for button in (card._share, card._hand_over, card._take_back):
+        press(onlooker, button._impl.uuid)
+    for option in card._links.options:
+        onlooker.send(update(card._links, option))
+    onlooker.send(update(card._name, "Eve"))
+    heard(onlooker, 1.0)
+    assert visitors.of_page(page).name == "Eve"
+    assert visitors.is_shared
+    assert not visitors.has_control(page)
+    assert everything(app) == before
