@@ -11,12 +11,13 @@ import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import WebSocketException
 
-from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, wire
+from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, session_query, wire
 
 NESTED_BYTES = 20_000_000
 QUATERNION_BYTES = 5_000_000
@@ -59,7 +60,7 @@ def impossible_values(port: int) -> str:
     wrong = [10**18, 1e308, None, "x" * 1000, [], {}, [[1.0]], b"x"]
 
     async def attack() -> str:
-        async with _page(port) as page:
+        async with open_attack_page(port) as page:
             slider = await _widget(page, "GuiSliderMessage")
             updates = [{"value": value} for value in wrong]
             said = [{"uuid": slider["uuid"], "updates": each} for each in [*updates, 5, None, "x"]]
@@ -77,7 +78,7 @@ def pages_that_do_not_draw(port: int) -> str:
             entered = 0
             for _ in range(N_ASKING):
                 with suppress(*BROKEN):
-                    page = await open_pages.enter_async_context(_page(port))
+                    page = await open_pages.enter_async_context(open_attack_page(port))
                     button = await _widget(page, "GuiButtonMessage", "Save…")
                     await page.send(
                         wire("GuiUpdateMessage", uuid=button["uuid"], updates={"value": True})
@@ -91,7 +92,7 @@ def pages_that_do_not_draw(port: int) -> str:
 
 def silent_sockets(port: int) -> str:
     """Hundreds of websockets that say nothing."""
-    _allow_files(N_SILENT + 200)
+    allow_files(N_SILENT + 200)
 
     async def attack() -> str:
         opened: list[ClientConnection] = []
@@ -110,7 +111,7 @@ def silent_sockets(port: int) -> str:
 
 def half_handshakes(port: int) -> str:
     """Hundreds of connections that never end their request."""
-    _allow_files(N_SILENT + 200)
+    allow_files(N_SILENT + 200)
     opened = []
     for _ in range(N_SILENT):
         with suppress(OSError):
@@ -138,7 +139,7 @@ def flood(port: int) -> str:
     """Moves of a slider, which the quiet page leaves alone, as fast as they can be sent."""
 
     async def attack() -> str:
-        async with _page(port) as page:
+        async with open_attack_page(port) as page:
             slider = await _widget(page, "GuiSliderMessage", before=1)
             low, high = (slider["props"][end] for end in ("min", "max"))
             end, sent = time.monotonic() + WATCH_S, 0
@@ -158,7 +159,7 @@ def large_page(port: int) -> str:
     """A page that claims to be huge, asks for a picture of itself whole, and leaves."""
 
     async def attack() -> str:
-        async with _page(port) as page:
+        async with open_attack_page(port) as page:
             kind = await _widget(page, "GuiDropdownMessage", "Save")
             button = await _widget(page, "GuiButtonMessage", "Save…")
             size = {"image_width": 30_000, "image_height": 20_000}
@@ -191,7 +192,7 @@ WITH_CHROMIUM = Attack("a page of 30 000 x 20 000", large_page)
 async def _say(port: int, said: list[bytes]) -> str:
     """Says everything as one page, and looks whether it is still open."""
     try:
-        async with _page(port) as page:
+        async with open_attack_page(port) as page:
             return await _send(page, said)
     except BROKEN:
         return "closed"
@@ -222,15 +223,24 @@ async def _widget(
 
 
 @asynccontextmanager
-async def _page(port: int) -> AsyncIterator[ClientConnection]:
+async def open_attack_page(port: int) -> AsyncIterator[ClientConnection]:
     """A page as viser knows one: it has told its camera."""
     async with _socket(port) as page:
         await page.send(wire("ViewerCameraMessage", **CAMERA))
         yield page
 
 
+@cache
+def _own_session(port: int) -> str:
+    """That of the attacker, in which all their pages are."""
+    return session_query(port)
+
+
 def _socket(port: int) -> connect:
-    url, limits = f"ws://127.0.0.1:{port}", {"open_timeout": WATCH_S, "close_timeout": 0.5}
+    url, limits = (
+        f"ws://127.0.0.1:{port}/{_own_session(port)}",
+        {"open_timeout": WATCH_S, "close_timeout": 0.5},
+    )
     return connect(url, **limits, **handshake(own_origin(port)))
 
 
@@ -256,6 +266,6 @@ def _is_open(connection: socket.socket) -> bool:
         return False
 
 
-def _allow_files(n_files: int) -> None:
+def allow_files(n_files: int) -> None:
     _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (min(n_files, most), most))

@@ -24,6 +24,8 @@ from pathlib import Path
 from websockets.exceptions import WebSocketException
 
 from benchmarks.attacks import ATTACKS, WITH_CHROMIUM, Attack
+from benchmarks.front_attacks import FRONT_ATTACKS
+from benchmarks.page_client import session_query
 from benchmarks.websocket import Page, free_port, open_page, say, wait_for_answer, widgets
 from modeviz.analysis.results import Conditions
 from modeviz.files import builtin_vehicle, read_vehicle
@@ -122,7 +124,8 @@ class _Watch:
     def _use(self, port: int) -> None:
         """Moves a slider; another page sees when it was heard, and the spectrum after that."""
         broken = WebSocketException, TimeoutError, OSError
-        with suppress(*broken), open_page(port) as page, open_page(port) as other:
+        query = session_query(port)
+        with suppress(*broken), open_page(port, query) as page, open_page(port, query) as other:
             slider, spectrum = widgets(page)
             widgets(other)
             threading.Thread(target=_read, args=(page,), daemon=True).start()
@@ -259,7 +262,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--only", default="", metavar="TEXT", help="attacks whose name has this")
     parser.add_argument("--chromium", action="store_true", help="the one that starts a Chromium, too")
     options = parser.parse_args(arguments)
-    attacks = (*ATTACKS, WITH_CHROMIUM) if options.chromium else ATTACKS
+    attacks = (*ATTACKS, *FRONT_ATTACKS, *((WITH_CHROMIUM,) if options.chromium else ()))
     chosen = [attack for attack in attacks if options.only in attack.name]
     print(_cells(*COLUMNS), _cells(*("---" for _ in COLUMNS)), sep="\n")
     for attack in chosen:

@@ -1,5 +1,6 @@
 """What a page says to its server and hears from it, without a browser."""
 
+import http.client
 from typing import Any
 
 import msgspec
@@ -39,6 +40,17 @@ def messages(frame: bytes | str) -> list[Message]:
 def own_origin(port: int) -> str:
     """Where a page comes from that this machine's server at a port has given out."""
     return f"http://127.0.0.1:{port}"
+
+
+def session_query(port: int) -> str:
+    """Return what the address of a new session of a server adds: "?session=…"; nothing if it has one."""
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60.0)
+    try:
+        connection.request("GET", "/")
+        _, mark, query = (connection.getresponse().headers["Location"] or "").partition("?")
+        return mark + query
+    finally:
+        connection.close()
 
 
 def handshake(origin: str | None, version: str = viser.__version__, **headers: str) -> dict[str, Any]:

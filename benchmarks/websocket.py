@@ -17,7 +17,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection as Page
 
-from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, wire
+from benchmarks.page_client import CAMERA, Message, handshake, messages, own_origin, session_query, wire
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.study.conditions import road_conditions
 from modeviz.viewer.serving.bench import Bench
@@ -118,24 +118,29 @@ def _received(page: Page) -> Iterator[Message]:
 
 
 @contextmanager
-def open_page(port: int) -> Iterator[Page]:
-    """A page that has opened; viser knows it once it has told its camera."""
-    with _connect(port) as page:
+def open_page(port: int, query: str | None = None) -> Iterator[Page]:
+    """A page that has opened; viser knows it once it has told its camera.
+
+    Args:
+        port: of the server.
+        query: that says the session; None: a new one.
+    """
+    with _connect(port, query) as page:
         page.send(wire("ViewerCameraMessage", **CAMERA))
         yield page
 
 
-def open_websocket(port: int) -> Page:
+def open_websocket(port: int, query: str) -> Page:
     """Connects to a page's server as a browser here does, for messages of any size and number."""
-    return connect(f"ws://127.0.0.1:{port}", max_queue=None, **handshake(own_origin(port)))
+    return connect(f"ws://127.0.0.1:{port}/{query}", max_queue=None, **handshake(own_origin(port)))
 
 
-def _connect(port: int) -> Page:
+def _connect(port: int, query: str | None) -> Page:
     """Knocks until the server has started."""
     deadline = time.monotonic() + PATIENCE_S
     while True:
         try:
-            return open_websocket(port)
+            return open_websocket(port, session_query(port) if query is None else query)
         except (ConnectionRefusedError, InvalidStatus):
             if time.monotonic() > deadline:
                 raise
