@@ -267,5 +267,6 @@ def _is_open(connection: socket.socket) -> bool:
 
 
 def allow_files(n_files: int) -> None:
+    """Lets this process have so many files open, as far as it may."""
     _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (min(n_files, most), most))

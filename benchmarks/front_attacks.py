@@ -1,4 +1,4 @@
-"""What somebody who means no good does to the front of a server of many sessions; each ends by itself."""
+"""What somebody who means no good does to a server of many sessions; each ends by itself."""
 
 import asyncio
 import secrets

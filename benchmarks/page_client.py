@@ -43,7 +43,7 @@ def own_origin(port: int) -> str:
 
 
 def session_query(port: int) -> str:
-    """Return what the address of a new session of a server adds: "?session=…"; nothing if it has one."""
+    """Return what the address of a new session adds: "?session=…"; nothing where there is only one."""
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60.0)
     try:
         connection.request("GET", "/")

@@ -38,10 +38,11 @@ def sliders(server):
 
 
 def rms(app, slider, value):
-    """What is solved once a page has moved a slider."""
+    """What is solved once a page has moved a slider to another value."""
+    design = app.session.state.design
     with entered(app.server) as socket:
         socket.send(update(slider, value))
-        wait_until(lambda: slider.value == value)
+        wait_until(lambda: app.session.state.design != design)
         assert app.session.wait(SOON)
     return app.session.answer.now.rms
 

@@ -219,7 +219,6 @@ def _quietly() -> Iterator[None]:
 @contextmanager
 def _behind(front: Front, turns: Turns, acceptor: Acceptor) -> Iterator[None]:
     """While this lasts, a server that viser starts gets its websockets from a front, past its door."""
-    serve = websockets.asyncio.server.serve
     house = front.house
 
     async def place(connection: PageConnection, request: Request) -> Response | None:
@@ -239,6 +238,7 @@ def _behind(front: Front, turns: Turns, acceptor: Acceptor) -> Iterator[None]:
             return serve(_reported(handler, house.notices), *args, **{**options, **ours})
 
     with _one_server_at_a_time:
+        serve = websockets.asyncio.server.serve  # not that of another session
         websockets.asyncio.server.serve = inner_serve
         try:
             yield
