@@ -14,7 +14,7 @@ async (id, view) => {
   field.value = address.href;
   field.onfocus = () => field.select();
   const copied = await navigator.clipboard?.writeText(address.href).then(() => true, () => false);
-  if (!copied) field.focus();
+  if (!copied) field.select();
   said.textContent = copied
     ? "Copied: paste it where somebody is to see this."
     : "This browser lets no page copy from here: copy it from the field.";
