@@ -6,6 +6,7 @@ import numpy as np
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
 from modeviz.vehicle.mount_rates import USUAL_RANGE, check_directions
 from modeviz.vehicle.placement import Placement
@@ -54,6 +55,8 @@ class Absorber:
             value = getattr(self, key)
             if not (np.isfinite(value) and value >= 0):
                 raise VehicleError(f"{where}: {key}: found {value}, expected zero or more")
+        if self.body == GROUND:
+            raise VehicleError(f"{where}: body: found {GROUND!r}, expected a body, which moves")
         check_directions(where, self.directions)
         low, high = self.tuned_hz
         if not (0 <= low < high < np.inf):

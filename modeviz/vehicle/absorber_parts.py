@@ -15,6 +15,7 @@ from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import MOTIONS, Mount, Spring
+from modeviz.vehicle.local_axes import angles_of_axes
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import DAMPING_FIELDS, DIRECTIONS, STIFFNESS_FIELDS, MountRates
 from modeviz.vehicle.vehicle import Vehicle
@@ -23,7 +24,7 @@ STEEL = 7850.0
 """kg/m³: an absorber is a cube of it, which tells how large it is and how hard to turn."""
 
 ROUNDING = 1e-9
-"""Relative: parts that differ by no more are those of one absorber."""
+"""Of the largest number in an array: parts that differ by no more are those of one absorber."""
 
 GUIDES = "absorber guides"
 """The group of the joints that guide absorbers."""
@@ -114,6 +115,7 @@ def _with_spring(vehicle: Vehicle, group: MountGroup) -> Absorber | None:
         max(rates.damping()) / (2 * float(np.sqrt(k * mass.mass))) for rates in every
     )
     x, y, z = mount.center.tolist()
+    about_x, about_y, about_z = angles_of_axes(mount.axes).tolist()
     absorber = Absorber(
         group.name,
         mount.bodies[1],
@@ -123,6 +125,7 @@ def _with_spring(vehicle: Vehicle, group: MountGroup) -> Absorber | None:
         damping,
         group.loss_factor,
         tuple(d for d in DIRECTIONS if MOTIONS[2 - DIRECTIONS.index(d)] not in guide.rigid),
+        (about_x, about_y, about_z),
         frequency_range=(low, high),
         damping_range=(softest, stiffest),
     )
@@ -142,5 +145,7 @@ def _alike(one: Any, other: Any) -> bool:
     if isinstance(one, tuple):
         return len(one) == len(other) and all(map(_alike, one, other))
     if isinstance(one, float | np.ndarray):
-        return np.shape(one) == np.shape(other) and np.allclose(one, other, rtol=ROUNDING, atol=0.0)
+        if np.shape(one) != np.shape(other):
+            return False
+        return bool(np.all(np.abs(one - other) <= ROUNDING * np.abs(other).max(initial=0.0)))
     return one == other

@@ -1,14 +1,15 @@
 """Vehicles with tuned absorbers, made of ordinary parts."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from modeviz.errors import of_part
+from modeviz.errors import VehicleError, of_part, unknown
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.absorber_parts import absorber_guide, absorber_mass, absorber_spring
 from modeviz.vehicle.bodies import Body, FlexibleBody
+from modeviz.vehicle.connections import Connection
 from modeviz.vehicle.moved_ends import MovedMount, bodies_that_hold, missing_compliance
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -24,6 +25,7 @@ def with_absorbers(vehicle: Vehicle, absorbers: Sequence[Absorber]) -> Vehicle:
     """
     if not absorbers:
         return vehicle
+    check_absorbers(absorbers, vehicle.bodies, vehicle.all_connections)
     near = [_on_attachment_of(vehicle, absorber) for absorber in absorbers]
     whole = replace(
         vehicle,
@@ -32,6 +34,33 @@ def with_absorbers(vehicle: Vehicle, absorbers: Sequence[Absorber]) -> Vehicle:
         mount_groups=(*vehicle.mount_groups, *map(absorber_spring, near)),
     )
     return put_in_place(whole, absorbers)
+
+
+def check_absorbers(
+    absorbers: Sequence[Absorber], bodies: Iterable[Body], connections: Iterable[Connection]
+) -> None:
+    """Raises PartError where an absorber sits on no body, or a part of it is called as another is.
+
+    Args:
+        absorbers: to be added; one may sit on the mass of another.
+        bodies: that there are besides.
+        connections: likewise.
+    """
+    names, joints = [body.name for body in bodies], {connection.name for connection in connections}
+    masses = {absorber.body_name for absorber in absorbers}
+    for absorber in absorbers:
+        with of_part("absorber", absorber.name):
+            if absorber.body not in names and absorber.body not in masses - {absorber.body_name}:
+                raise VehicleError(unknown("body", absorber.body, names))
+            for kind, part, taken in (
+                ("body", absorber.body_name, names),
+                ("connection", absorber.guide_name, joints),
+            ):
+                if part in taken:
+                    raise VehicleError(
+                        f"one of its parts is called {part!r}, and there is a {kind} of that name; "
+                        "each needs its own"
+                    )
 
 
 def on_attachment(absorber: Absorber, body: Body) -> Absorber:

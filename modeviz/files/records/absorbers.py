@@ -4,10 +4,22 @@ from typing import Annotated, Self
 
 import numpy as np
 
-from modeviz.files.records.fields import Frequency, Mass, Name, Position, Ratio
-from modeviz.files.records.record import Record, said
+from modeviz.files.records.connections import VEHICLE_AXES, frame
+from modeviz.files.records.fields import (
+    AngleOrder,
+    Angles,
+    Frame,
+    Frequency,
+    Mass,
+    Name,
+    Position,
+    Ratio,
+)
+from modeviz.files.records.record import Record, said, tuples
 from modeviz.files.schema.quantities import FixedUnit
 from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.arrays import Floats
+from modeviz.vehicle.local_axes import angles_of_axes
 
 
 class AbsorberRecord(Record, kw_only=True):
@@ -22,6 +34,10 @@ class AbsorberRecord(Record, kw_only=True):
     damping_ratio: Ratio = 0.0
     loss_factor: Ratio = 0.0
     directions: tuple[str, ...] = ("vertical",)
+    axes: Frame = VEHICLE_AXES
+    """Of its directions, as those of a mount."""
+    angles: Angles | None = None
+    angle_order: AngleOrder = ""
     frequency_range: Annotated[tuple[float, float], FixedUnit("Hz")] | None = None
     """Within which it can be tuned; half its frequency to twice it, if not given."""
     damping_range: tuple[Ratio, Ratio] | None = None
@@ -38,6 +54,7 @@ class AbsorberRecord(Record, kw_only=True):
             "damping_ratio": absorber.damping_ratio,
             "loss_factor": absorber.loss_factor,
             "directions": absorber.directions,
+            "axes": tuples(absorber.axes),
             "frequency_range": absorber.frequency_range,
             "damping_range": absorber.damping_range,
         }
@@ -45,6 +62,7 @@ class AbsorberRecord(Record, kw_only=True):
 
     def build(self) -> Absorber:
         x, y, z = np.array(self.at).tolist()
+        about_x, about_y, about_z = self._angles().tolist()
         return Absorber(
             self.name,
             self.body,
@@ -54,6 +72,11 @@ class AbsorberRecord(Record, kw_only=True):
             self.damping_ratio,
             self.loss_factor,
             self.directions,
+            (about_x, about_y, about_z),
             frequency_range=self.frequency_range,
             damping_range=self.damping_range,
         )
+
+    def _angles(self) -> Floats:
+        """By which its directions are turned out of the vehicle's, about x, then y, then z, rad."""
+        return angles_of_axes(frame(self.axes, self.angles, self.angle_order))

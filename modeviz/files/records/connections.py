@@ -49,6 +49,30 @@ OF_ANGLES = ("angles", "angle_order")
 VEHICLE_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
+def frame(axes: Frame, angles: Angles | None, angle_order: str) -> Floats:
+    """Return local axes as rows, (3, 3).
+
+    Args:
+        axes: all three or x and y, where there are no angles.
+        angles: about x, y and z, rad, by which they are turned out of the file's.
+        angle_order: of these, as `TurnOrder` reads it.
+
+    Raises:
+        FaultsError: they are said twice, or the order of angles isn't where it matters.
+    """
+    if angles is None:
+        with at_key("axes"):
+            return whole_frame(axes)
+    if axes != VEHICLE_AXES:
+        raise FaultsError(Fault("angles", "found beside axes, expected one of them"))
+    if not angle_order and np.count_nonzero(angles) > 1:
+        words = 'missing, expected the order of the angles, such as "xyz fixed" or "zyx turned"'
+        raise FaultsError(Fault("angle_order", words))
+    with at_key("angle_order"):
+        order = TurnOrder.of(angle_order) if angle_order else TurnOrder()
+        return axes_of_angles(np.array(angles), order)
+
+
 class MountRecord(Record, kw_only=True):
     """[[mount_group.mount]]; but for the place, the keys are the attributes of a connection."""
 
@@ -77,25 +101,8 @@ class MountRecord(Record, kw_only=True):
         """The constructor's arguments of a connection."""
         keys = (f for f in self.__struct_fields__ if f not in ("at", "axes", *OF_ANGLES))
         fields = {f: getattr(self, f) for f in keys}
-        return {"points": self._ends(), "axes": self._frame(), **fields}
-
-    def _frame(self) -> Floats:
-        """The local axes as rows, (3, 3).
-
-        Raises:
-            FaultsError: they are said twice, or the order of angles isn't where it matters.
-        """
-        if self.angles is None:
-            with at_key("axes"):
-                return whole_frame(self.axes)
-        if self.axes != VEHICLE_AXES:
-            raise FaultsError(Fault("angles", "found beside axes, expected one of them"))
-        if not self.angle_order and np.count_nonzero(self.angles) > 1:
-            words = 'missing, expected the order of the angles, such as "xyz fixed" or "zyx turned"'
-            raise FaultsError(Fault("angle_order", words))
-        with at_key("angle_order"):
-            order = TurnOrder.of(self.angle_order) if self.angle_order else TurnOrder()
-            return axes_of_angles(np.array(self.angles), order)
+        axes = frame(self.axes, self.angles, self.angle_order)
+        return {"points": self._ends(), "axes": axes, **fields}
 
     def _ends(self) -> Floats:
         ends = self.at if len(self.at) == 2 else (self.at, self.at)

@@ -41,7 +41,7 @@ from modeviz.files.records.tuned_parts import DamperGroupRecord, SpringGroupReco
 from modeviz.files.schema.quantities import UNITLESS
 from modeviz.files.source import Source
 from modeviz.vehicle.absorber_parts import absorber_guide, absorber_mass, absorber_spring
-from modeviz.vehicle.absorbers import on_attachment, put_in_place
+from modeviz.vehicle.absorbers import check_absorbers, on_attachment, put_in_place
 from modeviz.vehicle.bodies import FlexibleBody, RigidBody
 from modeviz.vehicle.connections import (
     Bolt,
@@ -167,8 +167,9 @@ class VehicleRecord(FileRecord, kw_only=True):
         n_coordinates = sum(body.n_modes for body in flexible) + 6 * len((*rigid, *absorbers))
         check_size(COORDINATES, n_coordinates, MOST_COORDINATES)
         by_name = {body.name: body for body in (*flexible, *rigid, *source.stand_ins)}
-        near = [on_attachment(a, by_name[a.body]) if a.body in by_name else a for a in absorbers]
         parts, tuned = self._connections()
+        check_absorbers(absorbers, by_name.values(), parts)
+        near = [on_attachment(a, by_name[a.body]) if a.body in by_name else a for a in absorbers]
         tyres = [c for c in parts if isinstance(c, Tyre)]
         roads = built(self.road, "road", lambda r: r.build(source, track_width(tyres)))
         forces = built(self.force, "force", lambda r: r.build(source))

@@ -15,6 +15,8 @@ from modeviz.files.survey import survey
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.absorber_parts import absorbers_of
 from modeviz.vehicle.absorbers import with_absorbers
+from modeviz.vehicle.bodies import RigidBody
+from modeviz.vehicle.connections import Spring
 from modeviz.vehicle.mount_rates import MountRates
 
 ROOF = Absorber("roof", "cab", (1.0, 0.2, 1.4), 6.0, 12.0, 0.1)
@@ -87,6 +89,34 @@ def test_a_vehicle_is_written_with_tables_of_its_absorbers_as_they_are_tuned(tmp
             assert bound.damping() == pytest.approx(its.damping(), rel=1e-12)
 
 
+@pytest.mark.parametrize("angles", [(0.3, 0.0, 0.0), (0.2, -0.4, 1.1), (1e-9, 0.0, np.pi / 2)])
+def test_one_that_is_turned_is_written_as_one_table_and_read_back(tmp_path, angles):
+    turned = replace(ROOF, angles=angles)
+    made = with_absorbers(mounted_cabin(), [turned])
+    (found,) = absorbers_of(made)
+    assert found.angles == pytest.approx(angles, abs=1e-12)
+    write_vehicle(made, tmp_path / "v")
+    tables = tomllib.loads((tmp_path / "v" / "vehicle.toml").read_text("utf-8"))
+    assert [table["name"] for table in tables["absorber"]] == ["roof"]
+    assert "spring" not in tables
+    read = read_vehicle(tmp_path / "v")
+    assert absorbers_of(read)[0].angles == pytest.approx(angles, abs=1e-12)
+    for name in ("mass", "stiffness", "damping"):
+        expected = getattr(assemble(made), name)
+        largest = np.abs(expected).max()
+        np.testing.assert_allclose(
+            getattr(assemble(read), name), expected, rtol=0, atol=1e-12 * largest
+        )
+
+
+def test_a_table_says_how_it_is_turned_as_a_mount_does(folder):
+    file = folder / "vehicle.toml"
+    file.write_text(file.read_text("utf-8").replace("[units]\n", '[units]\nangle = "deg"\n'), "utf-8")
+    add(folder, TABLE + 'angles = [10, 20, 0]\nangle_order = "xyz fixed"\n')
+    (found,) = absorbers_of(read_vehicle(folder))
+    assert np.degrees(found.angles) == pytest.approx([10, 20, 0])
+
+
 def test_what_one_table_does_not_say_is_written_as_parts(tmp_path):
     made = with_absorbers(mounted_cabin(), [replace(ROOF, directions=("vertical", "lateral"))])
     uneven = made.with_rates({"roof": MountRates(3e4, 4e4, 0.0)})
@@ -125,6 +155,13 @@ def test_sets_of_rates_and_problems_know_its_group(folder):
         ("mass = 6", "mass = 6\nfrequency_range = [9, 3]", "absorber[0]", "found 9 to 3 Hz"),
         ("mass = 6", "mass = 6\ndamping_range = [0.2, 0.1]", "absorber[0]", "found 0.2 to 0.1"),
         ('name = "roof"', 'name = "A"', "absorber[0]", "there twice"),
+        (
+            'body = "cab"',
+            'body = "ground"',
+            "absorber[0]",
+            "found 'ground', expected a body, which moves",
+        ),
+        ('body = "cab"', 'body = "roof mass"', "absorber[0]", "there are cab, chassis"),
     ],
 )
 def test_what_is_wrong_with_a_table_is_said_at_its_key(folder, old, new, key, words):
@@ -136,6 +173,23 @@ def test_what_is_wrong_with_a_table_is_said_at_its_key(folder, old, new, key, wo
     (problem,) = survey(folder).problems
     assert problem.key.startswith(key)
     assert words in problem.words
+
+
+def test_a_part_of_a_taken_name_is_said_of_the_absorber_wherever_the_other_stands(tmp_path):
+    cabin = mounted_cabin()
+    other = RigidBody("roof mass", "other", "rack", 5.0, np.array([1.0, 0.0, 1.5]), np.eye(3))
+    ends = np.tile([1.0, 0.0, 1.0], (2, 1))
+    joint = Spring("roof guide", "springs", ("cab", "chassis"), ends, np.full(3, 1e5))
+    with_body = replace(cabin, bodies=(*cabin.bodies, other))
+    with_joint = replace(cabin, connections=(*cabin.connections, joint))
+    for i, vehicle in enumerate((with_body, with_joint)):
+        write_vehicle(vehicle, tmp_path / f"{i}")
+        add(tmp_path / f"{i}", TABLE)
+        (problem,) = survey(tmp_path / f"{i}").problems
+        assert problem.key.startswith("absorber[0]")
+        assert "absorber 'roof': one of its parts is called 'roof " in problem.words
+        with pytest.raises(VehicleError, match="absorber 'roof': one of its parts"):
+            with_absorbers(vehicle, [ROOF])
 
 
 def test_on_a_flexible_body_it_sits_on_the_shapes_of_its_place(tmp_path):

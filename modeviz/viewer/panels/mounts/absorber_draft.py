@@ -110,7 +110,7 @@ def free_absorber_name(vehicle: Vehicle) -> str:
     parts = (*vehicle.bodies, *vehicle.all_connections, *vehicle.mount_groups)
     taken = {part.name for part in parts}
     names = (f"absorber {number}" for number in count(1))
-    return next(name for name in names if name not in taken)
+    return next(n for n in names if taken.isdisjoint((n, f"{n} mass", f"{n} guide")))
 
 
 def _places(vehicle: Vehicle, body: Body) -> Iterator[tuple[str, Any]]:
