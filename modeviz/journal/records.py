@@ -61,6 +61,11 @@ class Records:
         with self._reading() as connection:
             return stored.restore(connection, session)
 
+    def is_shared(self, session: SessionId) -> bool:
+        """Return whether some review shows a session."""
+        with self._reading() as connection:
+            return stored.is_shared(connection, session)
+
     def reviewed(self, review: SessionId) -> SessionId | None:
         """Return the session that a review shows; None if there is none, or it has ended."""
         with self._reading() as connection:

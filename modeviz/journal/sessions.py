@@ -97,9 +97,22 @@ def share(connection: Connection, session: SessionId, review: str, author: str, 
     )
 
 
-def end_review(connection: Connection, review: str, now: float) -> None:
-    """Writes that a review shows nothing any more."""
-    connection.execute("UPDATE review SET ended = ? WHERE digest = ? AND ended IS NULL", (now, review))
+def end_reviews(connection: Connection, session: SessionId, now: float) -> None:
+    """Writes that the reviews of a session show nothing any more."""
+    connection.execute(
+        "UPDATE review SET ended = ? WHERE session = ? AND ended IS NULL",
+        (now, number_of(connection, session)),
+    )
+
+
+def is_shared(connection: Connection, session: SessionId) -> bool:
+    """Return whether there is a review of a session that has not ended."""
+    row = connection.execute(
+        "SELECT 1 FROM review JOIN session ON session.id = review.session"
+        " WHERE session.digest = ? AND ended IS NULL",
+        (session,),
+    ).fetchone()
+    return row is not None
 
 
 def reviewed(connection: Connection, review: str) -> SessionId | None:

@@ -141,10 +141,10 @@ class StudyFile(Records):
         now = time.time()
         self._writer.put(lambda c: stored.share(c, session, review, author, now), session)
 
-    def end_review(self, review: SessionId) -> None:
-        """Writes that a review shows nothing any more."""
+    def end_reviews(self, session: SessionId) -> None:
+        """Writes that the reviews of a session show nothing any more."""
         now = time.time()
-        self._writer.put(lambda c: stored.end_review(c, review, now))
+        self._writer.put(lambda c: stored.end_reviews(c, session, now), session)
 
     def put_note(self, session: SessionId | None, note: Note) -> str:
         """Writes a note of a session, or with None one for all; returns its token.

@@ -103,7 +103,7 @@ def test_a_review_shows_its_session_until_it_ends(path):
     study.begin(KEY)
     study.share(KEY, review)
     assert study.reviewed(review) == KEY
-    study.end_review(review)
+    study.end_reviews(KEY)
     assert study.reviewed(review) is None
     study.close()
 

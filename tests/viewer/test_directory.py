@@ -153,3 +153,43 @@ def test_an_idle_session_goes_to_disk_and_comes_back(tmp_path, monkeypatch):
         left = moved(front, directory, path)
         wait_until(lambda: not directory._open)
         assert rates_of(front, directory, path) == (left, True)
+
+
+def test_the_link_of_a_review_opens_the_session_until_it_is_ended(tmp_path):
+    with serving(tmp_path / "cabin.modeviz") as (front, directory):
+        path = way(front)
+        moved(front, directory, path)
+        name = digest_of(key_of(path))
+        visitors = directory._open[name].server.visitors
+        links = []
+        for _ in range(2):
+            links.append(visitors.share().removeprefix("."))
+            assert get(front, links[-1])[0] == 200
+            with page_at(front, links[-1]) as looking:
+                assert looking.recv(timeout=20)
+                assert not visitors.there[-1].is_owner
+            assert len(directory._open) == 1
+            visitors.stop_sharing()
+            assert get(front, links[-1])[0] == 404
+        assert links[0] != links[1]
+        assert key_of(path) not in links[0]
+
+
+def test_whoever_has_a_review_open_as_the_server_restarts_still_only_looks(tmp_path):
+    study = tmp_path / "cabin.modeviz"
+    with serving(study) as (front, directory):
+        path = way(front)
+        moved(front, directory, path)
+        name = digest_of(key_of(path))
+        link = directory._open[name].server.visitors.share().removeprefix(".")
+    with serving(study) as (front, directory):
+        with page_at(front, link) as looking:
+            wait_until(lambda: name in directory._open)
+            session = directory._open[name]
+            wait_until(lambda: session.app.session.answer, 60)
+            before = session.app.session.state.design.rates
+            looking.send(update(slider(session), slider(session).value - 20))
+            time.sleep(0.3)
+            assert session.app.session.state.design.rates == before
+            session.server.visitors.stop_sharing()
+        assert get(front, link)[0] == 404

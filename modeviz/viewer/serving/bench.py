@@ -98,11 +98,19 @@ class Bench:
             self.study.share(session, digest_of(key))
         return key
 
-    def end_review(self, key: str) -> None:
-        """Has the key of a review open nothing any more."""
-        self._reviews.pop(digest_of(key), None)
+    def end_reviews(self, session: SessionId) -> None:
+        """Has the keys of a session's reviews open nothing any more."""
+        self._reviews = {key: shown for key, shown in self._reviews.items() if shown != session}
         if self.study:
-            self.study.end_review(digest_of(key))
+            self.study.end_reviews(session)
+
+    def is_shared(self, session: SessionId) -> bool:
+        """Return whether some review's key opens a session.
+
+        Raises:
+            ModevizError: the study cannot be read.
+        """
+        return session in self._reviews.values() or bool(self.study and self.study.is_shared(session))
 
     def reviewed(self, key: str) -> SessionId | None:
         """Return the session that the key of a review opens, if any.

@@ -26,6 +26,7 @@ from modeviz.viewer.page.page_file import PageFile
 from modeviz.viewer.page.request_head import query_of
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.open_session import OpenSession
+from modeviz.viewer.serving.review import Review
 from modeviz.viewer.session.opening import Opening
 
 MOST_OPEN = 64
@@ -172,6 +173,8 @@ class Directory:
             bench, name = self._benches[visit.vehicle], visit.session
             address = "&" + self._address(visit.vehicle, "session", visit.key)
             session = OpenSession(bench, name, _opening(bench, visit), self._front, address, self._dark)
+            review = Review(bench, name, partial(self._address, visit.vehicle, "review"))
+            session.server.visitors.offer(review, bench.is_shared(name))
             self._open[name] = session
             return session
 
