@@ -111,9 +111,10 @@ class Front:
         loop.set_exception_handler(partial(report, self.house.notices))
         loop.create_task(self._serve())
         loop.run_forever()
-        for task in asyncio.all_tasks(loop):
+        tasks = asyncio.all_tasks(loop)
+        for task in tasks:
             task.cancel()
-        loop.run_until_complete(asyncio.sleep(0))
+        loop.run_until_complete(asyncio.gather(*tasks, return_exceptions=True))
         loop.close()
 
     async def _serve(self) -> None:
