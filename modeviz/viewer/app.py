@@ -46,7 +46,7 @@ from modeviz.viewer.panels.optimise.panel import OptimisePanel
 from modeviz.viewer.panels.paths import PathsPanel
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.panels.response import ResponsePanel
-from modeviz.viewer.panels.review import ReviewPanel
+from modeviz.viewer.panels.review.panel import ReviewPanel
 from modeviz.viewer.panels.rigid.panel import RigidPanel
 from modeviz.viewer.panels.rubber import RubberPanel
 from modeviz.viewer.panels.scatter import ScatterPanel

@@ -11,7 +11,7 @@ from guests import guest, hand_over, heard, opened
 from visitors import CAMERA, encoded, update
 
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.panels.review import ReviewPanel
+from modeviz.viewer.panels.review.panel import ReviewPanel
 from modeviz.viewer.scene.following import PAUSE, Following
 
 

@@ -1,0 +1,1 @@
+"""Left column: the review of a session, and who is there."""

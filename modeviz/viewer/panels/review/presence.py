@@ -1,0 +1,60 @@
+"""What one page is told of who is there."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+
+from modeviz.viewer.page.html import named, row, span, table
+from modeviz.viewer.page.visitors import Visitor
+
+
+@dataclass(frozen=True)
+class Presence:
+    """What one page is told of who is there."""
+
+    you: Visitor
+    there: Sequence[Visitor]
+    presenter: Visitor | None
+    """None: the owner."""
+    has_control: bool
+    link: str
+    is_shared: bool
+    can_share: bool
+
+    @property
+    def presenter_name(self) -> str:
+        """What who is in control is called; "Nobody" while no owner is there who has it."""
+        owners = (each for each in self.there if each.is_owner)
+        presenter = self.presenter or next(owners, None)
+        return presenter.name if presenter else "Nobody"
+
+    @property
+    def takers(self) -> Sequence[Visitor]:
+        """Who could be handed control here; an owner takes it back."""
+        others = (each for each in self.there if not self.presents(each))
+        return [each for each in others if not (each.is_owner and self.you.is_owner)]
+
+    def presents(self, visitor: Visitor) -> bool:
+        """Whether a visitor is in control."""
+        if self.presenter is None:
+            return visitor.is_owner
+        return visitor.number == self.presenter.number
+
+
+def linked(link: str) -> str:
+    """The link of a review; one that was made before is known to those alone who have it."""
+    if not link:
+        return span("Shared by a link that was made before; a copy is another link.", "dim")
+    return f'<a href="{escape(link)}" target="_blank">The link of this review</a>'
+
+
+def listing(now: Presence) -> str:
+    """Who is there, a line for each."""
+    rows = []
+    for each in now.there:
+        presents = now.presents(each)
+        marks = ["owner"] if each.is_owner else []
+        marks += ["presents"] if presents and len(now.there) > 1 else []
+        marks += ["you"] if each.number == now.you.number else []
+        rows.append(row([named(each.name), span(", ".join(marks), "dim")], chosen=presents))
+    return table((), rows, "visitors")
