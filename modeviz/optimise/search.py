@@ -78,7 +78,7 @@ class Search:
             goal = self._probing(x).goal
             value, by_rate = goal.value_and_gradient(rates)
             more, by_move = change_of(goal, self._moved(x))
-            gradient = self._by_x(rates, by_rate, goal_term(goal, rates, self._probes))
+            gradient = self._by_x(rates, by_rate, goal_term(goal, rates, self.probes))
             gradient[self.space.n_rates :] += by_move
             _check_finite(value, gradient)
         return value + more, gradient
@@ -122,7 +122,7 @@ class Search:
         for each in self._probing(x).kept:
             values, by_rate = each.margins(rates)
             is_read = isinstance(each, Deflections)
-            term = margin_terms(each, rates, self._probes) if is_read else np.zeros(1)
+            term = margin_terms(each, rates, self.probes) if is_read else np.zeros(1)
             found.append((values, self._by_x(rates, by_rate, term)))
         values, slopes = zip(*found, strict=True)
         return np.concatenate(values), np.vstack(slopes)
@@ -143,7 +143,7 @@ class Search:
             return self.at(x)
         placements = self.space.placements(x)
         return self._latest_probing.get(
-            _key(placements), lambda: self._given.of_vehicle(self._probes.placed(placements))
+            _key(placements), lambda: self._given.of_vehicle(self.probes.placed(placements))
         )
 
     @cached_property
@@ -151,7 +151,8 @@ class Search:
         return Aims(self.goal, self.windows, self.deflections)
 
     @cached_property
-    def _probes(self) -> Probes:
+    def probes(self) -> Probes:
+        """Mounts without rates that tell what placing the vehicle's otherwise does."""
         return Probes(self.space.vehicle, self.space.places, self.space.base)
 
     @cached_property
@@ -186,7 +187,7 @@ class Search:
         k = [getattr(rates[v.group], v.direction) for v in rate_variables(self.space.vehicle)]
         by_x = (by_rate[..., : len(k)] * k) @ self.space.members
         if self.space.places.variables:
-            by_place = by_place + by_rate[..., len(k) :] @ self._probes.by_place(rates)
+            by_place = by_place + by_rate[..., len(k) :] @ self.probes.by_place(rates)
             by_x[..., self.space.n_rates :] = by_place * self.space.places.widths
         return by_x
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.special import betainc
@@ -17,6 +18,7 @@ from modeviz.scatter.tolerance import Parts, Tolerance, scattered_parts
 from modeviz.scatter.worst_case import goals
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.vehicle import Vehicle
 
 LEAST_WEIGHT = 1e-5
 """Samples that count less are left out: at the 95th percentile of 100, eighty of them."""
@@ -40,10 +42,12 @@ class Robust:
     """Of which percentile, above 0 and below 100."""
     weights: Floats
     """(n_samples,): of the smallest value, the next, and so on; they sum to one."""
+    probed: tuple[int, ...] = ()
+    """The numbers of the mounts of which those are parts that a search adds, see `Probes`."""
 
     def value(self, rates: Rates) -> float:
         """At rates of the groups that differ from the vehicle's own; raises as `solve`."""
-        return float(self.weights @ np.sort(goals(self.objective, self._parts(rates), self.deviations)))
+        return float(self.weights @ np.sort(goals(self.objective, self._parts(rates), self._of_mounts)))
 
     def exact_value(self, rates: Rates) -> float:
         """Return the value from the equations of motion, for the samples that count here.
@@ -53,22 +57,34 @@ class Robust:
             SolveError: as `direct_response`.
         """
         objective, parts = self.objective, self._parts(rates)
-        counted, weights = self._counted(goals(objective, parts, self.deviations))
-        exact = [self._exact(parts.stiffness(self.deviations[i])) for i in counted]
+        counted, weights = self._counted(goals(objective, parts, self._of_mounts))
+        exact = [self._exact(parts.stiffness(self._of_mounts[i])) for i in counted]
         return float(weights @ exact)
 
     def value_and_gradient(self, rates: Rates) -> tuple[float, Floats]:
         """Return the value and its derivatives to each of `rate_variables`, (n_rates,), per N/m."""
         parts = self._parts(rates)
-        values = goals(self.objective, parts, self.deviations)
+        values = goals(self.objective, parts, self._of_mounts)
         counted, weights = self._counted(values)
         has_rate = spring_shares(self.objective.prepared, rates).real
         gradient = np.zeros(has_rate.shape[1])
         for i, weight in zip(counted, weights, strict=True):
-            own = self.deviations[i]
+            own = self._of_mounts[i]
             shares = parts.factor(own)[:, None] * has_rate
             gradient += weight * self.objective.of_springs(parts.stiffness(own), shares)[1]
         return float(weights @ values[counted]), gradient
+
+    def of_vehicle(self, vehicle: Vehicle) -> "Robust":
+        """Return the same parts in the vehicle with mounts elsewhere, or with `probed` ones as well."""
+        return replace(self, objective=self.objective.of_vehicle(vehicle))
+
+    @cached_property
+    def _of_mounts(self) -> Floats:
+        """The deviations of the mounts that the objective has, those of `probed` ones as of theirs."""
+        hardness, loss = np.split(self.deviations, 2, axis=-1)
+        n_more = len(self.objective.prepared.vehicle.mounts) - hardness.shape[-1]
+        mounts = [*range(hardness.shape[-1]), *self.probed[:n_more]]
+        return np.hstack([hardness[:, mounts], loss[:, mounts]])
 
     def _parts(self, rates: Rates) -> Parts:
         return scattered_parts(self.objective.prepared, rates, self.tolerance)
@@ -124,12 +140,9 @@ def robust_search(search: Search, tolerance: Tolerance, percent: float = 95.0) -
             "the goal does not scatter with parts: a robust search needs one that is made of "
             "accelerations, such as accelerations, peak or rating"
         )
-    if search.space.places.variables:
-        raise SolveError(
-            "a robust search chooses rates alone: expected a problem without offset and angles; search "
-            "for places first, and go on from the vehicle with them"
-        )
-    return replace(search, goal=robust(search.goal, tolerance, percent))
+    goal = robust(search.goal, tolerance, percent)
+    probed = tuple(probe.mount for probe in search.probes.probes)
+    return replace(search, goal=replace(goal, probed=probed))
 
 
 def optimise_robustly(

@@ -13,7 +13,7 @@ from mounted_cabin import mounted_cabin, twisted_cabin
 from mounted_machine import FLAT, SLANTED, mounted_machine
 
 from modeviz.cli import main
-from modeviz.errors import SolveError, VehicleError
+from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.optimise.goals import prepare_goal
 from modeviz.optimise.pareto import find_front
@@ -21,8 +21,6 @@ from modeviz.optimise.place_variables import seen_from
 from modeviz.optimise.search import prepare_search
 from modeviz.optimise.trade_off import prepare_trade_off, sides
 from modeviz.report.front import front_csv, front_record
-from modeviz.scatter.robust import robust_search
-from modeviz.scatter.tolerance import Tolerance
 from modeviz.study.study import Study
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND, Spring
@@ -313,12 +311,6 @@ def test_modes_with_a_damping_of_their_own_keep_mounts_where_they_are():
     problem = Problem("p", (DesignGroup("M2", offsets=MOVED),), goal="purity")
     with pytest.raises(VehicleError, match="a damping of their own"):
         prepare_search(damped, problem, damped.rates, 20.0)
-
-
-def test_a_robust_search_leaves_places_alone():
-    search = search_of(engine(), "rms")
-    with pytest.raises(SolveError, match="rates alone"):
-        robust_search(search, Tolerance())
 
 
 @pytest.mark.parametrize(
