@@ -95,6 +95,24 @@ UNITS: dict[QuantityName, dict[str, float]] = {
 }
 """For each quantity, what one of the unit is in SI."""
 
+WRITTEN_UNITS: dict[QuantityName, str] = {
+    "length": "m",
+    "mass": "kg",
+    "inertia": "kg m²",
+    "stiffness": "N/mm",
+    "rotational_stiffness": "N m/rad",
+    "damping": "N s/m",
+    "rotational_damping": "N m s/rad",
+    "force": "N",
+    "torque": "N m",
+    "acceleration": "m/s²",
+    "unbalance": "g m",
+    "speed": "km/h",
+    "roughness": "cm³",
+    "angle": "deg",
+}
+"""The units of the files and tables we write, and in which people read rates."""
+
 NUMBER_AND_UNIT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re.ASCII)
 
 

@@ -26,8 +26,8 @@ from modeviz.vehicle.mount_rates import DAMPING_FIELDS, RATE_FIELDS, MountRates,
 from modeviz.vehicle.vehicle import Vehicle
 
 STIFFEST_BASE = 5e6
-"""N/m: receptances are taken at no stiffer rates. From a rigid spring there is no way back to a soft
-one: what it lets through is the small difference of large numbers."""
+"""N/m, and N m/rad about axes: receptances are taken at no stiffer rates. From a rigid spring there is
+no way back to a soft one: what it lets through is the small difference of large numbers."""
 
 FIRMEST_BASE = 1e5
 """N s/m: likewise, of dampers."""

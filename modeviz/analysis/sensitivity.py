@@ -36,7 +36,7 @@ def spring_shares(prepared: PreparedModes, rates: Rates) -> Complexes:
 
 
 def frequency_sensitivity(results: ModalResults) -> Floats:
-    """∂f/∂k of each mode for each of `rate_variables`, (n_modes, n_variables), Hz per N/m.
+    """∂f/∂k of each mode for each of `rate_variables`, (n_modes, n_variables), Hz per SI unit of each.
 
     ∂(ω²)/∂k = φᵀRᵀRφ over the springs with that rate (R. L. Fox and M. P. Kapoor, "Rates of change of
     eigenvalues and eigenvectors", AIAA Journal 6(12), 1968). Zero for a mode that moves freely; of
@@ -52,6 +52,20 @@ def frequency_sensitivity(results: ModalResults) -> Floats:
     return np.divide(squares, 8 * np.pi**2 * f, out=np.zeros_like(squares), where=f > RESOLVED_HZ)
 
 
+def damper_sensitivity(results: ModalResults) -> Floats:
+    """∂ζ/∂c of each mode for each of `rate_variables`, (n_modes, n_variables), m/(N s).
+
+    ζ = φᵀCφ / 2ω, so that of a damper is (Rφ)² / 2ω, however much there is of it. Zero of stiffness,
+    and for a mode that moves freely.
+    """
+    prepared, f = results.prepared, results.modes.frequency_hz
+    stretch = prepared.system.mount_motions @ results.modes.shapes
+    dampers = prepared.basis.law.dampers(spring_shares(prepared, results.rates).T).T
+    f = f[:, None]
+    squares = stretch.T**2 @ dampers
+    return np.divide(squares, 4 * np.pi * f, out=np.zeros_like(squares), where=f > RESOLVED_HZ)
+
+
 @dataclass(frozen=True, eq=False)
 class RideSensitivity:
     """How accelerations on a road change with each of `rate_variables`."""
@@ -59,9 +73,9 @@ class RideSensitivity:
     frequency_hz: Floats
     """(n_freqs,): the lines at these rates, see `Results`."""
     psd: Floats
-    """(n_freqs, n_points, 3, n_variables), g²/Hz per N/m."""
+    """(n_freqs, n_points, 3, n_variables), g²/Hz per SI unit of each."""
     rms: Floats
-    """(n_points, 3, n_variables), g per N/m."""
+    """(n_points, 3, n_variables), g likewise."""
 
 
 def ride_sensitivity(prepared: Prepared, rates: Rates, conditions: Conditions) -> RideSensitivity:
@@ -87,7 +101,7 @@ def psd_gradient(
     input_psd: Complexes,
     shares: Complexes,
 ) -> Floats:
-    """Derivatives of acceleration PSDs, (n_freqs, n_outputs, n_variables), g²/Hz per N/m.
+    """Derivatives of acceleration PSDs, (n_freqs, n_outputs, n_variables), g²/Hz per SI unit of each.
 
     S = h S_ff hᴴ and ∂h/∂k_s = -a_s b_s, so ∂S/∂k = -2 Re Σ (1 + jg) a_s b_s S_ff hᴴ over its springs.
 
@@ -146,6 +160,8 @@ class Sensitivity:
 
     frequency_hz: Floats
     """Of the natural frequencies, (n_modes, n_variables), Hz."""
+    damping_ratio: Floats
+    """What dampers do to the modes' damping ratios, (n_modes, n_variables); zero of stiffness."""
     rms: Floats
     """Of the accelerations relative to themselves, (n_points, 3, n_variables)."""
 
@@ -166,4 +182,5 @@ def sensitivity(prepared: Prepared, results: Results) -> Sensitivity:
     relative = np.divide(
         rms_change, results.rms[..., None], out=np.zeros_like(rms_change), where=rms_change != 0
     )
-    return Sensitivity(k * frequency_sensitivity(results), k * relative)
+    to_frequency, to_damping = frequency_sensitivity(results), damper_sensitivity(results)
+    return Sensitivity(k * to_frequency, k * to_damping, k * relative)

@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,10 @@ from modeviz.vehicle.mount_rates import (
     Rates,
 )
 from modeviz.vehicle.vehicle import Vehicle
+
+Layout = tuple[NDArray[np.intp], NDArray[np.bool_]]
+
+_LAYOUTS: WeakKeyDictionary[Vehicle, Layout] = WeakKeyDictionary()
 
 
 def not_progressive(_rates: Rates) -> float:
@@ -187,9 +192,15 @@ def are_dampers(vehicle: Vehicle) -> NDArray[np.bool_]:
     return _layout(vehicle)[1]
 
 
-@lru_cache(maxsize=8)
-def _layout(vehicle: Vehicle) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """`rows_of_springs` and `are_dampers` of a vehicle."""
+def _layout(vehicle: Vehicle) -> Layout:
+    """`rows_of_springs` and `are_dampers` of a vehicle, found once while somebody has the vehicle."""
+    found = _LAYOUTS.get(vehicle)
+    if found is None:
+        found = _LAYOUTS[vehicle] = _laid_out(vehicle)
+    return found
+
+
+def _laid_out(vehicle: Vehicle) -> Layout:
     motions = np.arange(6 * len(vehicle.mounts)).reshape(-1, 6)
     along, about, damped = motions[:, :3], motions[:, 3:], damped_axes(vehicle)
     rows = np.concatenate([along.ravel(), about[turning_axes(vehicle)], along[damped]])

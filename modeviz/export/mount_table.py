@@ -8,8 +8,8 @@ import numpy as np
 
 from modeviz.export.axes import FileAxes
 from modeviz.files.mount_tables.limits import RATIOS, STATIC_RATIO, TRAVEL
-from modeviz.files.schema.scaling import WRITTEN_UNITS, written
-from modeviz.units import QuantityName, factor
+from modeviz.files.schema.scaling import written
+from modeviz.units import WRITTEN_UNITS, QuantityName, factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.mount_group import MountGroup

@@ -16,8 +16,8 @@ from modeviz.files.own_tables import BODIES, MOUNTS
 from modeviz.files.records.vehicle import CONNECTION_KINDS, TUNED_KINDS, VehicleRecord
 from modeviz.files.schema.hints import is_record, joined
 from modeviz.files.schema.mismatches import faults_of
-from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.schema.walking import each_table, place_of, required_keys, type_at
+from modeviz.units import WRITTEN_UNITS
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND
 

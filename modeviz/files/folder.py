@@ -50,12 +50,12 @@ from modeviz.files.records.vehicle import (
 from modeviz.files.roads import write_road
 from modeviz.files.schema.axes import axes_of, turned
 from modeviz.files.schema.conventions import Conventions
-from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.source import Source
 from modeviz.files.spectra import write_spectrum
 from modeviz.files.toml_reader import in_si, tables_of
 from modeviz.files.toml_writer import to_toml
 from modeviz.files.workload import check_workload
+from modeviz.units import WRITTEN_UNITS
 from modeviz.vehicle.absorber_parts import absorbers_of
 from modeviz.vehicle.bodies import Body, FlexibleBody, RigidBody
 from modeviz.vehicle.connections import Bolt, Connection, Damper, Rod, Spring

@@ -7,10 +7,10 @@ import numpy as np
 
 from modeviz.errors import VehicleError, located, quoted
 from modeviz.files.columns import Column, column_factor, is_unit, with_shared_units
-from modeviz.files.schema.scaling import BEYOND_ANY_VEHICLE, WRITTEN_UNITS
+from modeviz.files.schema.scaling import BEYOND_ANY_VEHICLE
 from modeviz.files.sheets import Sheet
 from modeviz.files.tables import Row
-from modeviz.units import QuantityName
+from modeviz.units import WRITTEN_UNITS, QuantityName
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.checks import FARTHEST
 

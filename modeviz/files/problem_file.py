@@ -8,9 +8,9 @@ from msgspec import Meta
 from modeviz.errors import located
 from modeviz.files.records.problems import ProblemRecord
 from modeviz.files.records.record import FileRecord
-from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.toml_reader import read_toml
 from modeviz.files.toml_writer import to_toml
+from modeviz.units import WRITTEN_UNITS
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 

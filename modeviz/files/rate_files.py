@@ -15,9 +15,9 @@ from modeviz.files.records.rates import RateSetRecord, rate_set
 from modeviz.files.records.record import Record
 from modeviz.files.schema.decoding import decode, unreadable
 from modeviz.files.schema.quantities import quantity_of
-from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si, to_si
+from modeviz.files.schema.scaling import from_si, to_si
 from modeviz.files.tables import Row, Table, read_table
-from modeviz.units import factor
+from modeviz.units import WRITTEN_UNITS, factor
 from modeviz.vehicle.mount_rates import OTHER_FIELDS, STIFFNESS_FIELDS, MountRates, Rates, spoken_unit
 from modeviz.vehicle.vehicle import Vehicle
 

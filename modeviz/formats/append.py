@@ -14,10 +14,10 @@ from modeviz.files.records.record import Record
 from modeviz.files.records.vehicle import VehicleRecord
 from modeviz.files.schema.hints import each_annotated
 from modeviz.files.schema.quantities import Quantity
-from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si
+from modeviz.files.schema.scaling import from_si
 from modeviz.files.toml_reader import read_toml
 from modeviz.files.toml_writer import toml_lines, toml_value
-from modeviz.units import QuantityName
+from modeviz.units import WRITTEN_UNITS, QuantityName
 from modeviz.vehicle.vehicle import Vehicle
 
 UNITS_HEADER = re.compile(r"^[ \t]*\[[ \t]*units[ \t]*\][ \t]*(?:#.*)?\r?$", re.MULTILINE)

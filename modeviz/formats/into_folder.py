@@ -9,10 +9,10 @@ from modeviz.files.disk import file_stems, read_text, replace_folder, write_text
 from modeviz.files.folder import VEHICLE_FILE, read_vehicle
 from modeviz.files.meshes import write_mesh
 from modeviz.files.modal import write_flexible_body
-from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.toml_reader import tables_of
 from modeviz.files.toml_writer import toml_value
 from modeviz.formats.replaced_table import replaced_stem, with_table
+from modeviz.units import WRITTEN_UNITS
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle

@@ -8,11 +8,10 @@ from modeviz.errors import VehicleError, located, quoted, unknown
 from modeviz.files.folder import VEHICLE_FILE
 from modeviz.files.records.record import tuples
 from modeviz.files.records.vehicle import ResponsePointRecord, VehicleRecord
-from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.files.toml_reader import read_toml
 from modeviz.formats.append import append_tables
 from modeviz.formats.mounts.into_folder import Target
-from modeviz.units import factor
+from modeviz.units import WRITTEN_UNITS, factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import Body, FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle

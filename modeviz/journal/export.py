@@ -16,9 +16,8 @@ from modeviz.journal.told import entry_record, session_record, utc
 from modeviz.journal.tuning import Pinned
 from modeviz.report.notes import Note
 from modeviz.report.places import placements_record
-from modeviz.report.rate_fields import written_rate, written_unit
 from modeviz.report.records import Record
-from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates
+from modeviz.vehicle.mount_rates import RATE_FIELDS, MountRates, spoken_unit, spoken_value
 
 FORM = 1
 """Of the record; a later one that is read otherwise has a higher number."""
@@ -41,7 +40,7 @@ def study_record(records: Records) -> Record:
         "form": FORM,
         "vehicle": study.vehicle_name,
         "begun": utc(study.begun),
-        "units": {field: written_unit(field) for field in RATE_FIELDS},
+        "units": {field: spoken_unit(field) for field in RATE_FIELDS},
         "sessions": [_session(records, line) for line in records.sessions()],
         "notes": [_told(note) for note in records.notes() if note.is_for_all],
         "history": [entry_record(entry) for entry in records.history()],
@@ -50,7 +49,7 @@ def study_record(records: Records) -> Record:
 
 def variants_table(records: Records) -> str:
     """Return the variants of a study as CSV: a row for each group of each, rates with their units."""
-    columns = [f"{field} ({written_unit(field)})" for field in RATE_FIELDS]
+    columns = [f"{field} ({spoken_unit(field)})" for field in RATE_FIELDS]
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["session", "variant", "group", *columns, "loss_factor"])
@@ -59,7 +58,7 @@ def variants_table(records: Records) -> str:
 
 
 def pinned_record(pinned: Pinned) -> Record:
-    """Return rates, in the units of `rate_fields.written_unit`, and places of a variant."""
+    """Return rates, in the units of `mount_rates.spoken_unit`, and places of a variant."""
     return {
         "rates": {group: _rates(rates) for group, rates in pinned.rates.items()},
         "placements": placements_record(pinned.placements),
@@ -67,7 +66,7 @@ def pinned_record(pinned: Pinned) -> Record:
 
 
 def _rates(rates: MountRates) -> Record:
-    fields = {field: written_rate(rates, field) for field in RATE_FIELDS}
+    fields = {field: spoken_value(rates, field) for field in RATE_FIELDS}
     return {**fields, "loss_factor": rates.loss_factor}
 
 

@@ -51,7 +51,7 @@ class Goal(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class LeastChange:
-    """The mean of ln(k/k₀)² over the rates that differ from zero."""
+    """The mean of ln(k/k₀)² over the rates that are tuned and differ from zero."""
 
     vehicle: Vehicle
     base: Rates
@@ -75,8 +75,9 @@ class LeastChange:
 
     @property
     def n_rates(self) -> int:
-        """How many differ from zero, one at least."""
-        return max(1, sum(k > 0 for rates in self.base.values() for k in rates.as_tuple()))
+        """How many that are tuned differ from zero, one at least."""
+        tuned = (getattr(self.base[v.group], v.direction) for v in rate_variables(self.vehicle))
+        return max(1, sum(k > 0 for k in tuned))
 
     def of_vehicle(self, vehicle: Vehicle) -> "LeastChange":
         """Return the same of the vehicle with more mounts, of no rate, which do not change."""

@@ -33,7 +33,7 @@ from modeviz.vehicle.mount_rates import (
     MountRates,
     Rates,
 )
-from modeviz.vehicle.placement import Placement, Placements, mirrored_mounts, with_placements
+from modeviz.vehicle.placement import Placement, Placements, mirrored_mounts, placed_vehicle
 from modeviz.vehicle.vehicle import Vehicle
 
 STEP = 1e-5
@@ -137,7 +137,7 @@ class Probes:
     def placed(self, placements: Placements) -> Vehicle:
         """Return the vehicle with mounts placed so, and probes about them; raises as that."""
         own = {probe.own_name: probe.placement(placements) for probe in self.probes}
-        return with_placements(self._probed, {**placements, **own})
+        return placed_vehicle(self._probed, {**placements, **own})
 
     def by_place(self, rates: Rates) -> Floats:
         """∂(rate of a probe)/∂(place), (n_probe_rates, n_places): N/m, or other, per m or rad.

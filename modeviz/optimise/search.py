@@ -20,7 +20,7 @@ from modeviz.optimise.probes import Probes
 from modeviz.optimise.windows import Windows, prepare_windows
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
-from modeviz.vehicle.placement import Placements, with_placements
+from modeviz.vehicle.placement import Placements, placed_vehicle
 from modeviz.vehicle.problem import Problem
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -134,7 +134,7 @@ class Search:
             return self._given
         vehicle = self.space.vehicle
         return self._latest.get(
-            _key(placements), lambda: self._given.of_vehicle(with_placements(vehicle, placements))
+            _key(placements), lambda: self._given.of_vehicle(placed_vehicle(vehicle, placements))
         )
 
     def _probing(self, x: Floats) -> Aims:

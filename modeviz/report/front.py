@@ -9,12 +9,13 @@ from modeviz.optimise.pareto import Front, most_truncated
 from modeviz.optimise.trade_off import TradeOff
 from modeviz.report.optimum import objective_words, solved_from_scratch
 from modeviz.report.places import place_rows, placements_record
-from modeviz.report.rate_fields import listed_fields, spoken, with_unit, written_rate, written_unit
+from modeviz.report.rate_fields import listed_fields, spoken, with_unit
 from modeviz.report.records import Record, rates_record
 from modeviz.report.space import space_lines
 from modeviz.report.tables import table
 from modeviz.report.truncation import at_rates, gap_record, is_large
 from modeviz.text.wording import percent_change, significant
+from modeviz.vehicle.mount_rates import spoken_unit, spoken_value
 from modeviz.vehicle.problem import Problem
 
 
@@ -85,7 +86,7 @@ def front_csv(problem: Problem, trade_off: TradeOff, front: Front) -> str:
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     columns, placed = _columns(problem, trade_off, front), _places(trade_off, front)
-    names = [f"{group} {spoken(field)}, {written_unit(field)}" for group, field, _ in columns]
+    names = [f"{group} {spoken(field)}, {spoken_unit(field)}" for group, field, _ in columns]
     writer.writerow(["design", *front.names, *names, *(name for name, *_ in placed)])
     for i, design in enumerate(front.designs):
         rates = (values[i] for *_, values in columns)
@@ -104,7 +105,7 @@ def _columns(problem: Problem, trade_off: TradeOff, front: Front) -> list[tuple[
     for name in (group.group for group in problem.groups):
         rates = [design.rates[name] for design in front.designs]
         for field in listed_fields(vehicle.mount_group(name), *rates):
-            columns.append((name, field, [written_rate(each, field) for each in rates]))
+            columns.append((name, field, [spoken_value(each, field) for each in rates]))
     return columns
 
 

@@ -8,7 +8,7 @@ from modeviz.optimise.outside import kept_ratios, outside_search
 from modeviz.optimise.run import Optimum
 from modeviz.optimise.search import Search
 from modeviz.report.places import place_rows, placements_record
-from modeviz.report.rate_fields import listed_fields, with_unit, written_rate
+from modeviz.report.rate_fields import listed_fields, with_unit
 from modeviz.report.records import Record, rates_record
 from modeviz.report.space import space_lines
 from modeviz.report.tables import table
@@ -16,7 +16,7 @@ from modeviz.report.truncation import gap_doubts, gap_record
 from modeviz.scatter.robust import Robust
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.text.wording import percent_change, scientific, significant
-from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.mount_rates import Rates, spoken_value
 from modeviz.vehicle.problem import UNSHAKEN, GoalKind, Problem
 
 SMALL: dict[GoalKind, str] = {
@@ -125,7 +125,7 @@ def _rates_table(problem: Problem, search: Search, optimum: Optimum) -> str:
     for group in problem.groups:
         columns = [rates[group.group] for rates in (own, *others.values())]
         for field in listed_fields(vehicle.mount_group(group.group), *columns):
-            values = [written_rate(rates, field) for rates in columns]
+            values = [spoken_value(rates, field) for rates in columns]
             rows.append([f"{group.group} {with_unit(field)}", *_row(values)])
     values = [v for v in _objective(problem, search, optimum).values() if v is not None]
     rows.append(["objective", *_row(values)])

@@ -2,8 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from modeviz.files.schema.scaling import WRITTEN_UNITS
-from modeviz.units import QuantityName, factor
+from modeviz.units import WRITTEN_UNITS, QuantityName
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import (
     DAMPING_FIELDS,
@@ -62,16 +61,6 @@ def with_unit(field: str, units: Mapping[QuantityName, str] = WRITTEN_UNITS) -> 
 def plain(value: float) -> str:
     """Return a rate as one would write it, four digits or all before the point."""
     return f"{value:.0f}" if value >= 1000 else f"{value:.4g}"
-
-
-def written_unit(field: str) -> str:
-    """Return the unit in which files and tables have a rate."""
-    return WRITTEN_UNITS[quantity(field)]
-
-
-def written_rate(rates: MountRates, field: str) -> float:
-    """Return a rate in `written_unit`."""
-    return getattr(rates, field) / factor(written_unit(field), quantity(field))
 
 
 def fields_of_groups(groups: Iterable[MountGroup]) -> tuple[str, ...]:

@@ -11,13 +11,13 @@ from modeviz.analysis.mode_tracking import Followed
 from modeviz.analysis.results import AXIS, Results
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.report.components import component_record
-from modeviz.report.rate_fields import quantity, written_rate
+from modeviz.report.rate_fields import quantity
 from modeviz.ride.psd import amplitude_decibels
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import BaseMotion, Force, HarmonicLoad, WheelLoad
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import RATE_FIELDS
+from modeviz.vehicle.mount_rates import RATE_FIELDS, spoken_value
 from modeviz.vehicle.vehicle import Vehicle
 
 Record = dict[str, Any]
@@ -34,7 +34,7 @@ def rates_record(vehicle: Vehicle) -> Record:
 
 def _group_record(group: MountGroup) -> Record:
     told = (f for f in RATE_FIELDS if quantity(f) == "stiffness" or f in group.fields)
-    rates = {field: written_rate(group.rates, field) for field in told}
+    rates = {field: spoken_value(group.rates, field) for field in told}
     return {**rates, "loss_factor": group.loss_factor}
 
 

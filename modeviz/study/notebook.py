@@ -4,13 +4,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 
 from modeviz.report.charts import NOW, Curve, line_chart
-from modeviz.report.rate_fields import listed_fields, with_unit, written_rate
+from modeviz.report.rate_fields import listed_fields, with_unit
 from modeviz.text.axes import Axis, decibel_axis, shown_hz
 from modeviz.text.markup import table
 from modeviz.text.wording import percent_change, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.mount_rates import Rates, spoken_value
 from modeviz.vehicle.vehicle import Vehicle
 
 STYLE = """<style>
@@ -114,7 +114,7 @@ def rate_rows(group: MountGroup, sets: Sequence[Rates]) -> list[list[str]]:
     """
     own = [rates[group.name] for rates in sets]
     columns = [
-        (with_unit(field), [written_rate(rates, field) for rates in own])
+        (with_unit(field), [spoken_value(rates, field) for rates in own])
         for field in listed_fields(group, *own)
     ]
     columns.append(("loss factor", [group.loss_factor_with(rates) for rates in own]))

@@ -25,7 +25,8 @@ class StudyRates(Displayed):
         study.rates.use("optimised")              # a set of the vehicle, a file, or what was found
         study.rates.reset()
 
-    A rate is read in N/m; fore-aft is "fore_aft" or "fore-aft".
+    Rates are read in SI: N/m, N m/rad about axes, N s/m of dampers, whether they are tuned or not;
+    fore-aft is "fore_aft" or "fore-aft".
     """
 
     def __init__(self, vehicle: Vehicle) -> None:
@@ -35,17 +36,20 @@ class StudyRates(Displayed):
         self._used = ORIGINAL, self._rates
 
     def __getitem__(self, name: str) -> float:
-        """Return a rate, N/m, or a loss factor.
+        """Return a rate, SI, or a loss factor.
 
         Raises:
-            VehicleError: there is no such group or direction.
+            VehicleError: there is no such group or direction, or its mounts each have their own rate.
         """
-        group, field = self._place(name)
-        value = getattr(self._rates[group], field)
-        return self._vehicle.mount_group(group).loss_factor if value is None else float(value)
+        name_of_group, field = self._place(name)
+        group, rates = self._vehicle.mount_group(name_of_group), self._rates[name_of_group]
+        if field == LOSS_FACTOR:
+            return group.loss_factor_with(rates)
+        with located(f"rates[{name!r}]"):
+            return group.rate_of_each(field, rates)
 
     def __setitem__(self, name: str, value: float | str) -> None:
-        """Set a rate to a number, N/m, or to a text with its unit, "131 N/mm"; or a loss factor.
+        """Set a rate to a number, SI, or to a text with its unit, "131 N/mm"; or a loss factor.
 
         Raises:
             VehicleError: there is no such group, direction or unit, or it is negative or not finite.
@@ -75,7 +79,7 @@ class StudyRates(Displayed):
 
     @property
     def by_group(self) -> dict[str, MountRates]:
-        """The rates of every mount group, N/m, as the functions of other folders take them."""
+        """The rates of every mount group, SI, as the functions of other folders take them."""
         return dict(self._rates)
 
     @property
@@ -123,13 +127,13 @@ class StudyRates(Displayed):
         return Path(path)
 
     def table(self) -> str:
-        """Return the rates, N/mm, beside the vehicle's own."""
+        """Return the rates, N/mm or as they say, beside the vehicle's own."""
         sets = list(self._compared.values())
         rows = [row for group in self._vehicle.mount_groups for row in rate_rows(group, sets)]
         return table(["rates, N/mm", *self._compared, ""], rows)
 
     def to_dict(self) -> Record:
-        """Return plain values, see `report.records.rates_record`: rates in N/mm, by their group."""
+        """Return plain values, see `report.records.rates_record`, by their group."""
         return rates_record(self._vehicle.with_rates(self._rates))
 
     def _repr_html_(self) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeviz.analysis.results import AXIS, Results
 from modeviz.analysis.sensitivity import Sensitivity, rate_variables
+from modeviz.report.rate_fields import is_damping
 from modeviz.report.records import Record
 from modeviz.report.tables import table as text_table
 from modeviz.study.displayed import Displayed
@@ -52,6 +53,11 @@ class RateSensitivity(Displayed):
         return TENTH * self.derivatives.frequency_hz
 
     @property
+    def damping_ratio(self) -> Floats:
+        """(n_modes, n_rates): by how much dampers raise damping ratios; zero of stiffness."""
+        return TENTH * self.derivatives.damping_ratio
+
+    @property
     def rms(self) -> Floats:
         """(n_points, 3, n_rates): by which part of themselves RMS accelerations x, y, z rise."""
         return TENTH * self.derivatives.rms
@@ -80,17 +86,19 @@ class RateSensitivity(Displayed):
     def to_dict(self) -> Record:
         """Return plain values.
 
-        `{"road", "rates": [...], "modes": [{"name", "frequency_hz": [...Hz for each rate]}], "rms":
-        [{"point", "direction", "change": [...a part of the RMS value for each rate]}]}`, all for ten
-        percent more of a rate.
+        `{"road", "rates": [...], "modes": [{"name", "frequency_hz": [...Hz for each rate],
+        "damping_ratio": [...what dampers add]}], "rms": [{"point", "direction", "change": [...a part of
+        the RMS value for each rate]}]}`, all for ten percent more of a rate.
         """
         points = self.results.vehicle.response_points
         return {
             "road": self.results.conditions.road,
             "rates": list(self.rates),
             "modes": [
-                {"name": name, "frequency_hz": row.tolist()}
-                for name, row in zip(self.modes, self.frequency_hz, strict=True)
+                {"name": name, "frequency_hz": row.tolist(), "damping_ratio": damped.tolist()}
+                for name, row, damped in zip(
+                    self.modes, self.frequency_hz, self.damping_ratio, strict=True
+                )
             ],
             "rms": [
                 {"point": point.name, "direction": d, "change": self.rms[i, axis].tolist()}
@@ -110,15 +118,19 @@ class RateSensitivity(Displayed):
     @property
     def _header(self) -> list[str]:
         driver = self.results.vehicle.response_points[0].name
-        return ["+10 % of", "moves most", "Hz", *(f"{driver} {d} RMS" for d in RIDE_DIRECTIONS)]
+        return ["+10 % of", "moves most", "Hz or ζ", *(f"{driver} {d} RMS" for d in RIDE_DIRECTIONS)]
 
     @property
     def _rows(self) -> list[list[str]]:
         rows = []
         for i, rate in enumerate(self.rates):
-            shifts = self.frequency_hz[:, i]
+            is_damper = is_damping(rate.rpartition(".")[2])
+            shifts = 100 * self.damping_ratio[:, i] if is_damper else self.frequency_hz[:, i]
             most = int(np.abs(shifts).argmax()) if len(shifts) else None
-            moved = ["-", "-"] if most is None else [self.modes[most], signed(float(shifts[most]), 3)]
+            moved = ["-", "-"]
+            if most is not None:
+                shift = signed(float(shifts[most]), 3)
+                moved = [self.modes[most], f"ζ {shift} %" if is_damper else shift]
             changes = (float(self.rms[0, AXIS[d], i]) for d in RIDE_DIRECTIONS)
             rows.append([rate, *moved, *(signed(100 * change, 2, " %") for change in changes)])
         return rows

@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from modeviz.errors import VehicleError, unknown
+from modeviz.units import si_unit
 from modeviz.vehicle.arrays import Floats, frozen
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.dynamic_rates import DynamicRates
@@ -14,6 +15,7 @@ from modeviz.vehicle.mount_rates import (
     DIRECTIONS,
     OTHER_FIELDS,
     RATE_NAMES,
+    RATE_QUANTITIES,
     ROTATIONAL_FIELDS,
     Bounds,
     MountRates,
@@ -170,6 +172,26 @@ class MountGroup:
             given=given,
             **given,
         )
+
+    def rate_of_each(self, field: str, rates: MountRates) -> float:
+        """One of `RATE_FIELDS` that its mounts have with some rates, SI, whether it is tuned or not.
+
+        Raises:
+            VehicleError: they each have their own.
+        """
+        if field in self.fields or field not in OTHER_FIELDS:
+            return getattr(rates, field)
+        attribute = "rotational_stiffness" if field in ROTATIONAL_FIELDS else "damping"
+        axis = (
+            OTHER_FIELDS.index(field) if field in ROTATIONAL_FIELDS else 5 - OTHER_FIELDS.index(field)
+        )
+        found = {float(getattr(mount, attribute)[axis]) for mount in self.mounts}
+        if len(found) > 1:
+            raise VehicleError(
+                f"the mounts of {self.name!r} each have their own, from {min(found):g} to "
+                f"{max(found):g} {si_unit(RATE_QUANTITIES[field])}; see their vehicle"
+            )
+        return found.pop()
 
     def loss_factor_with(self, rates: MountRates) -> float:
         """The loss factor of the group with other rates."""

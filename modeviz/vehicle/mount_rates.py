@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from modeviz.errors import VehicleError, unknown
-from modeviz.units import QuantityName, factor, si_unit
+from modeviz.units import WRITTEN_UNITS, QuantityName, factor, si_unit
 
 DIRECTIONS = ("vertical", "lateral", "fore-aft")
 """The directions of a mount's rates: local z, y and x."""
@@ -114,25 +114,27 @@ def tuned_fields(bounds: Bounds) -> tuple[str, ...]:
 def check_bounds(where: str, bounds: Bounds) -> None:
     """Raises VehicleError for softest rates above the stiffest; the same ones are not tuned."""
     for field in RATE_FIELDS:
-        low, high = (getattr(rates, field) for rates in bounds)
-        if low > high:
-            unit = spoken_unit(field)
-            per_unit = factor(unit, RATE_QUANTITIES[field])
+        if getattr(bounds[0], field) > getattr(bounds[1], field):
+            low, high = (spoken_value(rates, field) for rates in bounds)
             raise VehicleError(
-                f"{where}: bounds: {RATE_NAMES[field]}: found {low / per_unit:g} to "
-                f"{high / per_unit:g} {unit}, expected the lower one first"
+                f"{where}: bounds: {RATE_NAMES[field]}: found {low:g} to {high:g} "
+                f"{spoken_unit(field)}, expected the lower one first"
             )
 
 
 def spoken_unit(field: str) -> str:
-    """The unit in which people give one of `RATE_FIELDS`."""
-    return "N/mm" if field in STIFFNESS_FIELDS else si_unit(RATE_QUANTITIES[field])
+    """The unit in which people, files and tables give one of `RATE_FIELDS`."""
+    return WRITTEN_UNITS[RATE_QUANTITIES[field]]
+
+
+def spoken_value(rates: MountRates, field: str) -> float:
+    """One of `RATE_FIELDS` in that unit."""
+    return getattr(rates, field) / factor(spoken_unit(field), RATE_QUANTITIES[field])
 
 
 def spoken_rate(rates: MountRates, field: str) -> str:
-    """One of `RATE_FIELDS` in its unit: "141 N/mm"."""
-    unit = spoken_unit(field)
-    return f"{getattr(rates, field) / factor(unit, RATE_QUANTITIES[field]):.4g} {unit}"
+    """One of `RATE_FIELDS` with it: "141 N/mm"."""
+    return f"{spoken_value(rates, field):.4g} {spoken_unit(field)}"
 
 
 def check_directions(

@@ -58,7 +58,10 @@ Placements = Mapping[str, Placement]
 
 
 def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
-    """Return a vehicle with the mounts of some groups moved and turned.
+    """Return a vehicle with the mounts of some groups moved and turned, and notes on that.
+
+    What bodies lack where mounts are now is among its remarks, which a folder keeps, until they are
+    moved again.
 
     Raises:
         VehicleError: a group that the vehicle does not have, or mounts are moved off a flexible body.
@@ -66,6 +69,26 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
     moved = _moved_by_group(vehicle, placements)
     if not moved:
         return vehicle
+    whole = _placed(vehicle, moved)
+    of_group = {name: f"mounts {name!r} are moved to" for name in moved}
+    lacking = [
+        note
+        for name, mounts in moved.items()
+        for note in missing_compliance(vehicle.bodies, whole.bodies, of_group[name], mounts)
+    ]
+    still = tuple(r for r in vehicle.remarks if not any(words in r for words in of_group.values()))
+    told = [*(note for name in moved for note in _notes(name, placements[name])), *lacking]
+    return replace(whole, remarks=(*still, *lacking), notes=(*vehicle.notes, *told))
+
+
+def placed_vehicle(vehicle: Vehicle, placements: Placements) -> Vehicle:
+    """Return the same as `with_placements` without a word, in a part of its time; raises likewise."""
+    moved = _moved_by_group(vehicle, placements)
+    return _placed(vehicle, moved) if moved else vehicle
+
+
+def _placed(vehicle: Vehicle, moved: Mapping[str, Sequence[MovedMount]]) -> Vehicle:
+    """A vehicle with the mounts of some groups where they were moved to."""
     groups = tuple(
         replace(group, mounts=tuple(mount.after for mount in moved[group.name]))
         if group.name in moved
@@ -74,16 +97,7 @@ def with_placements(vehicle: Vehicle, placements: Placements) -> Vehicle:
     )
     every = [mount for mounts in moved.values() for mount in mounts]
     bodies = bodies_that_hold(vehicle, every)
-    whole = _with_whole_absorbers(replace(vehicle, bodies=bodies, mount_groups=groups), every)
-    told = [
-        note
-        for name, mounts in moved.items()
-        for note in (
-            *_notes(name, placements[name]),
-            *missing_compliance(vehicle.bodies, bodies, f"mounts {name!r} are moved to", mounts),
-        )
-    ]
-    return replace(whole, remarks=(*vehicle.remarks, *told), notes=(*vehicle.notes, *told))
+    return _with_whole_absorbers(replace(vehicle, bodies=bodies, mount_groups=groups), every)
 
 
 def _with_whole_absorbers(placed: Vehicle, moved: Sequence[MovedMount]) -> Vehicle:

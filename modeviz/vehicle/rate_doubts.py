@@ -2,15 +2,14 @@
 
 from collections.abc import Iterator
 
-from modeviz.units import factor
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import (
     OTHER_FIELDS,
     RATE_FIELDS,
     RATE_NAMES,
-    RATE_QUANTITIES,
     spoken_rate,
     spoken_unit,
+    spoken_value,
 )
 from modeviz.vehicle.vehicle import Vehicle
 
@@ -48,7 +47,5 @@ def _zeros(group: MountGroup) -> Iterator[str]:
 
 
 def _range(group: MountGroup, field: str) -> str:
-    unit = spoken_unit(field)
-    per_unit = factor(unit, RATE_QUANTITIES[field])
-    low, high = (getattr(rates, field) / per_unit for rates in group.bounds)
-    return f"{low:.4g} to {high:.4g} {unit}"
+    low, high = (spoken_value(rates, field) for rates in group.bounds)
+    return f"{low:.4g} to {high:.4g} {spoken_unit(field)}"

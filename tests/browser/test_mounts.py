@@ -12,7 +12,7 @@ from viser.transforms import SO3
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
-from modeviz.files.schema.scaling import WRITTEN_UNITS
+from modeviz.units import WRITTEN_UNITS
 from modeviz.vehicle.alterations import Alterations, altered
 from modeviz.vehicle.mount_rates import STIFFNESS_FIELDS
 from modeviz.viewer.session.commands.decisions import Load, SetRate

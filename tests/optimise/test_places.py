@@ -22,6 +22,7 @@ from modeviz.optimise.search import prepare_search
 from modeviz.optimise.trade_off import prepare_trade_off, sides
 from modeviz.report.front import front_csv, front_record
 from modeviz.study.study import Study
+from modeviz.vehicle import placement
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import GROUND, Spring
 from modeviz.vehicle.loads import BaseMotion, Force, ResponsePoint
@@ -409,3 +410,22 @@ def test_a_front_has_designs_with_their_mounts_elsewhere():
         [1e3 * x for x in moved]
     )
     assert "A offset x, mm" in front_csv(problem, trade_off, front).splitlines()[0]
+
+
+def test_what_bodies_lack_is_estimated_of_the_design_that_is_found_alone(monkeypatch):
+    told = []
+    estimate = placement.missing_compliance
+    monkeypatch.setattr(
+        placement, "missing_compliance", lambda *given: told.append(1) or estimate(*given)
+    )
+    vehicle = replace(mounted_machine(), **BAND, mode_damping=())
+    group = DesignGroup("E", (), offsets={"x": (-0.1, 0.1)})
+    search = search_of(
+        vehicle, "accelerations", (group,),
+        performance=(Performance(np.array([9.0]), wheel_loads=("firing",)),),
+    )  # fmt: skip
+    search.evaluate(np.array([0.3]))
+    search.value(np.array([0.2]))
+    assert not told
+    search.space.built(np.array([0.3]))
+    assert len(told) == 1

@@ -46,3 +46,12 @@ def test_derivatives_are_those_of_finite_differences(goal):
     k = np.array([getattr(rates[v.group], v.direction) for v in rate_variables(vehicle)])[moves]
     scaled = k * np.array(gradient)[moves], k * np.array(expected)
     assert relative_to_largest(*scaled, over=0).max() < 1e-5
+
+
+def test_the_least_change_is_a_mean_over_the_rates_that_are_tuned():
+    vehicle, doubled = tuned_vehicle(), {}
+    groups = tuple(DesignGroup(group.name) for group in vehicle.mount_groups)
+    for group in vehicle.mount_groups:
+        doubled[group.name] = group.rates.scaled(dict.fromkeys(group.fields, 2.0))
+    goal = prepare_goal(vehicle, Problem("p", groups, goal="change"), vehicle.rates, 20.0)
+    assert goal.value(doubled) == pytest.approx(np.log(2) ** 2, rel=1e-12)

@@ -1,8 +1,13 @@
 """The mount rates of a study: read, set and reset by their names."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 from studied_cabin import cabin_study
+from tuned_vehicle import tuned_vehicle
 
+import modeviz as mv
 from modeviz.errors import VehicleError
 from modeviz.vehicle.mount_rates import MountRates
 
@@ -78,3 +83,18 @@ def test_sets_files_and_what_was_found_are_used_and_reset(tmp_path):
     assert (rates["A.vertical"], rates["B.lateral"]) == (8e5, 1e5)
     with pytest.raises(VehicleError, match=r"unknown rates 'stiff'.*there are original, soft"):
         rates.use("stiff")
+
+
+def test_rates_that_are_not_tuned_are_read_as_the_mounts_have_them():
+    study = mv.Study(tuned_vehicle())
+    assert study.rates["F.damping-lateral"] == 120
+    assert study.rates["F.damping-fore-aft"] == 500
+    assert study.rates["F.rx"] == 200
+    assert study.rates["S.rx"] == 0
+    feet = study.vehicle.mount_group("F")
+    own = replace(feet.mounts[0], damping=np.array([0.0, 7.0, 0.0]))
+    mixed = replace(feet, mounts=(own, *feet.mounts[1:]))
+    groups = tuple(mixed if g is feet else g for g in study.vehicle.mount_groups)
+    others = mv.Study(replace(study.vehicle, mount_groups=groups))
+    with pytest.raises(mv.ModevizError, match="mounts of 'F' each have their own, from 7 to 120 N s/m"):
+        others.rates["F.damping-lateral"]

@@ -30,6 +30,7 @@ from modeviz.fem.matrices import assemble as assemble_mesh
 from modeviz.fem.mesh import ShellSection
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.loads import ResponsePoint
+from modeviz.vehicle.placement import Placement, with_placements
 from modeviz.vehicle.residuals import modal_compliance
 
 WITHIN = 150.0
@@ -150,7 +151,20 @@ def test_the_folder_of_a_vehicle_with_moved_mounts_gives_its_frequencies(tmp_pat
     after = moved(on_a_block(sheet(at(A)), place(A)), beyond(place(B), 0.01, 0.02, 0.03))
     write_vehicle(after, tmp_path / "moved")
     again = read_vehicle(tmp_path / "moved")
-    assert again.notes[: len(after.notes)] == again.remarks == after.notes
+    assert again.notes[: len(after.remarks)] == again.remarks == after.remarks
     assert frequencies(again) == pytest.approx(frequencies(after), rel=1e-9)
     found, expected = (assemble(vehicle).stiffness for vehicle in (again, after))
     np.testing.assert_allclose(found, expected, atol=1e-12 * np.abs(expected).max())
+
+
+def test_what_a_folder_keeps_of_moved_mounts_is_what_bodies_lack_where_they_are_now(tmp_path):
+    few = on_a_block(sheet(at(A)).truncated(30), place(A))
+    once = moved(few, place(B))
+    assert any("mounts 'm' are moved by" in note for note in once.notes)
+    (kept,) = once.remarks
+    assert "residual vectors of its own where mounts 'm' are moved to" in kept
+    write_vehicle(once, tmp_path / "once")
+    again = with_placements(read_vehicle(tmp_path / "once"), {"m": Placement(offset=(0.02, 0.01, 0.0))})
+    (now,) = again.remarks
+    assert "mounts 'm' are moved to" in now
+    assert now != kept

@@ -6,25 +6,7 @@ from typing import Any
 from modeviz.errors import Fault, FaultsError, VehicleError, at_key, unknown
 from modeviz.files.schema.hints import each_annotated
 from modeviz.files.schema.quantities import Quantity
-from modeviz.units import UNITS, QuantityName, factor
-
-WRITTEN_UNITS: Mapping[QuantityName, str] = {
-    "length": "m",
-    "mass": "kg",
-    "inertia": "kg m²",
-    "stiffness": "N/mm",
-    "rotational_stiffness": "N m/rad",
-    "damping": "N s/m",
-    "rotational_damping": "N m s/rad",
-    "force": "N",
-    "torque": "N m",
-    "acceleration": "m/s²",
-    "unbalance": "g m",
-    "speed": "km/h",
-    "roughness": "cm³",
-    "angle": "deg",
-}
-"""The units of the files we write."""
+from modeviz.units import UNITS, WRITTEN_UNITS, QuantityName, factor
 
 BEYOND_ANY_VEHICLE = 1e15
 """In SI: of any quantity."""

@@ -13,13 +13,14 @@ from modeviz.dynamics.modes import RESOLVED_HZ
 from modeviz.optimise.outside import outside_space
 from modeviz.report.comparison import Comparison, ObjectiveValues
 from modeviz.report.optimum import objective_words
-from modeviz.report.rate_fields import listed_fields, with_unit, written_rate
+from modeviz.report.rate_fields import listed_fields, with_unit
 from modeviz.report.space import outside_words, ratio_words
 from modeviz.ride.psd import power_decibels
 from modeviz.text.axes import shown_hz
 from modeviz.text.markup import NONE, change, named_small, note, section, span, table, title
 from modeviz.text.wording import number, percent_change, signed, significant
 from modeviz.vehicle.mount_group import MountGroup
+from modeviz.vehicle.mount_rates import spoken_value
 from modeviz.vehicle.vehicle import Vehicle
 
 LISTED_HZ = 25.0
@@ -100,7 +101,7 @@ def _group_rows(groups: Sequence[MountGroup | None]) -> Iterator[list[str]]:
     first, *others = there = [group for group in groups if group is not None]
     yield [named_small(first.name, first.label)]
     for field in listed_fields(first, *(group.rates for group in others)):
-        rates = [None if group is None else written_rate(group.rates, field) for group in groups]
+        rates = [None if group is None else spoken_value(group.rates, field) for group in groups]
         yield [with_unit(field), *_rate_cells(rates)]
     if len({group.loss_factor for group in there}) > 1:
         yield ["loss factor", *_rate_cells([group and group.loss_factor for group in groups])]

@@ -8,9 +8,8 @@ import numpy as np
 
 from modeviz.analysis.results import Conditions
 from modeviz.dynamics.roles import unit_of_role
-from modeviz.files.schema.scaling import WRITTEN_UNITS
 from modeviz.mounting.paths import By
-from modeviz.units import QuantityName
+from modeviz.units import WRITTEN_UNITS, QuantityName
 from modeviz.vehicle.connections import MOTIONS
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import Road

@@ -20,8 +20,8 @@ from modeviz.files.records.vehicle import VehicleRecord
 from modeviz.files.schema.axes import Turns, turn_vectors
 from modeviz.files.schema.hints import fields_of, is_record
 from modeviz.files.schema.quantities import UNITLESS, FixedUnit, Quantity, Vector
-from modeviz.files.schema.scaling import WRITTEN_UNITS, from_si, to_si
-from modeviz.units import UNITS, QuantityName
+from modeviz.files.schema.scaling import from_si, to_si
+from modeviz.units import UNITS, WRITTEN_UNITS, QuantityName
 
 ROOTS = [VehicleRecord, ProblemFileRecord, RatesFile]
 

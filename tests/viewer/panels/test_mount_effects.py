@@ -1,7 +1,9 @@
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from tuned_vehicle import tuned_vehicle
 
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, solve
@@ -31,6 +33,25 @@ def test_ten_percent_do_a_hundred_times_what_a_thousandth_does():
         x_y_z = 100 * by_ten_percent * (stiffer.rms - softer.rms)[0] / base.rms[0]
         assert effect.lateral_percent == pytest.approx(x_y_z[1], rel=1e-3, abs=1e-5)
         assert effect.vertical_percent == pytest.approx(x_y_z[2], rel=1e-3, abs=1e-5)
+
+
+def test_ten_percent_of_a_damper_are_told_by_what_they_do_to_the_damping_ratio():
+    vehicle = replace(tuned_vehicle(), highest_frequency=20.0, frequency_step=1.0)
+    road = replace(mounted_cabin().roads[0], spectrum=mounted_cabin().roads[0].spectrum)
+    vehicle = replace(vehicle, roads=(road,))
+    prepared = prepare(vehicle)
+    base = solve(prepared, {}, Conditions(road.name, 20.0))
+    mode = int(np.flatnonzero(base.modes.frequency_hz > 1.0)[0])
+    found = effects(vehicle, sensitivity(prepared, base), mode)
+    own, damper = vehicle.rates["S"], found["S", "damping_vertical"]
+    firmer = replace(own, damping_vertical=1.1 * own.damping_vertical)
+    more = solve(prepared, {"S": firmer}, Conditions(road.name, 20.0))
+    change = (more.modes.damping_ratio - base.modes.damping_ratio)[mode]
+    assert abs(change) > 1e-4
+    assert damper.damping_ratio == pytest.approx(change, rel=1e-9)
+    assert damper.frequency_hz == 0
+    assert f"roll ζ {100 * change:+.2f} %" in in_a_sentence(damper, "roll")
+    assert found["E", "vertical"].damping_ratio is None
 
 
 def test_without_a_response_point_nothing_is_said_of_what_is_felt():

@@ -5,7 +5,7 @@ import pytest
 from small_vehicles import tyre, wheel
 from viser.transforms import SO3
 
-from modeviz.files.schema.scaling import WRITTEN_UNITS
+from modeviz.units import WRITTEN_UNITS
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.mount_group import MountGroup

@@ -109,7 +109,8 @@ class Details:
         if base is not None and state.design.rates[self._group.name] != base:
             reset = self._signs.reset_group(state.against)
         felt = [f'<div title="{FELT}">{word} RMS</div>' for word in ("lat.", "vert.") if self._is_felt]
-        return ("+10 %", named(mode, f"Frequency of {mode}"), *felt, "", reset)
+        moved = named(mode, f"Frequency of {mode}, by dampers its damping, percent of critical")
+        return ("+10 %", moved, *felt, "", reset)
 
     def _rows(self, state: State, base: MountRates | None, effects: Effects) -> list[str]:
         fields, rows = self._group.fields, []
@@ -140,7 +141,7 @@ def _cells(effect: Effect | None) -> tuple[str, str, str]:
     if effect is None:
         return "", "", ""
     return (
-        f"{signed(effect.frequency_hz, 2)} Hz",
+        effect.of_mode,
         _judged(effect.lateral_percent),
         _judged(effect.vertical_percent),
     )
