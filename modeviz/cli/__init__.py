@@ -1,7 +1,7 @@
 """The command line.
 
 `modeviz [view|modes|psd|wheels|render|report|optimise|scatter|check] [VEHICLE]`, `modeviz import FILE`,
-`modeviz export [VEHICLE] FILE`, `modeviz new KIND FOLDER`.
+`modeviz serve FOLDER...`, `modeviz export [VEHICLE] FILE`, `modeviz new KIND FOLDER`.
 """
 
 import sys

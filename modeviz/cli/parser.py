@@ -25,6 +25,7 @@ from modeviz.cli.render import RENDER
 from modeviz.cli.report import REPORT
 from modeviz.cli.rigid import RIGID
 from modeviz.cli.scatter import SCATTER
+from modeviz.cli.serve import SERVE
 from modeviz.cli.static import STATIC
 from modeviz.cli.studies.study import STUDY
 from modeviz.cli.token import TOKEN
@@ -34,6 +35,7 @@ from modeviz.errors import ModevizError, unknown
 
 COMMANDS = (
     VIEW,
+    SERVE,
     TOKEN,
     NEW,
     MODES,

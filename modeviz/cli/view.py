@@ -7,8 +7,9 @@ from pathlib import Path
 
 from modeviz.cli.command import Command
 from modeviz.cli.interrupt import ended_by_interrupt, stopped_by_signal
-from modeviz.cli.logs import LogOptions, add_log, logged
+from modeviz.cli.logs import logged
 from modeviz.cli.options import RoadOptions, VehicleOptions, add_rates, add_road
+from modeviz.cli.server import ServerOptions, add_server
 from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
@@ -19,35 +20,13 @@ from modeviz.journal.places import study_path
 from modeviz.journal.study_file import StudyFile
 from modeviz.vehicle.vehicle import Vehicle
 
-DEFAULT_PORT = 8080
-
 
 @dataclass(frozen=True, kw_only=True)
-class ViewOptions(VehicleOptions, RoadOptions, LogOptions):
+class ViewOptions(VehicleOptions, RoadOptions, ServerOptions):
     """What `modeviz view` is asked for."""
 
     what: tuple[Path, ...] = ()
     """A vehicle folder, or the files of one component; none: the pickup."""
-    host: str = "127.0.0.1"
-    """Address to listen on."""
-    port: int = DEFAULT_PORT
-    """0 takes a free one."""
-    public_names: tuple[str, ...] = ()
-    """Under which a proxy makes the page known."""
-    frames: tuple[str, ...] = ()
-    """Origins of pages that may show it in a frame."""
-    proxies: tuple[str, ...] = ()
-    """Addresses of those that are believed in whom they say they ask for."""
-    path_prefix: str = ""
-    """Before the path of every address."""
-    token: str | None = None
-    """Asked of every visitor; None: that of a file, of the environment, or a new one."""
-    token_file: Path | None = None
-    """Holds the token."""
-    has_token: bool = True
-    """Whether a token is asked for at all."""
-    dark: bool = False
-    """Whether the page is dark."""
     state: str | None = None
     """A link to a view, or what stands in one behind "view="."""
 
@@ -117,13 +96,12 @@ def view(options: ViewOptions) -> None:
     vehicle, start = options.with_rates(vehicle)
     vehicle, chosen = options.shown(vehicle)
     link = None if options.state is None else view_in(options.state)
-    with ExitStack() as ending:
+    with logged(options), ExitStack() as ending:
         study = None
         if not options.is_forgetful:
             study = opened_study(options, folder, vehicle)
             ending.callback(study.close)
         bench = Bench(vehicle, start, chosen, link, study)
-        ending.enter_context(logged(options))
         stop = ending.enter_context(stopped_by_signal())
         serve({vehicle.name: bench}, *door, progress("preparing"), around, stop)
 
@@ -148,57 +126,12 @@ def _add_options(command: ArgumentParser) -> None:
     )
     add_rates(command)
     add_road(command)
-    command.add_argument(
-        "--host", help="address to listen on, such as 0.0.0.0 for colleagues (default: this machine)"
-    )
-    command.add_argument("--port", type=int, help=f"default {DEFAULT_PORT}; 0 takes a free one")
-    command.add_argument(
-        "--public-name",
-        action="append",
-        metavar="NAME",
-        dest="public_names",
-        help="under which a proxy makes the page known, such as tool.example.com; may be repeated",
-    )
-    command.add_argument(
-        "--allow-frame",
-        action="append",
-        metavar="ORIGIN",
-        dest="frames",
-        help="of pages that may show this one in a frame, such as https://wiki.example.com (default: "
-        "none may); may be repeated",
-    )
-    command.add_argument(
-        "--trust-proxy",
-        action="append",
-        metavar="ADDRESS",
-        dest="proxies",
-        help="of a proxy, or its network, whose X-Forwarded-For, -Host and -Proto say who asks where; "
-        "may be repeated",
-    )
-    command.add_argument(
-        "--path-prefix",
-        metavar="PATH",
-        help="before every address, such as /bench, behind a proxy that takes it off or leaves it",
-    )
-    token = command.add_mutually_exclusive_group()
-    token.add_argument(
-        "--token",
-        help="asked of every visitor (default: that of the environment's MODEVIZ_TOKEN, or else one "
-        "that is kept, see `modeviz token`); all who are on this machine can read it here",
-    )
-    token.add_argument("--token-file", type=Path, metavar="FILE", help="that holds the token")
-    token.add_argument(
-        "--no-token",
-        action="store_false",
-        dest="has_token",
-        help="let in whoever is on this machine",
-    )
+    add_server(command)
     command.add_argument(
         "--state",
         metavar="LINK",
         help="what is shown first: a link that was copied on the page, or what it has behind view=",
     )
-    add_log(command)
     study = command.add_mutually_exclusive_group()
     study.add_argument(
         "--study",
@@ -212,7 +145,6 @@ def _add_options(command: ArgumentParser) -> None:
         dest="is_forgetful",
         help="forget sessions when the server ends",
     )
-    command.add_argument("--dark", action="store_true", help="dark page")
     command.add_argument(
         "--bodies",
         action="store_true",

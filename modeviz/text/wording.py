@@ -56,6 +56,15 @@ def told_apart(things: Sequence[Labelled]) -> dict[str, str]:
     }
 
 
+def ago(seconds: float) -> str:
+    """Return how long ago something was, in words: "12 min ago"."""
+    for unit, length in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= length:
+            n = int(seconds / length)
+            return f"{n} {'day' if unit == 'days' and n == 1 else unit} ago"
+    return "just now"
+
+
 def file_name(name: str, ending: str) -> str:
     """A name that every file system takes."""
     stem = re.sub(r"[^\w.-]+", "-", name.lower()).strip("-.")

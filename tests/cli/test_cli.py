@@ -272,6 +272,7 @@ NEEDED = {
     IMPORT.name: (["x.unv"], {"files": (Path("x.unv"),)}),
     EXPORT.name: (["x.csv"], {"files": (Path("x.csv"),)}),
     NEW.name: (["cab", "x"], {"kind": "cab", "folder": Path("x")}),
+    "serve": (["x"], {"folders": (Path("x"),)}),
     "study note": (["x", "soft"], {"study": Path("x"), "text": "soft"}),
     "study export": (["x", "y.json"], {"study": Path("x"), "file": Path("y.json")}),
     "study diff": (["x", "y"], {"first": Path("x"), "second": Path("y")}),

@@ -68,6 +68,9 @@ SUBPROTOCOL = f"viser-v{viser.__version__}"
 WHY = "why-no-socket"
 """What a page asks for that cannot open its websocket."""
 
+HEALTH = "/healthz"
+"""What a probe asks for."""
+
 ProcessRequest = Callable[[ServerConnection, Request], Awaitable[Response | None]]
 Guarded = Callable[[PageConnection, Request], Awaitable[Response | None]]
 
@@ -85,6 +88,8 @@ class Door:
     is_framed: bool = False
     """Whether notebooks may show it in a frame, whatever name their server has; it has a token, without
     which a name that was pointed here gets nowhere."""
+    health: Callable[[], Response] = lambda: answer(200)
+    """Answers who asks how the server is: everybody who knows a name of it, and nothing private."""
     guesses: Guesses = field(default_factory=Guesses)
     inside: WeakSet[PageConnection] = field(default_factory=WeakSet)
     """Websockets that may have opened."""
@@ -135,6 +140,8 @@ class Door:
         self, inner: Guarded, connection: PageConnection, request: Request
     ) -> Response | None:
         """Return the answer to a request; None to a websocket that may open."""
+        if urlsplit(request.path).path == HEALTH:
+            return self.refusal(request) or self.health()
         if urlsplit(request.path).path.endswith(f"/{WHY}"):
             return self.refusal(request) or self._why(connection, request)
         if refusal := self.refusal(request) or await self._token_answer(connection, request):

@@ -1,5 +1,6 @@
 """A picture of what moves, drawn without a browser: for where there is none, and no page yet."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,9 +9,10 @@ from PIL import Image, ImageDraw
 from modeviz.report.images import on_color
 from modeviz.shapes.motion import default_amplitude, displacement, vertex_shapes
 from modeviz.shapes.stand_in import drawn_mesh
-from modeviz.shapes.surface import Patch, surface, vertex_areas
+from modeviz.shapes.surface import Patch, Surface, surface, vertex_areas
 from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Body
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.scene.body_view import SEE_THROUGH, is_sheet
 from modeviz.viewer.scene.stage import CARD_FRACTION, DARK, FIELD_OF_VIEW, ISO, LIGHT, box, camera
 from modeviz.viewer.session.answers import Solved
@@ -48,21 +50,33 @@ class Seen:
 def still(solved: Solved, dark: bool, width: int, height: int) -> Image.Image:
     """Return what moves at its largest, seen as a page opens, RGB.
 
-    Triangles are drawn from the furthest to the nearest, each in one shade.
-
     Args:
         solved: what is drawn.
         dark: whether the background is.
         width: pixels.
         height: pixels.
     """
+    return _drawn(_triangles(solved), solved.now.prepared.vehicle, dark, width, height)
+
+
+def still_at_rest(vehicle: Vehicle, dark: bool, width: int, height: int) -> Image.Image:
+    """Return a vehicle as it stands there, which need not be prepared; else as `still`."""
+    bodies = [body for body in vehicle.bodies if drawn_mesh(body)]
+    surfaces = [surface(drawn_mesh(body)) for body in bodies]
+    clear = [[patch.material.opacity for patch in drawn.patches] for drawn in surfaces]
+    triangles = _colored(surfaces, [drawn.vertices for drawn in surfaces], clear)
+    return _drawn(triangles, vehicle, dark, width, height)
+
+
+def _drawn(triangles: Triangles, vehicle: Vehicle, dark: bool, width: int, height: int) -> Image.Image:
+    """Return triangles drawn from the furthest to the nearest, each in one shade."""
     theme = DARK if dark else LIGHT
     whole = round(height / (1 - CARD_FRACTION))  # a page keeps the lowest part of it free
     size = FINER * width, FINER * whole
-    pose = camera(box(solved.now.prepared.vehicle), ISO, width, whole)
+    pose = camera(box(vehicle), ISO, width, whole)
     drawn = on_color(Image.new("RGBA", size), theme.top, theme.bottom)
     draw = ImageDraw.Draw(drawn, "RGBA")
-    seen = _seen(_triangles(solved), *pose, size)
+    seen = _seen(triangles, *pose, size)
     for corners, color in zip(seen.corners.reshape(-1, 6).tolist(), seen.colors.tolist(), strict=True):
         draw.polygon(corners, tuple(color))
     smaller = drawn.resize((width, whole), Image.Resampling.LANCZOS)
@@ -80,11 +94,22 @@ def _triangles(solved: Solved) -> Triangles:
         for body, drawn in zip(bodies, surfaces, strict=True)
     ]
     scale = default_amplitude(shapes, [vertex_areas(s) for s in surfaces], box(vehicle).length)
+    clear = [
+        [_opacity(body, patch, solved) for patch in drawn.patches]
+        for body, drawn in zip(bodies, surfaces, strict=True)
+    ]
+    moved = [d.vertices + scale * shape for d, shape in zip(surfaces, shapes, strict=True)]
+    return _colored(surfaces, moved, clear)
+
+
+def _colored(
+    surfaces: Sequence[Surface], vertices: Sequence[Floats], opacities: Sequence[Sequence[float]]
+) -> Triangles:
+    """Return the triangles of surfaces, with each patch as clear to see as is said of it."""
     corners, colors = [np.zeros((0, 3, 3))], [np.zeros((0, 4))]
-    for body, drawn, shape in zip(bodies, surfaces, shapes, strict=True):
-        moved = drawn.vertices + scale * shape
-        for patch in drawn.patches:
-            color = *patch.material.color, 255 * _opacity(body, patch, solved)
+    for drawn, moved, clear in zip(surfaces, vertices, opacities, strict=True):
+        for patch, opacity in zip(drawn.patches, clear, strict=True):
+            color = *patch.material.color, 255 * opacity
             corners.append(moved[patch.faces])
             colors.append(np.tile(np.array(color, float), (len(patch.faces), 1)))
     return Triangles(np.concatenate(corners), np.concatenate(colors))

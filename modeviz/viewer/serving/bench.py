@@ -61,6 +61,11 @@ class Bench:
         """Of its pages."""
         return f"{self.vehicle.name} · modeviz"
 
+    @property
+    def is_prepared(self) -> bool:
+        """Whether the vehicle is ready."""
+        return self._prepared is not None
+
     @cached_property
     def fingerprint(self) -> Fingerprint:
         """Of the vehicle."""

@@ -25,6 +25,8 @@ from modeviz.viewer.page.one_page import PATHS
 from modeviz.viewer.page.page_file import PageFile
 from modeviz.viewer.page.request_head import query_of
 from modeviz.viewer.serving.bench import Bench
+from modeviz.viewer.serving.health import Health
+from modeviz.viewer.serving.lobby import Lobby
 from modeviz.viewer.serving.open_session import OpenSession
 from modeviz.viewer.serving.review import Review
 from modeviz.viewer.session.opening import Opening
@@ -42,7 +44,14 @@ OPENERS = 4
 """Sessions that are opened at once."""
 
 KEPT = 365 * 86400
-"""s for which a browser remembers its last session."""
+"""s for which a browser remembers its last sessions."""
+
+MOST_LEFT = 6
+"""Sessions of a vehicle that it remembers."""
+
+PICTURE = "/picture"
+ASKED = {"session", "review", "vehicle", "view", "new"}
+"""What an address has that is not that of the start page."""
 
 KEY = r"[A-Za-z0-9_-]{22}"
 
@@ -69,16 +78,21 @@ class Visit:
 class Directory:
     """What is behind a server's front: its vehicles, and the sessions on them."""
 
-    def __init__(self, front: Front, benches: Mapping[str, Bench], dark: bool) -> None:
+    def __init__(
+        self, front: Front, benches: Mapping[str, Bench], dark: bool, has_lobby: bool = False
+    ) -> None:
         """Opens no session yet.
 
         Args:
             front: where pages come in.
             benches: the vehicles, by what addresses call them.
             dark: whether pages are.
+            has_lobby: whether who asks for nothing in particular gets a start page.
         """
         self._front, self._benches, self._dark = front, dict(benches), dark
         self._pages = {name: PageFile(front.door, b.title) for name, b in self._benches.items()}
+        self._lobby = Lobby(front.door, self._benches, dark, self.opened) if has_lobby else None
+        front.door.health = lambda: self.health.response()
         self._lock = threading.Lock()
         self._open: dict[SessionId, OpenSession] = {}
         self._locks: dict[SessionId, tuple[threading.Lock, int]] = {}
@@ -91,8 +105,12 @@ class Directory:
     async def page(self, connection: PageConnection, request: Request) -> Response:
         """Return the page of a session, or the way to one."""
         query = query_of(request)
+        if self._lobby and urlsplit(request.path).path == PICTURE:
+            return await self._in_a_thread(partial(self._lobby.picture, query, self._left(request)))
         if urlsplit(request.path).path not in PATHS:
             return answer(404, NO_PAGE)
+        if self._lobby and not ASKED & query.keys():
+            return await self._in_a_thread(partial(self._lobby.page, request, self._left(request)))
         name = self._vehicle_name(query)
         if name is None:
             return answer(404, NO_VEHICLE)
@@ -102,7 +120,9 @@ class Directory:
             return answer(404, NO_REVIEW if "review" in query else NO_KEY)
         response = self._pages[name].response(request)
         if "session" in query:
-            kept = f"{self._cookie(name)}={query['session']}; HttpOnly; SameSite=Strict"
+            others = [key for key in self._keys(request, name) if key != query["session"]]
+            keys = ".".join([query["session"], *others][:MOST_LEFT])
+            kept = f"{self._cookie(name)}={keys}; HttpOnly; SameSite=Strict"
             response.headers["Set-Cookie"] = f"{kept}; Max-Age={KEPT}"
         return response
 
@@ -119,15 +139,33 @@ class Directory:
             list(closing.map(OpenSession.close, self._open.values()))
         self._watching.join(timeout=1.0)
 
+    def opened(self, session: SessionId) -> OpenSession | None:
+        """Return a session if it is in memory."""
+        return self._open.get(session)
+
+    @property
+    def health(self) -> Health:
+        """How the server is."""
+        sessions, benches = list(self._open.values()), self._benches.values()
+        return Health(
+            vehicles=len(benches),
+            prepared=sum(bench.is_prepared for bench in benches),
+            sessions=len(sessions),
+            pages=sum(len(session.server.get_clients()) for session in sessions),
+            stuck=sum(session.app.session.is_stuck for session in sessions),
+            unsaved=sum(bool(bench.study and bench.study.trouble) for bench in benches),
+            is_stopping=self._ended.is_set(),
+        )
+
     async def _in_a_thread(self, work: Callable[[], Result]) -> Result:
         """Return the result of what may wait for the disk or take long, and would hold others up."""
         return await asyncio.get_running_loop().run_in_executor(self._openers, work)
 
     def _way_to_a_session(self, request: Request, name: str, query: dict[str, str]) -> Response:
         """Return the way to the last session of a browser, or to a new one if it has or wants one."""
-        known = cookies(request).get(self._cookie(name), "")
+        known = self._keys(request, name)
         wants_new = {"new", "view"} & query.keys()
-        key = known if fullmatch(KEY, known) and not wants_new else secrets.token_urlsafe(16)
+        key = known[0] if known and not wants_new else secrets.token_urlsafe(16)
         rest = {key: value for key, value in query.items() if key not in ("new", "vehicle")}
         address = self._address(name, "session", key)
         return answer(303, Location=f"./?{address}{'&' * bool(rest)}{urlencode(rest)}")
@@ -154,8 +192,17 @@ class Directory:
         name = query.get("vehicle", only)
         return name if name in self._benches else None
 
+    def _left(self, request: Request) -> dict[str, list[str]]:
+        """Return the keys of the sessions that a browser left, by vehicle."""
+        return {name: self._keys(request, name) for name in self._benches}
+
+    def _keys(self, request: Request, name: str) -> list[str]:
+        """Return the keys of the sessions of a vehicle that a browser left, the last one first."""
+        given = cookies(request).get(self._cookie(name), "").split(".")
+        return [key for key in given[:MOST_LEFT] if fullmatch(KEY, key)]
+
     def _cookie(self, name: str) -> str:
-        """Return the name of the cookie that holds the last session of a vehicle."""
+        """Return the name of the cookie that holds the last sessions of a vehicle."""
         number = list(self._benches).index(name)
         return f"modeviz{self._front.get_port()}session{number}"
 

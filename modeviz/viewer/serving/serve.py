@@ -23,6 +23,7 @@ def serve(
     progress: Callable[[float], None] | None = None,
     around: Surroundings = NOTHING_AROUND,
     stop: Stop | None = None,
+    is_lazy: bool = False,
 ) -> None:
     """Shows vehicles until interrupted.
 
@@ -35,21 +36,23 @@ def serve(
         progress: told the fraction of the preparation that is done.
         around: the server.
         stop: ends it; if not given, only an exception in the main thread does.
+        is_lazy: whether there is a start page, and a vehicle is made ready once somebody opens it.
 
     Raises:
         ModevizError: the port is in use, the address needs a token, or a road does not go with the
             speed.
     """
     with one_thread(), ExitStack() as ending:
-        title = " · ".join([*(bench.vehicle.name for bench in benches.values()), "modeviz"])
+        names = ", ".join(bench.vehicle.name for bench in benches.values())
+        title = "modeviz" if is_lazy else f"{names} · modeviz"
         front = open_front(host, port, token, title, around)
-        directory = Directory(front, benches, dark)
+        directory = Directory(front, benches, dark, has_lobby=is_lazy)
         ending.callback(directory.close)
         ending.callback(front.close)
         front.open(directory)
-        names = ", ".join(bench.vehicle.name for bench in benches.values())
-        print(f"{names} is at {front.link}  (Ctrl+C ends)", flush=True)
-        (stop or Stop()).wait(partial(_prepare, benches, progress))
+        verb = "are" if len(benches) > 1 else "is"
+        print(f"{names} {verb} at {front.link}  (Ctrl+C ends)", flush=True)
+        (stop or Stop()).wait(None if is_lazy else partial(_prepare, benches, progress))
 
 
 def _prepare(benches: Mapping[str, Bench], progress: Callable[[float], None] | None) -> None:

@@ -130,6 +130,11 @@ class Session:
         return self._answers.prepared
 
     @property
+    def is_stuck(self) -> bool:
+        """Whether it goes on only once a solve ends that hangs."""
+        return self._worker.is_stuck
+
+    @property
     def can_undo(self) -> bool:
         return self._history.can_undo
 

@@ -52,7 +52,7 @@ class Worker(Generic[Job]):
         self._changed = threading.Condition()
         self._waiting: list[Job] = []
         self._at: Job | None = None
-        self._busy = False
+        self._busy = self._is_stuck = False
         self._closed = threading.Event()
         self._due = math.inf
         self._left: list[threading.Thread] = []
@@ -60,6 +60,11 @@ class Worker(Generic[Job]):
         self._thread.start()
         if leave is not None:
             threading.Thread(target=self._watch, name="watch", daemon=True).start()
+
+    @property
+    def is_stuck(self) -> bool:
+        """Whether it waits for a job that hangs, as too many were left behind."""
+        return self._is_stuck
 
     @property
     def is_heard(self) -> bool:
@@ -115,7 +120,8 @@ class Worker(Generic[Job]):
         with self._changed:
             if not self.is_heard:
                 return None
-            self._busy, self._at = False, None
+            self._busy = self._is_stuck = False
+            self._at = None
             self._changed.notify_all()
             self._changed.wait_for(lambda: self._waiting or self._closed.is_set())
             if self._closed.is_set():
@@ -136,6 +142,7 @@ class Worker(Generic[Job]):
                 if is_left:
                     self._left = [*filter(threading.Thread.is_alive, self._left), self._thread]
                     self._thread = self._new_thread()
+                self._is_stuck = not is_left
                 self._due = math.inf  # it is told once
             assert job is not None
             self._leave(job, error, is_left)

@@ -1,0 +1,186 @@
+"""A server of several vehicles: its start page, what a browser finds there, and what probes get."""
+
+import io
+import json
+import re
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from html import unescape
+
+import pytest
+from mounted_cabin import mounted_cabin
+from PIL import Image
+from serving_cabin import key_of, page_at, way
+from session_commands import Alter
+from visitors import TOKEN, get, wait_until
+
+from modeviz.analysis.results import Conditions
+from modeviz.cli import serve as command
+from modeviz.errors import ModevizError
+from modeviz.journal.fingerprint import fingerprint_of
+from modeviz.journal.study_file import StudyFile
+from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.server import open_front
+from modeviz.viewer.serving import lobby
+from modeviz.viewer.serving.bench import Bench
+from modeviz.viewer.serving.directory import Directory
+from modeviz.viewer.session.commands.decisions import Pin, SetRate
+
+NAMES = "first", "second"
+
+
+@contextmanager
+def serving(tmp_path=None, token=None):
+    """A front with two cabins behind it, which are not made ready yet."""
+    with ExitStack() as ending:
+        front = open_front(port=0, token=token and Secret(token))
+        benches = {}
+        for name in NAMES:
+            cabin = replace(mounted_cabin(), name=f"The {name} <i>")
+            study = None
+            if tmp_path:
+                study = StudyFile.open(tmp_path / name, cabin.name, fingerprint_of(cabin))
+                ending.callback(study.close)
+            conditions = Conditions("flat", 20.0)
+            benches[name] = Bench(cabin, cabin.rates, conditions, study=study)
+        directory = Directory(front, benches, dark=False, has_lobby=True)
+        ending.callback(directory.close)
+        ending.callback(front.close)
+        front.open(directory)
+        yield front, directory
+
+
+def start_page(front, cookie=""):
+    status, headers, body = get(front, "/", **({"Cookie": cookie} if cookie else {}))
+    assert status == 200
+    return headers, body.decode()
+
+
+def links(page):
+    return [unescape(link)[1:] for link in re.findall(r'href="([^"]*)"', page) if link[0] == "."]
+
+
+def picture(front, address, cookie=""):
+    status, headers, body = get(front, address, **({"Cookie": cookie} if cookie else {}))
+    assert (status, headers["Content-Type"]) == (200, "image/png")
+    with Image.open(io.BytesIO(body)) as image:
+        assert image.size == lobby.SIZE
+    return body
+
+
+def test_the_start_page_lists_vehicles_with_pictures_and_loads_nothing_else():
+    with serving() as (front, _):
+        headers, page = start_page(front)
+        assert "The first &lt;i&gt;" in page
+        assert "<i>" not in page
+        assert "2 vehicles" in page
+        assert "made ready when it is opened" in page
+        assert "default-src 'none'" in headers["Content-Security-Policy"]
+        assert "frame-ancestors 'none'" in headers["Content-Security-Policy"]
+        assert "script" not in page
+        assert picture(front, "/picture?vehicle=first")
+        assert get(front, "/picture?vehicle=third")[0] == 404
+        assert get(front, "/?vehicle=third")[0] == 404
+        assert {link for link in links(page) if "new" not in link} == {f"/?vehicle={n}" for n in NAMES}
+
+
+def test_a_vehicle_is_made_ready_once_somebody_opens_it():
+    with serving() as (front, directory):
+        path = way(front, "/?vehicle=first")
+        assert not any(bench.is_prepared for bench in directory._benches.values())
+        with page_at(front, path):
+            wait_until(lambda: directory._benches["first"].is_prepared)
+        assert not directory._benches["second"].is_prepared
+        assert "ready" in start_page(front)[1]
+
+
+def visited(front, path):
+    """The cookie of a browser that has opened an address."""
+    return get(front, path)[1]["Set-Cookie"].partition(";")[0]
+
+
+def test_a_browser_finds_the_sessions_that_it_left_and_nobody_else_does(tmp_path):
+    with serving(tmp_path) as (front, directory):
+        path = way(front, "/?vehicle=first")
+        cookie = visited(front, path)
+        with page_at(front, path):
+            wait_until(lambda: directory._open)
+            session = next(iter(directory._open.values())).app.session
+            wait_until(lambda: session.answer)
+            session.do(SetRate("A", "lateral", 1e5))
+            session.do(Pin("Soft <b>"))
+            assert session.wait(60)
+            wait_until(lambda: "2 changes" in start_page(front, cookie)[1])
+            page = start_page(front, cookie)[1]
+            assert "Soft &lt;b&gt;" in page
+            assert path in links(page)
+            moving = picture(front, "/picture?vehicle=first&left=0", cookie)
+            session.do(Alter(mode=session.answer.now.names[8].name))
+            assert session.wait(60)
+            assert picture(front, "/picture?vehicle=first&left=0", cookie) != moving
+        stranger = start_page(front)[1]
+        assert "You left" not in stranger
+        assert key_of(path) not in stranger
+        assert "Soft" not in stranger
+        at_rest = picture(front, "/picture?vehicle=first")
+        for left in ("0", "1", "-1", "x"):
+            assert picture(front, f"/picture?vehicle=first&left={left}") == at_rest
+        # the way to the vehicle leads back, a new session beside it, and both are found
+        assert way(front, "/?vehicle=first", Cookie=cookie) == path
+        new = way(front, "/?vehicle=first&new", Cookie=cookie)
+        assert new != path
+        both = get(front, new, Cookie=cookie)[1]["Set-Cookie"].partition(";")[0]
+        assert way(front, "/?vehicle=first", Cookie=both) == new
+        assert path in links(start_page(front, both)[1])
+
+
+def test_a_session_on_disk_shows_its_newest_picture(tmp_path):
+    with serving(tmp_path) as (front, directory):
+        path = way(front, "/?vehicle=second")
+        cookie, study = visited(front, path), directory._benches["second"].study
+        session = study.session_id(key_of(path))
+        study.begin(session)
+        file = io.BytesIO()
+        Image.new("RGB", (1600, 500), (200, 30, 40)).save(file, "PNG")
+        study.put_picture(session, file.getvalue(), "red")
+        assert study.flush(20)
+        body = picture(front, "/picture?vehicle=second&left=0", cookie)
+        with Image.open(io.BytesIO(body)) as image:
+            assert image.getpixel((320, 200)) == (200, 30, 40)
+
+
+def health(front, **headers):
+    status, _, body = get(front, "/healthz", **headers)
+    return status, json.loads(body) if status != 403 else body
+
+
+def test_a_probe_needs_no_token_and_is_told_nothing_private():
+    with serving(token=TOKEN) as (front, directory):
+        assert get(front, "/")[0] == 403
+        assert get(front, "/picture?vehicle=first")[0] == 403
+        status, told = health(front)
+        assert status == 200
+        assert told.pop("version")
+        nothing = dict.fromkeys(("prepared", "sessions", "pages", "stuck", "unsaved"), 0)
+        assert told == {"status": "ok", "vehicles": 2, **nothing}
+        assert health(front, Host="evil.example")[0] == 403
+        assert health(front, Origin="http://evil.example")[0] == 403
+        directory._ended.set()
+        assert health(front)[0] == 503
+        assert health(front)[1]["status"] == "stopping"
+
+
+def test_a_probe_is_told_of_sessions_that_do_not_go_on():
+    with serving() as (front, directory), page_at(front, way(front, "/?vehicle=first")):
+        wait_until(lambda: health(front)[1]["pages"] == 1)
+        (session,) = directory._open.values()
+        session.app.session._worker._is_stuck = True
+        status, told = health(front)
+        assert (status, told["status"], told["sessions"]) == (503, "stuck", 1)
+
+
+def test_folders_have_names_of_their_own_and_none_is_there_twice(tmp_path):
+    one, other = tmp_path / "a" / "truck", tmp_path / "b" / "truck"
+    assert command.named_folders([one, other]) == {"truck": one, "truck-2": other}
+    with pytest.raises(ModevizError, match="is there twice"):
+        command.named_folders([one, one / ".." / "truck"])
