@@ -32,7 +32,8 @@ http {{
 @contextmanager
 def nginx(folder: Path, servers: str, ports: list[int]) -> Iterator[None]:
     """Runs as long as it lasts; waits until it listens."""
-    program = shutil.which("nginx", path=f"{os.environ['PATH']}:/usr/sbin:/usr/local/sbin")
+    beside = [str(Path("/usr", place)) for place in ("sbin", "local/sbin")]
+    program = shutil.which("nginx", path=os.pathsep.join([os.environ["PATH"], *beside]))
     assert program, "the tests need nginx: install the package nginx-light"
     user = "user root;" if os.geteuid() == 0 else ""  # else it reads no folder of root's
     config = folder / "nginx.conf"
