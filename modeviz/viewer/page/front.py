@@ -3,14 +3,15 @@
 import asyncio
 import errno
 import logging
+import select
 import socket
 import threading
 from contextlib import suppress
 from functools import partial
 from typing import Any, Protocol
+from weakref import WeakValueDictionary
 
-import websockets.asyncio.server
-from websockets.asyncio.server import ServerConnection
+from websockets.asyncio.server import ServerConnection, serve
 from websockets.http11 import Request, Response
 
 from modeviz.errors import ModevizError
@@ -25,8 +26,11 @@ from modeviz.viewer.page.request_head import is_websocket, request_head
 HANDSHAKE_S = 10.0
 """s: how long a client may take to say what it wants."""
 
-SOON = 0.02
-"""s between two looks whether the rest of a request has come."""
+SOON, LATER = 0.02, 0.5
+"""s between two looks whether the rest of a request has come: at first, and at last."""
+
+OPENED_AT_ONCE = 2
+"""Sessions for one client, so that others need not wait for as many as it wants."""
 
 BACKLOG = 100
 
@@ -64,6 +68,8 @@ class Front:
         self._listening = _listening(door.host, port)
         self._loop = asyncio.SelectorEventLoop()
         self._own = Acceptor()
+        self._turns: WeakValueDictionary[str, asyncio.Semaphore] = WeakValueDictionary()
+        """Of clients whose sessions are being opened."""
         self._site: Site
         self._thread = threading.Thread(target=self._run, name="front", daemon=True)
         if door.secret:
@@ -126,7 +132,7 @@ class Front:
             "logger": silent_logger(),
         }
         with self._own.inside():
-            await websockets.asyncio.server.serve(_no_websocket, **options)
+            await serve(_no_websocket, **options)
         tasks: set[asyncio.Task[None]] = set()
         while True:
             try:
@@ -151,7 +157,7 @@ class Front:
             async with asyncio.timeout(HANDSHAKE_S):
                 request = await _peeked(self._loop, connection)
             is_ours = is_websocket(request) and self._is_admitted(connection, request)
-            acceptor = await self._site.acceptor(request) if is_ours else None
+            acceptor = await self._acceptor(connection, address, request) if is_ours else None
         except (OSError, TimeoutError):
             connection.close()
         except BaseException:
@@ -161,6 +167,21 @@ class Front:
             (acceptor or self._own).take(connection)
         finally:
             self.house.arrivals.leave(client)
+
+    async def _acceptor(
+        self, connection: socket.socket, address: str, request: Request
+    ) -> Acceptor | None:
+        """Return what serves a websocket, when it is its client's turn.
+
+        Raises:
+            OSError: the client has left meanwhile.
+        """
+        client = client_of(self.door.around.proxies.asked(address, request.headers).client)
+        turn = self._turns.setdefault(client, asyncio.Semaphore(OPENED_AT_ONCE))
+        async with turn:
+            if _has_left(connection):
+                raise ConnectionResetError("left before its session was opened")
+            return await self._site.acceptor(request)
 
     def _is_admitted(self, connection: socket.socket, request: Request) -> bool:
         """Whether the door lets a request in, whoever is to serve it."""
@@ -186,9 +207,19 @@ async def _peeked(loop: asyncio.AbstractEventLoop, connection: socket.socket) ->
         await came
     finally:
         loop.remove_reader(connection)
+    wait = SOON
     while (request := request_head(connection)) is None:
-        await asyncio.sleep(SOON)
+        await asyncio.sleep(wait)
+        wait = min(2 * wait, LATER)
     return request
+
+
+def _has_left(connection: socket.socket) -> bool:
+    """Whether the other end has closed a connection, of which something is still to be read."""
+    left = select.POLLHUP | select.POLLERR | getattr(select, "POLLRDHUP", 0)
+    poll = select.poll()
+    poll.register(connection, left)
+    return any(events & left for _, events in poll.poll(0))
 
 
 async def _no_websocket(connection: ServerConnection) -> None:

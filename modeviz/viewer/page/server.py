@@ -18,7 +18,7 @@ import viser
 import websockets.asyncio.server
 from viser import _messages
 from viser.infra import ClientId
-from websockets.asyncio.server import ServerConnection
+from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
@@ -238,7 +238,6 @@ def _behind(front: Front, turns: Turns, acceptor: Acceptor) -> Iterator[None]:
             return serve(_reported(handler, house.notices), *args, **{**options, **ours})
 
     with _one_server_at_a_time:
-        serve = websockets.asyncio.server.serve  # not that of another session
         websockets.asyncio.server.serve = inner_serve
         try:
             yield
