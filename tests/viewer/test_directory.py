@@ -145,6 +145,24 @@ def test_a_session_goes_on_where_it_was_left_after_the_server_has_been_restarted
         assert rates_of(front, directory, review, digest_of(key_of(path))) == (left, True)
 
 
+def test_a_session_of_a_later_modeviz_is_left_as_it_is_and_the_page_says_so(tmp_path):
+    file, later = tmp_path / "cabin.modeviz", '{"version": 99, "content": {}}'
+    with serving(file) as (front, directory):
+        path = way(front)
+        name = digest_of(key_of(path))
+        (bench,) = directory._benches.values()
+        bench.study.begin(name)
+        bench.study.look(name, later)
+        moved(front, directory, path)
+        status = directory._open[name].app._status._content.content
+        assert "written by a later modeviz" in status
+        assert "what is done here is not saved" in status
+    with serving(file) as (front, directory):
+        (bench,) = directory._benches.values()
+        assert bench.study.restore(name).state == later
+        assert not bench.study.restore(name).past
+
+
 def test_an_idle_session_goes_to_disk_and_comes_back(tmp_path, monkeypatch):
     monkeypatch.setattr(rules, "IDLE", 0.2)
     monkeypatch.setattr(rules, "LOOKS_EVERY", 0.1)

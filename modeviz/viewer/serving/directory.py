@@ -272,6 +272,11 @@ class Directory:
 def _opening(bench: Bench, visit: Visit) -> Opening:
     """Return what a session opens with; if it is none that was left or linked, the usual and why."""
     try:
-        return bench.left(visit.session) or bench.opening(visit.view)
+        left = bench.left(visit.session)
+    except ModevizError as error:
+        told = f"{error}; it is left as it is, and what is done here is not saved"
+        return replace(bench.opening(), remarks=(told,), is_unread=True)
+    try:
+        return left or bench.opening(visit.view)
     except ModevizError as error:
         return replace(bench.opening(), remarks=(str(error),))

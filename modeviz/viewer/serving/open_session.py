@@ -38,7 +38,7 @@ class OpenSession:
             opening,
             bench.preparations(),
         )
-        if bench.study:
+        if bench.study and not opening.is_unread:
             self.app.record(bench.study, name, lambda: self.server.visitors.acting().name)
         if not opening.past:
             self.app.guide.welcome_first()

@@ -171,11 +171,16 @@ class History:
         return self._future[-1] if self._future else None
 
     def undo(self) -> Accepted | None:
-        """Goes back; None if there was nothing to go back to."""
+        """Goes back; None if there was nothing to go back to.
+
+        Raises:
+            ModevizError: what was there before cannot be read.
+        """
         if not self._past:
             return None
-        change, after = self._past.pop(), self.state
+        change, after = self._past[-1], self.state
         self._go(change.after, change.before)
+        self._past.pop()
         self._future.append(Change(self.state, after, change.author))
         return Accepted("undo", self._future[-1])
 
@@ -183,8 +188,9 @@ class History:
         """Goes forward again; None if nothing was undone."""
         if not self._future:
             return None
-        change, before = self._future.pop(), self.state
+        change, before = self._future[-1], self.state
         self._go(change.before, change.after)
+        self._future.pop()
         self._past.append(Change(before, self.state, change.author))
         return Accepted("redo", self._past[-1])
 

@@ -22,5 +22,7 @@ class Opening:
     """Of pages to come; None: the usual one."""
     runs: tuple[Run, ...] = ()
     """What was computed at length before, the first one first."""
+    is_unread: bool = False
+    """Whether there is a record of the session that cannot be read, and is to be left as it is."""
     remarks: tuple[str, ...] = ()
     """On what is other than it was, sentences without their stops."""

@@ -157,18 +157,24 @@ class State:
             {part.name for part in parts}
             for parts in (vehicle.mount_groups, vehicle.mounts, vehicle.bodies)
         )
+
+        def is_gone(curve: ChartCurve) -> bool:
+            return isinstance(curve, ForceCurve) and curve.mount not in mounts
+
         curves = tuple(
-            ResponseCurve(0, RIDE_DIRECTIONS[i % len(RIDE_DIRECTIONS)])
-            if isinstance(curve, ForceCurve) and curve.mount not in mounts
-            else curve
+            ResponseCurve(0, RIDE_DIRECTIONS[i % len(RIDE_DIRECTIONS)]) if is_gone(curve) else curve
             for i, curve in enumerate(self.charts.curves)
         )
+        engine = self.engine
+        if is_gone(engine.curve):
+            engine = replace(engine, curve=_first_engine(vehicle).curve)
         named = {group: rates for group, rates in self.motion.mode_rates.items() if group in groups}
         looking = replace(
             self,
             motion=replace(self.motion, mode_rates=named),
             group=self.group if self.group in groups else "",
             charts=replace(self.charts, curves=curves),
+            engine=engine,
             look=replace(self.look, hidden=self.look.hidden & bodies),
         )
         return looking.with_known_sets(before, vehicle)

@@ -4,6 +4,7 @@ import dataclasses
 import json
 import random
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from types import NoneType
 from typing import Literal, get_args, get_origin, get_type_hints
@@ -11,9 +12,10 @@ from typing import Literal, get_args, get_origin, get_type_hints
 import numpy as np
 import pytest
 from every_command import ABSORBERS, DECISIONS, LOOKS, ON_THE_WAY, VEHICLE
+from session_commands import Listener
 
 from modeviz.analysis.results import Conditions
-from modeviz.errors import LONGEST, ModevizError
+from modeviz.errors import LONGEST, ModevizError, VehicleError
 from modeviz.files.schema.hints import alternatives
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.absorbers import with_absorbers
@@ -25,6 +27,7 @@ from modeviz.viewer.session.encoding.fit_design import outside_bounds
 from modeviz.viewer.session.encoding.fitting import check_fits, fitted
 from modeviz.viewer.session.encoding.plain import plain_of
 from modeviz.viewer.session.encoding.text import VERSION, text_of, value_of_text
+from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import Charts, ForceCurve, ResponseCurve, State, first_state
 
 FIRST = first_state(VEHICLE, VEHICLE.rates, Conditions("flat", 20.0))
@@ -65,6 +68,26 @@ def test_what_every_command_makes_comes_back_as_it_was_and_fits(state):
     assert plain_of(again) == plain_of(state)  # fields that do not count when states are compared too
     assert text_of(again) == text_of(state)
     check_fits(again, FIRST, VEHICLE, "state")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_whatever_is_done_the_state_of_a_session_fits_its_vehicle(seed):
+    """Else a link to what somebody sees would be refused."""
+    rng = random.Random(seed)
+    session = Session(VEHICLE, FIRST, Listener())
+    commands = [*DECISIONS, *LOOKS, *ON_THE_WAY, *ABSORBERS]
+    of_roof = [looks.ChooseCurve(0, ForceCurve("roof", "z")), looks.ShowBody("roof mass", False),
+               looks.LookAtEngine(curve=ForceCurve("roof", "z")), looks.SelectGroup("roof"),
+               decisions.ToggleLock("roof", "vertical"), decisions.Pin("With roof")]  # fmt: skip
+    for _ in range(60):
+        has_roof = bool(session.state.design.alterations.absorbers)
+        command = rng.choice(commands + of_roof * 2 if has_roof else commands)
+        with suppress(VehicleError):  # an absorber that is there, or is not
+            session.do(command)
+        if rng.random() < 0.2:
+            session.undo()
+        check_fits(session.state, FIRST, VEHICLE, "state")
+    session.close()
 
 
 def anything(hint, rng):

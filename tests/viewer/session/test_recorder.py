@@ -1,9 +1,13 @@
 """A session in a study file: as it was after a restart, with all that can be undone."""
 
+import os
 import random
+import subprocess
+import sys
 import threading
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from every_command import ABSORBERS, DECISIONS, LOOKS, ON_THE_WAY, VEHICLE
@@ -11,11 +15,13 @@ from session_commands import Listener
 
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError
+from modeviz.journal import changes
 from modeviz.journal.fingerprint import Fingerprint, fingerprint_of
 from modeviz.journal.study_file import StudyFile
 from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.session.commands import decisions, looks
 from modeviz.viewer.session.encoding.plain import plain_of
+from modeviz.viewer.session.encoding.text import text_of
 from modeviz.viewer.session.recorded import recorded
 from modeviz.viewer.session.recorder import Recorder
 from modeviz.viewer.session.session import Session
@@ -272,6 +278,69 @@ def test_a_state_of_a_later_modeviz_is_refused(tmp_path):
     with pytest.raises(ModevizError, match="later modeviz"):
         recorded(study, KEY, FIRST, VEHICLE, PRINT.digest)
     study.close()
+
+
+def test_a_step_that_cannot_be_read_is_not_gone_over_and_what_is_shown_stays(bench):
+    for rate in (1e5, 2e5):
+        bench.session.do(decisions.SetRate("A", "lateral", rate))
+        bench.session.do(looks.SelectGroup("A"))
+        bench.session.do(decisions.Pin(f"{rate:g}"))
+    good = bench.session.state
+    bench.recorder.flush(SOON)
+    bench.study.record(
+        KEY, changes.Change("step", "Later", '{"version": 99, "content": {}}', text_of(good))
+    )
+    bench.restart()
+    for _ in range(2):
+        with pytest.raises(ModevizError, match="later modeviz"):
+            bench.session.undo()
+    assert bench.session.state == good
+    assert bench.session.can_undo
+    bench.session.do(decisions.SetRate("B", "lateral", 1e5))
+    bench.session.undo()
+    assert bench.session.state.design == good.design
+
+
+CHILD = """
+import sys
+from pathlib import Path
+from test_recorder import Bench
+from modeviz.viewer.session.commands import decisions
+
+bench = Bench(Path(sys.argv[1]))
+for i in range(1, 10_000):
+    bench.session.do(decisions.Pin(f"v{i}"))
+    bench.session.do(decisions.SetRate("A", "lateral", 1e5 + i))
+    bench.session.do(decisions.SetRate("B", "lateral", 1e5 + i))
+    bench.recorder.flush()
+    print(i, flush=True)
+"""
+
+
+def test_a_session_whose_process_is_killed_is_where_it_was(tmp_path):
+    """At most what was being done in that moment is lost, and all before can be undone."""
+    path, here = tmp_path / "killed.modeviz", Path(__file__).parent
+    folders = os.pathsep.join(map(str, (here, here.parents[1], here.parents[2])))
+    command = [sys.executable, "-c", CHILD, str(path)]
+    environment = {**os.environ, "PYTHONPATH": folders}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run:
+        told = 0
+        while told < 5:
+            told = int(run.stdout.readline())
+        run.kill()
+        told = int((run.stdout.read().split() or [told])[-1])
+    bench = Bench(path)
+    rates = bench.session.state.design.rates
+    reached = round(rates["A"].lateral - 1e5)
+    assert told <= reached <= told + 1
+    assert 1e5 + told <= rates["B"].lateral <= rates["A"].lateral
+    n_undone = 0
+    while bench.session.can_undo:
+        bench.session.undo()
+        n_undone += 1
+    assert 3 * told <= n_undone <= 3 * (told + 1)
+    assert bench.session.state.design == FIRST.design
+    bench.close()
 
 
 TITLES = {

@@ -5,6 +5,7 @@ from functools import partial
 
 import viser
 
+from modeviz.errors import ModevizError
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.viewer.page.handles import assign
@@ -76,3 +77,6 @@ def _go(step: Callable[[bool], None], client: viser.ClientHandle | None) -> None
             ask(client, f"A change of {name}", text, {"Go over it": partial(step, True)})
         else:
             client.add_notification("Not yours", f"{sentence_case(str(refusal))}.", color="orange")
+    except ModevizError as error:
+        if client is not None:
+            client.add_notification("Not possible", str(error), color="red")
