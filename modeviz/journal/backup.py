@@ -42,6 +42,5 @@ def _copy(source: sqlite3.Connection, new: Path) -> None:
     copy = sqlite3.connect(new)
     try:
         source.backup(copy)
-        copy.execute("PRAGMA journal_mode = DELETE")  # one file: nothing lies beside a copy
     finally:
         copy.close()

@@ -30,10 +30,10 @@ def study_record(records: Records) -> Record:
 
     `{"form", "vehicle", "begun", "units": {field: unit}, "sessions": [{the fields of
     `told.session_record`, "vehicle_parts": {part: digest}, "rates", "placements", "pinned": {name:
-    {"rates", "placements"}}, "state", "undo": [{"before", "after"}], "redo": likewise, "notes", "runs",
+    {"rates", "placements"}}, "states", "state", "undo": [{"before", "after"}], "redo", "notes", "runs",
     "pictures": [{"caption", "author", "time", "png_base64"}]}], "notes": those for all, "history": the
     entries of `told.log_record`}`; `rates` are `{group: {field: value}}`, states and records of runs as
-    the session wrote them.
+    the session wrote them; "state", "before" and "after" are places in the list "states".
     """
     study = records.study()
     return {
@@ -98,12 +98,19 @@ def _session(records: Records, line: SessionLine) -> Record:
 
 
 def _states(session: StoredSession) -> Record:
-    undo, redo = (
-        [{"before": _plain(step.before), "after": _plain(step.after)} for step in steps]
-        for steps in (session.past, session.future)
+    """Each state once, and by their places which is the present one and what leads where."""
+    steps = (*session.past, *session.future)
+    now = () if session.state is None else (session.state,)
+    texts = tuple(
+        dict.fromkeys((*now, *(text for step in steps for text in (step.before, step.after))))
     )
-    state = None if session.state is None else _plain(session.state)
-    return {"state": state, "undo": undo, "redo": redo}
+    place = {text: i for i, text in enumerate(texts)}
+    undo, redo = (
+        [{"before": place[step.before], "after": place[step.after]} for step in its]
+        for its in (session.past, session.future)
+    )
+    state = 0 if now else None
+    return {"states": [_plain(text) for text in texts], "state": state, "undo": undo, "redo": redo}
 
 
 def _told(thing: Note | Run | PictureLine) -> Record:

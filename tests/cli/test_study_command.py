@@ -111,7 +111,9 @@ def test_an_export_has_everything_and_no_key(study, tmp_path, capsys):
     (session,) = json.loads(text)["sessions"]
     assert session["rates"]["C2"]["lateral"] == pytest.approx(140)
     assert session["pinned"]["v1"]["rates"]["C2"]["lateral"] == pytest.approx(150)
-    assert (session["state"], len(session["undo"]), len(session["redo"])) == ("state 140", 1, 1)
+    states, (undo,), (redo,) = (session[name] for name in ("states", "undo", "redo"))
+    assert states[session["state"]] == states[undo["after"]] == states[redo["before"]] == "state 140"
+    assert (states[undo["before"]], states[redo["after"]]) == ("state 131", "state 150")
     assert session["notes"][0]["text"] == "too soft\nin roll"
     assert session["runs"][0]["record"] == {"best": 1.3}
     assert session["pictures"][0]["png_base64"] == "iVBORw=="

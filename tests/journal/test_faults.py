@@ -17,7 +17,7 @@ from journal_studies import KEY, change, opened
 
 from benchmarks.kill import kill_often
 from modeviz.errors import ModevizError
-from modeviz.journal import opening, schema
+from modeviz.journal import opening, ownership, schema, writer
 from modeviz.journal.changes import Step
 from modeviz.journal.ownership import lock_path
 from modeviz.journal.records import Records
@@ -199,6 +199,42 @@ def test_a_second_process_is_told_who_has_the_study(path):
     assert not lock_path(path).exists()
 
 
+def test_a_lock_that_its_owner_removes_meanwhile_is_taken_anew(path, monkeypatch):
+    lock, n_taken = ownership._lock, []
+
+    def late(file):
+        if not n_taken:
+            lock_path(path).unlink()
+        n_taken.append(file)
+        lock(file)
+
+    monkeypatch.setattr(ownership, "_lock", late)
+    study = opened(path)
+    assert len(n_taken) == 2
+    with pytest.raises(ModevizError, match="is open already"):
+        opened(path)
+    assert study.close()
+
+
+def test_a_look_that_comes_while_the_one_before_is_written_is_written_too(path, monkeypatch):
+    study, commit = opened(path), writer._commit
+    study.begin(KEY)
+    assert study.flush(5)
+
+    def slow(*arguments):
+        if not seen:
+            seen.append(study.look(KEY, "newest"))
+        commit(*arguments)
+
+    seen = []
+    monkeypatch.setattr(writer, "_commit", slow)
+    study.look(KEY, "before")
+    session = study.restore(KEY)
+    assert session
+    assert session.state == "newest"
+    assert study.close()
+
+
 def test_a_study_that_is_open_twice_in_one_process_is_refused_too(path):
     study = opened(path)
     with pytest.raises(ModevizError, match=f"process {os.getpid()}"):
@@ -269,6 +305,14 @@ def test_a_state_that_is_not_as_written_is_said_and_other_sessions_open(written)
 
 def test_a_later_version_is_refused_and_left_as_it_was(written, monkeypatch):
     monkeypatch.setattr(opening, "VERSION", schema.VERSION - 1)
+    assert "was written by a later modeviz" in refused(written)
+
+
+def test_a_later_version_is_called_so_though_nothing_else_of_it_can_be_read(written):
+    content = bytearray(written.read_bytes())
+    content[60:64] = (schema.VERSION + 1).to_bytes(4, "big")
+    content[4096:] = b"\xa5" * len(content[4096:])
+    written.write_bytes(content)
     assert "was written by a later modeviz" in refused(written)
 
 
