@@ -61,15 +61,10 @@ class Records:
         with self._reading() as connection:
             return stored.restore(connection, session)
 
-    def is_shared(self, session: SessionId) -> bool:
-        """Return whether some review shows a session."""
+    def reviews(self) -> dict[str, SessionId]:
+        """Return the sessions that reviews show which have not ended, by the digests of their keys."""
         with self._reading() as connection:
-            return stored.is_shared(connection, session)
-
-    def reviewed(self, review: SessionId) -> SessionId | None:
-        """Return the session that a review shows; None if there is none, or it has ended."""
-        with self._reading() as connection:
-            return stored.reviewed(connection, review)
+            return stored.reviews(connection)
 
     def history(self, session: SessionId | None = None) -> tuple[past.Entry, ...]:
         """Return what happened, in its order: all of it, or what did in one session."""

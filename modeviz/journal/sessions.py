@@ -105,24 +105,13 @@ def end_reviews(connection: Connection, session: SessionId, now: float) -> None:
     )
 
 
-def is_shared(connection: Connection, session: SessionId) -> bool:
-    """Return whether there is a review of a session that has not ended."""
-    row = connection.execute(
-        "SELECT 1 FROM review JOIN session ON session.id = review.session"
-        " WHERE session.digest = ? AND ended IS NULL",
-        (session,),
-    ).fetchone()
-    return row is not None
-
-
-def reviewed(connection: Connection, review: str) -> SessionId | None:
-    """Return the session that a review shows; None: there is no such review, or it has ended."""
-    row = connection.execute(
-        "SELECT session.digest FROM review JOIN session ON session.id = review.session"
-        " WHERE review.digest = ? AND ended IS NULL",
-        (review,),
-    ).fetchone()
-    return row and row[0]
+def reviews(connection: Connection) -> dict[str, SessionId]:
+    """Return the sessions that reviews show which have not ended, by the digests of their keys."""
+    rows = connection.execute(
+        "SELECT review.digest, session.digest FROM review JOIN session ON session.id = review.session"
+        " WHERE ended IS NULL"
+    )
+    return dict(rows.fetchall())
 
 
 def sessions(connection: Connection) -> tuple[SessionLine, ...]:

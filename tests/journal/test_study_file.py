@@ -102,9 +102,9 @@ def test_a_review_shows_its_session_until_it_ends(path):
     review = study.session_id("a-review-key")
     study.begin(KEY)
     study.share(KEY, review)
-    assert study.reviewed(review) == KEY
+    assert study.reviews() == {review: KEY}
     study.end_reviews(KEY)
-    assert study.reviewed(review) is None
+    assert study.reviews() == {}
     study.close()
 
 

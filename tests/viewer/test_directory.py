@@ -5,7 +5,7 @@ import time
 import pytest
 import viser
 from serving_cabin import key_of, page_at, serving, way
-from visitors import TOKEN, get, knock, own_origin, update, wait_until
+from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin, update, wait_until
 from websockets.exceptions import InvalidStatus
 
 from modeviz.journal.keys import digest_of
@@ -211,3 +211,27 @@ def test_whoever_has_a_review_open_as_the_server_restarts_still_only_looks(tmp_p
             assert session.app.session.state.design.rates == before
             session.server.visitors.stop_sharing()
         assert get(front, link)[0] == 404
+
+
+def test_the_link_of_a_review_opens_that_without_the_token_and_nothing_else():
+    with serving(token=TOKEN) as (front, directory):
+        cookie = get(front, f"/?token={TOKEN}")[1]["Set-Cookie"].split(";")[0]
+        path = way(front, Cookie=cookie)
+        with knock(front, own_origin(front), path, Cookie=cookie) as owner:
+            owner.send(encoded(CAMERA))
+            name = digest_of(key_of(path))
+            wait_until(lambda: name in directory._open)
+            visitors = directory._open[name].server.visitors
+            link = visitors.share().removeprefix(".")
+            status, headers, _ = get(front, link)
+            assert (status, "Set-Cookie" in headers) == (200, False)
+            with page_at(front, link) as looking:
+                assert looking.recv(timeout=20)
+                assert not visitors.there[-1].is_owner
+            session = path.removeprefix("/?")
+            for asked in ("/", path, f"{link}&{session}", f"/x{link[1:]}", "/?review=" + "a" * 22):
+                assert get(front, asked)[0] == 403
+                with pytest.raises(InvalidStatus), knock(front, own_origin(front), asked):
+                    pass
+            visitors.stop_sharing()
+            assert get(front, link)[0] == 403

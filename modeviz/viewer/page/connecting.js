@@ -30,10 +30,12 @@
   const address = () => location.href.split(/[?#]/)[0];
   const tell = (modeviz) => parent !== window && parent.postMessage({ modeviz }, "*");
 
+  function ours() {
+    return [...new URLSearchParams(location.search)].filter(([name]) => OURS.includes(name));
+  }
+
   function visit() {
-    const all = new URLSearchParams(location.search);
-    const ours = [...all].filter(([name]) => OURS.includes(name));
-    return `?${new URLSearchParams([...ours, ...Object.entries(visitor())])}`;
+    return `?${new URLSearchParams([...ours(), ...Object.entries(visitor())])}`;
   }
 
   // Who looks: a key by which the server knows this browser again and nobody else does, and a name.
@@ -80,7 +82,7 @@
     let text = ended || GONE;
     let isGone = true;
     try {
-      const query = new URLSearchParams({ origin: location.origin, subprotocol });
+      const query = new URLSearchParams([["origin", location.origin], ["subprotocol", subprotocol], ...ours()]);
       const address = new URL(why, location.href.split(/[?#]/)[0]);
       const answer = await fetch(`${address}?${query}`, {
         cache: "no-store",

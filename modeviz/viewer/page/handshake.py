@@ -32,6 +32,7 @@ REFUSED_PARAMETERS = ("websocket", "playbackPath")
 """In a link they make the page load a scene, with its scripts, from somewhere else."""
 
 NO_TOKEN = "open the whole link that modeviz printed, with its token"
+NO_REVIEW = "this review has ended: ask who shared it for a new link"
 OTHER_VERSION = "this page is of another version of modeviz: load it again"
 BUSY = "many pages are being opened: this one is tried again"
 TOO_MANY_CONNECTIONS = "your address has more connections than it may"
@@ -90,6 +91,8 @@ class Door:
     which a name that was pointed here gets nowhere."""
     health: Callable[[], Response] = lambda: answer(200)
     """Answers who asks how the server is: everybody who knows a name of it, and nothing private."""
+    lets_look: Callable[[Request], bool] = lambda _: False
+    """Whether a request brings the key of a review in place of the token, and asks for that alone."""
     guesses: Guesses = field(default_factory=Guesses)
     inside: WeakSet[PageConnection] = field(default_factory=WeakSet)
     """Websockets that may have opened."""
@@ -182,7 +185,7 @@ class Door:
             is_refused = path is None or self.refusal(request) is not None
         except ValueError:
             return False
-        return not is_refused and self._has_entered(request, port)
+        return not is_refused and self._has_entered(Request(path or "", request.headers), port)
 
     async def _token_answer(self, connection: PageConnection, request: Request) -> Response | None:
         """The answer to who has no token, or brings it in the link and gets a cookie for it.
@@ -194,7 +197,7 @@ class Door:
         client, has_entered = connection.client, self._has_entered(request, _port(connection))
         given = query_of(request).get("token")
         if not given or is_websocket(request):
-            return None if has_entered else answer(403, NO_TOKEN)
+            return None if has_entered else answer(403, _missing(request))
         if not has_entered and (left := self.guesses.locked(client)):
             return answer(
                 429, "too many wrong tokens from your address", **{"Retry-After": f"{left:.0f}"}
@@ -219,8 +222,9 @@ class Door:
         return self.secret and self.secret.age(given)
 
     def _has_entered(self, request: Request, port: int) -> bool:
-        """Whether a request has the cookie of who has brought the token, if one is asked for."""
-        return self.secret is None or self._age(request, port) is not None
+        """Whether a request has the cookie of who has brought the token, or needs none."""
+        has_cookie = self.secret is None or self._age(request, port) is not None
+        return has_cookie or self.lets_look(request)
 
     def _renewed(
         self, response: Response | None, connection: PageConnection, request: Request
@@ -234,7 +238,7 @@ class Door:
         """Remembers a websocket that opens; the answer if the token has changed meanwhile."""
         with self.lock:
             self.inside.add(connection)
-        return None if self._has_entered(request, _port(connection)) else answer(403, NO_TOKEN)
+        return None if self._has_entered(request, _port(connection)) else answer(403, _missing(request))
 
     def _throw_out(self) -> None:
         """Ends all websockets, as the token has changed: who has brought the new one comes back."""
@@ -260,7 +264,7 @@ class Door:
         if refusal := self.refusal(asked):
             return answer(200, refusal.body.decode())
         if not self._has_entered(request, _port(connection)):
-            return answer(200, NO_TOKEN)
+            return answer(200, _missing(request))
         if query.get("subprotocol") != SUBPROTOCOL:
             return answer(200, OTHER_VERSION)
         if not connection.has_page_place():
@@ -339,6 +343,11 @@ def _port(connection: PageConnection) -> int:
 def _cookie_name(port: int) -> str:
     """Cookies are shared by all ports of a host."""
     return f"modeviz{port}"
+
+
+def _missing(request: Request) -> str:
+    """What somebody is told who may not enter."""
+    return NO_REVIEW if "review" in query_of(request) else NO_TOKEN
 
 
 def _without_token(path: str) -> str:

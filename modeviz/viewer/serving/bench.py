@@ -43,14 +43,15 @@ class Bench:
             study: remembers sessions; without it they end with memory.
 
         Raises:
-            ModevizError: the link is none.
+            ModevizError: the link is none, or the study cannot be read.
         """
         self.vehicle: Vehicle = vehicle
         self.rates: Rates = rates
         self.conditions: Conditions = conditions
         self.study: StudyFile | None = study
         self._link = link
-        self._reviews: dict[SessionId, SessionId] = {}
+        self._reviews: dict[str, SessionId] = study.reviews() if study else {}
+        """Sessions by the digests of the keys that open them to visitors."""
         self._lock = threading.Lock()
         self._prepared: Prepared | None = None
         self._told: list[Progress] = []
@@ -110,22 +111,12 @@ class Bench:
             self.study.end_reviews(session)
 
     def is_shared(self, session: SessionId) -> bool:
-        """Return whether some review's key opens a session.
-
-        Raises:
-            ModevizError: the study cannot be read.
-        """
-        return session in self._reviews.values() or bool(self.study and self.study.is_shared(session))
+        """Return whether some review's key opens a session."""
+        return session in self._reviews.values()
 
     def reviewed(self, key: str) -> SessionId | None:
-        """Return the session that the key of a review opens, if any.
-
-        Raises:
-            ModevizError: the study cannot be read.
-        """
-        review = digest_of(key)
-        known = self._reviews.get(review)
-        return known or (self.study.reviewed(review) if self.study else None)
+        """Return the session that the key of a review opens, if any."""
+        return self._reviews.get(digest_of(key))
 
     def preparations(self) -> Preparations:
         """Return how a session gets the vehicle made ready: as it is from here, altered by itself."""

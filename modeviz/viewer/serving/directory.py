@@ -20,7 +20,7 @@ from modeviz.journal.sessions import SessionId
 from modeviz.viewer.page.acceptor import Acceptor
 from modeviz.viewer.page.connection import PageConnection
 from modeviz.viewer.page.front import Front
-from modeviz.viewer.page.handshake import answer, cookies
+from modeviz.viewer.page.handshake import NO_REVIEW, WHY, answer, cookies
 from modeviz.viewer.page.one_page import PATHS
 from modeviz.viewer.page.page_file import PageFile
 from modeviz.viewer.page.request_head import query_of
@@ -59,7 +59,6 @@ Result = TypeVar("Result")
 
 NO_PAGE = "there is no such page"
 NO_KEY = "this is no session's address: open the link that modeviz printed"
-NO_REVIEW = "this review has ended: ask who shared it for a new link"
 NO_VEHICLE = "there is no such vehicle here: open the link that modeviz printed"
 
 
@@ -98,6 +97,7 @@ class Directory:
         self._locks: dict[SessionId, tuple[threading.Lock, int]] = {}
         """Of sessions that are being opened or closed, with how many threads want them."""
         self._openers = ThreadPoolExecutor(OPENERS, "open session")
+        front.door.lets_look = self._lets_look
         self._ended = threading.Event()
         self._watching = threading.Thread(target=self._watch, name="idle sessions", daemon=True)
         self._watching.start()
@@ -185,6 +185,12 @@ class Directory:
             session = self._benches[name].reviewed(review)
             return Visit(name, session, "", None) if session else None
         return Visit(name, digest_of(key), key, query.get("view")) if fullmatch(KEY, key) else None
+
+    def _lets_look(self, request: Request) -> bool:
+        """Return whether a request is for the page of a review that goes on, and for nothing else."""
+        query, path = query_of(request), urlsplit(request.path).path
+        is_page = path in PATHS or path.endswith(f"/{WHY}")
+        return is_page and "session" not in query and self._visit(query) is not None
 
     def _vehicle_name(self, query: Mapping[str, str]) -> str | None:
         """Return the name of the vehicle an address asks for, the only one if it says none."""
