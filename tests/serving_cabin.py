@@ -22,7 +22,7 @@ from modeviz.viewer.serving.directory import Directory
 def serving(study: Path | None = None, **options) -> Iterator[tuple[Front, Directory]]:
     """The front and what is behind it, remembered in a file if one is named."""
     cabin = mounted_cabin()
-    front = open_front(port=0, **options)
+    front = open_front(**{"port": 0, **options})
     file = study and StudyFile.open(study, cabin.name, fingerprint_of(cabin))
     bench = Bench(cabin, cabin.rates, Conditions("flat", 20.0), study=file)
     with ExitStack() as ending:
