@@ -17,7 +17,8 @@ FIELDS = ("event", "id", "session", "client")
 """Of a record, beside its time, level and text."""
 
 SECRET = re.compile(
-    r"(\w*(?:token|session|review|cookie)\d*)(['\"]?\s*[=:]\s*['\"]?)[^\s&;'\"]+", re.IGNORECASE
+    r"(\w*(?:token|session|review|cookie)\d*|modeviz\d+)(['\"]?\s*[=:]\s*['\"]?)[^\s&;'\"]+",
+    re.IGNORECASE,
 )
 
 

@@ -432,7 +432,7 @@ class App:
         error, name = failed.error, NOT_SOLVED
         text = str(error)
         if not isinstance(error, ModevizError):
-            name = self.server.notices.mistake(error)
+            name = self.server.note_mistake(error)
             hangs = f"{text[:1].upper()}{text[1:]}. " if isinstance(error, StuckError) else ""
             text = f"{hangs}{our_mistake(name)}{BACK if failed.is_back else ''}"
         for client in self.server.get_clients().values():

@@ -12,13 +12,15 @@ from mounted_cabin import mounted_cabin
 from PIL import Image
 from serving_cabin import key_of, page_at, way
 from session_commands import Alter
-from visitors import TOKEN, get, wait_until
+from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin, wait_until
 
 from modeviz.analysis.results import Conditions
 from modeviz.cli import serve as command
 from modeviz.errors import ModevizError
 from modeviz.journal.fingerprint import fingerprint_of
+from modeviz.journal.keys import digest_of
 from modeviz.journal.study_file import StudyFile
+from modeviz.text.log import JsonFormatter
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import open_front
 from modeviz.viewer.serving import lobby
@@ -184,3 +186,24 @@ def test_folders_have_names_of_their_own_and_none_is_there_twice(tmp_path):
     assert command.named_folders([one, other]) == {"truck": one, "truck-2": other}
     with pytest.raises(ModevizError, match="is there twice"):
         command.named_folders([one, one / ".." / "truck"])
+
+
+def test_the_log_names_sessions_and_never_what_opens_them(caplog):
+    with caplog.at_level("INFO", "modeviz"), serving(token=TOKEN) as (front, directory):
+        _, headers, _ = get(front, f"/?token={TOKEN}")
+        entered = headers["Set-Cookie"].partition(";")[0]
+        path = way(front, "/?vehicle=first", Cookie=entered)
+        with knock(front, own_origin(front), path, Cookie=entered) as page:
+            page.send(encoded(CAMERA))
+            wait_until(lambda: health(front)[1]["pages"] == 1)
+            (session,) = directory._open.values()
+            number = session.server.mistake(ValueError(f"asked for {path} with {entered}"))
+        wait_until(lambda: health(front)[1]["pages"] == 0)
+    lines = [JsonFormatter().format(record) for record in caplog.records]
+    told = [json.loads(line) for line in lines]
+    name = digest_of(key_of(path))[:8]
+    of_session = [each["event"] for each in told if each.get("session") == name]
+    assert {"session opened", "page opened", "mistake", "page closed"} <= {*of_session}
+    assert number in [each.get("id") for each in told]
+    secrets = (TOKEN, key_of(path), entered.partition("=")[2])
+    assert not any(secret in line for secret in secrets for line in lines)

@@ -44,14 +44,19 @@ class Notices:
         """Says what happens as it should, for those who keep the log; `fields` as of `text.log`."""
         self._say(logging.INFO, what, event, **fields)
 
-    def mistake(self, error: BaseException) -> str:
-        """Says where we went wrong, once for each place; returns the number it is said under."""
+    def mistake(self, error: BaseException, session: str | None = None) -> str:
+        """Says where we went wrong, once for each place; returns the number it is said under.
+
+        Args:
+            error: what was raised.
+            session: in which, by a name that opens nothing.
+        """
         number = mistake_number(error)
         if self._is_first(self._mistakes, (f"mistake {number}", "happened"), OTHER_MISTAKES):
             text = "".join(traceback.format_exception(error)).rstrip()
             if len(text) > LONGEST:
                 text = f"{text[: LONGEST // 2]}\n…\n{text[-LONGEST // 2 :]}"
-            self._say(logging.ERROR, f"mistake {number}\n{text}", "mistake", id=number)
+            self._say(logging.ERROR, f"mistake {number}\n{text}", "mistake", id=number, session=session)
         return number
 
     def tally(self) -> None:

@@ -54,16 +54,17 @@ Handler = Callable[[ServerConnection], Coroutine[Any, Any, None]]
 class Server(viser.ViserServer):
     """viser's server of one session: its pages come from the front; silent on the terminal."""
 
-    def __init__(self, front: Front, address: str = "") -> None:
+    def __init__(self, front: Front, address: str = "", session: str | None = None) -> None:
         """Waits for pages; see `acceptor`.
 
         Args:
             front: where pages come in.
             address: what a page's address says after the token, such as "&session=…".
+            session: what the log calls it, which opens nothing.
         """
         self.notices: Notices = front.house.notices
         self.acceptor: Acceptor = Acceptor()
-        self._front, self._address = front, address
+        self._front, self._address, self._session = front, address, session
         self._turns = Turns(self._tell_page)
         with _behind(front, self._turns, self.acceptor), _quietly():
             door = front.door
@@ -93,10 +94,18 @@ class Server(viser.ViserServer):
 
     def mistake(self, error: Exception, client: viser.ClientHandle | None = None) -> str:
         """Logs our mistake and tells the page it concerns, or all; returns its number in the log."""
-        number = self.notices.mistake(error)
+        number = self.note_mistake(error)
         for told in self.get_clients().values() if client is None else (client,):
             alert(told, number, "Something went wrong", our_mistake(number))
         return number
+
+    def note_mistake(self, error: Exception) -> str:
+        """Logs our mistake as one of this session; returns its number in the log."""
+        return self.notices.mistake(error, self._session)
+
+    def note(self, what: str, event: str, **fields: str) -> None:
+        """Logs what happens in this session as it should; see `Notices.tell`."""
+        self.notices.tell(what, event, session=self._session, **fields)
 
     def _tell_client(self, client_id: ClientId, error: Exception) -> None:
         self.mistake(error, self.get_clients().get(client_id))
@@ -119,7 +128,7 @@ class Server(viser.ViserServer):
         self._turns.shutdown(wait=False, cancel_futures=True)
 
     def _note_page(self, client: viser.ClientHandle, what: str) -> None:
-        self.notices.tell(f"a page was {what}", f"page {what}", client=f"page {client.client_id}")
+        self.note(f"a page was {what}", f"page {what}", client=f"page {client.client_id}")
 
     def _dismiss(self, why: str) -> None:
         """Closes all connections with a reason, which pages show; waits for nobody who is silent."""

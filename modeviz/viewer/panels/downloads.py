@@ -50,6 +50,6 @@ class Downloads:
             return client.client_id in self._server.get_clients()
 
         try:
-            run(client, title, work, is_there, self._server.notices.mistake)
+            run(client, title, work, is_there, self._server.note_mistake)
         finally:
             self._pages.leave(str(client.client_id))

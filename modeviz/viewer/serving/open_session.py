@@ -11,6 +11,9 @@ from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.session.notifications import Failed
 from modeviz.viewer.session.opening import Opening
 
+DIGITS = 8
+"""Of a session's name in its study that the log has."""
+
 
 class OpenSession:
     """A session that pages can look at."""
@@ -28,7 +31,8 @@ class OpenSession:
             address: of the session, after the token.
             dark: whether the page is.
         """
-        self.server: Server = Server(front, address)
+        self.server: Server = Server(front, address, name[:DIGITS])
+        self.server.note("a session was opened", "session opened")
         self.app: App = App(
             bench.vehicle,
             bench.rates,
@@ -61,6 +65,7 @@ class OpenSession:
     def close(self) -> None:
         """Ends it, has the study remember it, and gives its memory back."""
         self.app.close()
+        self.server.note("a session was closed", "session closed")
 
     def _start(self) -> None:
         try:
