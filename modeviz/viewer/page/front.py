@@ -16,8 +16,9 @@ from websockets.http11 import Request, Response
 
 from modeviz.errors import ModevizError
 from modeviz.viewer.page.acceptor import Acceptor
+from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.connection import House, PageConnection
-from modeviz.viewer.page.handshake import Door, answer
+from modeviz.viewer.page.handshake import Door
 from modeviz.viewer.page.limits import client_of
 from modeviz.viewer.page.links import link, local_link
 from modeviz.viewer.page.notices import Notices

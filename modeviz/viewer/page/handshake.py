@@ -4,10 +4,7 @@ viser 1.1.1 answers everybody, accepts any Origin and obeys links that load othe
 """
 
 import asyncio
-import http
-import ipaddress
 import re
-import socket
 import threading
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
@@ -19,17 +16,16 @@ from websockets import Headers
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
+from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.connection import PageConnection
+from modeviz.viewer.page.cookies import cookies, give_cookie
 from modeviz.viewer.page.forwarded import Asked
 from modeviz.viewer.page.guesses import Guesses
 from modeviz.viewer.page.kept_tokens import LIFE_S, RENEWED_S
+from modeviz.viewer.page.origins import ANCESTORS, Origins
 from modeviz.viewer.page.request_head import is_websocket, query_of
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
-
-LOOPBACK = ("127.0.0.1", "localhost", "::1")
-REFUSED_PARAMETERS = ("websocket", "playbackPath")
-"""In a link they make the page load a scene, with its scripts, from somewhere else."""
 
 NO_TOKEN = "open the whole link that modeviz printed, with its token"
 NO_REVIEW = "this review has ended: ask who shared it for a new link"
@@ -38,27 +34,8 @@ BUSY = "many pages are being opened: this one is tried again"
 TOO_MANY_CONNECTIONS = "your address has more connections than it may"
 TOO_MANY = "there are as many pages open as this server takes: close some"
 
-ANCESTORS = " ".join(
-    [
-        "'self'",
-        *(f"{scheme}://{name}:*" for scheme in ("http", "https") for name in LOOPBACK[:2]),
-        "vscode-webview:",
-        "vscode-file:",
-    ]
-)
-"""Where notebooks are shown, as Content-Security-Policy names them: at our own address, through their
-server, or on this machine. VS Code shows them in a page of its own in one of its window."""
-
-STRICT = "SameSite=Strict"
-FRAMED = "SameSite=None; Secure; Partitioned"
-"""How a cookie is kept in a frame of a page of another name: for that page alone. Browsers take
-127.0.0.1 and localhost for secure, but no other address without TLS."""
-
 ALIVE = "alive.svg"
 """A picture, by which a notebook finds out whether its browser reaches the server and keeps cookies."""
-
-HOST = re.compile(r"(?:\[([0-9a-f:.]+)\]|([\w.-]+))(?::\d+)?", re.ASCII | re.IGNORECASE)
-"""A Host header: an IPv6 address in brackets or a name, and a port."""
 
 ICON = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32">
 <path d="M2 16c5-17 9-17 14 0s9 17 14 0" fill="none" stroke="#2b7cc4" stroke-width="4"/></svg>"""
@@ -108,19 +85,42 @@ class Door:
         """That which a link must carry, if any."""
         return self.secret and self.secret.token
 
+    @property
+    def _origins(self) -> Origins:
+        return Origins(self.host, self.around, self.is_framed and self.token is not None)
+
+    @property
+    def _is_in_frames(self) -> bool:
+        return self.is_framed or bool(self.around.frames)
+
+    def give_cookie(
+        self, connection: PageConnection, response: Response, name: str, value: str, life: float
+    ) -> None:
+        """Has a browser keep a cookie for s, where it shows the page."""
+        give_cookie(response, name, value, life, connection.is_secure, self._is_in_frames)
+
     def guard(self, inner: Guarded) -> ProcessRequest:
         """Return the handshake of a server, with this door before it."""
 
         async def process_request(connection: ServerConnection, request: Request) -> Response | None:
             assert isinstance(connection, PageConnection)
             try:
-                return self._seen_through(connection, request) or await self._response(
+                response = self._seen_through(connection, request) or await self._response(
                     inner, connection, request
                 )
+                return self._at_home(response)
             except ValueError:  # of an address or a header that is none
                 return answer(400, "this request cannot be read")
 
         return process_request
+
+    def _at_home(self, response: Response | None) -> Response | None:
+        """Return an answer that no page of another origin may take a picture or a script from."""
+        if response is not None:
+            _set(response.headers, "X-Content-Type-Options", "nosniff")
+            if not self._is_in_frames:
+                _set(response.headers, "Cross-Origin-Resource-Policy", "same-origin")
+        return response
 
     def _seen_through(self, connection: PageConnection, request: Request) -> Response | None:
         """Makes of a request what it was before proxies; the answer if it can't stay at that."""
@@ -157,26 +157,9 @@ class Door:
         return self._renewed(response, connection, request)
 
     def refusal(self, request: Request) -> Response | None:
-        """The answer to a request from another site or for another site's scene, None to a good one."""
-        hosts, origins = request.headers.get_all("Host"), request.headers.get_all("Origin")
-        if len(hosts) != 1 or not self._is_known(hosts[0]):
-            name = ", ".join(hosts)
-            return answer(
-                403,
-                f"{name} is not a name of this server: if it should be, start it with --public-name",
-            )
-        if (origins or is_websocket(request)) and not self._is_same_site(origins, hosts[0]):
-            return answer(
-                403,
-                "a page of another site may not use this server: this one is at "
-                f"{', '.join(origins) or 'no address'}, and the server is asked as {hosts[0]}; "
-                "a proxy between them has to pass the header Host on, or with --trust-proxy "
-                "X-Forwarded-Host",
-            )
-        for name, _ in parse_qsl(urlsplit(request.path).query, keep_blank_values=True):
-            if name in REFUSED_PARAMETERS:
-                return answer(403, f"the parameter {name!r} is refused")
-        return None
+        """Return the answer to a request from another site, None to a good one."""
+        why = self._origins.refusal(request)
+        return None if why is None else answer(403, why)
 
     def admits(self, request: Request, address: str, port: int) -> bool:
         """Whether a request, from an address at a port, may get more than an answer from this door."""
@@ -207,14 +190,12 @@ class Door:
             return answer(403, NO_TOKEN)
         self.guesses.forget(client)
         entered = answer(303, Location=_without_token(request.path))
-        self._give_cookie(self.secret, connection, entered)
+        self._give_entry(self.secret, connection, entered)
         return entered
 
-    def _give_cookie(self, secret: Secret, connection: PageConnection, response: Response) -> None:
-        cookie = f"{_cookie_name(_port(connection))}={secret.cookie()}; Max-Age={LIFE_S:.0f}; HttpOnly"
-        alone = f"{STRICT}; Secure" if connection.is_secure else STRICT
-        for kept in (alone, FRAMED) if self.is_framed or self.around.frames else (alone,):
-            response.headers["Set-Cookie"] = f"{cookie}; {kept}"
+    def _give_entry(self, secret: Secret, connection: PageConnection, response: Response) -> None:
+        name = _cookie_name(_port(connection))
+        self.give_cookie(connection, response, name, secret.cookie(), LIFE_S)
 
     def _age(self, request: Request, port: int) -> float | None:
         """Return the time since a request's cookie was given out, s; None if it has none that holds."""
@@ -231,7 +212,7 @@ class Door:
     ) -> Response | None:
         """Return an answer with a new cookie, if that of the request is a day old."""
         if response and self.secret and (self._age(request, _port(connection)) or 0.0) > RENEWED_S:
-            self._give_cookie(self.secret, connection, response)
+            self._give_entry(self.secret, connection, response)
         return response
 
     def _admit(self, connection: PageConnection, request: Request) -> Response | None:
@@ -246,6 +227,17 @@ class Door:
             inside = list(self.inside)
         for connection in inside:
             connection.throw_out()
+
+    def policy(self, request: Request) -> str:
+        """Return what a page may do, and who may show it, as Content-Security-Policy says it."""
+        hosts = [request.headers["Host"], *(f"{name}:*" for name in self.around.public_names)]
+        sockets = " ".join(f"ws://{host} wss://{host}" for host in hosts)
+        frames = (*((ANCESTORS,) if self.is_framed else ()), *self.around.frames)
+        ancestors = " ".join(frames) or "'none'"
+        return (
+            f"frame-ancestors {ancestors}; connect-src 'self' {sockets} data: blob:; "
+            "object-src 'none'; base-uri 'none'"
+        )
 
     async def place(self, connection: PageConnection, request: Request) -> Response | None:
         """Return the answer to a websocket of something else than our page, or of one too many."""
@@ -270,69 +262,6 @@ class Door:
         if not connection.has_page_place():
             return answer(200, TOO_MANY)
         return answer(200, BUSY if connection.must_wait() else "")
-
-    def policy(self, request: Request) -> str:
-        """Return what a page may do, and who may show it, as Content-Security-Policy says it."""
-        hosts = [request.headers["Host"], *(f"{name}:*" for name in self.around.public_names)]
-        sockets = " ".join(f"ws://{host} wss://{host}" for host in hosts)
-        frames = (*((ANCESTORS,) if self.is_framed else ()), *self.around.frames)
-        ancestors = " ".join(frames) or "'none'"
-        return (
-            f"frame-ancestors {ancestors}; connect-src 'self' {sockets} data: blob:; "
-            "object-src 'none'; base-uri 'none'"
-        )
-
-    def _is_known(self, host: str) -> bool:
-        """Whether a Host header names this server, so that no foreign name was pointed at it.
-
-        An address cannot be pointed anywhere else, so any will do on a server that is open to others.
-        """
-        match = HOST.fullmatch(host)
-        if match is None:
-            return False
-        name = (match[1] or match[2]).lower()
-        if name in self.around.public_names or (self.is_framed and self.token):
-            return True
-        if name in LOOPBACK or self.host in LOOPBACK:
-            return name in LOOPBACK
-        return name in (self.host, socket.gethostname().lower()) or _is_address(name)
-
-    def _is_same_site(self, origins: list[str], host: str) -> bool:
-        """Whether a request is of a page of the host that it asks, or of a public name of it."""
-        if len(origins) != 1:
-            return False
-        scheme, _, site = origins[0].lower().partition("://")
-        if scheme not in ("http", "https"):
-            return False
-        match = HOST.fullmatch(site)
-        is_public = match is not None and (match[1] or match[2]) in self.around.public_names
-        return site == host.lower() or is_public
-
-
-def answer(status: int, text: str = "", **headers: str) -> Response:
-    """Return an answer of few words."""
-    body = text.encode()
-    common = {
-        "Content-Type": "text/plain; charset=utf-8",
-        "Content-Length": str(len(body)),
-        "Connection": "close",
-        "Referrer-Policy": "no-referrer",
-    }
-    return Response(status, http.HTTPStatus(status).phrase, Headers({**common, **headers}), body)
-
-
-def _is_address(name: str) -> bool:
-    try:
-        ipaddress.ip_address(name)
-    except ValueError:
-        return False
-    return True
-
-
-def cookies(request: Request) -> dict[str, str]:
-    """Return the cookies that come with a request, by name."""
-    pairs = (pair for line in request.headers.get_all("Cookie") for pair in line.split(";"))
-    return {name: value for name, _, value in (pair.strip().partition("=") for pair in pairs)}
 
 
 def _port(connection: PageConnection) -> int:

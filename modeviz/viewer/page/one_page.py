@@ -5,8 +5,9 @@ from urllib.parse import urlsplit
 from websockets.http11 import Request, Response
 
 from modeviz.viewer.page.acceptor import Acceptor
+from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.handshake import Door, answer
+from modeviz.viewer.page.handshake import Door
 from modeviz.viewer.page.page_file import PageFile
 
 PATHS = ("/", "/index.html")

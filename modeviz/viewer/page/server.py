@@ -30,10 +30,11 @@ from modeviz.viewer.page.alerts import alert
 from modeviz.viewer.page.connection import CLOSING_S, PageConnection
 from modeviz.viewer.page.decoding import LARGEST_MESSAGE
 from modeviz.viewer.page.front import HANDSHAKE_S, Front, report, silent_logger
-from modeviz.viewer.page.handshake import LOOPBACK, Door
+from modeviz.viewer.page.handshake import Door
 from modeviz.viewer.page.message_filter import gate_messages
 from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.page.one_page import OnePage
+from modeviz.viewer.page.origins import LOOPBACK
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 from modeviz.viewer.page.tokens import checked_token

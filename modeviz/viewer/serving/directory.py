@@ -18,9 +18,11 @@ from modeviz.errors import ModevizError
 from modeviz.journal.keys import digest_of
 from modeviz.journal.sessions import SessionId
 from modeviz.viewer.page.acceptor import Acceptor
+from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.connection import PageConnection
+from modeviz.viewer.page.cookies import cookies
 from modeviz.viewer.page.front import Front
-from modeviz.viewer.page.handshake import NO_REVIEW, WHY, answer, cookies
+from modeviz.viewer.page.handshake import NO_REVIEW, WHY
 from modeviz.viewer.page.one_page import PATHS
 from modeviz.viewer.page.page_file import PageFile
 from modeviz.viewer.page.request_head import query_of
@@ -122,8 +124,7 @@ class Directory:
         if "session" in query:
             others = [key for key in self._keys(request, name) if key != query["session"]]
             keys = ".".join([query["session"], *others][:MOST_LEFT])
-            kept = f"{self._cookie(name)}={keys}; HttpOnly; SameSite=Strict"
-            response.headers["Set-Cookie"] = f"{kept}; Max-Age={KEPT}"
+            self._front.door.give_cookie(connection, response, self._cookie(name), keys, KEPT)
         return response
 
     async def acceptor(self, request: Request) -> Acceptor | None:

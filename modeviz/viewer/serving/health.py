@@ -7,7 +7,7 @@ from importlib.metadata import version
 
 from websockets.http11 import Response
 
-from modeviz.viewer.page.handshake import answer
+from modeviz.viewer.page.answers import answer
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import pytest
 from visitors import get, wait_until
 
 from modeviz.viewer.page import front as rules
-from modeviz.viewer.page.handshake import answer
+from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.request_head import query_of
 from modeviz.viewer.page.server import open_front
 
