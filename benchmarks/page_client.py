@@ -30,11 +30,28 @@ def wire(kind: str, **fields: Any) -> bytes:
 
 
 def messages(frame: bytes | str) -> list[Message]:
-    """Those in a frame of the server's: two lengths before their compressed msgpack."""
+    """Those in a frame of the server's; arrays in them are numbers of its buffers."""
+    return _content(frame)[0]["messages"]
+
+
+def buffers(frame: bytes | str) -> list[bytes]:
+    """The arrays in a frame of the server's, each of which begins at a multiple of eight bytes."""
+    content, end = _content(frame)
     assert isinstance(frame, bytes)
-    length = int.from_bytes(frame[8:16], "little")
-    content = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + length])
-    return msgspec.msgpack.decode(content)["messages"]
+    found = []
+    for length in content["binaryBufferLengths"]:
+        start = -8 * (-end // 8)
+        end = start + length
+        found.append(frame[start:end])
+    return found
+
+
+def _content(frame: bytes | str) -> tuple[dict[str, Any], int]:
+    """What is in a frame but its arrays, after two lengths and compressed, and where these follow."""
+    assert isinstance(frame, bytes)
+    end = 16 + int.from_bytes(frame[8:16], "little")
+    packed = zstandard.ZstdDecompressor().decompress(frame[16:end])
+    return msgspec.msgpack.decode(packed), end
 
 
 def own_origin(port: int) -> str:

@@ -20,6 +20,7 @@ from playwright.sync_api import ConsoleMessage, Page
 from threadpoolctl import threadpool_limits
 
 from benchmarks.monkey import Monkey
+from benchmarks.screen import is_drawn
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions, Results, solve
 from modeviz.files import builtin_vehicle, read_vehicle
@@ -45,8 +46,6 @@ PATIENCE_S = 120.0
 FAILED = "Not solved"
 """How the notice of an answer that failed begins."""
 
-AGREE_DB = 2.0**-18
-"""Spectra reach the page in single precision: how far 128 dB are rounded."""
 AGREE_MAC = 1e-6
 """What the MAC of drawn and solved shape may miss; the shape travels in 11 bits."""
 
@@ -186,15 +185,9 @@ def _spectra(page: Page, fresh: Results) -> list[str]:
     wrong = []
     for direction in ("lateral", "vertical"):
         curve = power_decibels(fresh.response(0, direction))
-        if not any(_is_drawn(fresh.frequency_hz, curve, chart) for chart in charts):
+        if not any(is_drawn(fresh.frequency_hz, curve, chart) for chart in charts):
             wrong.append(f"no chart shows the {direction} spectrum of a fresh solve as the present one")
     return wrong
-
-
-def _is_drawn(frequency_hz: Floats, curve: Floats, chart: list[list[float]]) -> bool:
-    """Whether a chart, whose last two series are the present one and its peaks, shows a curve."""
-    expected, now = np.interp(chart[0], frequency_hz, curve), np.array(chart[-2], float)
-    return len(now) == len(expected) and np.allclose(now, expected, rtol=0, atol=AGREE_DB)
 
 
 def _shape(page: Page, fresh: Results, mode: str) -> list[str]:
