@@ -28,10 +28,26 @@ def effective_mass(
         position: of the point, (3,), m.
         directions: of `DIRECTIONS`, along which its motion counts.
     """
-    along = [2 - DIRECTIONS.index(direction) for direction in directions]
-    motion = results.prepared.system.motion(body, position)[along] @ results.modes.shapes[:, mode]
-    square = float(motion @ motion)
-    return 1 / square if square > 1 / NO_MASS else np.inf
+    return float(effective_masses(results, mode, body, position[None], [directions])[0, 0])
+
+
+def effective_masses(
+    results: ModalResults, mode: int, body: str, positions: Floats, ways: Sequence[Sequence[str]]
+) -> Floats:
+    """Return `effective_mass` of several points, (n_positions, 3), m, and ways, (n_positions, n_ways).
+
+    Args:
+        results: as of `effective_mass`, as are mode and body.
+        mode: likewise.
+        body: likewise.
+        positions: of the points.
+        ways: of each the directions along which motion counts.
+    """
+    system, shape = results.prepared.system, results.modes.shapes[:, mode]
+    motion = np.array([system.motion(body, place)[:3] @ shape for place in positions])
+    counts = np.array([[axis in directions for axis in DIRECTIONS[::-1]] for directions in ways])
+    square = motion**2 @ counts.T
+    return np.divide(1.0, square, out=np.full_like(square, np.inf), where=square > 1 / NO_MASS)
 
 
 def tuned_absorber(

@@ -41,7 +41,7 @@ def test_an_absorber_is_added_tuned_removed_and_brought_back(app, page, tmp_path
 
     open_folder(page, NAME)
     type_rate(page, NAME, "vertical", "400")  # of its one direction
-    wait_until(page, lambda: app.session.state.design.rates[NAME].fore_aft == 4e5)
+    wait_until(page, lambda: app.session.state.design.rates[NAME].lateral == 4e5)
     solved = app.session.wait_for_answer(SOLVE_S)
     design = solved.state.design
     tuned = altered(mounted_cabin(), design.alterations).with_rates(design.rates)
@@ -58,4 +58,4 @@ def test_an_absorber_is_added_tuned_removed_and_brought_back(app, page, tmp_path
     page.get_by_role("button", name="Undo", exact=True).click()
     wait_for(page, f"{N_FOLDERS} === 3 && {BLOCK}")
     assert app.session.state.design.alterations.absorbers == (absorber,)
-    assert app.session.state.design.rates[NAME].fore_aft == 4e5
+    assert app.session.state.design.rates[NAME].lateral == 4e5

@@ -1,16 +1,17 @@
 """An absorber before it is added: where it is to sit, and how it is tuned to the mode shown."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import count
 from typing import Any
 
 import numpy as np
 
-from modeviz.analysis.absorbers import effective_mass, tuned_absorber
+from modeviz.analysis.absorbers import effective_masses, tuned_absorber
 from modeviz.errors import VehicleError
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.bodies import Body, RigidBody
 from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
@@ -33,9 +34,10 @@ Point = tuple[float, float, float]
 class AbsorberDraft:
     """An absorber to be; what is None follows the mode that is shown."""
 
-    body: str
-    position: Point
-    """m."""
+    body: str | None = None
+    """None: the one with most of the mode's kinetic energy."""
+    position: Point | None = None
+    """m; None: the one of `places` that moves most."""
     directions: tuple[str, ...] | None = None
     """None: the one along which the place moves most."""
     mass: float | None = None
@@ -43,22 +45,25 @@ class AbsorberDraft:
 
     def proposed(self, solved: Solved) -> "Proposal":
         """Return it tuned to the mode of an answer, as far as it follows it."""
-        place, found = np.array(self.position), solved.followed
-
-        def moved(directions: tuple[str, ...]) -> float:
-            return effective_mass(solved.now, found.mode, self.body, place, directions)
-
-        directions = self.directions or min(((d,) for d in DIRECTIONS), key=moved)
-        mass = moved(directions)
+        vehicle, found = solved.now.prepared.vehicle, solved.followed
+        body = self.body or most_moving_body(solved)
+        known = [self.position] if self.position else [*places(vehicle, body).values()]
+        ways = [self.directions] if self.directions else [(d,) for d in DIRECTIONS]
+        moved = effective_masses(solved.now, found.mode, body, np.array(known or [(0, 0, 0)]), ways)
+        place, way = np.unravel_index(np.argmin(moved), moved.shape)
+        mass = float(moved[place, way])
         usual = _rounded(USUAL_SHARE * mass) if np.isfinite(mass) else None
-        return Proposal(self, found.name.spoken, directions, mass, self.mass or usual)
+        position = known[place] if known else (0.0, 0.0, 0.0)
+        return Proposal(body, position, found.name.spoken, ways[way], mass, self.mass or usual)
 
 
 @dataclass(frozen=True)
 class Proposal:
     """A draft, and what it would be tuned to."""
 
-    draft: AbsorberDraft
+    body: str
+    position: Point
+    """m."""
     mode: str
     """What the mode is called."""
     directions: tuple[str, ...]
@@ -79,21 +84,22 @@ class Proposal:
         Raises:
             VehicleError: the mode does not move its place, or it cannot be.
         """
-        draft = self.draft
         if self.mass is None:
             raise VehicleError(f"absorber {name!r}: mass: missing, for {self.mode} hardly moves there")
         now, mode = solved.now, solved.followed.mode
-        place = np.array(draft.position)
-        tuned = tuned_absorber(now, mode, name, draft.body, place, self.mass, self.directions)
+        place = np.array(self.position)
+        tuned = tuned_absorber(now, mode, name, self.body, place, self.mass, self.directions)
         hz, ratio = _rounded(tuned.frequency_hz), _rounded(tuned.damping_ratio)
         return Absorber(
-            name, draft.body, draft.position, self.mass, hz, ratio, directions=self.directions
+            name, self.body, self.position, self.mass, hz, ratio, directions=self.directions
         )
 
 
-def first_draft(vehicle: Vehicle, body: str) -> AbsorberDraft:
-    """Return what the form opens with: at the first place of a body."""
-    return AbsorberDraft(body, next(iter(places(vehicle, body).values()), (0.0, 0.0, 0.0)))
+def most_moving_body(solved: Solved) -> str:
+    """Return the body, but absorbers, that has most of the shown mode's kinetic energy."""
+    shares, mode = solved.now.kinetic_energy, solved.followed.mode
+    bodies = carrying_bodies(solved.now.prepared.vehicle)
+    return max((body.name for body in bodies), key=lambda name: shares[name][mode])
 
 
 def places(vehicle: Vehicle, body: str) -> dict[str, Point]:
@@ -132,17 +138,16 @@ def _rounded(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
 
 
-def placed_in_mm(draft: AbsorberDraft, millimetres: Point) -> AbsorberDraft:
-    """Return a draft at another place, mm; coordinates that are the same to what a box shows stay."""
-    old = in_mm(draft)
+def from_mm(position: Point, millimetres: Point) -> Point:
+    """Return another place, mm, in m; coordinates that are the same to what a box shows stay."""
     x, y, z = (
         before if new == shown else new / 1e3
-        for before, shown, new in zip(draft.position, old, millimetres, strict=True)
+        for before, shown, new in zip(position, in_mm(position), millimetres, strict=True)
     )
-    return replace(draft, position=(x, y, z))
+    return x, y, z
 
 
-def in_mm(draft: AbsorberDraft) -> Point:
-    """Return the place of a draft in mm, as a box shows it."""
-    x, y, z = (round(1e3 * value, 1) for value in draft.position)
+def in_mm(position: Point) -> Point:
+    """Return a place in mm, as a box shows it."""
+    x, y, z = (round(1e3 * value, 1) for value in position)
     return x, y, z

@@ -19,11 +19,11 @@ from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.mounts.absorber_draft import (
     ALONG,
     AbsorberDraft,
+    Point,
     Proposal,
-    first_draft,
     free_absorber_name,
+    from_mm,
     in_mm,
-    placed_in_mm,
     places,
 )
 from modeviz.viewer.session.answers import Solved
@@ -48,25 +48,27 @@ class AbsorberForm:
         self._write_back = WriteBack()
         labels = told_apart(carrying_bodies(session.vehicle))
         called = {name: label for label, name in labels.items()}
-        self.state: AbsorberDraft = first_draft(session.vehicle, session.state.rigid.body)
+        self._first = next(iter(called))
+        self.state: AbsorberDraft = AbsorberDraft()
         self._proposal: Proposal | None = None
         with gui.add_folder("Add an absorber", expand_by_default=False):
             body = gui.add_dropdown(
                 "Body",
                 tuple(labels),
-                initial_value=called[self.state.body],
-                hint="What the absorber sits on: a mass on a spring, tuned to a mode",
+                initial_value=called[self._first],
+                hint="What the absorber sits on: a mass on a spring, tuned to a mode. First "
+                "that with most of its energy, until it is chosen",
             )
             self._at = gui.add_dropdown(
                 "At",
                 self._offered(),
                 initial_value=self._place_name(self.state),
                 hint="A response point, a mount's end or an attachment of the body, or its centre of "
-                "gravity; any other place by its coordinates",
+                "gravity; any other place by its coordinates. First the one that moves most",
             )
             place = gui.add_vector3(
                 "x y z, mm",
-                in_mm(self.state),
+                in_mm(self._position),
                 step=10.0,
                 hint="Along the vehicle's axes; on a flexible body near its nodes",
             )
@@ -98,15 +100,15 @@ class AbsorberForm:
             Binding(
                 body,
                 self,
-                lambda draft: called[draft.body],
-                lambda label: self._put(first_draft(session.vehicle, labels[label])),
+                lambda _: called[self._body],
+                lambda label: self._put(AbsorberDraft(labels[label])),
             ),
             Binding(self._at, self, self._place_name, self._take_place),
             Binding(
                 place,
                 self,
-                in_mm,
-                lambda mm: self._put(placed_in_mm(self.state, mm)),
+                lambda _: in_mm(self._position),
+                lambda mm: self._put_at(from_mm(self._position, mm)),
                 self._write_back,
                 typed=True,
             ),
@@ -150,7 +152,7 @@ class AbsorberForm:
             solved = self._solved()
             name = free_absorber_name(self._session.vehicle)
             self._session.do(AddAbsorber(self.state.proposed(solved).made(solved, name)))
-            self._put(replace(self.state, mass=None))
+            self._put(AbsorberDraft())
         except ModevizError as error:
             if client:
                 client.add_notification(
@@ -169,13 +171,29 @@ class AbsorberForm:
         self._follow()
 
     def _take_place(self, name: str) -> None:
-        found = places(self._session.vehicle, self.state.body).get(name)
+        found = places(self._session.vehicle, self._body).get(name)
         if found is not None:
-            self._put(replace(self.state, position=found))
+            self._put_at(found)
 
-    def _place_name(self, draft: AbsorberDraft) -> str:
-        known = places(self._session.vehicle, draft.body)
-        return next((name for name, place in known.items() if place == draft.position), ELSEWHERE)
+    def _put_at(self, position: Point) -> None:
+        """Puts it to a place of the body that is shown, which it no longer leaves."""
+        self._put(replace(self.state, body=self._body, position=position))
+
+    @property
+    def _body(self) -> str:
+        return self._proposal.body if self._proposal else self.state.body or self._first
+
+    @property
+    def _position(self) -> Point:
+        """Where it is, m; before the first answer at the first place."""
+        if self._proposal is not None:
+            return self._proposal.position
+        known = places(self._session.vehicle, self._body).values()
+        return self.state.position or next(iter(known), (0.0, 0.0, 0.0))
+
+    def _place_name(self, _: AbsorberDraft) -> str:
+        known = places(self._session.vehicle, self._body)
+        return next((name for name, place in known.items() if place == self._position), ELSEWHERE)
 
     def _take_share(self, percent: float) -> None:
         moved = self._proposal.moved if self._proposal else float("inf")
@@ -184,7 +202,7 @@ class AbsorberForm:
         self._put(replace(self.state, mass=percent / 100 * moved))
 
     def _offered(self) -> tuple[str, ...]:
-        return (*places(self._session.vehicle, self.state.body), ELSEWHERE)
+        return (*places(self._session.vehicle, self._body), ELSEWHERE)
 
     def _along(self, draft: AbsorberDraft) -> str:
         known = draft.directions or (self._proposal and self._proposal.directions)

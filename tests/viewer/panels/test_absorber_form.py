@@ -1,0 +1,42 @@
+"""Where the form for absorbers puts one, and that it follows the mode shown until somebody chooses."""
+
+import numpy as np
+from mounted_cabin import mounted_cabin
+from opened_app import SOON
+
+from modeviz.analysis.absorbers import effective_mass
+from modeviz.vehicle.mount_rates import DIRECTIONS
+from modeviz.viewer.panels.mounts.absorber_draft import AbsorberDraft, places
+from modeviz.viewer.session.commands.looks import ShowMode
+
+
+def proposal_for(app, mode):
+    app.session.do(ShowMode(mode, mounted_cabin().rates))
+    solved = app.session.wait_for_answer(SOON)
+    assert solved.followed.name.name == mode
+    return app._mounts._form._proposal, solved
+
+
+def test_it_opens_where_the_mode_shown_moves_most_and_follows_it_until_somebody_chooses(opened):
+    app = opened(mounted_cabin())
+    form = app._mounts._form
+    vehicle, modes = mounted_cabin(), [name.name for name in app.session.answer.now.names]
+    shown = [name for name in modes if not name.startswith("free")][-4:]
+    for name in shown:
+        proposal, solved = proposal_for(app, name)
+        shares = solved.now.kinetic_energy
+        mode = solved.followed.mode
+        assert shares[proposal.body][mode] == max(share[mode] for share in shares.values())
+        every = [
+            effective_mass(solved.now, mode, proposal.body, np.array(place), (direction,))
+            for place in places(vehicle, proposal.body).values()
+            for direction in DIRECTIONS
+        ]
+        assert proposal.moved == min(every)
+        assert proposal.share == np.float64(proposal.mass / proposal.moved)
+        assert form._at.value in places(vehicle, proposal.body)
+    form._put(AbsorberDraft("chassis"))
+    chosen = [proposal_for(app, name)[0].body for name in shown]
+    assert chosen == ["chassis"] * len(shown)
+    form._put_at((1.0, 0.0, 0.5))
+    assert {proposal_for(app, name)[0].position for name in shown} == {(1.0, 0.0, 0.5)}
