@@ -41,7 +41,7 @@ def open_solved_cabin(server: Server, cabin: Vehicle | None = None) -> Iterator[
 @contextmanager
 def listening(server: Server) -> Iterator[Connection]:
     """A websocket of a page that is open already, and has been told all there is."""
-    with open_websocket(server.get_port()) as socket:
+    with open_websocket(server.get_port(), "") as socket:
         socket.send(encoded(CAMERA))  # who says nothing for half a minute is closed
         n_bytes(socket)
         yield socket

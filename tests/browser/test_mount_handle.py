@@ -1,6 +1,5 @@
 """Mounts dragged in the scene of a real page."""
 
-from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +14,7 @@ from modeviz.analysis.results import solve
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.placement import Placement
+from modeviz.viewer.scene.mount_handle import SIZE_PX
 from modeviz.viewer.session.commands.decisions import DragMounts
 
 HANDLE = "/mount handle"
@@ -24,11 +24,27 @@ ON_PAGE = """([name, along]) => {
   const { camera, canvas, nodeRefFromName } = window.__viserMutable;
   const node = nodeRefFromName[name];
   node.updateWorldMatrix(true, false);
-  const place = node.localToWorld(camera.position.clone().set(along, 0, 0)).project(camera);
+  const vector = () => camera.position.clone();
+  const root = node.getWorldPosition(vector());
+  const axis = node.localToWorld(vector().set(1, 0, 0)).sub(root).normalize();
+  const view = root.clone().sub(camera.position).normalize();
+  const seen = Math.sqrt(1 - axis.dot(view) ** 2);
   const { left, top, width, height } = canvas.getBoundingClientRect();
-  return [left + (width * (1 + place.x)) / 2, top + (height * (1 - place.y)) / 2];
+  const onPage = (place) => {
+    const { x, y } = place.clone().project(camera);
+    return [left + (width * (1 + x)) / 2, top + (height * (1 - y)) / 2];
+  };
+  const [x, y] = onPage(root);
+  const [to_x, to_y] = onPage(root.clone().addScaledVector(axis, 1e-3));
+  const step = (along * seen) / Math.hypot(to_x - x, to_y - y);
+  return [x + step * (to_x - x), y + step * (to_y - y)];
 }"""
-"""Where a point on the first arrow of the handle is on the page."""
+"""Where a point on the first arrow of the handle is on the page, so many pixels from its root as it is
+long when it is seen from the side."""
+
+
+OFF_PX = 5
+"""How far beside the middle of an arrow's head a hand may take hold of it."""
 
 
 @pytest.fixture(scope="module")
@@ -45,15 +61,16 @@ def page(app, server, open_page):
     return page
 
 
-def drag_along_x(page, length):
-    """Drags the handle by its first arrow as far as that is long, once the camera rests."""
+def drag_along_x(page):
+    """Drags the handle by its first arrow's head as far as that is long, once the camera rests."""
     before = None
-    while (ends := [page.evaluate(ON_PAGE, [HANDLE, x]) for x in (0.7 * length, 0.0)]) != before:
+    while (ends := [page.evaluate(ON_PAGE, [HANDLE, x]) for x in (0.82 * SIZE_PX, 0.0)]) != before:
         before = ends
         draw_on(page)
     tip, root = map(np.array, ends)
+    aside = np.array([tip[1] - root[1], root[0] - tip[0]])
+    tip = tip + OFF_PX * aside / np.linalg.norm(aside)  # no hand hits its middle
     page.mouse.move(*tip)
-    draw_on(page, 5)  # the arrow lights up
     page.mouse.down()
     for part in np.linspace(0, 1, 9)[1:]:
         page.mouse.move(*(tip + part * (tip - root)))
@@ -83,12 +100,8 @@ def test_mounts_dragged_in_the_scene_give_what_a_folder_with_that_place_gives(ap
     marker = "/mounts/A -0.5"
     assert given == pytest.approx(wait_for(page, PLACE, name=marker))
     handle = app.scene._handle
-    for _ in range(3):  # a page that draws slowly may not have heard that the pointer is there
-        drag_along_x(page, handle._handle.scale)
-        with suppress(AssertionError):
-            wait_until(page, lambda: app.session.can_undo, seconds=10)
-            break
-    wait_until(page, lambda: not handle._is_dragged)
+    drag_along_x(page)
+    wait_until(page, lambda: app.session.can_undo and not handle._is_in_hand)
     assert app.session.can_undo
     assert app.session.wait(SOLVE_S)
     offset = app.session.state.design.alterations.placement("A").offset
@@ -111,6 +124,20 @@ def test_mounts_dragged_in_the_scene_give_what_a_folder_with_that_place_gives(ap
     assert app.session.answer.now.modes.frequency_hz == pytest.approx(before.modes.frequency_hz)
     for name in (HANDLE, marker):
         wait_for(page, f"Math.abs({PLACE}[0] - a.x) < 1e-6", name=name, x=given[0])
+
+
+def test_the_handle_is_as_large_where_the_vehicle_is_far_away(app, page):
+    for client in app.server.get_clients().values():
+        client.camera.position = np.array(client.camera.look_at) + 6 * (
+            np.array(client.camera.position) - client.camera.look_at
+        )
+    drag_along_x(page)
+    wait_until(page, lambda: app.session.can_undo and not app.scene._handle._is_in_hand)
+    offset = app.session.state.design.alterations.placement("A").offset
+    assert offset[0] > 1.0  # m, of what is some 15 m away
+    assert offset[1:] == pytest.approx((0, 0), abs=1e-6)
+    app.session.undo()
+    assert app.session.wait(SOLVE_S)
 
 
 def test_a_move_is_a_small_message(app, server):

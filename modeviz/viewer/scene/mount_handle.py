@@ -15,8 +15,11 @@ from modeviz.vehicle.placement import Placement, mirrored_mounts
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.session.worker import Worker
 
-SIZE = 0.08
-"""Length of its arrows, as a part of the vehicle's."""
+SIZE_PX = 90.0
+"""Length of its arrows on the page, wherever the camera is: a hand is as large for every vehicle."""
+
+LINE_PX = 4.0
+"""Width of its lines; a pointer takes hold of some 9 pixels to either side of an arrow."""
 
 OFFSET_DECIMALS, ANGLE_DECIMALS = 5, 2
 """Of m and of degrees: no hand is as steady."""
@@ -42,7 +45,6 @@ class MountHandle:
     def __init__(
         self,
         scene: viser.SceneApi,
-        length: float,
         on_drag: Callable[[Dragged], None],
         mistake: Callable[[Exception], object],
         has_control: Callable[[int], bool],
@@ -51,7 +53,6 @@ class MountHandle:
 
         Args:
             scene: of the page.
-            length: of the vehicle, m.
             on_drag: told where it was dragged to, in a thread; places that were overtaken are not.
             mistake: told what that raises.
             has_control: whether a page may drag it on, and is there at all.
@@ -63,7 +64,7 @@ class MountHandle:
         self._dragged_by: int | None = None
         """The page."""
         self._handle = scene.add_transform_controls(
-            "/mount handle", SIZE * length, line_width=3.0, depth_test=False, visible=False
+            "/mount handle", SIZE_PX, line_width=LINE_PX, fixed=True, depth_test=False, visible=False
         )
         self._handle.on_update(self._moved)
 

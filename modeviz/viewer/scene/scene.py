@@ -130,8 +130,7 @@ class Scene:
         has_control: Callable[[int], bool],
     ) -> None:
         """Lets pages drag the mounts of a group by a handle, where it is wanted; as `MountHandle`."""
-        length = self._box.length
-        self._handle = MountHandle(self._server.scene, length, on_drag, mistake, has_control)
+        self._handle = MountHandle(self._server.scene, on_drag, mistake, has_control)
 
     def place(self, state: State) -> None:
         """Draws mounts where a state has them, and the handle of the selected group if it is wanted."""
