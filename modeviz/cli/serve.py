@@ -13,12 +13,11 @@ from modeviz.cli.interrupt import ended_by_interrupt, stopped_by_signal
 from modeviz.cli.logs import logged
 from modeviz.cli.options import RoadOptions
 from modeviz.cli.server import ServerOptions, add_server
+from modeviz.cli.studies.kept import kept_study
 from modeviz.cli.terminal import remark
 from modeviz.errors import ModevizError
 from modeviz.files import read_vehicle
-from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.places import study_path
-from modeviz.journal.study_file import StudyFile
 
 if TYPE_CHECKING:
     from modeviz.viewer.serving.bench import Bench
@@ -84,8 +83,7 @@ def _bench(folder: Path, is_forgetful: bool, ending: ExitStack) -> "Bench":
     vehicle, conditions = RoadOptions().shown(own)
     study = None
     if not is_forgetful:
-        study = StudyFile.open(study_path(folder), vehicle.name, fingerprint_of(vehicle))
-        ending.callback(study.close)
+        study = ending.enter_context(kept_study(study_path(folder), vehicle))
     return Bench(vehicle, vehicle.rates, conditions, study=study)
 
 

@@ -10,15 +10,13 @@ from modeviz.cli.interrupt import ended_by_interrupt, stopped_by_signal
 from modeviz.cli.logs import logged
 from modeviz.cli.options import RoadOptions, VehicleOptions, add_rates, add_road
 from modeviz.cli.server import ServerOptions, add_server
+from modeviz.cli.studies.kept import kept_study
 from modeviz.cli.terminal import progress, remark
 from modeviz.errors import ModevizError
 from modeviz.files import builtin_vehicle
 from modeviz.formats.mounts.imported import check_no_mounts
 from modeviz.formats.reading import are_results, check_are_read
-from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.places import study_path
-from modeviz.journal.study_file import StudyFile
-from modeviz.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,21 +97,11 @@ def view(options: ViewOptions) -> None:
     with logged(options), ExitStack() as ending:
         study = None
         if not options.is_forgetful:
-            study = opened_study(options, folder, vehicle)
-            ending.callback(study.close)
+            path = options.study or study_path(folder, is_ours=options.vehicle is None)
+            study = ending.enter_context(kept_study(path, vehicle))
         bench = Bench(vehicle, start, chosen, link, study)
         stop = ending.enter_context(stopped_by_signal())
         serve({vehicle.name: bench}, *door, progress("preparing"), around, stop)
-
-
-def opened_study(options: ViewOptions, folder: Path, vehicle: Vehicle) -> StudyFile:
-    """Return the study that remembers the sessions of a vehicle.
-
-    Raises:
-        ModevizError: it is in use, damaged, or cannot be written.
-    """
-    path = options.study or study_path(folder, is_ours=options.vehicle is None)
-    return StudyFile.open(path, vehicle.name, fingerprint_of(vehicle))
 
 
 def _add_options(command: ArgumentParser) -> None:

@@ -1,5 +1,6 @@
 """A study file that is open: what sessions write to it, and read back."""
 
+import logging
 import os
 import secrets
 import sqlite3
@@ -34,6 +35,8 @@ PATIENCE = 5.0
 
 IMPATIENCE = 0.2
 """s for the same while nothing can be written."""
+
+log = logging.getLogger(__name__)
 
 
 class StudyFile(Records):
@@ -218,7 +221,10 @@ class StudyFile(Records):
 
 def _tell_all(watchers: Sequence[Callable[[str], None]], trouble: str) -> None:
     for tell in tuple(watchers):
-        tell(trouble)
+        try:
+            tell(trouble)
+        except Exception:
+            log.exception("somebody was not told: %s", trouble or "saved again")
 
 
 def new_token() -> str:

@@ -42,7 +42,7 @@ class Writer:
 
         Args:
             path: of the study file, which is there.
-            tell: told why nothing can be written, and "" once all is written again.
+            tell: told why nothing can be written, and "" once all is written again; it may not fail.
 
         Raises:
             sqlite3.Error: it cannot be written.
@@ -130,17 +130,11 @@ class Writer:
             self._trouble = trouble
             self._changed.notify_all()
         if news:
-            self._tell_on(trouble)
+            self._tell(trouble)
         if trouble:
             with self._changed:
                 if not self._is_closed:
                     self._changed.wait(RETRY)
-
-    def _tell_on(self, trouble: str) -> None:
-        try:
-            self._tell(trouble)
-        except Exception:
-            log.exception("nobody was told: %s", trouble or "saved again")
 
     def _try(self, writes: dict[Hashable, _Waiting]) -> str:
         """Commits some writes; returns why not, or ""."""

@@ -2,15 +2,20 @@
 
 import csv
 import json
+import sqlite3
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from journal_studies import KEY, change, opened
+from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
+from modeviz.cli.studies.kept import kept_study
 from modeviz.journal.places import own_folder, study_path
 from modeviz.journal.records import Records
 from modeviz.journal.runs import Run
+from modeviz.journal.study_file import StudyFile
 from modeviz.report.notes import Note
 
 OTHER = "a" * 64
@@ -179,3 +184,14 @@ def test_studies_that_share_no_session_are_compared_by_those_last_used(study, tm
     other.record(OTHER, change(131, 133))
     assert other.close()
     assert "C2.lateral 140 → 133 N/mm" in printed(capsys, "diff", study, other.path)
+
+
+def test_what_is_lost_at_the_end_of_a_server_is_said(tmp_path, monkeypatch, capsys):
+    full = sqlite3.OperationalError("database or disk is full")
+    monkeypatch.setattr(StudyFile.close, "__defaults__", (0.2,))
+    with kept_study(tmp_path / "cabin.modeviz", mounted_cabin()) as study:
+        monkeypatch.setattr("modeviz.journal.writer._commit", Mock(side_effect=full))
+        study.begin(KEY)
+        study.record(KEY, change(1, 2))
+    said = capsys.readouterr().err
+    assert "the last 2 changes are lost (not saved: the disk is full)" in said

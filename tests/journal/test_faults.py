@@ -161,10 +161,13 @@ def test_who_fails_to_hear_of_trouble_does_not_end_the_writing(path, monkeypatch
     def deaf(trouble):
         raise RuntimeError("not now")
 
+    told = []
     study = opened(path, tell=deaf)
+    study.watch(told.append)
     monkeypatch.setattr("modeviz.journal.writer._commit", fails_with(MemoryError()))
     study.begin(KEY)
     assert not study.flush(0.3)
+    assert len(told) == 1
     monkeypatch.undo()
     assert study.close()
 
