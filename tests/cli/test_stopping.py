@@ -13,9 +13,9 @@ import pytest
 from usual_signals import usual_signals
 from visitors import wait_until
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
 
-from benchmarks.page_client import handshake
+from benchmarks.page_client import session_query
+from benchmarks.websocket import open_websocket
 from modeviz.cli import interrupt, main
 from modeviz.compute.stop import Stop
 from modeviz.viewer.page.server import STOPPED
@@ -42,7 +42,7 @@ def viewing(folder, *options, before=""):
 
 def told_why(port, run, ending):
     """What a page is told when the server is sent a signal."""
-    with connect(f"ws://127.0.0.1:{port}", **handshake(f"http://127.0.0.1:{port}")) as page:
+    with open_websocket(port, session_query(port)) as page:
         page.recv(timeout=SOON)
         run.send_signal(ending)
         try:
