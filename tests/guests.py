@@ -1,10 +1,12 @@
 """Pages without a browser that come to a session by its own address or by the link of a review."""
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 from urllib.parse import urlencode
 
-from visitors import CAMERA, encoded, knock, own_origin, wait_until
+from visitors import CAMERA, PATIENCE_S, encoded, knock, own_origin, wait_until
 from websockets.exceptions import ConnectionClosed
 
 from benchmarks.page_client import messages
@@ -56,6 +58,14 @@ def take_back(server) -> None:
     with opened(server):
         page = max(server.get_clients())
         assert server.visitors.hand_over(page, server.visitors.of_page(page).number)
+
+
+def heard_until(page, found: Callable[[list], Any]) -> Any:
+    """Listens until something is found in what a page has been told, and gives that."""
+    told, end = [], time.monotonic() + PATIENCE_S
+    while not (result := found(told)):
+        told += messages(page.recv(timeout=end - time.monotonic()))
+    return result
 
 
 def heard(page, seconds: float = 0.3) -> list:

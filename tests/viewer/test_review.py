@@ -4,7 +4,7 @@ import typing
 
 import pytest
 import viser
-from guests import guest, hand_over, heard, opened, take_back
+from guests import guest, hand_over, heard, heard_until, opened, take_back
 from mounted_cabin import mounted_cabin
 from visitors import PART_OF_FILE, encoded, update, wait_until
 
@@ -72,6 +72,11 @@ def everything(app):
     return app.session.state, values, tuple(handle.position), tuple(handle.wxyz)
 
 
+def has_value(message):
+    """Whether a page is told the value of a widget."""
+    return "value" in message.get("updates", {})
+
+
 def test_no_widget_of_the_page_is_changed_by_who_looks(app, onlooker):
     before, widgets, events = everything(app), shared_widgets(app), []
     used = []
@@ -83,14 +88,12 @@ def test_no_widget_of_the_page_is_changed_by_who_looks(app, onlooker):
         value = True if isinstance(widget, viser.GuiButtonHandle) else another_value(widget)
         onlooker.send(wire("GuiUpdateMessage", uuid=uuid, updates={"value": value}))
         events.append(uuid)
-    told = heard(onlooker, 0.8)
+    # Each is put back: told its true value, however it was before.
+    heard_until(onlooker, lambda told: set(events) <= {m["uuid"] for m in told if has_value(m)})
     assert app.session.wait(PATIENCE_S)
     assert used == []
     assert everything(app) == before
     assert len(events) > 80
-    # Each is put back: told its true value, however it was before.
-    put_back = {m["uuid"]: m["updates"]["value"] for m in told if "value" in m.get("updates", {})}
-    assert set(events) <= set(put_back)
     assert {widget.label for widget in widgets.values() if vars(widget).get("is_for_all")} == FOR_ALL
 
 
@@ -100,8 +103,8 @@ def test_no_command_is_obeyed_that_changes_anything(app, onlooker):
     for uuid, command in commands.items():
         command.on_trigger(lambda event: obeyed.append(event.target._impl.props.label))
         onlooker.send(wire("CommandTriggerMessage", uuid=uuid))
-    heard(onlooker)
     wait_until(lambda: obeyed)
+    heard(onlooker)
     assert set(obeyed) == COMMANDS_FOR_ALL
     assert everything(app) == before
 
@@ -145,12 +148,11 @@ def test_no_click_no_drag_and_no_file_of_who_looks_changes_anything(app, onlooke
     assert clickable(app)
     for message in scene_messages(app):
         onlooker.send(message)
-    told = heard(onlooker)
+    put_back = {"SetPositionMessage", "SetOrientationMessage", "FileTransferPartAck"}
+    told = heard_until(onlooker, lambda told: put_back <= {m["type"] for m in told} and told)
     assert app.session.wait(PATIENCE_S)
     assert everything(app) == before
     assert app.server.gui._current_file_upload_states == {}
-    kinds = {message["type"] for message in told}
-    assert kinds >= {"SetPositionMessage", "SetOrientationMessage", "FileTransferPartAck"}
     placed = next(m for m in told if m["type"] == "SetPositionMessage" and m["name"] == "/mount handle")
     handle = app.server.scene._handle_from_node_name["/mount handle"]
     assert placed["position"] == pytest.approx(tuple(handle.position))
@@ -198,6 +200,7 @@ def test_a_handle_in_the_hand_of_who_loses_control_is_let_go(app):
         anna.send(wire("TransformControlsDragStartMessage", name="/mount handle"))
         anna.send(wire("TransformControlsUpdateMessage", name="/mount handle", **there))
         wait_until(lambda: app.session.state.design.alterations.placement("A").offset[0])
+        assert app.session._history.undone_next.author.name == "Anna"
         take_back(app.server)
         anna.send(wire("TransformControlsDragEndMessage", name="/mount handle"))
         app.session.do(PlaceMounts("A", "offset", (0.0, 0.0, 0.0)))
@@ -206,8 +209,12 @@ def test_a_handle_in_the_hand_of_who_loses_control_is_let_go(app):
 
 def asked(messages):
     """The buttons of the question that a page was asked, by their words."""
-    kinds = ("GuiButtonMessage",)
-    return {m["props"]["label"]: m["uuid"] for m in messages if m["type"] in kinds}
+    return {m["props"]["label"]: m["uuid"] for m in messages if m["type"] == "GuiButtonMessage"}
+
+
+def buttons_of_question(page, last):
+    """The buttons of the question that a page is asked next, of which the last one is known."""
+    return heard_until(page, lambda told: asked(told) if last in asked(told) else None)
 
 
 def press(page, uuid):
@@ -238,18 +245,22 @@ def test_who_presents_takes_back_his_own_changes_and_is_told_whose_others_are(ap
         press_of(app, anna, "History", "Undo")
         wait_until(lambda: rate(app) == owners)
         press_of(app, anna, "History", "Undo")
-        told = [m["props"]["body"] for m in heard(anna) if m["type"] == "NotificationShowMessage"]
+        heard_until(
+            anna,
+            lambda told: any(
+                m["type"] == "NotificationShowMessage" and "Olga" in m["props"]["body"] for m in told
+            ),
+        )
         assert rate(app) == owners
-        assert any("Olga" in body for body in told)
 
         take_back(app.server)
         press_of(app, owner, "History", "Redo")  # Anna's, so the owner is asked
-        buttons = asked(heard(owner))
+        go_on = buttons_of_question(owner, "Go over it")["Go over it"]
         assert rate(app) == owners
-        press(owner, buttons["Go over it"])
+        press(owner, go_on)
         wait_until(lambda: rate(app) != owners)
         press_of(app, owner, "History", "Undo")
-        press(owner, asked(heard(owner))["Go over it"])
+        press(owner, buttons_of_question(owner, "Go over it")["Go over it"])
         wait_until(lambda: rate(app) == owners)
         press_of(app, owner, "History", "Undo")
         wait_until(lambda: rate(app) == first)
@@ -266,7 +277,7 @@ def test_a_pinned_set_is_replaced_only_by_who_says_so(app):
         owner.send(update(app._variants._name._box, "v1"))
         heard(owner), heard(other)
         press_of(app, owner, "Keep", "Pin")
-        buttons = asked(heard(owner))
+        buttons = buttons_of_question(owner, "Pin as v1 2")
         assert set(buttons) == {"Leave it as it is", "Replace v1", "Pin as v1 2"}
         assert asked(heard(other)) == {}
         assert variants()["v1"] == before
@@ -276,7 +287,7 @@ def test_a_pinned_set_is_replaced_only_by_who_says_so(app):
 
         app.session.do(SetRate("A", "vertical", 2.34e5))
         press_of(app, owner, "Keep", "Pin")
-        press(owner, asked(heard(owner))["Replace v1"])
+        press(owner, buttons_of_question(owner, "Pin as v1 3")["Replace v1"])
         wait_until(lambda: variants()["v1"] != before)
         assert variants()["v1"].rates["A"].vertical == 2.34e5
 
@@ -290,7 +301,7 @@ def test_a_question_is_not_answered_by_who_has_lost_control_meanwhile(app):
         anna.send(update(app._variants._name._box, "kept"))
         heard(anna)
         press_of(app, anna, "Keep", "Pin")
-        buttons = asked(heard(anna))
+        buttons = buttons_of_question(anna, "Pin as kept 2")
         take_back(app.server)
         press(anna, buttons["Replace kept"])
         heard(anna)
