@@ -77,8 +77,7 @@ class PeaksPanel:
                 words = f"{MARK}{label} {cursor:.1f} Hz"
                 at_cursor.append(self._row(words, there, solved, contributors))
         self._contributors = contributors
-        low, high = _band(solved)
-        where = f"between {low:g} and {high:g} Hz"
+        where = _told_band(solved, responses)
         none = span(f"No peak {where}: look at another point or direction.", "dim")
         listing = "".join(rows) or none
         peaks = heading("Peaks and their modes", HINT) + listing
@@ -133,6 +132,15 @@ def _band(solved: Solved) -> tuple[float, float]:
     """Hz: where peaks are told; under an engine's order in all of what is drawn."""
     is_engine = isinstance(Responses(solved).harmonic_load, EngineOrder)
     return shown_hz(solved.now.prepared.vehicle.highest_frequency) if is_engine else PEAK_BAND
+
+
+def _told_band(solved: Solved, responses: Responses) -> str:
+    """Where peaks are looked for, in words: as far as what shakes acts there."""
+    (low, high), lines = _band(solved), responses.lines("")
+    inside = lines[(lines >= low) & (lines <= high)]
+    if not len(inside):
+        return f"between {low:g} and {high:g} Hz"
+    return f"between {max(low, inside[0]):.4g} and {min(high, inside[-1]):.4g} Hz"
 
 
 def _labels(curves: tuple[ChartCurve, ...]) -> list[str]:

@@ -10,10 +10,13 @@ from opened_app import SOON, opened_app, text
 from modeviz.analysis.engine_results import solve_engine
 from modeviz.analysis.preparation import prepare
 from modeviz.study.conditions import on_even_road
+from modeviz.text.axes import shown_hz
 from modeviz.text.wording import significant
 from modeviz.vehicle.engine import Engine, EngineOrder
+from modeviz.viewer.panels.peaks import _told_band
 from modeviz.viewer.session.commands.decisions import SetRate
-from modeviz.viewer.session.commands.looks import LookAtEngine
+from modeviz.viewer.session.commands.looks import ChangeCharts, LookAtEngine
+from modeviz.viewer.session.responses import Responses
 from modeviz.viewer.session.state import ForceCurve, ResponseCurve
 
 SPEEDS = np.linspace(10.0, 30.0, 5)
@@ -116,3 +119,12 @@ def test_vehicles_without_an_engine_have_no_such_tab():
         assert app._engine is None
     finally:
         app.close()
+
+
+def test_peaks_are_looked_for_where_the_order_acts(app):
+    app.session.do(ChangeCharts(load="four order 2"))
+    solved = app.session.wait_for_answer(SOON)
+    high = shown_hz(VEHICLE.highest_frequency)[1]
+    assert _told_band(solved, Responses(solved)) == f"between 20 and {high:g} Hz"
+    app.session.do(ChangeCharts(load="four order 1"))
+    assert app.session.wait_for_answer(SOON)
