@@ -47,7 +47,7 @@ def drag(n_moves: int, folder: Path | None = None) -> Drag:
         n_moves: that are counted.
         folder: of the vehicle; None: the built-in truck.
     """
-    with _server(folder or builtin_vehicle()) as (port, clock), open_page(port) as page:
+    with served(folder or builtin_vehicle()) as (port, clock), open_page(port) as page:
         slider, spectrum = widgets(page)
         low, high = (slider["props"][end] for end in ("min", "max"))
         rates = np.linspace(high, low, N_FIRST + n_moves).round()
@@ -148,7 +148,7 @@ def _connect(port: int, query: str | None) -> Page:
 
 
 @contextmanager
-def _server(folder: Path) -> Iterator[tuple[int, Connection]]:
+def served(folder: Path) -> Iterator[tuple[int, Connection]]:
     """The port of a vehicle's page in a process of its own, and that process's clock."""
     port = free_port()
     context = multiprocessing.get_context("spawn")

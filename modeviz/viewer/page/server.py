@@ -141,7 +141,8 @@ class Server(viser.ViserServer):
             asyncio.run_coroutine_threadsafe(each.close(CloseCode.GOING_AWAY, why), loop)
             for each in tuple(server._live_connections.values())
         ]
-        wait(closing, DISMISSED_WITHIN)
+        for late in wait(closing, DISMISSED_WITHIN).not_done:
+            late.cancel()
 
 
 class LoneServer(Server):

@@ -7,9 +7,9 @@ import time
 import weakref
 
 import pytest
-from slow_page import slow_page
 from visitors import CAMERA, encoded, visit, wait_until
 
+from benchmarks.slow_page import slow_page
 from modeviz.viewer.page import connection
 from modeviz.viewer.page.server import open_server
 
