@@ -27,7 +27,7 @@ SOON = 30
 def viewing(folder, *options, before=""):
     """`modeviz view` in a program of its own, and the port it serves at."""
     code = f"{before}\nimport sys\nfrom modeviz.cli import main\nsys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-c", code, "view", folder, "--port", "0", *options]
+    command = [sys.executable, "-c", code, "view", folder, "--port", "0", "--no-study", *options]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     with (
         usual_signals(),

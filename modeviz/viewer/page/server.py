@@ -41,8 +41,9 @@ from modeviz.viewer.page.tokens import checked_token
 from modeviz.viewer.page.turns import Turns
 from modeviz.viewer.page.visitors import Visitors
 
-STOPPED = "modeviz was stopped: what you did is kept, and this page goes on once it runs again"
-"""Pages show it; at most 123 bytes go with the end of a connection."""
+STOPPED = "modeviz was stopped, and this page goes on once it runs again"
+STOPPED_KEPT = "modeviz was stopped: what you did is kept, and this page goes on once it runs again"
+"""Pages show one of both; at most 123 bytes go with the end of a connection."""
 
 DISMISSED_WITHIN = 1.0
 """s that pages have to answer that they close."""
@@ -64,6 +65,8 @@ class Server(viser.ViserServer):
             session: what the log calls it, which opens nothing.
         """
         self.notices: Notices = front.house.notices
+        self.farewell: str = STOPPED
+        """What pages are told when it stops."""
         self.acceptor: Acceptor = Acceptor()
         self._front, self._address, self._session = front, address, session
         self._turns = Turns(self._tell_page)
@@ -123,7 +126,7 @@ class Server(viser.ViserServer):
 
     def stop(self) -> None:
         """Tells all pages that it stops, and stops."""
-        self._dismiss(STOPPED)
+        self._dismiss(self.farewell)
         with _quietly():
             super().stop()
         self._turns.shutdown(wait=False, cancel_futures=True)

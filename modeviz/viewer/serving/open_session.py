@@ -6,7 +6,7 @@ import time
 from modeviz.journal.sessions import SessionId
 from modeviz.viewer.app import App
 from modeviz.viewer.page.front import Front
-from modeviz.viewer.page.server import Server
+from modeviz.viewer.page.server import STOPPED_KEPT, Server
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.session.notifications import Failed
 from modeviz.viewer.session.opening import Opening
@@ -43,6 +43,7 @@ class OpenSession:
             bench.preparations(),
         )
         if bench.study and not opening.is_unread:
+            self.server.farewell = STOPPED_KEPT
             self.app.record(bench.study, name, lambda: self.server.visitors.acting().name)
         if not opening.past:
             self.app.guide.welcome_first()
