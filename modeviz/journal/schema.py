@@ -29,6 +29,7 @@ CREATE TABLE session (
     used REAL NOT NULL,
     vehicle INTEGER NOT NULL REFERENCES vehicle,
     state INTEGER REFERENCES content,
+    view TEXT NOT NULL DEFAULT '',
     tuning INTEGER NOT NULL REFERENCES content
 );
 CREATE TABLE review (

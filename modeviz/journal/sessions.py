@@ -42,6 +42,8 @@ class StoredSession:
     """Of the vehicle that it was last used with."""
     state: str | None
     """The newest one as text, with how one looked; None: it was begun, and nothing else."""
+    view: str
+    """How its pages showed that, as text; "" where nobody said."""
     past: tuple[Step, ...]
     """What can be undone, the next one last."""
     future: tuple[Step, ...]
@@ -89,6 +91,11 @@ def look(connection: Connection, session: SessionId, state: str, now: float) -> 
     _put_state(connection, number_of(connection, session), state, now)
 
 
+def see(connection: Connection, session: SessionId, view: str) -> None:
+    """Writes how the pages of a session show it."""
+    connection.execute("UPDATE session SET view = ? WHERE digest = ?", (view, session))
+
+
 def share(connection: Connection, session: SessionId, review: str, author: str, now: float) -> None:
     """Writes that a review, by the digest of its key, shows a session."""
     connection.execute(
@@ -126,13 +133,13 @@ def sessions(connection: Connection) -> tuple[SessionLine, ...]:
 def restore(connection: Connection, session: SessionId) -> StoredSession | None:
     """Return a session as it was left; None where there is none of that key."""
     row = connection.execute(
-        "SELECT session.id, title, author, parts, state, tuning FROM session"
+        "SELECT session.id, title, author, parts, state, view, tuning FROM session"
         " JOIN vehicle ON vehicle.id = session.vehicle WHERE session.digest = ?",
         (session,),
     ).fetchone()
     if row is None:
         return None
-    number, title, author, parts, state, tuning = row
+    number, title, author, parts, state, view, tuning = row
     present = pinned_of(text(connection, tuning))
     places: tuple[Literal["done"], Literal["undone"]] = ("done", "undone")
     past, future = (steps(connection, number, place) for place in places)
@@ -142,6 +149,7 @@ def restore(connection: Connection, session: SessionId) -> StoredSession | None:
         author,
         Fingerprint.of_text(parts),
         None if state is None else text(connection, state),
+        view,
         past,
         future,
         Tuning(present.rates, present.placements, _variants(connection, number)),

@@ -139,6 +139,10 @@ class StudyFile(Records):
         now = time.time()
         self._writer.put(lambda c: stored.look(c, session, state, now), session, ("look", session))
 
+    def see(self, session: SessionId, view: str) -> None:
+        """Writes how the pages of a session show it, as text; of several the newest counts."""
+        self._writer.put(lambda c: stored.see(c, session, view), session, ("see", session))
+
     def share(self, session: SessionId, review: SessionId, author: str = "") -> None:
         """Writes that a review shows a session."""
         now = time.time()

@@ -72,7 +72,7 @@ from modeviz.viewer.session.preparations import Preparations
 from modeviz.viewer.session.recorder import Recorder
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
-from modeviz.viewer.session.view import CameraPose
+from modeviz.viewer.session.view import CameraPose, PageView
 from modeviz.viewer.session.worker import StuckError
 from modeviz.viewer.tasks.front_task import FrontTask
 from modeviz.viewer.tasks.run_recorder import RunRecorder
@@ -142,10 +142,13 @@ class App:
         scripts.run(self._gui, "page/zoom.js")
         scripts.run(self._gui, "page/no_drop.js")
         choose_theme(self._gui, dark)
-        self._scene = Scene(server, self.session.vehicle, dark, self._select, opening.camera)
+        self._left = opening.camera
+        self._recorder: Recorder | None = None
+        self._scene = Scene(
+            server, self.session.vehicle, dark, self._select, opening.camera, self._leave
+        )
         self._scene.let_drag(self._drag, mistake, server.visitors.has_control)
         self._hotkeys = Hotkeys(self._gui)
-        self._recorder: Recorder | None = None
         self._pictured: Callable[[bytes, str], object] | None = None
         self._lay_out(dark)
 
@@ -340,7 +343,7 @@ class App:
         card = gui.add_panel()
         with card.add_tab("Motion", viser.Icon.PLAYER_PLAY):
             driver, animation = self._scene.driver, self._opening.animation
-            self._animation = AnimationCard(gui, driver, self._step_mode, animation)
+            self._animation = AnimationCard(gui, driver, self._step_mode, animation, self._keep_view)
         with card.add_tab("What moves", viser.Icon.WAVE_SINE):
             self._shape = ShapePanel(gui, session)
         card.float(x=24, y=-24)
@@ -412,6 +415,17 @@ class App:
         if self.session.answer is None:
             raise ModevizError("nothing is solved yet: try again when the preparation is done")
         return self.session.answer
+
+    def _leave(self, client_id: int, camera: CameraPose | None) -> None:
+        """Notes where who is in control left a camera."""
+        if self.server.visitors.has_control(client_id) and camera != self._left:
+            self._left = camera
+            self._keep_view()
+
+    def _keep_view(self) -> None:
+        """Keeps how pages show the session in the study, if there is one."""
+        if self._recorder:
+            self._recorder.see(PageView(self._animation.animation, self._left))
 
     def _keep_picture(self, png: bytes, prefix: str) -> None:
         """Keeps a picture of the scene in the study, if there is one."""

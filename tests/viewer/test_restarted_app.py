@@ -1,9 +1,12 @@
 """A page that is opened as its session was left: panels, scene and what there is to say."""
 
+import time
 from types import SimpleNamespace
 
 from every_command import ABSORBERS, FORE_AFT, VEHICLE
 from opened_app import SOON, text
+from visitors import CAMERA as CAMERA_MESSAGE
+from visitors import encoded, update, visit
 
 from modeviz.analysis.results import Conditions
 from modeviz.journal.fingerprint import fingerprint_of
@@ -28,7 +31,7 @@ MOVING = Animation(1.85, 0.75, 215.0, False)
 
 
 def opened(opening):
-    server = open_server(port=0, token="open-sesame-open")
+    server = open_server(port=0)
     app = App(VEHICLE, VEHICLE.rates, FLAT, server, opening=opening)
     app.start()
     assert app.session.wait(SOON)
@@ -60,6 +63,27 @@ def test_a_session_with_an_absorber_is_there_after_a_restart_and_can_lose_it(tmp
     finally:
         again.close()
         study.close()
+
+
+def test_camera_and_motion_are_there_after_a_restart(tmp_path):
+    """As a page says that somebody has moved its camera, and the slider of the amplitude."""
+    study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
+    app = opened(Opening(FIRST))
+    app.record(study, KEY, str)
+    with visit(app.server) as socket:
+        moved = {**CAMERA_MESSAGE, "position": CAMERA.position, "look_at": CAMERA.look_at}
+        socket.send(encoded(CAMERA_MESSAGE))
+        socket.send(update(app._animation._amplitude, 1.85))
+        end = time.monotonic() + SOON
+        while app._left != CAMERA or app._animation._amplitude.value != 1.85:
+            assert time.monotonic() < end
+            socket.send(encoded(moved))  # until the page is known whose camera that is
+            time.sleep(0.1)
+    app.close()
+    found = recorded(study, KEY, FIRST, VEHICLE, PRINT.digest)
+    assert found.camera == CAMERA
+    assert found.animation == Animation(amplitude=1.85)
+    study.close()
 
 
 def test_what_the_page_links_to_opens_the_same_view():

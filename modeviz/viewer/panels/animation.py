@@ -64,6 +64,7 @@ class AnimationCard:
         driver: ShapeDriver,
         step_mode: Callable[[int], None],
         animation: Animation = USUAL,
+        changed: Callable[[], None] = lambda: None,
     ) -> None:
         """Builds the controls and sets the shapes in motion.
 
@@ -72,8 +73,9 @@ class AnimationCard:
             driver: what moves the shapes.
             step_mode: shows the next mode (+1) or the one before (-1).
             animation: how they move at first.
+            changed: told that they move otherwise.
         """
-        self._driver, self._step_mode = driver, step_mode
+        self._driver, self._step_mode, self._changed = driver, step_mode, changed
         self._write_back = WriteBack()
         self._head = gui.add_html("")
         self._amplitude = gui.add_slider(
@@ -110,6 +112,8 @@ class AnimationCard:
         self._amplitude.on_update(lambda _: driver.drive(amplitude=self._amplitude.value))
         self._speed.on_update(lambda _: driver.drive(frequency_hz=self._speed.value))
         self._phase.on_update(self._hold)
+        for slider in (self._amplitude, self._speed, self._phase):
+            slider.on_update(lambda _: self._changed())
         self._stands.on_update(lambda _: self._say_phase())
         self._transport.on_click(lambda event: self._press(self._transport.value, event.client))
         driver.drive(amplitude=animation.amplitude, frequency_hz=animation.speed_hz)
@@ -148,6 +152,7 @@ class AnimationCard:
     def toggle(self, client: viser.ClientHandle | None) -> None:
         """Stops the motion for all pages where it is in one of them, or lets it go on."""
         self._run(not self._is_running)
+        self._changed()
         if client is not None and not self._is_running:
             scripts.run(client.gui, "page/tell_phase.js", name_of(self._stands))
 
@@ -155,6 +160,7 @@ class AnimationCard:
         """Takes over the phase at which a page stands, unless the motion has gone on meanwhile."""
         if not self._is_running:
             assign(self._phase, value=self._stands.value)
+            self._changed()
 
     def _hold(self, event: viser.GuiEvent) -> None:
         if event.client is not None:  # its value may cross what `_say_phase` sends

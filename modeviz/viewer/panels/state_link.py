@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 
-import numpy as np
 import viser
 
 from modeviz.errors import ModevizError
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.html import block
+from modeviz.viewer.scene.cameras import pose_of
 from modeviz.viewer.session.view import CameraPose
 
 COPY = "Copy link"
@@ -54,7 +54,8 @@ def _give(client: viser.ClientHandle, link: Callable[[CameraPose], str]) -> None
 
 
 def camera_of(client: viser.ClientHandle) -> CameraPose:
-    """Return where a page's camera is."""
-    camera = client.camera
-    (x, y, z), (to_x, to_y, to_z) = map(np.ndarray.tolist, (camera.position, camera.look_at))
-    return CameraPose((x, y, z), (to_x, to_y, to_z))
+    """Return where a page's camera is; raises ModevizError where none can be."""
+    pose = pose_of(client.camera.position, client.camera.look_at)
+    if pose is None:
+        raise ModevizError("the camera is nowhere: choose a view first")
+    return pose

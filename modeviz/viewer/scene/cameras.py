@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import viser
 
+from modeviz.errors import ModevizError
 from modeviz.vehicle.arrays import Floats
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.html import FOR_ALL
@@ -41,6 +42,14 @@ def add_view_buttons(gui: viser.GuiApi, look: Callable[[viser.ClientHandle, str]
             look(event.client, views.value)
 
 
+Left = Callable[[int, CameraPose | None], None]
+"""Told the page whose camera was moved, and to where; None: the page keeps it framed by itself."""
+
+
+def ignore_left(_client_id: int, _camera: CameraPose | None) -> None:
+    """Keeps nothing of where cameras are."""
+
+
 class Cameras:
     """Every page has its own camera; all of them look at the same."""
 
@@ -50,6 +59,7 @@ class Cameras:
         box: Box,
         begin: CameraPose | None = None,
         is_led: Callable[[int], bool] = lambda _: False,
+        left: Left = ignore_left,
     ) -> None:
         """Points the cameras of pages to come at a vehicle; their pictures' sizes are in CSS pixels.
 
@@ -58,8 +68,10 @@ class Cameras:
             box: the space that is framed.
             begin: where cameras are at first; None: where all of that is seen.
             is_led: whether a page's camera goes where another one goes, and is left alone here.
+            left: told where the camera of a page was left.
         """
         self._server, self._box, self._begin, self._is_led = server, box, begin, is_led
+        self._left = left
         self._before = box
         self._is_framed = begin is None
         self._views: dict[int, tuple[str, Floats]] = {}
@@ -79,7 +91,7 @@ class Cameras:
         def _(client: viser.ClientHandle) -> None:
             if begin is None:
                 self.look(client, ISO)
-            client.camera.on_update(lambda _: self._keep_framed(client))
+            client.camera.on_update(lambda _: self._follow(client))
 
         @server.on_client_disconnect
         def _(client: viser.ClientHandle) -> None:
@@ -139,6 +151,19 @@ class Cameras:
     def _framed(self, client: viser.ClientHandle, view: str) -> Pose:
         return camera(self._box, view, client.camera.image_width, client.camera.image_height)
 
+    def _follow(self, client: viser.ClientHandle) -> None:
+        """Keeps a camera framed that nobody has moved, and tells where it was left."""
+        self._keep_framed(client)
+        if self._is_led(client.client_id):
+            return
+        position, look_at = client.camera.position, client.camera.look_at
+        with self._lock:
+            _, put = self._views.get(client.client_id, (ISO, None))
+        if put is not None and self._is_at(position, put):
+            self._left(client.client_id, None)
+        elif not self._is_at(position, self._server.initial_camera.position):
+            self._left(client.client_id, pose_of(position, look_at))
+
     def _keep_framed(self, client: viser.ClientHandle) -> None:
         """Looks again when the picture's shape has changed, unless somebody has moved the camera.
 
@@ -155,6 +180,15 @@ class Cameras:
 
     def _is_at(self, position: Floats, place: Floats) -> bool:
         return np.allclose(position, place, atol=UNTOUCHED * self._box.length)
+
+
+def pose_of(position: Floats, look_at: Floats) -> CameraPose | None:
+    """Return a camera's place; None of one that nobody can have."""
+    try:
+        (x, y, z), (to_x, to_y, to_z) = map(np.ndarray.tolist, (position, look_at))
+        return CameraPose((x, y, z), (to_x, to_y, to_z))
+    except ModevizError:
+        return None
 
 
 def _put(client: viser.ClientHandle, pose: Pose) -> None:

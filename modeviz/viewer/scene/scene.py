@@ -16,7 +16,7 @@ from modeviz.vehicle.bodies import Body
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.server import Server
 from modeviz.viewer.scene.body_view import DrawnBody
-from modeviz.viewer.scene.cameras import Cameras
+from modeviz.viewer.scene.cameras import Cameras, Left, ignore_left
 from modeviz.viewer.scene.driver import LARGEST, ShapeDriver
 from modeviz.viewer.scene.following import Following
 from modeviz.viewer.scene.markers import Markers
@@ -48,6 +48,7 @@ class Scene:
         dark: bool,
         on_select: Callable[[str], None],
         camera: CameraPose | None = None,
+        left: Left = ignore_left,
     ) -> None:
         """Draws a vehicle at rest.
 
@@ -57,6 +58,7 @@ class Scene:
             dark: whether the page is.
             on_select: called with the group of a clicked mount.
             camera: where those of pages begin; None: where all is seen.
+            left: told where cameras are left.
         """
         theme = self._theme = DARK if dark else LIGHT
         self._vehicle, self._box = vehicle, box(vehicle)
@@ -73,7 +75,7 @@ class Scene:
         self._handle: MountHandle | None = None
         self.following: Following = Following(server, server.visitors.has_control)
         """Lets cameras of pages that only look go where that of whoever presents goes."""
-        self._cameras = Cameras(server, self._box, camera, self.following.is_led)
+        self._cameras = Cameras(server, self._box, camera, self.following.is_led, left)
         self.exaggeration: float = 1.0
         """How many times as large as it is the shape is drawn at the driver's amplitude of one."""
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import cache
 
-from modeviz.errors import listed
+from modeviz.errors import ModevizError, listed
 from modeviz.journal import changes
 from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.records import Records
@@ -15,6 +15,7 @@ from modeviz.viewer.session.encoding.fitting import fitted
 from modeviz.viewer.session.encoding.text import value_of_text
 from modeviz.viewer.session.opening import Opening
 from modeviz.viewer.session.state import State
+from modeviz.viewer.session.view import PageView
 
 WHAT = "session"
 
@@ -53,7 +54,18 @@ def recorded(
     past, future = (
         tuple(_Recalled(step, state_of) for step in steps) for steps in (stored.past, stored.future)
     )
-    return Opening(found.state, past, future, runs=study.runs(name), remarks=told)
+    view = _view(stored.view)
+    return Opening(
+        found.state, past, future, view.animation, view.camera, study.runs(name), remarks=told
+    )
+
+
+def _view(text: str) -> PageView:
+    """How pages showed a session, or the usual if nobody said so or that cannot be read."""
+    try:
+        return value_of_text(text, PageView, WHAT) if text else PageView()
+    except ModevizError:
+        return PageView()
 
 
 class _Recalled:

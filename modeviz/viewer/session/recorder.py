@@ -15,6 +15,7 @@ from modeviz.viewer.session.encoding.text import text_of
 from modeviz.viewer.session.history import Accepted
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import State
+from modeviz.viewer.session.view import PageView
 
 PACE = 0.2
 """s between two writes of one drag, or of looks: of those between the last counts."""
@@ -25,10 +26,23 @@ PATIENCE = 5.0
 WORDS = {"undo": "Undo: ", "redo": "Redo: "}
 
 
+GOES_ON = ("step", "longer")
+"""Kinds that a longer change is one with."""
+
+LAZY = ("longer", "look", "view")
+"""Kinds of entries that may wait for one that overtakes them."""
+
+
 @dataclass(frozen=True)
 class _Entry:
-    accepted: Accepted
-    author: str
+    """An accepted change or look, or how pages show it all."""
+
+    what: Accepted | PageView
+    author: str = ""
+
+    @property
+    def kind(self) -> str:
+        return self.what.kind if isinstance(self.what, Accepted) else "view"
 
 
 class Recorder:
@@ -95,19 +109,23 @@ class Recorder:
         self._thread.join(timeout)
         return is_saved
 
+    def see(self, view: PageView) -> None:
+        """Notes how pages show the session now."""
+        self._put(_Entry(view))
+
     def _take(self, accepted: Accepted) -> None:
+        self._put(_Entry(accepted, self._author()))
+
+    def _put(self, entry: _Entry) -> None:
         """Notes what is to be written, in place of what that overtakes."""
-        entry = _Entry(accepted, self._author())
         with self._changed:
-            last = self._waiting[-1].accepted.kind if self._waiting else None
-            if accepted.kind == "longer" and last in ("step", "longer"):
-                assert last is not None
-                joined = replace(accepted, kind=last)
-                self._waiting[-1] = replace(entry, accepted=joined)
-            elif accepted.kind == last == "look":
-                self._waiting[-1] = entry
-            else:
-                self._waiting.append(entry)
+            last = self._waiting[-1].what if self._waiting else None
+            if entry.kind == "longer" and isinstance(last, Accepted) and last.kind in GOES_ON:
+                self._waiting.pop()
+                entry = replace(entry, what=replace(entry.what, kind=last.kind))
+            if entry.kind in ("look", "view"):
+                self._waiting = [each for each in self._waiting if each.kind != entry.kind]
+            self._waiting.append(entry)
             self._changed.notify_all()
 
     def _run(self) -> None:
@@ -133,13 +151,16 @@ class Recorder:
         """How long the next entry may wait for one that overtakes it, s; None where there is none."""
         if not self._waiting:
             return None
-        is_last = len(self._waiting) == 1 and self._waiting[0].accepted.kind in ("longer", "look")
-        if not is_last or self._n_hurried or self._is_closed:
+        is_lazy = all(entry.kind in LAZY for entry in self._waiting)
+        if not is_lazy or self._n_hurried or self._is_closed:
             return 0.0
         return max(0.0, self._written_at + PACE - time.monotonic())
 
     def _write(self, entry: _Entry) -> None:
-        accepted = entry.accepted
+        accepted = entry.what
+        if isinstance(accepted, PageView):
+            self._study.see(self._name, text_of(accepted))
+            return
         if accepted.kind == "look":
             self._study.look(self._name, self._text(accepted.state))
             return

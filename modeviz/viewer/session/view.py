@@ -1,6 +1,6 @@
 """How one page looks at what is shown, of which nothing is solved: its camera, and how shapes move."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -50,3 +50,12 @@ class Animation:
             value = getattr(self, key)
             if not 0 <= value <= most:
                 raise FaultsError(Fault(key, f"found {value:g}, expected 0 to {most:g}"))
+
+
+@dataclass(frozen=True)
+class PageView:
+    """How pages show a session."""
+
+    animation: Animation = field(default_factory=Animation)
+    camera: CameraPose | None = None
+    """Where somebody left one; None: as pages open with."""

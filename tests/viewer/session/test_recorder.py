@@ -26,6 +26,7 @@ from modeviz.viewer.session.recorded import recorded
 from modeviz.viewer.session.recorder import Recorder
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
+from modeviz.viewer.session.view import Animation, CameraPose, PageView
 
 FIRST = first_state(VEHICLE, VEHICLE.rates, Conditions("flat", 20.0))
 PRINT = fingerprint_of(VEHICLE)
@@ -153,6 +154,22 @@ def test_of_looks_the_last_counts_and_none_is_a_change(bench):
     assert bench.session.state.charts.cursor_hz == 19.0
     assert bench.session.state.motion.mode == "cab roll"
     assert not bench.session.can_undo
+
+
+def test_of_how_pages_show_it_the_last_counts(bench):
+    bench.restart()
+    assert (bench.opening.animation, bench.opening.camera) == (Animation(), None)
+    standing = Animation(1.85, 0.75, 215.0, False)
+    for x in range(1, 30):
+        bench.recorder.see(PageView(standing, CameraPose((x, 0.0, 1.0), (0.0, 0.0, 0.0))))
+        bench.session.do(looks.ChangeCharts(cursor_hz=1.0 + x / 10))
+        assert len(bench.recorder._waiting) <= 2
+    bench.restart()
+    assert bench.opening.animation == standing
+    assert bench.opening.camera == CameraPose((29.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+    bench.study.see(KEY, "no view")
+    bench.restart()
+    assert bench.opening.camera is None
 
 
 def test_each_change_says_who_made_it(bench):
