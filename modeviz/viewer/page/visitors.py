@@ -8,21 +8,19 @@ no control.
 import asyncio
 import secrets
 import threading
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
 
 import viser
 from viser.infra import WebsockClientConnection
 from websockets.frames import CloseCode
-from websockets.http11 import Request
 
 from modeviz.errors import ModevizError
-from modeviz.text.wording import free_name, sentence_case
+from modeviz.text.wording import sentence_case
+from modeviz.viewer.page.acquaintances import Acquaintances, Visitor
 from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.introductions import Introduction, introduction, is_review, person_name
+from modeviz.viewer.page.introductions import introduction, is_review, person_name
 from modeviz.viewer.page.turns import page_heard
 from modeviz.viewer.session.author import OWNER, Author
 
@@ -34,25 +32,7 @@ FAREWELL_S = 0.3
 GRACE_S = 8.0
 """How long who presents may be away, such as while a page is loaded again, and stays in control."""
 
-MOST_REMEMBERED = 500
-"""Visitors: who was longest away is forgotten first."""
-
 Changed = Callable[[], None]
-
-
-@dataclass(frozen=True)
-class Visitor:
-    """Somebody who looks at a session in one browser, in any number of its tabs."""
-
-    number: int
-    """Its own in the session."""
-    name: str
-    is_owner: bool
-
-    @property
-    def author(self) -> Author:
-        """As who makes changes."""
-        return Author(self.name, OWNER.number if self.is_owner else self.number)
 
 
 class Sharing(Protocol):
@@ -70,19 +50,11 @@ class Sharing(Protocol):
 class Visitors:
     """Who looks at a session now, and which of them changes it; all threads may ask."""
 
-    def __init__(
-        self, server: viser.ViserServer, came_to_look: Callable[[Request], bool] = is_review
-    ) -> None:
-        """Watches the pages of a server.
-
-        Args:
-            server: of one session.
-            came_to_look: whether the request of a page's websocket is that of a review's link.
-        """
-        self._server, self._came_to_look = server, came_to_look
+    def __init__(self, server: viser.ViserServer) -> None:
+        """Watches the pages of a server, which is that of one session."""
+        self._server = server
         self._lock = threading.RLock()
-        self._known: OrderedDict[str, Visitor] = OrderedDict()
-        self._n_known = 0
+        self._known = Acquaintances()
         self._pages: dict[int, str] = {}
         """The keys of who looks, by page."""
         self._presenter = ""
@@ -119,7 +91,7 @@ class Visitors:
     def there(self) -> Sequence[Visitor]:
         """Who looks now, the owner first, then as they came."""
         with self._lock:
-            present = {key: self._known[key] for key in self._pages.values()}
+            present = {v.number: v for key in self._pages.values() if (v := self._known.get(key))}
         return sorted(present.values(), key=lambda each: (not each.is_owner, each.number))
 
     @property
@@ -161,11 +133,7 @@ class Visitors:
     def rename(self, client_id: int, name: str) -> Visitor | None:
         """Gives who looks at a page another name, or one like it that is free; "" gives none."""
         with self._lock:
-            key = self._pages.get(client_id, "")
-            if (visitor := self._known.get(key)) is None:
-                return None
-            named = replace(visitor, name=self._free_name(visitor, person_name(name)))
-            self._known[key] = named
+            named = self._known.rename(self._pages.get(client_id, ""), person_name(name), self.there)
         self._tell()
         return named
 
@@ -179,13 +147,12 @@ class Visitors:
         """
         with self._lock:
             giver = self.of_page(by)
-            there = {self._known[key].number: key for key in self._pages.values()}
-            if giver is None or number not in there:
+            taker = next((each for each in self.there if each.number == number), None)
+            if giver is None or taker is None:
                 return None
             if not (giver.is_owner or self._is_in_control(giver)):
                 return None
-            taker = self._known[there[number]]
-            self._presenter = "" if taker.is_owner else there[number]
+            self._presenter = "" if taker.is_owner else self._key(taker)
         self._tell()
         return taker
 
@@ -218,10 +185,18 @@ class Visitors:
         with self._lock:
             self._link = self._presenter = ""
             self._is_shared = False
-            guests = [page for page, key in self._pages.items() if not self._known[key].is_owner]
+            guests = [page for page in self._pages if not self._is_owners(page)]
         for page in guests:
             self._put_out(page)
         self._tell()
+
+    def _key(self, visitor: Visitor) -> str:
+        """Return the key of somebody who is there."""
+        return next(key for page, key in self._pages.items() if self.of_page(page) == visitor)
+
+    def _is_owners(self, page: int) -> bool:
+        visitor = self.of_page(page)
+        return visitor is not None and visitor.is_owner
 
     def _is_in_control(self, visitor: Visitor) -> bool:
         presenter = self._known.get(self._presenter)
@@ -233,37 +208,19 @@ class Visitors:
         if connection is None or connection.request is None:
             return
         said = introduction(connection.request)
-        is_owner = not self._came_to_look(connection.request)
+        is_owner = not is_review(connection.request)
         if said.key == self._own_key:
             return
-        if not is_owner and not self._is_shared:
-            await connection.close(CloseCode.POLICY_VIOLATION, ENDED)
-            return
         with self._lock:
-            key = f"{'owner' if is_owner else 'visitor'} {said.key}"
-            visitor = self._known.get(key) or self._new(said, is_owner)
-            self._known[key] = replace(visitor, name=self._free_name(visitor, visitor.name))
-            self._known.move_to_end(key)
-            connection.visitor = self._pages[page.client_id] = key
-            self._forget_some()
-        self._tell()
-
-    def _new(self, said: Introduction, is_owner: bool) -> Visitor:
-        self._n_known += 1
-        return Visitor(self._n_known, said.name, is_owner)
-
-    def _free_name(self, visitor: Visitor, name: str) -> str:
-        """A name that nobody there has but that visitor."""
-        taken = {each.name for each in self.there if each.number != visitor.number}
-        if not name and not visitor.is_owner:
-            name = f"Guest {visitor.number}"
-        return free_name(name or OWNER.name, taken)
-
-    def _forget_some(self) -> None:
-        here = {*self._pages.values(), self._presenter}
-        away = [key for key in self._known if key not in here]
-        for key in away[: max(len(self._known) - MOST_REMEMBERED, 0)]:
-            del self._known[key]
+            if may_look := is_owner or self._is_shared:
+                key = f"{'owner' if is_owner else 'visitor'} {said.key}"
+                self._known.meet(key, said.name, is_owner, self.there)
+                connection.visitor = self._pages[page.client_id] = key
+                self._known.forget({*self._pages.values(), self._presenter})
+        if may_look:
+            self._tell()
+        else:
+            await connection.close(CloseCode.POLICY_VIOLATION, ENDED)
 
     def _leave(self, page: WebsockClientConnection) -> None:
         with self._lock:

@@ -2,8 +2,10 @@ import threading
 from types import SimpleNamespace
 
 import pytest
+from visitors import wait_until
 
 from modeviz.viewer.page import write_back as settle
+from modeviz.viewer.page.turns import page_heard
 from modeviz.viewer.page.write_back import WriteBack
 
 
@@ -61,3 +63,12 @@ def test_a_widget_in_which_somebody_types_is_not_written_to_but_acted_on_once(pa
     assert acted.wait(5)
     assert calls == [2]
     assert page.written == []
+
+
+def test_what_is_done_once_a_value_rests_is_done_for_the_page_that_was_heard(page):
+    heard = []
+    page_heard.set("a page")
+    WriteBack().touch(page.widget("a", 0.0), lambda: heard.append(page_heard.get()))
+    page_heard.set(None)
+    wait_until(lambda: heard)
+    assert heard == ["a page"]

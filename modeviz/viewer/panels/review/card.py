@@ -6,9 +6,10 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.viewer.page import scripts
+from modeviz.viewer.page.acquaintances import Visitor
 from modeviz.viewer.page.handles import assign, name_of
 from modeviz.viewer.page.html import block
-from modeviz.viewer.page.visitors import Visitor, Visitors
+from modeviz.viewer.page.visitors import Visitors
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.review.presence import Presence, linked, listing
 

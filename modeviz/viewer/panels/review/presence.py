@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
+from modeviz.viewer.page.acquaintances import Visitor
 from modeviz.viewer.page.html import named, row, span, table
-from modeviz.viewer.page.visitors import Visitor
 
 
 @dataclass(frozen=True)
