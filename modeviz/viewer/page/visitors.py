@@ -248,7 +248,7 @@ class Visitors:
             client.add_notification("Goodbye", f"{sentence_case(ENDED)}.", color="orange")
             client.flush()
         if connection is not None:
-            asyncio.run_coroutine_threadsafe(_closed(connection), self._server.get_event_loop())
+            self._server.get_event_loop().call_soon_threadsafe(_close_soon, connection)
 
     def _connection(self, client_id: int) -> PageConnection | None:
         connection = self._server._websock_server._live_connections.get(client_id)
@@ -259,7 +259,8 @@ class Visitors:
             listener()
 
 
-async def _closed(connection: PageConnection) -> None:
-    """Closes a page once it has had the time to say why."""
-    await asyncio.sleep(FAREWELL_S)
-    await connection.close(CloseCode.POLICY_VIOLATION, ENDED)
+def _close_soon(connection: PageConnection) -> None:
+    """Closes a page once it has had the time to say why; called in the loop of its server."""
+    loop = asyncio.get_running_loop()
+    closing = partial(connection.close, CloseCode.POLICY_VIOLATION, ENDED)
+    loop.call_later(FAREWELL_S, lambda: loop.create_task(closing()))
