@@ -8,6 +8,7 @@
 (why, subprotocol) => {
   const PATIENCE = 3000; // ms until a page that is not connected says so
   const LONGEST = 1500; // ms that an answer to what is wrong may take: a proxy may hold it back, too
+  const PACE = 1000; // ms between two attempts
   const AGAIN = 5000; // ms between two questions what is wrong
 
   const OURS = ["vehicle", "session", "review", "view"]; // of the page's address, for its websocket
@@ -23,6 +24,9 @@
   const UNSAID = ["Connection closed", "WebSocket construction failed"]; // viser's, where there is no reason
 
   let waiting = 0;
+  let trying = null;
+  let worker = null; // viser's
+  let isTrying = true; // viser opens the first one itself
   let isOpen = false;
   let ended = ""; // why the server closed the connection, if it said so
   let notice = null;
@@ -72,30 +76,49 @@
   }
 
   function closed(reason) {
-    isOpen = false;
+    isOpen = isTrying = false;
     if (reason && !UNSAID.includes(reason)) show((ended = reason));
     if (!waiting) waiting = setTimeout(explain, PATIENCE);
+    trying ??= setInterval(tryAgain, PACE);
+  }
+
+  function connected() {
+    isOpen = true;
+    isTrying = false;
+    clearInterval(trying);
+    trying = null;
+  }
+
+  // viser would begin anew every second and give the attempt before up, in the tab that has the focus alone.
+  // That never ends where the server has been away: browsers make who failed often wait for seconds.
+  async function tryAgain() {
+    if (isTrying) return;
+    isTrying = true;
+    const { isGone, text } = await obstacle();
+    isTrying = !isOpen && !isGone && !text;
+    if (isTrying) worker.retry();
+  }
+
+  // What stands against the websocket, and whether there is no server; "": nothing that the server knows of.
+  async function obstacle() {
+    const query = new URLSearchParams([["origin", location.origin], ["subprotocol", subprotocol], ...ours()]);
+    try {
+      const answer = await fetch(`${new URL(why, address())}?${query}`, {
+        cache: "no-store",
+        signal: AbortSignal.timeout(LONGEST),
+      });
+      if ((answer.headers.get("Content-Type") ?? "").startsWith("text/plain")) return { text: await answer.text() };
+      return answer.status < 500 ? { text: "" } : { isGone: true }; // a proxy says that there is nobody
+    } catch (error) {
+      return error.name === "TimeoutError" ? { text: ended || GONE } : { isGone: true };
+    }
   }
 
   async function explain() {
     const asked = waiting;
-    let text = ended || GONE;
-    let isGone = true;
-    try {
-      const query = new URLSearchParams([["origin", location.origin], ["subprotocol", subprotocol], ...ours()]);
-      const address = new URL(why, location.href.split(/[?#]/)[0]);
-      const answer = await fetch(`${address}?${query}`, {
-        cache: "no-store",
-        signal: AbortSignal.timeout(LONGEST),
-      });
-      const isOurs = (answer.headers.get("Content-Type") ?? "").startsWith("text/plain");
-      isGone = !isOurs && answer.status >= 500; // a proxy says that there is nobody
-      if (!isGone) text = isOurs ? await answer.text() : BLOCKED;
-    } catch (error) {
-      isGone = error.name !== "TimeoutError";
-    }
+    const { isGone, text } = await obstacle();
     if (waiting !== asked) return; // it has been connected meanwhile
-    show(text || ended || (isOpen ? SILENT : BLOCKED));
+    show(isGone ? ended || GONE : text || ended || (isOpen ? SILENT : BLOCKED));
     if (isGone) tell("gone");
     waiting = setTimeout(explain, AGAIN);
   }
@@ -104,7 +127,7 @@
     constructor(...given) {
       super(...given);
       this.addEventListener("message", ({ data }) => {
-        if (data?.type === "connected") isOpen = true;
+        if (data?.type === "connected") connected();
         if (data?.type === "message_batch" && waiting) heard();
         if (data?.type === "closed") closed(data.closeReason);
       });
@@ -112,7 +135,12 @@
 
     postMessage(message, ...rest) {
       if (message?.type === "set_server") message = { ...message, server: address().replace(/^http/, "ws") + visit() };
-      super.postMessage(message, ...rest);
+      if (message?.type === "set_server") worker = this;
+      if (message?.type !== "retry") super.postMessage(message, ...rest);
+    }
+
+    retry() {
+      super.postMessage({ type: "retry" });
     }
   };
 
@@ -126,5 +154,5 @@
     replace(state, title, url);
   };
 
-  closed();
+  waiting = setTimeout(explain, PATIENCE);
 }
