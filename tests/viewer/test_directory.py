@@ -1,6 +1,9 @@
 """Which session a page is of, over real connections."""
 
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
+from urllib.parse import urlencode
 
 import pytest
 import viser
@@ -9,6 +12,7 @@ from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin, update, wai
 from websockets.exceptions import InvalidStatus
 
 from modeviz.journal.keys import digest_of
+from modeviz.viewer.page.handshake import SUBPROTOCOL, WHY
 from modeviz.viewer.serving import directory as rules
 
 
@@ -235,3 +239,27 @@ def test_the_link_of_a_review_opens_that_without_the_token_and_nothing_else():
                     pass
             visitors.stop_sharing()
             assert get(front, link)[0] == 403
+
+
+def test_a_page_that_comes_while_its_session_is_being_opened_is_told_to_wait(tmp_path, monkeypatch):
+    going_on = threading.Event()
+    opened = rules.OpenSession.__init__
+
+    def slowly(*arguments):
+        going_on.wait(20)
+        opened(*arguments)
+
+    with serving(tmp_path / "cabin.modeviz") as (front, directory):
+        path = way(front)
+        origin = f"http://127.0.0.1:{front.get_port()}"
+        query = urlencode({"origin": origin, "subprotocol": SUBPROTOCOL, "session": key_of(path)})
+        monkeypatch.setattr(rules.OpenSession, "__init__", slowly)
+        assert get(front, f"/{WHY}?{query}")[::2] == (200, b"")
+        with ThreadPoolExecutor() as pages:
+            coming = pages.submit(moved, front, directory, path)
+            wait_until(lambda: directory._locks)
+            assert get(front, f"/{WHY}?{query}")[2].decode() == rules.BEING_OPENED
+            going_on.set()
+            coming.result(60)
+        assert get(front, f"/{WHY}?{query}")[::2] == (200, b"")
+        assert get(front, f"/{WHY}?{query}x")[2].decode() == rules.NO_KEY

@@ -42,7 +42,10 @@ class Site(Protocol):
     """What is behind a front."""
 
     async def page(self, connection: PageConnection, request: Request) -> Response:
-        """Return the answer to a request for a page, which the door has let in."""
+        """Return the answer to a request for a page, which the door has let in.
+
+        To one for `WHY`, that is why its websocket has to wait, or "".
+        """
         ...
 
     async def acceptor(self, request: Request) -> Acceptor | None:

@@ -146,7 +146,8 @@ class Door:
         if urlsplit(request.path).path == HEALTH:
             return self.refusal(request) or self.health()
         if urlsplit(request.path).path.endswith(f"/{WHY}"):
-            return self.refusal(request) or self._why(connection, request)
+            why = self.refusal(request) or self._why(connection, request)
+            return why or await inner(connection, request)
         if refusal := self.refusal(request) or await self._token_answer(connection, request):
             return refusal
         if urlsplit(request.path).path.endswith(f"/{ALIVE}"):
@@ -247,8 +248,8 @@ class Door:
             return answer(503, TOO_MANY)
         return None if await connection.wait_to_open() else answer(503, BUSY)
 
-    def _why(self, connection: PageConnection, request: Request) -> Response:
-        """Return why a page's websocket is refused, which says its address and language, or ""."""
+    def _why(self, connection: PageConnection, request: Request) -> Response | None:
+        """Return why this door refuses a page's websocket, which says its address and language."""
         query = query_of(request)
         asked = Request(request.path, Headers(request.headers))
         _set(asked.headers, "Origin", query.get("origin", ""))
@@ -261,7 +262,7 @@ class Door:
             return answer(200, OTHER_VERSION)
         if not connection.has_page_place():
             return answer(200, TOO_MANY)
-        return answer(200, BUSY if connection.must_wait() else "")
+        return answer(200, BUSY) if connection.must_wait() else None
 
 
 def _port(connection: PageConnection) -> int:

@@ -7,7 +7,7 @@ from websockets.http11 import Request, Response
 from modeviz.viewer.page.acceptor import Acceptor
 from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.handshake import Door
+from modeviz.viewer.page.handshake import WHY, Door
 from modeviz.viewer.page.page_file import PageFile
 
 PATHS = ("/", "/index.html")
@@ -27,7 +27,10 @@ class OnePage:
 
     async def page(self, connection: PageConnection, request: Request) -> Response:
         """Return the page, or that there is none at that address."""
-        is_page = urlsplit(request.path).path in PATHS
+        path = urlsplit(request.path).path
+        if path.endswith(f"/{WHY}"):
+            return answer(200)
+        is_page = path in PATHS
         return self._page.response(request) if is_page else answer(404, "there is no such page")
 
     async def acceptor(self, request: Request) -> Acceptor | None:

@@ -59,6 +59,7 @@ KEY = r"[A-Za-z0-9_-]{22}"
 
 Result = TypeVar("Result")
 
+BEING_OPENED = "this session is being opened: a moment"
 NO_PAGE = "there is no such page"
 NO_KEY = "this is no session's address: open the link that modeviz printed"
 NO_VEHICLE = "there is no such vehicle here: open the link that modeviz printed"
@@ -109,6 +110,8 @@ class Directory:
         query = query_of(request)
         if self._lobby and urlsplit(request.path).path == PICTURE:
             return await self._in_a_thread(partial(self._lobby.picture, query, self._left(request)))
+        if urlsplit(request.path).path.endswith(f"/{WHY}"):
+            return await self._in_a_thread(partial(self._obstacle, query))
         if urlsplit(request.path).path not in PATHS:
             return answer(404, NO_PAGE)
         if self._lobby and not ASKED & query.keys():
@@ -175,6 +178,14 @@ class Directory:
         """Return what an address says of a session or a review."""
         several = {"vehicle": vehicle} if len(self._benches) > 1 else {}
         return urlencode({**several, kind: key})
+
+    def _obstacle(self, query: Mapping[str, str]) -> Response:
+        """Return what a page is told that cannot open its websocket."""
+        visit = self._visit(query)
+        if visit is None:
+            return answer(200, NO_REVIEW if "review" in query else NO_KEY)
+        is_being_opened = visit.session in self._locks and visit.session not in self._open
+        return answer(200, BEING_OPENED if is_being_opened else "")
 
     def _visit(self, query: Mapping[str, str]) -> Visit | None:
         """Return what an address asks for; None if there is no such session."""
