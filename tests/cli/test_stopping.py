@@ -6,8 +6,10 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from usual_signals import usual_signals
@@ -17,8 +19,10 @@ from websockets.exceptions import ConnectionClosed
 from benchmarks.page_client import session_query
 from benchmarks.websocket import open_websocket
 from modeviz.cli import interrupt, main
+from modeviz.cli.logs import LogOptions, logged
 from modeviz.compute.stop import Stop
 from modeviz.viewer.page.server import STOPPED
+from modeviz.viewer.serving import serve as serving
 
 SOON = 30
 
@@ -129,3 +133,32 @@ def test_what_fails_beside_is_raised_and_ends_the_wait():
 def test_a_log_that_cannot_be_written_is_refused(folder, capsys, tmp_path):
     assert main(["view", folder, "--log", str(tmp_path / "none" / "log")]) == 2
     assert "--log" in capsys.readouterr().err
+
+
+def test_what_nobody_caught_in_a_thread_is_logged_under_a_number(tmp_path, capsys):
+    def fail():
+        raise IndexError("a bug")
+
+    log = tmp_path / "log"
+    with logged(LogOptions(log=log, log_format="json")):
+        thread = threading.Thread(target=fail)
+        thread.start()
+        thread.join()
+    mistake, stopped = map(json.loads, log.read_text().splitlines())
+    assert mistake["event"] == "mistake"
+    assert "IndexError: a bug" in mistake["message"]
+    assert stopped["event"] == "stopped"
+    assert f"modeviz: mistake {mistake['id']}" in capsys.readouterr().err
+
+
+def test_serve_reads_every_folder_and_makes_none_ready(folder, monkeypatch, capsys):
+    asked = []
+    monkeypatch.setattr(serving, "serve", lambda benches, *_, **named: asked.append((benches, named)))
+    assert main(["serve", folder, "--no-token", "--no-study", "--port", "0"]) == 0
+    ((benches, named),) = asked
+    assert named["is_lazy"]
+    (name,) = benches
+    assert name == Path(folder).name
+    assert not benches[name].is_prepared
+    assert main(["serve", folder, folder, "--no-token", "--no-study"]) == 2
+    assert "is there twice" in capsys.readouterr().err
