@@ -40,3 +40,14 @@ def test_it_opens_where_the_mode_shown_moves_most_and_follows_it_until_somebody_
     assert chosen == ["chassis"] * len(shown)
     form._put_at((1.0, 0.0, 0.5))
     assert {proposal_for(app, name)[0].position for name in shown} == {(1.0, 0.0, 0.5)}
+
+
+def test_its_rates_have_no_more_digits_than_their_boxes_have_room_for(opened):
+    app = opened(mounted_cabin())
+    app._mounts._form._add(None)
+    assert app.session.wait(SOON)
+    (absorber,) = app.session.state.design.alterations.absorbers
+    for row in app._mounts._folders[absorber.name]._rows.values():
+        shown = row._number.value
+        assert shown == float(f"{shown:.5g}") > 0
+        assert "%" not in row._slider.label

@@ -16,12 +16,13 @@ from modeviz.vehicle.bodies import Body, RigidBody
 from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.answers import Solved
+from modeviz.viewer.session.design import LINKED_DIGITS
 
 USUAL_SHARE = 0.05
 """Of what moves in the mode where it sits: a usual mass of an absorber."""
 
 DIGITS = 3
-"""Of masses, frequencies and damping ratios that are proposed."""
+"""Of masses that are proposed."""
 
 ALONG = {sentence_case(direction): (direction,) for direction in DIRECTIONS} | {
     "All directions": DIRECTIONS
@@ -89,7 +90,9 @@ class Proposal:
         now, mode = solved.now, solved.followed.mode
         place = np.array(self.position)
         tuned = tuned_absorber(now, mode, name, self.body, place, self.mass, self.directions)
-        hz, ratio = _rounded(tuned.frequency_hz), _rounded(tuned.damping_ratio)
+        stiffness = _in_a_box(tuned.stiffness_at(tuned.frequency_hz))
+        hz = float(np.sqrt(stiffness / self.mass) / (2 * np.pi))
+        ratio = _in_a_box(tuned.damping) / (2 * self.mass * 2 * np.pi * hz)
         return Absorber(
             name, self.body, self.position, self.mass, hz, ratio, directions=self.directions
         )
@@ -132,6 +135,11 @@ def _places(vehicle: Vehicle, body: Body) -> Iterator[tuple[str, Any]]:
         return
     for attachment in body.attachments:
         yield attachment.name, attachment.position
+
+
+def _in_a_box(rate: float) -> float:
+    """A rate to as many digits as its box on the page has room for."""
+    return float(f"{rate:.{LINKED_DIGITS}g}")
 
 
 def _rounded(value: float) -> float:
