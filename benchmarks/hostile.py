@@ -100,8 +100,15 @@ class _Watch:
         """When each began, and when it ended; the last may not have."""
         threading.Thread(target=self._look, daemon=True).start()
         if port is not None:
-            threading.Thread(target=self._use, args=(port,), daemon=True).start()
-            while len(self._moves) < 2:
+            self._begin_to_use(port)
+
+    def _begin_to_use(self, port: int) -> None:
+        """Returns once the quiet page has made two moves; another begins where one got nowhere."""
+        while len(self._moves) < 2:
+            self._moves.clear()
+            using = threading.Thread(target=self._use, args=(port,), daemon=True)
+            using.start()
+            while using.is_alive() and len(self._moves) < 2:
                 time.sleep(PAUSE_S)
 
     def during(self, act: Callable[[], None]) -> Phase:

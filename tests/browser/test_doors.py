@@ -37,7 +37,7 @@ ATTACK = """async ({ page, socket, subprotocol }) => {
   const fails = (promise) => promise.then(() => "done", () => "refused");
   const text = (how) => fetch(page, { credentials: "include", ...how }).then((answer) => answer.text());
   said.read = await text({}).catch(() => "refused");
-  said.opaque = await text({ mode: "no-cors" });
+  said.opaque = await text({ mode: "no-cors" }).catch(() => "refused");
   said.socket = await fails(new Promise((opened, failed) => {
     const websocket = new WebSocket(socket, subprotocol);
     websocket.onopen = opened;
@@ -67,6 +67,14 @@ ATTACK = """async ({ page, socket, subprotocol }) => {
   return said;
 }"""
 """What a page of another origin can try, with the browser's cookies; "refused" or nothing is right."""
+
+
+FRAME = """(source) => {
+  const frame = document.createElement("iframe");
+  frame.src = source;
+  document.body.append(frame);
+}"""
+"""Shows an address in a frame."""
 
 
 def live_server(**options):
@@ -127,7 +135,6 @@ def test_a_page_of_another_origin_neither_reads_the_scene_nor_moves_a_slider(sho
             other = page.context.new_page()
             other.goto(f"http://{host}:{elsewhere}/")
             said = other.evaluate(ATTACK, asked)
-            assert said.pop("opaque") == ""
             assert said.pop("frames") == 0
             assert set(said.values()) == {"refused"}, said
             for opened in page.context.pages[1:]:
@@ -139,6 +146,27 @@ def test_a_page_of_another_origin_neither_reads_the_scene_nor_moves_a_slider(sho
         assert said["socket"] == "done"
         assert "<title>modeviz</title>" in said["read"]
         assert said["window"] == "modeviz"
+    finally:
+        server.stop()
+
+
+def test_pages_of_an_allowed_origin_show_it_in_a_frame_and_no_others_do(show, elsewhere):
+    """At another name of this machine, which is another site to browsers."""
+    around = surroundings(frames=(f"http://localhost:{elsewhere}",))
+    server = live_server(around=around)
+    try:
+        page = show(f"http://localhost:{elsewhere}/")
+        page.evaluate(FRAME, server.local_link)
+        wait_until(page, lambda: server.get_clients())
+        (frame,) = page.frames[1:]
+        assert frame.evaluate(LIVE)
+        assert page.evaluate("frames.length") == 1
+        page.goto(f"http://127.0.0.1:{elsewhere}/")
+        wait_until(page, lambda: not server.get_clients())
+        page.evaluate(FRAME, server.local_link)
+        page.wait_for_timeout(2000)
+        assert page.frames[1].url.startswith("chrome-error:")
+        assert not server.get_clients()
     finally:
         server.stop()
 

@@ -13,6 +13,7 @@ from websockets.exceptions import InvalidStatus
 
 from modeviz.journal.keys import digest_of
 from modeviz.viewer.page.handshake import SUBPROTOCOL, WHY
+from modeviz.viewer.page.surroundings import surroundings
 from modeviz.viewer.serving import directory as rules
 
 
@@ -96,6 +97,14 @@ def test_a_session_that_nobody_looks_at_is_closed_and_others_stay(served, monkey
         with page_at(front, way(front)):
             wait_until(lambda: n_looked_at(directory) == 2)
             assert len(directory._open) == 2
+
+
+def test_the_last_session_is_remembered_in_a_frame_of_another_site_too():
+    """Else whoever loads a wiki's page again would have a new session each time."""
+    around = surroundings(frames=("https://wiki.example.com",))
+    with serving(around=around) as (front, _):
+        kept = get(front, way(front))[1]["Set-Cookie"]
+    assert kept.endswith("; HttpOnly; SameSite=None; Secure; Partitioned")
 
 
 def test_without_the_token_no_session_is_opened():

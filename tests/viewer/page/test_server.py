@@ -63,6 +63,13 @@ def test_a_server_says_nothing_by_itself_wherever_rich_would_show_it(capsys):
     assert not rich.get_console().quiet
 
 
+def test_pages_of_other_origins_can_take_no_answer_for_a_picture_or_a_script(server):
+    for path in ("/", "/nothing", f"/{WHY}", "/?websocket=x"):
+        headers = get(server, path)[1]
+        assert headers["Cross-Origin-Resource-Policy"] == "same-origin"
+        assert headers["X-Content-Type-Options"] == "nosniff"
+
+
 def test_zipped_page_is_the_same_page(server):
     status, headers, body = get(server, **{"Accept-Encoding": "gzip"})
     assert (status, headers["Content-Encoding"]) == (200, "gzip")
