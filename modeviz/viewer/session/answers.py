@@ -120,7 +120,7 @@ class Answers:
         self._drive: RoadExcitation
         """Near the rates of the last rest."""
         self._named = NamedResults(self._preparations)
-        self._follower: ModeFollower
+        self._follower: ModeFollower | None = None
         self._wheels = WheelResponses()
         self._static = {"now": StaticSolver(), "base": StaticSolver()}
         self._cursor = CursorForces()
@@ -145,7 +145,7 @@ class Answers:
         with self._lock:
             self.vehicle, self._alterations = prepared.vehicle, alterations
             self.prepared, self._drive = prepared, excitation
-        self._follower = ModeFollower(self.prepared)
+        self._follower = ModeFollower(self.prepared, self._follower)
         self._wheels, self._cursor, self._last = WheelResponses(), CursorForces(), None
         self._solve_named(state)
 
@@ -212,6 +212,7 @@ class Answers:
         named = self._solve_named(asked)
         state = named.answerable(asked)
         now, base = self._solve(state), named.results[state.against]
+        assert self._follower is not None
         followed = self._follower.follow(state, base, now)
         seconds = self._seconds(now, begin)
         static = self._in_load_cases(state, followed)

@@ -57,14 +57,24 @@ class FollowedMode:
 class ModeFollower:
     """Follows the mode that a state asks for from one answer to the next."""
 
-    def __init__(self, prepared: Prepared) -> None:
-        """Follows nothing yet."""
-        self._prepared = prepared
+    def __init__(self, prepared: Prepared, before: "ModeFollower | None" = None) -> None:
+        """Follows nothing yet.
+
+        Args:
+            prepared: the vehicle whose modes they are.
+            before: who followed the mode in the vehicle as it was before it was altered, if any.
+        """
+        self._prepared, self._before = prepared, before and before.chosen
         self._last: tuple[State, FollowedMode] | None = None
         self._chosen_by: tuple[str, Rates] | None = None
         self._chosen: tuple[ModalResults, int]
         """The mode that was chosen to be shown, where it is called so."""
         self._detailed_at = -np.inf
+
+    @property
+    def chosen(self) -> tuple[str, ModalResults, int] | None:
+        """What the chosen mode is called, and which it is of some results; None before the first."""
+        return None if self._chosen_by is None else (self._chosen_by[0], *self._chosen)
 
     def follow(self, state: State, base: Results, now: Results) -> FollowedMode:
         """Return the mode to be shown.
@@ -113,7 +123,10 @@ class ModeFollower:
         return follow(chosen, now).split(mode)[0][0] if same is None else same
 
     def _choice(self, state: State, now: Results) -> tuple[ModalResults, int]:
-        """The mode that a state asks for, where it has its name; the slowest if it has it nowhere."""
+        """The mode that a state asks for, where it has its name.
+
+        If it has it nowhere, in the vehicle before it was altered; else the slowest.
+        """
         wanted = state.motion.mode, state.motion.mode_rates
         if self._chosen_by != wanted:
             self._chosen_by, self._chosen = wanted, self._named(*wanted, now)
@@ -124,6 +137,8 @@ class ModeFollower:
             mode = results.mode_index(name)
             if mode is not None:
                 return results, mode
+        if self._before is not None and self._before[0] == name:
+            return self._before[1:]
         f = now.modes.frequency_hz
         return now, min(int(np.searchsorted(f, FREE_HZ)), len(f) - 1)
 

@@ -145,6 +145,19 @@ def test_modes_are_paired_by_the_bodies_that_both_have_and_its_own_is_new(sessio
     np.testing.assert_allclose(back.shares, track.shares.T, atol=1e-9)
 
 
+def test_a_mode_whose_name_is_gone_with_it_is_followed_by_its_shape_and_found_again(session):
+    session.do(ShowMode("front bounce", session.state.design.rates))
+    session.wait_for_answer(SOON)
+    tuned = Absorber("roof", "cab", (1.2, 0.6, 1.4), 6.0, 4.0454, 0.0477)
+    session.do(AddAbsorber(tuned))
+    solved = session.wait_for_answer(SOON)
+    assert solved.now.mode_index("front bounce") is None
+    was = solved.base.mode_index("front bounce")
+    assert solved.followed.mode == solved.followed.track.shares[was].argmax()
+    session.do(RemoveAbsorber("roof"))
+    assert session.wait_for_answer(SOON).followed.name.name == "front bounce"
+
+
 def test_the_shape_compared_with_rests_where_it_has_no_body(session):
     session.do(AddAbsorber(ROOF))
     session.do(ShowComparedGhost(True))
