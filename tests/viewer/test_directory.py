@@ -1,8 +1,10 @@
 """Which session a page is of, over real connections."""
 
+import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from urllib.parse import urlencode
 
 import pytest
@@ -272,3 +274,13 @@ def test_a_page_that_comes_while_its_session_is_being_opened_is_told_to_wait(tmp
             coming.result(60)
         assert get(front, f"/{WHY}?{query}")[::2] == (200, b"")
         assert get(front, f"/{WHY}?{query}x")[2].decode() == rules.NO_KEY
+
+
+def test_sessions_that_are_closed_at_once_leave_the_output_as_it_was(capsys):
+    output = sys.stdout
+    with serving() as (front, directory), ExitStack() as pages:
+        for _ in range(6):
+            pages.enter_context(page_at(front, way(front)))
+        wait_until(lambda: len(directory._open) == 6, 60)
+    assert sys.stdout is output
+    assert capsys.readouterr() == ("", "")

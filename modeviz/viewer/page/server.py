@@ -7,6 +7,7 @@ tests/viewer/page/test_server.py fails when viser changes.
 import asyncio
 import io
 import threading
+import warnings
 from collections.abc import Callable, Coroutine, Hashable, Iterator
 from concurrent.futures import wait
 from contextlib import contextmanager, redirect_stdout
@@ -48,7 +49,10 @@ STOPPED_KEPT = "modeviz was stopped: what you did is kept, and this page goes on
 DISMISSED_WITHIN = 1.0
 """s that pages have to answer that they close."""
 
-_one_server_at_a_time = threading.Lock()
+_one_server_at_a_time, _one_is_quiet_at_a_time = threading.Lock(), threading.Lock()
+
+LEFT_ALREADY = r"Queued a \w+ on a closed connection"
+"""What viser warns of whenever a page leaves while it is being drawn."""
 
 Handler = Callable[[ServerConnection], Coroutine[Any, Any, None]]
 
@@ -64,6 +68,7 @@ class Server(viser.ViserServer):
             address: what a page's address says after the token, such as "&session=…".
             session: what the log calls it, which opens nothing.
         """
+        warnings.filterwarnings("ignore", LEFT_ALREADY, UserWarning)
         self.notices: Notices = front.house.notices
         self.farewell: str = STOPPED
         """What pages are told when it stops."""
@@ -220,14 +225,18 @@ def open_front(
 
 @contextmanager
 def _quietly() -> Iterator[None]:
-    """While this lasts, viser says nothing; in a notebook rich shows it past what stdout is."""
-    console = rich.get_console()
-    was_quiet, console.quiet = console.quiet, True
-    try:
-        with redirect_stdout(io.StringIO()):
-            yield
-    finally:
-        console.quiet = was_quiet
+    """While this lasts, viser says nothing; in a notebook rich shows it past what stdout is.
+
+    By one thread at a time: of two that put an output of their own in place one would stay there.
+    """
+    with _one_is_quiet_at_a_time:
+        console = rich.get_console()
+        was_quiet, console.quiet = console.quiet, True
+        try:
+            with redirect_stdout(io.StringIO()):
+                yield
+        finally:
+            console.quiet = was_quiet
 
 
 @contextmanager
