@@ -25,7 +25,7 @@ from websockets.asyncio.client import ClientConnection, connect
 
 from benchmarks.loaded_server import LoadedServer, Usage, loaded_server
 from benchmarks.page_client import CAMERA, handshake, own_origin, wire
-from benchmarks.screen import Row, Screen, is_drawn
+from benchmarks.screen import Row, Screen, agrees
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions, solve
 from modeviz.files import builtin_vehicle, read_vehicle
@@ -50,10 +50,6 @@ PATIENCE_S = 120.0
 
 STEPS_OFF = 2
 """By which a number may differ from its slider: steps are 1 % or less, numbers have four digits."""
-
-WITHIN_DB = 1e-4
-"""By which spectra may differ: the line on a sharp peak lies where the peak was found, to a rounding,
-and what is between the lines with it. One step of a slider changes a thousand times as much."""
 
 TITLE = (
     f"{'':16} {'pages':>5} {'moves':>7} {'median, ms':>10} {'95 %, ms':>8} {'MB a page':>9} "
@@ -109,7 +105,8 @@ class LoadedPage:
         return self._moved.number
 
     async def __aenter__(self) -> "LoadedPage":
-        self._socket = await connect(self._url, max_queue=None, **handshake(self._origin))
+        options = {"max_queue": None, "open_timeout": PATIENCE_S, **handshake(self._origin)}
+        self._socket = await connect(self._url, **options)
         await self._socket.send(wire("ViewerCameraMessage", **CAMERA))
         self._hearing = asyncio.create_task(self._hear())
         await self._next_spectrum()
@@ -203,7 +200,7 @@ class LoadedPage:
         for direction in ("lateral", "vertical"):
             curve = power_decibels(fresh.response(0, direction))
             shown = self.screen.spectra()
-            if not any(is_drawn(fresh.frequency_hz, curve, each, WITHIN_DB) for each in shown):
+            if not any(agrees(fresh.frequency_hz, curve, each) for each in shown):
                 wrong.append(f"no {direction} spectrum of its rates")
         return wrong
 
@@ -318,9 +315,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(TITLE)
         for load in loads:
             found = asyncio.run(loaded(server, *load, folder))
-            print(found.line(), flush=True)
+            print("\n".join([found.line(), *found.wrong]), flush=True)
             wrong += found.wrong
-    print("\n".join(wrong) or "every screen shows its rates and their spectra")
+    if not wrong:
+        print("every screen shows its rates and their spectra")
     return 1 if wrong else 0
 
 
