@@ -35,6 +35,7 @@ VEHICLE = Fingerprint({"name": "killed"})
 LONGEST_S = 0.12
 """In which a process is killed at the latest; it has written hundreds of changes by then."""
 
+PATIENCE_S = 60.0
 ROUNDS_OF_A_FILE = 50
 STATE_BYTES = 3000
 """About what a state of the pickup takes."""
@@ -169,13 +170,14 @@ def kill_often(
         path = folder / f"study-{i // rounds_of_a_file}.modeviz"
         if i % rounds_of_a_file == 0:
             model = Model()
-        told = _run_and_kill(path, model, seed + i, chance.uniform(0, LONGEST_S))
+        is_open = chance.random() < 0.6
+        told = _run_and_kill(path, model, seed + i, chance.uniform(0, LONGEST_S), is_open)
         model = _check(path, model, seed + i, told, killed)
     return killed
 
 
-def _run_and_kill(path: Path, model: Model, seed: int, after: float) -> bytes:
-    """Returns what a process told in that time, s, before it was killed."""
+def _run_and_kill(path: Path, model: Model, seed: int, after: float, is_open: bool) -> bytes:
+    """Returns what a process told before it was killed, some s after it began or opened the study."""
     reads, writes = os.pipe()
     child = os.fork()
     if child == 0:
@@ -185,6 +187,8 @@ def _run_and_kill(path: Path, model: Model, seed: int, after: float) -> bytes:
         finally:
             os._exit(0)
     os.close(writes)
+    if is_open:
+        select.select([reads], [], [], PATIENCE_S)
     time.sleep(after)
     os.kill(child, signal.SIGKILL)
     os.waitpid(child, 0)

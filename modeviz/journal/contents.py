@@ -11,6 +11,10 @@ FAST = 3
 """zlib's level: states of some kilobytes shrink to a fifth in 0.1 ms."""
 
 
+LARGEST = 100_000_000
+"""Bytes of a content that are read: a state has some kilobytes, a picture some megabytes."""
+
+
 def put_text(connection: Connection, text: str) -> int:
     """Stores a text, as `put_content`."""
     return put_content(connection, text.encode())
@@ -42,7 +46,7 @@ def content(connection: Connection, number: int) -> bytes:
     if row is None:
         raise ModevizError(f"content {number} of the study is missing: the file is damaged")
     try:
-        unpacked = zlib.decompress(row[1])
+        unpacked = zlib.decompressobj().decompress(row[1], LARGEST)
     except zlib.error:
         unpacked = b""
     if hashlib.sha256(unpacked).digest() != row[0]:

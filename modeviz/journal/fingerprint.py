@@ -43,8 +43,11 @@ class Fingerprint:
 
     @classmethod
     def of_text(cls, text: str) -> "Fingerprint":
-        """Return the one that `text` was of."""
-        return cls(json.loads(text))
+        """Return the one that `text` was of; raises ValueError for another text."""
+        parts = json.loads(text)
+        if not isinstance(parts, dict) or not all(isinstance(each, str) for each in parts.values()):
+            raise ValueError("found no digests of a vehicle's parts")
+        return cls(parts)
 
     def changed_since(self, before: "Fingerprint") -> tuple[str, ...]:
         """Return the parts that are other than they were, or new: "new body cab", or gone."""

@@ -5,6 +5,7 @@ from pathlib import Path
 from sqlite3 import Connection
 
 from modeviz.errors import ModevizError, reason
+from modeviz.journal.columns import wrong_table
 from modeviz.journal.schema import APPLICATION_ID, VERSION
 
 MAGIC = b"SQLite format 3\0"
@@ -90,24 +91,29 @@ def _check_sound(path: Path) -> bool:
     try:
         connection = _connect_to_read(path)
         try:
-            # what was written last may be in the log beside the file alone, its header too
-            tables = {name for (name,) in connection.execute("SELECT name FROM sqlite_master")}
-            application, version, found = (
-                connection.execute(f"PRAGMA {what}").fetchone()[0]
-                for what in ("application_id", "user_version", "quick_check(1)")
-            )
+            return _is_study(connection, path)
         finally:
             connection.close()
     except sqlite3.Error as error:
         raise ModevizError(_damaged(path, str(error))) from None
+
+
+def _is_study(connection: Connection, path: Path) -> bool:
+    """Return the same of a connection: what was written last may be in the log beside the file."""
+    application, version, found = (
+        connection.execute(f"PRAGMA {what}").fetchone()[0]
+        for what in ("application_id", "user_version", "quick_check(1)")
+    )
     if found != "ok":
         raise ModevizError(_damaged(path, str(found)))
-    _check_version(path, application, version)
-    if application != APPLICATION_ID and tables:
+    if application == APPLICATION_ID:
+        _check_version(path, application, version)
+        if table := wrong_table(connection):
+            raise ModevizError(_damaged(path, f"table {table} is not one of a study"))
+        return True
+    if connection.execute("SELECT 1 FROM sqlite_master").fetchone():
         raise ModevizError(f"{path}: is a database, but no study of modeviz; it is left as it is")
-    if application == APPLICATION_ID and "session" not in tables:
-        raise ModevizError(_damaged(path, "tables are missing"))
-    return application == APPLICATION_ID
+    return False
 
 
 def _damaged(path: Path, words: str) -> str:

@@ -18,6 +18,9 @@ from modeviz.journal.opening import open_to_read
 from modeviz.journal.sessions import SessionId, SessionLine, StoredSession
 from modeviz.report.notes import Note
 
+UNREADABLE = (KeyError, TypeError, ValueError, AttributeError, RecursionError)
+"""What contents raise that are whole, and say something else than a study's do."""
+
 
 @dataclass(frozen=True)
 class Study:
@@ -103,6 +106,8 @@ class Records:
                 connection.close()
         except sqlite3.Error as error:
             raise ModevizError(f"{self.path}: cannot be read ({reason(error)})") from None
+        except UNREADABLE as error:
+            raise ModevizError(f"{self.path}: is damaged: {reason(error)}") from None
         except ModevizError as error:
             raise type(error)(placed(str(self.path), str(error))) from None
 

@@ -243,7 +243,7 @@ def _number(connection: Connection, session: SessionId | None) -> int | None:
 def _check_folder(path: Path) -> None:
     if path.parent == own_folder():
         with suppress(OSError):  # said when the file is locked
-            path.parent.mkdir(parents=True, exist_ok=True)
+            path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     if not path.parent.is_dir():
         raise ModevizError(f"{path}: cannot be written (there is no folder {path.parent})")
     if path.is_file() and not os.access(path, os.W_OK):

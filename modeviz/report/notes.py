@@ -28,6 +28,10 @@ class Note:
     """Whether every session of the study has it."""
 
     def __post_init__(self) -> None:
+        try:
+            "".join((self.text, self.name, self.author)).encode()
+        except UnicodeEncodeError:
+            raise ModevizError("a note: found bytes that are no letters") from None
         if not self.text.strip():
             raise ModevizError("a note: found no text")
         if len(self.text) > LONGEST_NOTE:

@@ -3,6 +3,7 @@
 import csv
 import json
 import sqlite3
+from contextlib import closing, suppress
 from pathlib import Path
 from unittest.mock import Mock
 
@@ -12,10 +13,15 @@ from mounted_cabin import mounted_cabin
 
 from modeviz.cli import main
 from modeviz.cli.studies.kept import kept_study
+from modeviz.errors import ModevizError
+from modeviz.journal.comparison import compare_studies, difference_text
+from modeviz.journal.contents import put_text
+from modeviz.journal.export import study_record, variants_table
 from modeviz.journal.places import own_folder, study_path
 from modeviz.journal.records import Records
 from modeviz.journal.runs import Run
 from modeviz.journal.study_file import StudyFile
+from modeviz.journal.told import log_text
 from modeviz.report.notes import Note
 
 OTHER = "a" * 64
@@ -195,3 +201,47 @@ def test_what_is_lost_at_the_end_of_a_server_is_said(tmp_path, monkeypatch, caps
         study.record(KEY, change(1, 2))
     said = capsys.readouterr().err
     assert "the last 2 changes are lost (not saved: the disk is full)" in said
+
+
+VALUES = ("zeroblob(3)", "1e300", "'text'", "-7")
+
+
+def tell_everything(study):
+    records = Records.of_file(study)
+    log_text("study", records.study(), records.sessions(), records.history())
+    study_record(records)
+    variants_table(records)
+    difference_text(compare_studies(records, records))
+
+
+def test_no_value_that_somebody_puts_into_a_study_ends_in_a_traceback(study):
+    whole = study.read_bytes()
+    with closing(sqlite3.connect(study)) as connection:
+        tables = connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'").fetchall()
+        columns = [
+            (table, name)
+            for (table,) in tables
+            for _, name, *_ in connection.execute(f"PRAGMA table_info({table})")
+        ]
+    n_refused = 0
+    for i, (table, column) in enumerate(columns):
+        study.write_bytes(whole)
+        with closing(sqlite3.connect(study)) as connection, suppress(sqlite3.IntegrityError):
+            connection.execute(f"UPDATE {table} SET {column} = {VALUES[i % len(VALUES)]}")
+            connection.commit()
+        try:
+            tell_everything(study)
+        except ModevizError:
+            n_refused += 1
+    assert n_refused > len(columns) / 3
+
+
+@pytest.mark.parametrize("said", ["7", '{"rates": {"C2": {"x": 1}}, "placements": {}}', "[" * 9999])
+def test_contents_that_say_something_else_are_damage(study, capsys, said):
+    with closing(sqlite3.connect(study)) as connection:
+        number = put_text(connection, said)
+        connection.execute("UPDATE session SET tuning = ?", (number,))
+        connection.execute("UPDATE change SET differences = ?", (number,))
+        connection.commit()
+    assert "damaged" in failed(capsys, "log", study)
+    assert "damaged" in failed(capsys, "diff", study, study)

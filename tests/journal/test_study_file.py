@@ -156,7 +156,13 @@ def test_a_note_of_another_session_can_be_neither_changed_nor_removed(path):
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"text": " "}, {"text": "x" * 10_001}, {"text": "x", "name": "C2"}, {"text": "x", "kind": "mode"}],
+    [
+        {"text": " "},
+        {"text": "x" * 10_001},
+        {"text": "x", "name": "C2"},
+        {"text": "x", "kind": "mode"},
+        {"text": "x\udcff"},
+    ],
 )
 def test_a_note_that_says_nothing_too_much_or_of_nothing_is_refused(wrong):
     with pytest.raises(ModevizError, match="a note: "):
