@@ -18,7 +18,7 @@ import rich
 import viser
 import websockets.asyncio.server
 from viser import _messages
-from viser.infra import ClientId
+from viser.infra import ClientId, WebsockMessageHandler
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
@@ -86,6 +86,8 @@ class Server(viser.ViserServer):
         self._thread_executor.shutdown()
         for caller in (self, self.gui, self.scene):
             caller._thread_executor = self._turns
+        _let_leave_in_silence(self._websock_server)
+        self._websock_server.on_client_connect(_let_leave_in_silence)
         self.visitors: Visitors = Visitors(self)
         gate_messages(self, self._tell_client, self.visitors)
         self.on_client_connect(lambda client: self._note_page(client, "opened"))
@@ -237,6 +239,11 @@ def _quietly() -> Iterator[None]:
                 yield
         finally:
             console.quiet = was_quiet
+
+
+def _let_leave_in_silence(connection: WebsockMessageHandler) -> None:
+    """Has viser say nothing on the terminal of what is still said to a page that has left."""
+    connection.get_message_buffer()._warned_push_after_done = True
 
 
 @contextmanager

@@ -12,7 +12,7 @@ import pytest
 import rich
 import viser
 from viser import _messages
-from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin
+from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin, wait_until
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from benchmarks.page_client import messages as decoded
@@ -295,6 +295,18 @@ def test_token_that_would_break_a_cookie_is_refused():
 def test_server_says_nothing_on_the_terminal(capfd):
     open_server(port=0).stop()
     assert capfd.readouterr().out == ""
+
+
+def test_what_is_said_to_a_page_that_has_left_is_not_on_the_terminal(server, recwarn):
+    left = []
+    server.on_client_disconnect(left.append)
+    with knock(server, own_origin(server)) as socket:
+        socket.send(encoded(CAMERA))
+        wait_until(server.get_clients)
+    wait_until(lambda: left)
+    left[0].add_notification("Gone", "too late")
+    left[0].flush()
+    assert not recwarn.list
 
 
 def test_public_tunnel_cannot_be_asked_for(server):
