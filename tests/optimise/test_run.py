@@ -290,6 +290,20 @@ def test_the_end_that_is_told_is_why_not_all_was_searched():
     assert why_ended([stopped, descents[1]], 2) == OUT_OF_BUDGET
 
 
+def test_a_window_that_the_best_design_keeps_by_itself_costs_nothing():
+    free = cabin_search()
+    start = start_points(free, {}, 3)[1]
+    best = optimise(free, [start])
+    open_window = cabin_search(windows=(FrequencyWindow("cab yaw", high_hz=40.0),)).windows
+    (yaw,) = open_window.exact_frequencies(free.space.rates(best.x))
+    held = cabin_search(windows=(FrequencyWindow("cab yaw", high_hz=float(yaw) + 0.5),))
+    assert (held.margins(best.x)[0] >= 0).all()
+    found = optimise(held, [start])
+    assert found.converged
+    assert found.value == pytest.approx(best.value, rel=1e-9)
+
+
+@pytest.mark.slow
 def test_on_the_truck_a_window_that_the_best_design_keeps_by_itself_costs_nothing():
     vehicle = builtin_truck()
     window = FrequencyWindow("cab yaw", high_hz=10.0)
