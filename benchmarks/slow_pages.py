@@ -19,8 +19,9 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.page_client import session_query
 from benchmarks.slow_page import slow_page
-from benchmarks.websocket import Page, move, open_page, rest, served, session_query, widgets
+from benchmarks.websocket import PATIENCE_S, Page, move, open_page, rest, served, widgets
 from modeviz.files import builtin_vehicle
 
 SPEEDS = {"nothing": 0.0, "1 byte/s": 1.0, "20 kB/s": 20e3}
@@ -105,9 +106,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--pages", type=int, default=60, help="that come and go, default 60")
     options = parser.parse_args(arguments)
     with served(builtin_vehicle()) as (port, _):
-        with open_page(port) as page:  # answered once the vehicle is prepared
+        query = _new_session(port)
+        with open_page(port, query) as page:  # answered once the vehicle is prepared
             move(page, *_first_move(page))
-        query = session_query(port)
         for name, speeds in (("alone", ()), ("beside slow pages", (*SPEEDS.values(),))):
             found = drag_beside(port, query, options.seconds, speeds)
             print(
@@ -119,6 +120,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
             grown = come_and_go(port, query, options.pages)
             print(f"{options.pages} pages that came and went: {grown:+.0f} kB each", flush=True)
     return 0
+
+
+def _new_session(port: int) -> str:
+    """Return what the address of a new session adds, once the server has started."""
+    deadline = time.monotonic() + PATIENCE_S
+    while True:
+        try:
+            return session_query(port)
+        except ConnectionRefusedError:
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(0.1)
 
 
 def _first_move(page: Page):

@@ -132,7 +132,8 @@ def open_page(port: int, query: str | None = None) -> Iterator[Page]:
 
 def open_websocket(port: int, query: str) -> Page:
     """Connects to a page's server as a browser here does, for messages of any size and number."""
-    return connect(f"ws://127.0.0.1:{port}/{query}", max_queue=None, **handshake(own_origin(port)))
+    site, options = f"ws://127.0.0.1:{port}/{query}", handshake(own_origin(port))
+    return connect(site, open_timeout=PATIENCE_S, max_queue=None, **options)
 
 
 def _connect(port: int, query: str | None) -> Page:
