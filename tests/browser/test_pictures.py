@@ -36,7 +36,7 @@ from modeviz.viewer.pictures.pictures import (
     picture,
 )
 from modeviz.viewer.scene.driver import ShapeDriver, held
-from modeviz.viewer.scene.stage import FIELD_OF_VIEW, LIGHT, box, camera
+from modeviz.viewer.scene.stage import FIELD_OF_VIEW, LIGHT, camera, framed_box
 from modeviz.viewer.session.commands.looks import ShowMode
 
 PANEL = np.array([[0.0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]])
@@ -297,7 +297,7 @@ DRAWN_NEXT = """async () => {
 def test_labels_of_a_page_beside_are_placed_for_its_camera_as_soon_as_it_stands(app):
     def photographed():
         with HeadlessPage(lambda: app.server, 600, 400, bare=True) as studio:
-            seen = camera(box(app.session.vehicle), "Side", 600, 400)
+            seen = camera(framed_box(app.session.vehicle), "Side", 600, 400)
             studio.client.camera.position, studio.client.camera.look_at = seen
             studio.stand(1.0)
             size = studio._page.evaluate(
@@ -331,7 +331,7 @@ ANEW = """() => {
 
 def test_a_page_that_nobody_sees_draws_only_pictures_and_the_first_as_well_as_any(app):
     shot = ImageSettings(300, 200, "white", LIGHT, FIELD_OF_VIEW)
-    side, iso = (camera(box(app.session.vehicle), view, 600, 400) for view in ("Side", "Iso"))
+    side, iso = (camera(framed_box(app.session.vehicle), view, 600, 400) for view in ("Side", "Iso"))
 
     def photographed():
         with HeadlessPage(lambda: app.server, 600, 400, bare=True) as studio:

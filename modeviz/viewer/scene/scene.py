@@ -22,7 +22,7 @@ from modeviz.viewer.scene.following import Following
 from modeviz.viewer.scene.markers import Markers
 from modeviz.viewer.scene.mount_handle import Dragged, MountHandle
 from modeviz.viewer.scene.rigid_axes import RigidAxesMarks
-from modeviz.viewer.scene.stage import DARK, LIGHT, Box, Stage, bodies_box, box
+from modeviz.viewer.scene.stage import DARK, LIGHT, Box, Stage, bodies_box, box, framed_box
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import (
     Coloring,
@@ -75,7 +75,8 @@ class Scene:
         self._handle: MountHandle | None = None
         self.following: Following = Following(server, server.visitors.has_control)
         """Lets cameras of pages that only look go where that of whoever presents goes."""
-        self._cameras = Cameras(server, self._box, camera, self.following.is_led, left)
+        self._view = framed_box(vehicle)
+        self._cameras = Cameras(server, self._view, camera, self.following.is_led, left)
         self.exaggeration: float = 1.0
         """How many times as large as it is the shape is drawn at the driver's amplitude of one."""
 
@@ -187,8 +188,8 @@ class Scene:
             return bodies_box(drawn)
         groups = {group.name: group for group in solved.now.prepared.vehicle.mount_groups}
         if not state.look.follow or state.group not in groups:
-            return self._box
-        return self._box.around(np.mean([m.center for m in groups[state.group].mounts], axis=0))
+            return self._view
+        return self._view.around(np.mean([m.center for m in groups[state.group].mounts], axis=0))
 
     def _hidden(self, solved: Solved) -> Collection[str]:
         """The bodies that are not drawn: all but the one that moves alone, or those chosen."""

@@ -28,6 +28,10 @@ VIEWS: Mapping[str, tuple[float, float, float]] = {
 FILLED = 0.94
 """How much of its picture a vehicle takes."""
 
+AROUND_BLOCKS = 1.4
+"""How many times their space is framed where nothing has a mesh: blocks reach its corners, and mounts
+with their labels are at their borders."""
+
 SMALLEST = 0.1
 """m: the length of what has none."""
 
@@ -103,6 +107,13 @@ class Box:
         low, high = np.array(self.low), np.array(self.high)
         return low + (high - low) * (0.5, 0.5, 0.4)
 
+    def grown(self, factor: float) -> "Box":
+        """A space so many times as large with the same middle."""
+        low, high = (
+            self.middle + factor * (np.array(end) - self.middle) for end in (self.low, self.high)
+        )
+        return Box(tuple(low.tolist()), tuple(high.tolist()))
+
     def around(self, point: Floats) -> "Box":
         """As large a space with its middle at a point, (3,), m."""
         step = point - self.middle
@@ -121,6 +132,12 @@ def box(vehicle: Vehicle) -> Box:
     points += [connection.points for connection in vehicle.all_connections]
     points += [point.position[None] for point in vehicle.response_points]
     return points_box(points)
+
+
+def framed_box(vehicle: Vehicle) -> Box:
+    """The space that cameras look at: that of `box`, with room for labels around mere blocks."""
+    drawn = box(vehicle)
+    return drawn if any(body.mesh for body in vehicle.bodies) else drawn.grown(AROUND_BLOCKS)
 
 
 def bodies_box(bodies: Iterable[Body]) -> Box:

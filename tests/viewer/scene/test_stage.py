@@ -20,6 +20,7 @@ from modeviz.viewer.scene.stage import (
     bodies_box,
     box,
     camera,
+    framed_box,
 )
 
 TRUCK = Box((-1.05, -1.0, 0.0), (4.35, 1.0, 1.8))
@@ -71,6 +72,19 @@ def test_box_holds_meshes_connections_and_the_ground():
     found = box(Vehicle("v", (body, axle), (tyre(axle),)))
     assert (found.low, found.high) == ((-1.0, -0.5, 0.0), (5.0, 2.0, 2.0))
     assert found.length == 6.0
+
+
+def test_mere_blocks_leave_room_for_labels_and_meshes_fill_the_picture():
+    body = RigidBody("body", "powertrain", "body", 150.0, np.array([1.0, 0, 1]), np.diag([9, 7, 8.0]))
+    blocks = Vehicle("v", (body,), ())
+    around = framed_box(blocks)
+    np.testing.assert_allclose(
+        np.subtract(around.high, around.low), 1.4 * np.ptp(box(blocks).corners, axis=0)
+    )
+    np.testing.assert_allclose(around.middle, box(blocks).middle)
+    part = MeshPart("p", np.eye(3), [[0, 1, 2]], Material((0, 0, 0)))
+    meshed = Vehicle("v", (replace(body, mesh=(part,)),), ())
+    assert framed_box(meshed) == box(meshed)
 
 
 def test_vehicle_without_meshes_or_connections_still_has_a_place():
