@@ -43,12 +43,12 @@ class LineFormatter(logging.Formatter):
 
 
 class JsonFormatter(logging.Formatter):
-    """One JSON object a line: time (UTC), level, event and text, and what else is known."""
+    """One JSON object a line: time (UTC), level, event, text with where it went wrong, and more."""
 
     def format(self, record: logging.LogRecord) -> str:
         said = {name: vars(record)[name] for name in FIELDS if vars(record).get(name) is not None}
         time = datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds")
-        text = redacted(record.getMessage())
+        text = redacted(super().format(record))
         content = {
             "time": time,
             "level": record.levelname.lower(),

@@ -1,5 +1,6 @@
 import json
 import logging
+import sys
 
 from modeviz.text.log import JsonFormatter, LineFormatter, redacted
 
@@ -31,3 +32,13 @@ def test_nothing_that_opens_a_session_is_written():
         assert secret not in LineFormatter("%(message)s").format(record(text))
         assert secret not in JsonFormatter().format(record(text))
     assert redacted("a session was opened: 3 pages") == "a session was opened: 3 pages"
+
+
+def test_what_went_wrong_is_in_the_object_without_secrets():
+    try:
+        raise ValueError("GET /?token=Zm9vYmFyYmF6")
+    except ValueError:
+        made = logging.LogRecord("modeviz", logging.ERROR, "file", 1, "not told", (), sys.exc_info())
+    read = json.loads(JsonFormatter().format(made))
+    assert read["message"].startswith("not told\nTraceback")
+    assert "ValueError: GET /?token=…" in read["message"]
