@@ -101,7 +101,7 @@ class BackgroundTask(Generic[AnyJob]):
         self._watchers.append(watcher)
 
     def start(self, job: AnyJob) -> None:
-        """Begins.
+        """Begins, once everybody has been told of it in the calling thread.
 
         Raises:
             ModevizError: another one is running, or too many that were cancelled have not ended yet.
@@ -117,9 +117,9 @@ class BackgroundTask(Generic[AnyJob]):
                     f"{len(self._left)} computations that were cancelled have not ended: wait for them"
                 )
             self.job, self._token, self._thread = job, token, thread
+        self._look(job)
         thread.start()
         threading.Thread(target=self._watch, args=(token, thread), name="watch", daemon=True).start()
-        self._look(job)
 
     def pause(self) -> None:
         """Holds what is running."""
@@ -142,7 +142,7 @@ class BackgroundTask(Generic[AnyJob]):
     def close(self) -> None:
         """Ends what is running and waits for its thread, but not longer than anybody would."""
         self.cancel()
-        if self._thread is not None:
+        if self._thread is not None and self._thread.is_alive():
             self._thread.join(PATIENCE)
 
     def _look(self, job: AnyJob) -> None:

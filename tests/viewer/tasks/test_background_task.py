@@ -199,3 +199,18 @@ def test_only_so_many_that_were_cancelled_run_on():
         task.start(Job("it"))
     may_end.set()
     thread.join(SOON)
+
+
+def test_everybody_is_told_of_a_job_before_it_does_anything():
+    told, is_told = [], threading.Event()
+
+    def work(job, token, tell):
+        told.append("works")
+        return job.asked
+
+    task = BackgroundTask("work", work, lambda: None, print)
+    task.watch(lambda job: (told.append(job.phase), job.phase == "ended" and is_told.set()))
+    task.watch(lambda _: is_told.wait(0.2))
+    task.start(Job("first"))
+    assert is_told.wait(SOON)
+    assert told == ["running", "works", "ended"]
