@@ -16,7 +16,9 @@ from websockets.exceptions import InvalidStatus
 from modeviz.journal.keys import digest_of
 from modeviz.viewer.page.handshake import SUBPROTOCOL, WHY
 from modeviz.viewer.page.surroundings import surroundings
+from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.serving import directory as rules
+from modeviz.viewer.serving import open_session
 
 
 @pytest.fixture(scope="module")
@@ -284,3 +286,38 @@ def test_sessions_that_are_closed_at_once_leave_the_output_as_it_was(capsys):
         wait_until(lambda: len(directory._open) == 6, 60)
     assert sys.stdout is output
     assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("where", [(open_session.App, "__init__"), (Guide, "welcome_first")])
+def test_a_session_that_cannot_be_built_leaves_no_server_and_no_thread(served, monkeypatch, where):
+    def broken(*_):
+        raise RuntimeError("broken")
+
+    front, directory = served
+    (bench,) = directory._benches.values()
+    monkeypatch.setattr(*where, broken)
+    before = set(threading.enumerate())
+    with pytest.raises(RuntimeError, match="broken"):
+        rules.OpenSession(bench, digest_of("no page"), bench.opening(), front, "", False)
+    wait_until(lambda: set(threading.enumerate()) <= before)
+
+
+def test_idle_sessions_are_closed_though_closing_one_went_wrong(capsys, monkeypatch):
+    monkeypatch.setattr(rules, "IDLE", 0.2)
+    monkeypatch.setattr(rules, "LOOKS_EVERY", 0.1)
+    closed = rules.OpenSession.close
+    broken = []
+
+    def close(session):
+        closed(session)
+        if not broken:
+            broken.append(session)
+            raise RuntimeError("broken")
+
+    monkeypatch.setattr(rules.OpenSession, "close", close)
+    with serving() as (front, directory):
+        for _ in range(2):
+            with page_at(front, way(front)):
+                wait_until(lambda: directory._open)
+            wait_until(lambda: not directory._open, 60)
+    assert "broken" in capsys.readouterr().err

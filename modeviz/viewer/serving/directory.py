@@ -139,8 +139,9 @@ class Directory:
         """Ends all sessions, side by side, and has their studies remember them."""
         self._ended.set()
         self._openers.shutdown(cancel_futures=True)
-        with ThreadPoolExecutor(len(self._open) or 1, "close session") as closing:
-            list(closing.map(OpenSession.close, self._open.values()))
+        sessions = tuple(self._open)
+        with ThreadPoolExecutor(len(sessions) or 1, "close session") as closing:
+            closing.map(partial(self._close_idle, least=-1.0), sessions)
         self._watching.join(timeout=1.0)
 
     def opened(self, session: SessionId) -> OpenSession | None:
@@ -261,15 +262,21 @@ class Directory:
             for session in tuple(self._open):
                 self._close_idle(session, IDLE)
 
-    def _close_idle(self, session: SessionId, least: float) -> bool:
-        """Closes a session that nobody has looked at for more than so many s; whether it is closed."""
+    def _close_idle(self, session: SessionId, least: float) -> None:
+        """Closes a session that nobody has looked at for more than so many s.
+
+        One whose closing goes wrong, which is our mistake, is as good as closed: others go on.
+        """
         with self._one_at_a_time(session):
             found = self._open.get(session)
             if found is None or found.idle <= least:
-                return found is None
-            found.close()
-            del self._open[session]
-            return True
+                return
+            try:
+                found.close()
+            except Exception as error:
+                found.server.note_mistake(error)
+            finally:
+                del self._open[session]
 
     @contextmanager
     def _one_at_a_time(self, session: SessionId) -> Iterator[None]:

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from contextlib import ExitStack
 
 from modeviz.journal.sessions import SessionId
 from modeviz.viewer.app import App
@@ -32,21 +33,25 @@ class OpenSession:
             dark: whether the page is.
         """
         self.server: Server = Server(front, address, name[:DIGITS])
+        with ExitStack() as undoing:
+            undoing.callback(self.server.stop)
+            self.app: App = App(
+                bench.vehicle,
+                bench.rates,
+                bench.conditions,
+                self.server,
+                dark,
+                opening,
+                bench.preparations(),
+            )
+            undoing.callback(self.app.end)
+            if bench.study and not opening.is_unread:
+                self.server.farewell = STOPPED_KEPT
+                self.app.record(bench.study, name, lambda: self.server.visitors.acting().name)
+            if not opening.past:
+                self.app.guide.welcome_first()
+            undoing.pop_all()
         self.server.note("a session was opened", "session opened")
-        self.app: App = App(
-            bench.vehicle,
-            bench.rates,
-            bench.conditions,
-            self.server,
-            dark,
-            opening,
-            bench.preparations(),
-        )
-        if bench.study and not opening.is_unread:
-            self.server.farewell = STOPPED_KEPT
-            self.app.record(bench.study, name, lambda: self.server.visitors.acting().name)
-        if not opening.past:
-            self.app.guide.welcome_first()
         self._looked_at = time.monotonic()
         self._starting = threading.Thread(target=self._start, name="start session", daemon=True)
         self._starting.start()
