@@ -3,7 +3,7 @@
 import secrets
 import threading
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions
@@ -52,7 +52,7 @@ class Bench:
         self._link = link
         self._reviews: dict[str, SessionId] = study.reviews() if study else {}
         """Sessions by the digests of the keys that open them to visitors."""
-        self._lock = threading.Lock()
+        self._lock, self._reviews_lock = threading.Lock(), threading.Lock()
         self._prepared: Prepared | None = None
         self._told: list[Progress] = []
         self.opening()
@@ -99,14 +99,16 @@ class Bench:
     def share(self, session: SessionId) -> str:
         """Return the key of a new review of a session."""
         key = secrets.token_urlsafe(16)
-        self._reviews[digest_of(key)] = session
+        with self._reviews_lock:
+            self._reviews = {**self._reviews, digest_of(key): session}
         if self.study:
             self.study.share(session, digest_of(key))
         return key
 
     def end_reviews(self, session: SessionId) -> None:
         """Has the keys of a session's reviews open nothing any more."""
-        self._reviews = {key: shown for key, shown in self._reviews.items() if shown != session}
+        with self._reviews_lock:
+            self._reviews = {key: shown for key, shown in self._reviews.items() if shown != session}
         if self.study:
             self.study.end_reviews(session)
 
@@ -126,7 +128,8 @@ class Bench:
         """Return the vehicle made ready; who asks while that is being done waits for it.
 
         Args:
-            progress: told the fraction that is done.
+            progress: told the fraction that is done; what it raises ends that, unless the vehicle is
+                being made ready for somebody else: then it is told no more.
 
         Raises:
             ModevizError: it cannot be prepared.
@@ -136,15 +139,24 @@ class Bench:
         try:
             with self._lock:
                 if self._prepared is None:
-                    self._prepared = prepare(self.vehicle, progress=self._tell)
+                    self._prepared = prepare(self.vehicle, progress=partial(self._tell, progress))
                 return self._prepared
         finally:
-            if progress:
-                self._told.remove(progress)
+            self._tell_no_more(progress)
 
     def _usual(self) -> State:
         return first_state(self.vehicle, self.rates, self.conditions)
 
-    def _tell(self, fraction: float) -> None:
+    def _tell(self, own: Progress | None, fraction: float) -> None:
+        """Tells everybody who waits; `own` is told of whom the thread is."""
         for progress in tuple(self._told):
-            progress(fraction)
+            try:
+                progress(fraction)
+            except Exception:
+                if progress is own:
+                    raise
+                self._tell_no_more(progress)
+
+    def _tell_no_more(self, progress: Progress | None) -> None:
+        if progress in self._told:
+            self._told.remove(progress)
