@@ -254,17 +254,19 @@ class App:
         self.search_task.close()
         self.front_task.cancel()
         self.scatter_task.cancel()
-        if self._recorder:
-            self._recorder.close()
-            self._end_watching()
         self._scene.close()
         self._review.close()
         self.session.close()
+        if self._recorder:  # last: until pages are told, they go on
+            self._recorder.close()
+            self._end_watching()
 
     def close(self) -> None:
-        """Ends the session and the server."""
-        self.end()
-        self.server.stop()
+        """Ends the session and the server, also where the first goes wrong."""
+        try:
+            self.end()
+        finally:
+            self.server.stop()
 
     def _lay_out(self, dark: bool) -> None:
         self._forces: ForcesPanel | None = None

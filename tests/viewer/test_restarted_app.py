@@ -65,6 +65,22 @@ def test_a_session_with_an_absorber_is_there_after_a_restart_and_can_lose_it(tmp
         study.close()
 
 
+def test_what_is_done_until_the_page_is_told_of_the_end_is_there_after_a_restart(tmp_path, monkeypatch):
+    study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
+    app = opened(Opening(FIRST))
+    app.record(study, KEY, str)
+    close = app.session.close
+
+    def going_on():
+        app.session.do(decisions.SetRate("B", "lateral", 123456.0))
+        close()
+
+    monkeypatch.setattr(app.session, "close", going_on)
+    app.close()
+    assert recorded(study, KEY, FIRST, VEHICLE, PRINT.digest).state.design.rates["B"].lateral == 123456.0
+    study.close()
+
+
 def test_camera_and_motion_are_there_after_a_restart(tmp_path):
     """As a page says that somebody has moved its camera, and the slider of the amplitude."""
     study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
