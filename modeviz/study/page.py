@@ -150,13 +150,12 @@ def open_page(
     from modeviz.viewer.page.tokens import new_token
 
     title = f"{vehicle.name} · modeviz"
-    with ExitStack() as limit:
+    with ExitStack() as limit, ExitStack() as undoing:
         limit.enter_context(one_thread())
         server = open_server(port=options.port, token=new_token(), title=title, is_framed=True)
-        try:
-            app = App(vehicle, rates, conditions, server, options.dark)
-            app.start(partial(tell, "preparing"))
-        except BaseException:
-            server.stop()
-            raise
+        undoing.callback(server.stop)
+        app = App(vehicle, rates, conditions, server, options.dark)
+        undoing.callback(app.end)
+        app.start(partial(tell, "preparing"))
+        undoing.pop_all()
         return Page(server.link, options, app, limit.pop_all())

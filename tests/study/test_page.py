@@ -17,8 +17,11 @@ import pytest
 from html_documents import Document
 from PIL import Image
 from studied_cabin import cabin_study
+from visitors import wait_until
 
+from modeviz.errors import ModevizError
 from modeviz.study.page import Page
+from modeviz.viewer.app import App
 from modeviz.viewer.session.commands.decisions import TakeRates
 
 
@@ -181,3 +184,14 @@ def test_a_vehicle_without_a_road_is_shown_too(notebook):
         assert status(page.link) == 303
     finally:
         page.close()
+
+
+def test_a_page_that_cannot_begin_leaves_no_thread(notebook, monkeypatch):
+    def broken(*_):
+        raise ModevizError("no answer")
+
+    before = set(threading.enumerate())
+    monkeypatch.setattr(App, "start", broken)
+    with pytest.raises(ModevizError, match="no answer"):
+        cabin_study().show()
+    wait_until(lambda: set(threading.enumerate()) <= before)
