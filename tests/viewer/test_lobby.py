@@ -1,8 +1,10 @@
 """A server of several vehicles: its start page, what a browser finds there, and what probes get."""
 
+import gc
 import io
 import json
 import re
+import weakref
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from html import unescape
@@ -134,6 +136,20 @@ def test_a_browser_finds_the_sessions_that_it_left_and_nobody_else_does(tmp_path
         both = get(front, new, Cookie=cookie)[1]["Set-Cookie"].partition(";")[0]
         assert way(front, "/?vehicle=first", Cookie=both) == new
         assert path in links(start_page(front, both)[1])
+
+
+def test_the_picture_of_a_session_keeps_nothing_else_of_it_in_memory():
+    with serving() as (front, directory):
+        path = way(front, "/?vehicle=first")
+        cookie = visited(front, path)
+        name = digest_of(key_of(path))
+        with page_at(front, path):
+            wait_until(lambda: name in directory._open)
+            wait_until(lambda: directory._open[name].app.session.answer, 60)
+            picture(front, "/picture?vehicle=first&left=0", cookie)
+            answer = weakref.ref(directory._open[name].app.session.answer)
+        directory._close_idle(name, -1.0)
+        wait_until(lambda: gc.collect() >= 0 and answer() is None)
 
 
 def test_a_session_on_disk_shows_its_newest_picture(tmp_path):

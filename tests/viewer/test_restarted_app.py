@@ -77,7 +77,9 @@ def test_what_is_done_until_the_page_is_told_of_the_end_is_there_after_a_restart
 
     monkeypatch.setattr(app.session, "close", going_on)
     app.close()
-    assert recorded(study, KEY, FIRST, VEHICLE, PRINT.digest).state.design.rates["B"].lateral == 123456.0
+    assert (
+        recorded(study, KEY, FIRST, VEHICLE, PRINT.digest).state.design.rates["B"].lateral == 123456.0
+    )
     study.close()
 
 

@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from threading import Lock
 from urllib.parse import urlencode
+from weakref import ref
 
 from PIL import Image, ImageOps
 from websockets import Headers
@@ -54,7 +55,8 @@ class Lobby:
         self._door, self._benches, self._dark, self._opened = door, benches, dark, opened
         self._lock = Lock()
         self._vehicles: dict[str, bytes] = {}
-        self._sessions: dict[SessionId, tuple[Solved, bytes]] = {}
+        self._sessions: dict[SessionId, tuple[ref[Solved], bytes]] = {}
+        """The answers that were drawn, which are large and go with their sessions, and the pictures."""
 
     def page(self, request: Request, keys: Keys) -> Response:
         """Return the start page for a browser that has left sessions."""
@@ -140,7 +142,7 @@ class Lobby:
             return self._kept_picture(self._benches[name], session)
         with self._lock:
             last = self._sessions.pop(session, None)
-            kept = last if last and last[0] is solved else (solved, self._drawn(solved))
+            kept = last if last and last[0]() is solved else (ref(solved), self._drawn(solved))
             self._sessions[session] = kept
             if len(self._sessions) > MOST_KEPT:
                 self._sessions.pop(next(iter(self._sessions)))
