@@ -53,15 +53,7 @@ def fitted_looks(state: State, usual: State, vehicle: Vehicle, remarks: Remarks)
         engine=_engine(state.engine, usual.engine, vehicle, remarks),
         against=remarks.one("set", state.against, sets, usual.against),
         group=state.group and remarks.one("mount group", state.group, groups, usual=""),
-        units={
-            **usual.units,
-            **{
-                quantity: remarks.one(
-                    f"unit of {quantity}", unit, UNITS[quantity], usual.units[quantity]
-                )
-                for quantity, unit in state.units.items()
-            },
-        },
+        units={**usual.units, **_units(state.units, usual.units, remarks)},
     )
 
 
