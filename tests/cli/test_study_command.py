@@ -2,6 +2,7 @@
 
 import csv
 import json
+import logging
 import sqlite3
 from contextlib import closing, suppress
 from pathlib import Path
@@ -10,6 +11,7 @@ from unittest.mock import Mock
 import pytest
 from journal_studies import KEY, change, opened
 from mounted_cabin import mounted_cabin
+from visitors import wait_until
 
 from modeviz.cli import main
 from modeviz.cli.studies.kept import kept_study
@@ -201,6 +203,34 @@ def test_what_is_lost_at_the_end_of_a_server_is_said(tmp_path, monkeypatch, caps
         study.record(KEY, change(1, 2))
     said = capsys.readouterr().err
     assert "the last 2 changes are lost (not saved: the disk is full)" in said
+
+
+def test_one_change_that_is_lost_is_said_as_one(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(StudyFile.close, "__defaults__", (0.2,))
+    with kept_study(tmp_path / "cabin.modeviz", mounted_cabin()) as study:
+        study.begin(KEY)
+        assert study.flush(5)
+        study.path.unlink()
+        study.record(KEY, change(1, 2))
+    assert "the last change is lost (not saved: the study file is gone)" in capsys.readouterr().err
+
+
+def test_a_study_that_cannot_be_written_is_logged_at_once_and_once_it_can_be_again(
+    tmp_path, monkeypatch, caplog
+):
+    full = sqlite3.OperationalError("database or disk is full")
+    caplog.set_level(logging.WARNING, "modeviz")
+    with kept_study(tmp_path / "cabin.modeviz", mounted_cabin()) as study:
+        with monkeypatch.context() as patch:
+            patch.setattr("modeviz.journal.writer._commit", Mock(side_effect=full))
+            study.begin(KEY)
+            study.record(KEY, change(1, 2))
+            wait_until(lambda: caplog.records)
+        assert study.flush(5)
+    (lost, saved) = caplog.records
+    assert lost.getMessage().endswith("cabin.modeviz: not saved: the disk is full")
+    assert saved.getMessage().endswith("cabin.modeviz: saved again")
+    assert [lost.event, saved.event] == ["unsaved", "saved"]
 
 
 VALUES = ("zeroblob(3)", "1e300", "'text'", "-7")

@@ -33,9 +33,9 @@ class NotOnesOwnError(ModevizError):
             author: of the change.
             asking: who wanted to go back over it, or forward.
         """
+        others = "" if author.is_owner else " or the owner of the session"
         super().__init__(
-            f"the change before this is {author.name}'s, so only {author.name} or the owner of the "
-            "session can go over it"
+            f"the change before this is {author.name}'s, so only {author.name}{others} can go over it"
         )
         self.author: Author = author
         self.may_insist: bool = asking.is_owner

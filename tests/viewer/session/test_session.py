@@ -431,6 +431,13 @@ def test_only_ones_own_changes_are_gone_over_and_by_the_owner_all(session):
     assert session.state.design != first.design
 
 
+def test_that_only_the_owner_can_go_over_a_change_of_the_owners_is_said_once(session):
+    session.do(SetRate("A", "lateral", 1e5))
+    session._acting = lambda: Author("Anna", 2)
+    with pytest.raises(NotOnesOwnError, match="Owner's, so only Owner can go over it"):
+        session.undo()
+
+
 def test_a_set_that_is_added_replaces_no_other(session):
     soft, softer = ({"A": MountRates(rate, rate, rate)} for rate in (2e5, 1e5))
     for name, rates in (("Mine", soft), ("Mine", softer), ("Original", softer)):
