@@ -66,7 +66,7 @@ class Between:
         used = np.unique(first[:, None] + np.arange(n_nodes))
         wanted = self.known.part(used, springs, inputs)
         arrays = wanted.springs, wanted.outputs, wanted.inputs, wanted.direct
-        flat = np.concatenate([a.reshape(len(a), -1) for a in arrays], axis=1)
+        flat = np.concatenate([a.reshape(len(a), a[0].size) for a in arrays], axis=1)
         found = _banded_product(self._weights(first, x), np.searchsorted(used, first), flat)
         ends = np.cumsum([a[0].size for a in arrays])[:-1]
         values = (

@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from oracles import Beam
 from rounding import EPSILON
 from small_systems import block
 
@@ -162,3 +163,8 @@ def test_from_near_rigid_rates_there_is_a_way_back(rate):
     prepared = prepare(mounted_cabin(), f)
     moved = prepared.near({"A": MountRates(rate, rate, rate)})
     np.testing.assert_allclose(solve(moved, {}, road).psd, solve(prepared, {}, road).psd, rtol=1e-10)
+
+
+def test_a_body_alone_on_nothing_is_prepared_near_its_rates():
+    beam = prepare(Vehicle("beam", (Beam(4).body("beam"),), ()))
+    assert beam.near({}).vehicle is beam.vehicle

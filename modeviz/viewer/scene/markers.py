@@ -211,13 +211,15 @@ class Markers:
         self._others = _add_points(scene, vehicle, length) + _add_patches(scene, vehicle, length)
         points = [f"{_point_path(point)}/name" for point in vehicle.response_points]
         self._other_labels = [*points, *other_labels]
-        self.hold(vehicle)
+        self._take({group.name: group for group in vehicle.mount_groups})
 
     def hold(self, vehicle: Vehicle) -> None:
         """Marks the mounts of a vehicle, and no others; those of groups that it has already stay."""
         groups = {group.name: group for group in vehicle.mount_groups}
-        if self._given.keys() == groups.keys():
-            return
+        if self._given.keys() != groups.keys():
+            self._take(groups)
+
+    def _take(self, groups: Mapping[str, MountGroup]) -> None:
         for name in self._given.keys() - groups.keys():
             self._forget(name)
         for name, group in groups.items():

@@ -162,7 +162,8 @@ def points_box(points: Sequence[Floats]) -> Box:
 def camera(box: Box, view: str, width: int, height: int) -> tuple[Floats, Floats]:
     """Return the place of the camera and the point it looks at, for one of `VIEWS`, m.
 
-    The box fills the picture as far as it can and stays clear of the card at the bottom.
+    The box fills the picture as far as it can and stays clear of the card at the bottom; what has no
+    size is seen from `SMALLEST` away.
 
     Args:
         box: what to show.
@@ -179,7 +180,7 @@ def camera(box: Box, view: str, width: int, height: int) -> tuple[Floats, Floats
     below = 2 * min(CARD_HEIGHT / height, CARD_FRACTION) - 1
     x_range = FILLED * half * width / height * np.array([-1, 1])
     y_range = FILLED * half * np.array([below, 1])
-    distance = max(_nearest(across, nearer, x_range), _nearest(above, nearer, y_range))
+    distance = max(_nearest(across, nearer, x_range), _nearest(above, nearer, y_range)) or SMALLEST
     look_at = box.middle + _moved(across, nearer, x_range, distance) * right
     look_at += _moved(above, nearer, y_range, distance) * up
     return look_at + distance * backward, look_at

@@ -13,7 +13,9 @@ from modeviz.viewer.scene.stage import (
     CARD_HEIGHT,
     FIELD_OF_VIEW,
     FILLED,
+    ISO,
     LIGHT,
+    SMALLEST,
     VIEWS,
     Box,
     Stage,
@@ -21,6 +23,7 @@ from modeviz.viewer.scene.stage import (
     box,
     camera,
     framed_box,
+    points_box,
 )
 
 TRUCK = Box((-1.05, -1.0, 0.0), (4.35, 1.0, 1.8))
@@ -89,6 +92,11 @@ def test_mere_blocks_leave_room_for_labels_and_meshes_fill_the_picture():
 
 def test_vehicle_without_meshes_or_connections_still_has_a_place():
     assert box(Vehicle("v", (wheel("axle"),), ())).length > 0
+
+
+def test_what_has_no_size_is_seen_from_beside_it():
+    position, look_at = camera(points_box([]), ISO, 800, 600)
+    assert np.linalg.norm(position - look_at) == pytest.approx(SMALLEST)
 
 
 def test_vertices_that_no_face_names_and_the_origin_do_not_frame_the_picture():
