@@ -7,6 +7,7 @@ interpolation through the optimal attachment of poles to the interpolating polyn
 Algorithms 23, 2000).
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -66,9 +67,12 @@ class Between:
         used = np.unique(first[:, None] + np.arange(n_nodes))
         wanted = self.known.part(used, springs, inputs)
         arrays = wanted.springs, wanted.outputs, wanted.inputs, wanted.direct
-        flat = np.concatenate([a.reshape(len(a), a[0].size) for a in arrays], axis=1)
+        sizes = [math.prod(a.shape[1:]) for a in arrays]
+        flat = np.concatenate(
+            [a.reshape(len(a), size) for a, size in zip(arrays, sizes, strict=True)], axis=1
+        )
         found = _banded_product(self._weights(first, x), np.searchsorted(used, first), flat)
-        ends = np.cumsum([a[0].size for a in arrays])[:-1]
+        ends = np.cumsum(sizes)[:-1]
         values = (
             part.reshape(len(x), *a.shape[1:])
             for part, a in zip(np.split(found, ends, axis=1), arrays, strict=True)
