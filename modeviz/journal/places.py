@@ -2,9 +2,9 @@
 
 import hashlib
 import os
-import sys
 from pathlib import Path
 
+from modeviz.files.state_folder import state_folder
 from modeviz.text.wording import file_name
 
 ENDING = "modeviz"
@@ -29,14 +29,7 @@ def study_path(folder: Path, is_ours: bool = False) -> Path:
 
 def own_folder() -> Path:
     """Return the folder of a user in which studies lie that have no other place; it may be missing."""
-    home = Path.home()
-    if sys.platform == "win32":
-        state = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        state = home / "Library" / "Application Support"
-    else:
-        state = Path(os.environ.get("XDG_STATE_HOME") or home / ".local" / "state")
-    return state / "modeviz" / "studies"
+    return state_folder() / "studies"
 
 
 def _takes_files(folder: Path) -> bool:

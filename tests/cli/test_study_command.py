@@ -16,6 +16,7 @@ from visitors import wait_until
 from modeviz.cli import main
 from modeviz.cli.studies.kept import kept_study
 from modeviz.errors import ModevizError
+from modeviz.files.state_folder import state_folder
 from modeviz.journal.comparison import compare_studies, difference_text
 from modeviz.journal.contents import put_text
 from modeviz.journal.export import study_record, variants_table
@@ -87,6 +88,10 @@ def test_the_pickups_study_is_in_the_users_own_folder(tmp_path, monkeypatch, cap
     monkeypatch.setattr(Path, "home", lambda: tmp_path)
     assert "there is no such file" in failed(capsys, "log")
     path = own_folder() / "truck.modeviz"
+    assert path.parent == state_folder() / "studies"
+    monkeypatch.setenv("XDG_STATE_HOME", "not/whole")
+    assert own_folder().is_relative_to(tmp_path)
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     assert opened(path).close()
     assert "nothing happened yet" in printed(capsys, "log")
 
