@@ -73,11 +73,6 @@ def begin(
     )
 
 
-def rename(connection: Connection, session: SessionId, title: str) -> None:
-    """Gives a session another title."""
-    connection.execute("UPDATE session SET title = ? WHERE digest = ?", (title, session))
-
-
 def record(connection: Connection, session: SessionId, change: Change, now: float) -> None:
     """Writes a change that a session accepted, and where it stands now."""
     number = number_of(connection, session)

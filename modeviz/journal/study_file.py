@@ -124,10 +124,6 @@ class StudyFile(Records):
         now, vehicle = time.time(), self.vehicle
         self._writer.put(lambda c: stored.begin(c, session, vehicle, author, title, now), session)
 
-    def rename(self, session: SessionId, title: str) -> None:
-        """Gives a session another title."""
-        self._writer.put(lambda c: stored.rename(c, session, title), session)
-
     def record(self, session: SessionId, change: Change) -> None:
         """Writes a change that a session accepted."""
         now = time.time()

@@ -47,7 +47,7 @@ def plain_of(value: Any) -> Any:
     return value
 
 
-def value_of(data: Any, kind: type[T], where: str = "") -> T:
+def value_of(data: Any, kind: type[T]) -> T:
     """Return the value that plain data stand for; it is a stranger's until then.
 
     A field that is missing has its default, if it has one: so texts of before it was there are read.
@@ -55,13 +55,12 @@ def value_of(data: Any, kind: type[T], where: str = "") -> T:
     Args:
         data: tables, lists, texts, numbers and None.
         kind: of the value, a dataclass.
-        where: the key path of the data.
 
     Raises:
         FaultsError: what is there does not fit, a number is not finite or beyond any use, a text is
             too long, or there is too much of something.
     """
-    return _value(data, kind, where)
+    return _value(data, kind, "")
 
 
 def _value(data: Any, hint: Any, where: str) -> Any:
