@@ -82,12 +82,12 @@ from modeviz.viewer.tasks.search_task import SearchTask
 LEFT = {WIDE: 376, NARROW: 300}
 RIGHT = {WIDE: 484, NARROW: 380}
 CARD = {WIDE: 380, NARROW: 300}
+"""Pixels; see `layout`."""
 
 NOT_SOLVED = "not solved"
 """The notice that what is asked for has no answer."""
 
 BACK = " You are back at the last state that was solved."
-"""Pixels; see `layout`."""
 
 
 class App:

@@ -158,5 +158,5 @@ class Bench:
                 self._tell_no_more(progress)
 
     def _tell_no_more(self, progress: Progress | None) -> None:
-        if progress in self._told:
+        if progress and progress in self._told:
             self._told.remove(progress)

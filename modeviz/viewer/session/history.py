@@ -185,7 +185,11 @@ class History:
         return Accepted("undo", self._future[-1])
 
     def redo(self) -> Accepted | None:
-        """Goes forward again; None if nothing was undone."""
+        """Goes forward again; None if nothing was undone.
+
+        Raises:
+            ModevizError: what was undone cannot be read.
+        """
         if not self._future:
             return None
         change, before = self._future[-1], self.state

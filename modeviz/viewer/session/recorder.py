@@ -25,7 +25,6 @@ PATIENCE = 5.0
 
 WORDS = {"undo": "Undo: ", "redo": "Redo: "}
 
-
 GOES_ON = ("step", "longer")
 """Kinds that a longer change is one with."""
 
@@ -50,7 +49,7 @@ class Recorder:
 
     A session is opened with what `recorded` gives, and then recorded:
 
-        opening = recorded(study, name, usual, vehicle)
+        opening = recorded(study, name, usual, vehicle, fingerprint)
         app = App(vehicle, rates, conditions, server, opening=opening)
         recorder = Recorder(app.session, study, name, author, server.mistake)
         ...

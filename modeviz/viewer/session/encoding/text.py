@@ -19,7 +19,7 @@ LONGEST = 4_000_000
 
 
 def text_of(value: Any) -> str:
-    """Return a state, or any dataclass that `plain_of` takes, as JSON text; JSON text."""
+    """Return a state, or any dataclass that `plain_of` takes, as JSON text."""
     return msgspec.json.encode({"version": VERSION, "content": plain_of(value)}).decode()
 
 
