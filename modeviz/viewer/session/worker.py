@@ -145,9 +145,13 @@ class Worker(Generic[Job]):
                 self._is_stuck = not is_left
                 self._due = math.inf  # it is told once
             assert job is not None
-            self._leave(job, error, is_left)
-            if is_left:
-                self._thread.start()
+            try:
+                self._leave(job, error, is_left)
+            except Exception as mistake:
+                self._fail(mistake)
+            finally:
+                if is_left:
+                    self._thread.start()
 
 
 def stuck(thread: threading.Thread, seconds: float) -> StuckError:

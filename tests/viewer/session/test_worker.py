@@ -83,3 +83,30 @@ def test_a_job_that_fails_is_told_and_the_next_is_done():
     assert done == ["good"]
     worker.close()
     assert not worker._thread.is_alive()
+
+
+def test_a_job_that_hangs_is_left_behind_though_telling_of_it_goes_wrong():
+    has_begun, go_on = threading.Event(), threading.Event()
+    done, failed = [], []
+
+    def work(job):
+        if job == "hangs":
+            has_begun.set()
+            go_on.wait(20)
+        else:
+            done.append(job)
+
+    def leave(*_):
+        raise RuntimeError("not told")
+
+    worker = Worker(work, failed.append, 0.2, leave)
+    worker.submit("hangs")
+    assert has_begun.wait(5)
+    worker.submit("next")
+    try:
+        assert worker.wait(5)
+        assert done == ["next"]
+        assert [str(error) for error in failed] == ["not told"]
+    finally:
+        go_on.set()
+        worker.close()
