@@ -210,6 +210,15 @@ def test_what_is_lost_at_the_end_of_a_server_is_said(tmp_path, monkeypatch, caps
     assert "the last 2 changes are lost (not saved: the disk is full)" in said
 
 
+def test_a_study_of_another_vehicle_is_called_so_when_it_is_served(study, capsys):
+    cabin = mounted_cabin()
+    with kept_study(study, cabin):
+        said = capsys.readouterr().err
+    assert f"truck.modeviz: is the study of Truck, and goes on with {cabin.name}" in said
+    with kept_study(study.parent / "cabin.modeviz", cabin):
+        assert not capsys.readouterr().err
+
+
 def test_one_change_that_is_lost_is_said_as_one(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(StudyFile.close, "__defaults__", (0.2,))
     with kept_study(tmp_path / "cabin.modeviz", mounted_cabin()) as study:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from modeviz.cli.terminal import remark
 from modeviz.journal.fingerprint import fingerprint_of
+from modeviz.journal.records import Records
 from modeviz.journal.study_file import StudyFile
 from modeviz.text.log import LOG
 from modeviz.vehicle.vehicle import Vehicle
@@ -16,11 +17,16 @@ from modeviz.vehicle.vehicle import Vehicle
 def kept_study(path: Path, vehicle: Vehicle) -> Iterator[StudyFile]:
     """Yields the study that remembers the sessions of a vehicle; says what is not saved.
 
+    A study that was begun with a vehicle of another name is called so.
+
     Raises:
         ModevizError: it is in use, damaged, or cannot be written.
     """
     study = StudyFile.open(path, vehicle.name, fingerprint_of(vehicle), partial(_log, path))
     try:
+        begun_with = Records.of_file(path).study().vehicle_name
+        if begun_with != vehicle.name:
+            remark(f"{path}: is the study of {begun_with}, and goes on with {vehicle.name}")
         yield study
     finally:
         if not study.close():
