@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from benchmarks.page_client import Message, buffers, messages
+from modeviz.analysis.results import Results
 from modeviz.vehicle.arrays import Array, Floats
 
 FIELDS = {"Vertical": "vertical", "Lateral": "lateral", "Fore-aft": "fore_aft"}
@@ -19,11 +21,11 @@ AGREE_DB = 2.0**-18
 """Spectra reach the page in single precision: how far 128 dB are rounded."""
 
 
-LEAST_COMMON, MOST_ALIKE = 0.5, 0.95
-"""Of the lines of a spectrum that another has to have, and of these that have to be alike."""
+LEAST_COMMON = 0.5
+"""Of the lines of a spectrum that have to be compared with another."""
 
-ON_RESONANCE_DB = 0.1
-"""By which the others may differ. A slider's step changes most lines by more than a thousandth."""
+SHARP = 1e-3
+"""How near a resonance is, and how little it is damped, together, where rounding shows."""
 
 
 @dataclass(frozen=True)
@@ -100,25 +102,42 @@ def is_drawn(frequency_hz: Floats, curve: Floats, spectrum: Sequence[Any]) -> bo
     return len(now) == len(expected) and np.allclose(now, expected, rtol=0, atol=AGREE_DB)
 
 
-def agrees(frequency_hz: Floats, curve: Floats, spectrum: Sequence[Any]) -> bool:
-    """Whether a spectrum shows a curve, at the lines that both have: each has its own on resonances.
+def off_by(
+    frequency_hz: Floats, curve: Floats, spectrum: Sequence[Any], is_sharp: NDArray[np.bool_]
+) -> tuple[float, float]:
+    """By how many dB at most a spectrum misses a curve, and at which frequency, Hz.
 
-    Two solves of the same rates differ by rounding, which a resonance of damping ratio ζ magnifies by
-    1/(2 ζ): on the few lines of one that has next to none, by hundredths of a decibel.
+    Only lines count that both have: each has its own on resonances.
 
     Args:
         frequency_hz: (n_freqs,), rising.
         curve: (n_freqs,), dB.
         spectrum: as of `is_drawn`.
+        is_sharp: (n_freqs,), whether a line is one of `sharp_lines`, where they may differ.
     """
     drawn, now = np.asarray(spectrum[0]), np.asarray(spectrum[-2], float)
     after = np.searchsorted(frequency_hz, drawn).clip(1, len(frequency_hz) - 1)
     nearest = after - (drawn - frequency_hz[after - 1] < frequency_hz[after] - drawn)
     common = np.isclose(drawn, frequency_hz[nearest], rtol=1e-9, atol=0)
-    differences = np.abs(now - curve[nearest])[common]
-    if common.mean() < LEAST_COMMON or differences.max() > ON_RESONANCE_DB:
-        return False
-    return bool(np.mean(differences <= 2 * AGREE_DB) >= MOST_ALIKE)
+    compared = common & ~is_sharp[nearest]
+    if compared.mean() < LEAST_COMMON:
+        return np.inf, 0.0
+    differences = np.where(compared, np.abs(now - curve[nearest]), 0.0)
+    worst = int(differences.argmax())
+    return float(differences[worst]), float(drawn[worst])
+
+
+def sharp_lines(results: Results) -> NDArray[np.bool_]:
+    """Which lines are on a resonance that magnifies the rounding of a solve, (n_freqs,).
+
+    Two solves of the same rates differ by some 1e-10, which a mode of frequency f_k and damping ratio
+    ζ_k magnifies by 1/(2 (|f/f_k - 1| + ζ_k)).
+    """
+    modes = results.modes
+    moving = modes.frequency_hz > 0
+    f, zeta = modes.frequency_hz[moving], modes.damping_ratio[moving]
+    away = np.abs(results.frequency_hz[:, None] / f - 1) + zeta
+    return away.min(axis=1) < SHARP
 
 
 def _is_spectrum(widget: Message) -> bool:
