@@ -14,6 +14,7 @@ from urllib.parse import urlencode, urlsplit
 
 from websockets.http11 import Request, Response
 
+from modeviz.compute.memory import give_back
 from modeviz.errors import ModevizError
 from modeviz.journal.keys import digest_of
 from modeviz.journal.sessions import SessionId
@@ -277,6 +278,8 @@ class Directory:
                 found.server.note_mistake(error)
             finally:
                 del self._open[session]
+        del found
+        give_back()
 
     @contextmanager
     def _one_at_a_time(self, session: SessionId) -> Iterator[None]:
