@@ -188,7 +188,7 @@ def test_a_file_that_is_dropped_does_not_take_the_place_of_the_page(page):
 
 def test_what_a_page_loses_is_put_back(app, page):
     """viser throttles all widgets with one timer; the server's value must reach the screen."""
-    row = app._mounts._folders[GROUPS.index("C2")]._rows["lateral"]
+    row = app._mounts._folders["C2"]._rows["lateral"]
     send(page, row._slider, 100)
     # The page itself still draws the old value, as after a lost message; then it gets the server's.
     wait_until(page, lambda: position(thumb(page, "C2", "lateral")) == 100)

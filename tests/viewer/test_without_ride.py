@@ -97,7 +97,7 @@ def test_what_has_nothing_to_say_is_not_on_the_page(vehicle):
         app.start()
         app.session.wait(60)
         assert app._of_ride == []
-        table = app._mounts._folders[0]._details._table
+        table = next(iter(app._mounts._folders.values()))._details._table
         assert ("RMS" in table.content) == bool(vehicle.response_points)
         assert "+10 %" in table.content
     finally:

@@ -21,7 +21,7 @@ def test_there_is_a_button_for_every_view_that_turns_the_camera_of_who_clicks():
         made.append(Buttons(names))
         return made[-1]
 
-    gui = SimpleNamespace(add_button_group=add_button_group)
+    gui = SimpleNamespace(add_button_group=add_button_group, add_html=lambda _: None)
     add_view_buttons(gui, lambda client, view: looked.append((client, view)))
     (buttons,) = made
     assert buttons.names == tuple(VIEWS)
