@@ -2,13 +2,14 @@
 
 from argparse import ArgumentParser
 from dataclasses import dataclass
-from datetime import timedelta
 from pathlib import Path
 
 from modeviz.cli.command import Command
 from modeviz.cli.interrupt import ended_by_interrupt
 from modeviz.cli.results import check_printable, print_result
 from modeviz.errors import ModevizError
+
+DAY_S = 86400.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,8 +32,8 @@ def token(options: TokenOptions) -> None:
         from modeviz.viewer.page.kept_tokens import LIFE_S, KeptToken, kept_token, kept_tokens
 
     def line(kept: KeptToken) -> str:
-        left = timedelta(seconds=max(LIFE_S - kept.age(), 0.0))
-        return f"{kept.held()}  {left.days} days  {', '.join(kept.opens)}"
+        days = max(LIFE_S - kept.age(), 0.0) / DAY_S
+        return f"{kept.held()}  {days:.0f} days  {', '.join(kept.opens)}"
 
     check_printable()
     wanted = kept_token(options.what).path if options.what else None
