@@ -11,6 +11,7 @@ from modeviz.viewer.page.handshake import WHY
 from modeviz.viewer.page.server import open_server
 
 NOTICE = "document.getElementById('modeviz-connection')?.textContent"
+SEEN = "document.elementFromPoint(innerWidth / 2, innerHeight / 2).textContent"
 
 
 @pytest.fixture(scope="module")
@@ -80,6 +81,7 @@ def test_page_behind_the_token_works_in_a_browser(locked, show):
     wait_for(page, "document.body.innerText.includes('live')")
     page.wait_for_timeout(4000)
     assert page.evaluate(NOTICE) is None
+    assert "Opening" not in page.evaluate(SEEN)
 
 
 @pytest.mark.parametrize("change", [without_upgrade, silent_to_sockets])
@@ -95,6 +97,7 @@ def test_a_page_whose_socket_opens_and_stays_silent_says_so(locked, show):
     with proxy(locked.get_port(), lambda path, headers: (path, headers), is_mute=True) as port:
         page = show(f"http://127.0.0.1:{port}/?token={TOKEN}")
         assert "is open, but nothing has come through it yet" in said_in_time(page)
+        assert page.evaluate(SEEN) == "Opening …"
 
 
 def test_a_page_of_which_all_that_follows_is_held_back_says_so(locked, show):

@@ -5,10 +5,11 @@
 // the page's address, without which a proxy may not know the page's place, and writes the websocket's address
 // into the page's own, which the server then refuses. What is wrong is asked of the server, which sees what a
 // proxy has made of the request. A page that shows this one in a frame is told whether there is a server.
-(why, subprotocol) => {
+(why, subprotocol, scheme) => {
   const PATIENCE = 3000; // ms until a page that is not connected says so
   const LONGEST = 1500; // ms that an answer to what is wrong may take: a proxy may hold it back, too
   const PACE = 1000; // ms between two attempts
+  const DRAWN = 100; // ms until what has come is drawn
   const AGAIN = 5000; // ms between two questions what is wrong
 
   const OURS = ["vehicle", "session", "review", "view"]; // of the page's address, for its websocket
@@ -71,6 +72,7 @@
     waiting = 0;
     ended = "";
     notice?.remove();
+    setTimeout(() => cover.remove(), DRAWN);
     delete document.documentElement.dataset.modevizConnected;
     tell("here");
   }
@@ -143,6 +145,14 @@
       super.postMessage({ type: "retry" });
     }
   };
+
+  // In place of viser's own page, which is empty, until the first word of ours comes.
+  const cover = document.createElement("div");
+  cover.textContent = "Opening …";
+  cover.style.cssText =
+    "position:fixed;inset:0;z-index:9999;display:grid;place-items:center;font:14px sans-serif;" +
+    `color-scheme:${scheme};background:Canvas;color:CanvasText`;
+  document.documentElement.append(cover);
 
   const replace = history.replaceState.bind(history);
   history.replaceState = (state, title, url) => {

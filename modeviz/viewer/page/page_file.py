@@ -8,6 +8,7 @@ from functools import cached_property
 from html import escape
 from importlib.resources import files
 from pathlib import Path
+from typing import Literal
 
 import viser
 from websockets import Headers
@@ -17,18 +18,22 @@ from modeviz.viewer.page.handshake import ICON, SUBPROTOCOL, WHY, Door
 
 PAGE = Path(viser.__file__).parent / "client" / "build" / "index.html"
 
+Scheme = Literal["light", "dark", "light dark"]
+
 
 class PageFile:
     """One page, plain and gzipped, as it is given to whoever may have it."""
 
-    def __init__(self, door: Door, title: str) -> None:
+    def __init__(self, door: Door, title: str, scheme: Scheme = "light dark") -> None:
         """Reads nothing yet.
 
         Args:
             door: who says where the page may be framed and under which names it is known.
             title: of the page.
+            scheme: its colours until it is connected; "light dark": those of the browser's system.
         """
         self._door, self._title = door, title
+        self._scheme: Scheme = scheme
 
     def response(self, request: Request) -> Response:
         """Return the page, zipped for who can read that."""
@@ -44,7 +49,7 @@ class PageFile:
 
     @cached_property
     def _plain(self) -> bytes:
-        return _explained(named_page(PAGE.read_bytes(), self._title))
+        return _explained(named_page(PAGE.read_bytes(), self._title), self._scheme)
 
     @cached_property
     def _zipped(self) -> bytes:
@@ -58,9 +63,10 @@ def named_page(page: bytes | bytearray, title: str) -> bytes:
     return re.sub(r'(<link\s+rel="icon"\s+href=)"[^"]*"', rf'\1"{icon}"', html, count=1).encode()
 
 
-def _explained(page: bytes) -> bytes:
+def _explained(page: bytes, scheme: Scheme) -> bytes:
     """Return a page that says what is wrong while its websocket is not open."""
     function = files("modeviz.viewer.page").joinpath("connecting.js").read_text("utf-8").rstrip()
-    script = f"<script>({function})({json.dumps(WHY)}, {json.dumps(SUBPROTOCOL)});</script>"
+    given = ", ".join(map(json.dumps, (WHY, SUBPROTOCOL, scheme)))
+    script = f"<script>({function})({given});</script>"
     before, head, after = page.partition(b"<head>")
     return before + head + script.encode() + after
