@@ -18,7 +18,7 @@ from modeviz.files import read_vehicle
 from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.study_file import StudyFile
 from modeviz.study.conditions import road_conditions
-from modeviz.viewer.serving import directory
+from modeviz.viewer.serving import open_sessions
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.open_session import OpenSession
 from modeviz.viewer.serving.serve import serve
@@ -83,8 +83,8 @@ class _Counted(OpenSession):
 
 
 def _serve(folder: Path, study: Path, port: int, questions: Connection) -> None:
-    directory.IDLE, directory.LOOKS_EVERY = IDLE_S, LOOKS_EVERY_S
-    directory.OpenSession = _Counted
+    open_sessions.IDLE, open_sessions.LOOKS_EVERY = IDLE_S, LOOKS_EVERY_S
+    open_sessions.OpenSession = _Counted
     vehicle = read_vehicle(folder)
     conditions = road_conditions(vehicle, None, vehicle.speed)
     remembering = StudyFile.open(study, vehicle.name, fingerprint_of(vehicle))

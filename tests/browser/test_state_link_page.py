@@ -59,8 +59,8 @@ def directory(monkeypatch):
 
 def opened(directory, page, count):
     """The app that was opened as so many were, with its answer."""
-    wait_until(page, lambda: len(directory._open) == count)
-    app = [*directory._open.values()][-1].app
+    wait_until(page, lambda: len(directory.sessions.open) == count)
+    app = [*directory.sessions.open.values()][-1].app
     wait_until(page, lambda: app.session.answer is not None)
     assert app.session.wait(SOLVE_S)
     return app

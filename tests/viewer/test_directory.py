@@ -17,8 +17,9 @@ from modeviz.journal.keys import digest_of
 from modeviz.viewer.page.handshake import SUBPROTOCOL, WHY
 from modeviz.viewer.page.surroundings import surroundings
 from modeviz.viewer.panels.guide import Guide
-from modeviz.viewer.serving import directory as rules
 from modeviz.viewer.serving import open_session
+from modeviz.viewer.serving import open_sessions as rules
+from modeviz.viewer.serving.directory import BEING_OPENED, NO_KEY
 
 
 @pytest.fixture(scope="module")
@@ -41,10 +42,10 @@ def test_who_comes_without_a_session_is_sent_to_a_new_one_and_back_to_it_another
 
 def test_pages_alone_open_no_session(served):
     front, directory = served
-    before = len(directory._open)
+    before = len(directory.sessions.open)
     for _ in range(5):
         get(front, way(front))
-    assert len(directory._open) == before
+    assert len(directory.sessions.open) == before
 
 
 @pytest.mark.parametrize(
@@ -52,16 +53,16 @@ def test_pages_alone_open_no_session(served):
 )
 def test_there_is_nothing_at_other_addresses(served, path):
     front, directory = served
-    before = len(directory._open)
+    before = len(directory.sessions.open)
     assert get(front, path)[0] == 404
     with pytest.raises(InvalidStatus) as refusal, knock(front, own_origin(front), path):
         pass
     assert refusal.value.response.status_code == 404
-    assert len(directory._open) == before
+    assert len(directory.sessions.open) == before
 
 
 def n_looked_at(directory):
-    return sum(not each.idle for each in directory._open.values())
+    return sum(not each.idle for each in directory.sessions.open.values())
 
 
 def slider(session):
@@ -75,8 +76,8 @@ def test_a_session_is_moved_by_its_own_pages_alone(served):
     ways = way(front), way(front)
     with page_at(front, ways[0]) as mine, page_at(front, ways[1]) as stranger, page_at(front, ways[0]):
         mine_id, other_id = (digest_of(key_of(each)) for each in ways)
-        wait_until(lambda: {mine_id, other_id} <= directory._open.keys())
-        one, other = directory._open[mine_id], directory._open[other_id]
+        wait_until(lambda: {mine_id, other_id} <= directory.sessions.open.keys())
+        one, other = directory.sessions.open[mine_id], directory.sessions.open[other_id]
         wait_until(lambda: one.app.session.answer and other.app.session.answer, 60)
         wait_until(lambda: len(one.server.get_clients()) == 2)
         before = one.app.session.state.design.rates
@@ -94,13 +95,15 @@ def test_a_session_that_nobody_looks_at_is_closed_and_others_stay(served, monkey
     front, directory = served
     with page_at(front, way(front)), page_at(front, way(front)) as left:
         wait_until(lambda: n_looked_at(directory) == 2, 60)
-        wait_until(lambda: all(each.app.session.answer for each in directory._open.values()), 60)
+        wait_until(
+            lambda: all(each.app.session.answer for each in directory.sessions.open.values()), 60
+        )
         left.close()
         wait_until(lambda: n_looked_at(directory) == 1)
         monkeypatch.setattr(rules, "MOST_OPEN", 2)
         with page_at(front, way(front)):
             wait_until(lambda: n_looked_at(directory) == 2)
-            assert len(directory._open) == 2
+            assert len(directory.sessions.open) == 2
 
 
 def test_the_last_session_is_remembered_in_a_frame_of_another_site_too():
@@ -120,15 +123,15 @@ def test_without_the_token_no_session_is_opened():
         assert refusal.value.response.status_code == 403
         with pytest.raises(InvalidStatus), knock(front, "http://elsewhere.example", path):
             pass
-        assert not directory._open
+        assert not directory.sessions.open
 
 
 def moved(front, directory, path):
     """The rates of a session after its slider was moved on a page."""
     with page_at(front, path) as page:
         name = digest_of(key_of(path))
-        wait_until(lambda: name in directory._open)
-        session = directory._open[name]
+        wait_until(lambda: name in directory.sessions.open)
+        session = directory.sessions.open[name]
         wait_until(lambda: session.app.session.answer, 60)
         before = session.app.session.state.design.rates
         page.send(update(slider(session), slider(session).value + 20))
@@ -140,8 +143,8 @@ def rates_of(front, directory, path, name=None):
     """The rates that a page finds, and whether they can be taken back."""
     with page_at(front, path):
         name = name or digest_of(key_of(path))
-        wait_until(lambda: name in directory._open)
-        session = directory._open[name].app.session
+        wait_until(lambda: name in directory.sessions.open)
+        session = directory.sessions.open[name].app.session
         return session.state.design.rates, session.can_undo
 
 
@@ -150,7 +153,7 @@ def test_a_session_goes_on_where_it_was_left_after_the_server_has_been_restarted
     with serving(study) as (front, directory):
         path = way(front)
         left = moved(front, directory, path)
-        (bench,) = directory._benches.values()
+        (bench,) = directory.benches.values()
         review = f"/?review={bench.share(digest_of(key_of(path)))}"
     with serving(study) as (front, directory):
         assert rates_of(front, directory, path) == (left, True)
@@ -167,15 +170,15 @@ def test_a_session_of_a_later_modeviz_is_left_as_it_is_and_the_page_says_so(tmp_
     with serving(file) as (front, directory):
         path = way(front)
         name = digest_of(key_of(path))
-        (bench,) = directory._benches.values()
+        (bench,) = directory.benches.values()
         bench.study.begin(name)
         bench.study.look(name, later)
         moved(front, directory, path)
-        status = directory._open[name].app._status._content.content
+        status = directory.sessions.open[name].app._status._content.content
         assert "written by a later modeviz" in status
         assert "what is done here is not saved" in status
     with serving(file) as (front, directory):
-        (bench,) = directory._benches.values()
+        (bench,) = directory.benches.values()
         assert bench.study.restore(name).state == later
         assert not bench.study.restore(name).past
 
@@ -186,7 +189,7 @@ def test_an_idle_session_goes_to_disk_and_comes_back(tmp_path, monkeypatch):
     with serving(tmp_path / "cabin.modeviz") as (front, directory):
         path = way(front)
         left = moved(front, directory, path)
-        wait_until(lambda: not directory._open)
+        wait_until(lambda: not directory.sessions.open)
         assert rates_of(front, directory, path) == (left, True)
 
 
@@ -195,7 +198,7 @@ def test_the_link_of_a_review_opens_the_session_until_it_is_ended(tmp_path):
         path = way(front)
         moved(front, directory, path)
         name = digest_of(key_of(path))
-        visitors = directory._open[name].server.visitors
+        visitors = directory.sessions.open[name].server.visitors
         links = []
         for _ in range(2):
             links.append(visitors.share().removeprefix("."))
@@ -203,7 +206,7 @@ def test_the_link_of_a_review_opens_the_session_until_it_is_ended(tmp_path):
             with page_at(front, links[-1]) as looking:
                 assert looking.recv(timeout=20)
                 assert not visitors.there[-1].is_owner
-            assert len(directory._open) == 1
+            assert len(directory.sessions.open) == 1
             visitors.stop_sharing()
             assert get(front, links[-1])[0] == 404
         assert links[0] != links[1]
@@ -216,11 +219,11 @@ def test_whoever_has_a_review_open_as_the_server_restarts_still_only_looks(tmp_p
         path = way(front)
         moved(front, directory, path)
         name = digest_of(key_of(path))
-        link = directory._open[name].server.visitors.share().removeprefix(".")
+        link = directory.sessions.open[name].server.visitors.share().removeprefix(".")
     with serving(study) as (front, directory):
         with page_at(front, link) as looking:
-            wait_until(lambda: name in directory._open)
-            session = directory._open[name]
+            wait_until(lambda: name in directory.sessions.open)
+            session = directory.sessions.open[name]
             wait_until(lambda: session.app.session.answer, 60)
             before = session.app.session.state.design.rates
             looking.send(update(slider(session), slider(session).value - 20))
@@ -237,8 +240,8 @@ def test_the_link_of_a_review_opens_that_without_the_token_and_nothing_else():
         with knock(front, own_origin(front), path, Cookie=cookie) as owner:
             owner.send(encoded(CAMERA))
             name = digest_of(key_of(path))
-            wait_until(lambda: name in directory._open)
-            visitors = directory._open[name].server.visitors
+            wait_until(lambda: name in directory.sessions.open)
+            visitors = directory.sessions.open[name].server.visitors
             link = visitors.share().removeprefix(".")
             status, headers, _ = get(front, link)
             assert (status, "Set-Cookie" in headers) == (200, False)
@@ -270,12 +273,12 @@ def test_a_page_that_comes_while_its_session_is_being_opened_is_told_to_wait(tmp
         assert get(front, f"/{WHY}?{query}")[::2] == (200, b"")
         with ThreadPoolExecutor() as pages:
             coming = pages.submit(moved, front, directory, path)
-            wait_until(lambda: directory._locks)
-            assert get(front, f"/{WHY}?{query}")[2].decode() == rules.BEING_OPENED
+            wait_until(lambda: directory.sessions._locks)
+            assert get(front, f"/{WHY}?{query}")[2].decode() == BEING_OPENED
             going_on.set()
             coming.result(60)
         assert get(front, f"/{WHY}?{query}")[::2] == (200, b"")
-        assert get(front, f"/{WHY}?{query}x")[2].decode() == rules.NO_KEY
+        assert get(front, f"/{WHY}?{query}x")[2].decode() == NO_KEY
 
 
 def test_sessions_that_are_closed_at_once_leave_the_output_as_it_was(capsys):
@@ -283,7 +286,7 @@ def test_sessions_that_are_closed_at_once_leave_the_output_as_it_was(capsys):
     with serving() as (front, directory), ExitStack() as pages:
         for _ in range(6):
             pages.enter_context(page_at(front, way(front)))
-        wait_until(lambda: len(directory._open) == 6, 60)
+        wait_until(lambda: len(directory.sessions.open) == 6, 60)
     assert sys.stdout is output
     assert capsys.readouterr() == ("", "")
 
@@ -294,7 +297,7 @@ def test_a_session_that_cannot_be_built_leaves_no_server_and_no_thread(served, m
         raise RuntimeError("broken")
 
     front, directory = served
-    (bench,) = directory._benches.values()
+    (bench,) = directory.benches.values()
     monkeypatch.setattr(*where, broken)
     before = set(threading.enumerate())
     with pytest.raises(RuntimeError, match="broken"):
@@ -318,6 +321,6 @@ def test_idle_sessions_are_closed_though_closing_one_went_wrong(capsys, monkeypa
     with serving() as (front, directory):
         for _ in range(2):
             with page_at(front, way(front)):
-                wait_until(lambda: directory._open)
-            wait_until(lambda: not directory._open, 60)
+                wait_until(lambda: directory.sessions.open)
+            wait_until(lambda: not directory.sessions.open, 60)
     assert "broken" in capsys.readouterr().err

@@ -91,10 +91,10 @@ def test_the_start_page_lists_vehicles_with_pictures_and_loads_nothing_else():
 def test_a_vehicle_is_made_ready_once_somebody_opens_it():
     with serving() as (front, directory):
         path = way(front, "/?vehicle=first")
-        assert not any(bench.is_prepared for bench in directory._benches.values())
+        assert not any(bench.is_prepared for bench in directory.benches.values())
         with page_at(front, path):
-            wait_until(lambda: directory._benches["first"].is_prepared)
-        assert not directory._benches["second"].is_prepared
+            wait_until(lambda: directory.benches["first"].is_prepared)
+        assert not directory.benches["second"].is_prepared
         assert "ready" in start_page(front)[1]
 
 
@@ -108,8 +108,8 @@ def test_a_browser_finds_the_sessions_that_it_left_and_nobody_else_does(tmp_path
         path = way(front, "/?vehicle=first")
         cookie = visited(front, path)
         with page_at(front, path):
-            wait_until(lambda: directory._open)
-            session = next(iter(directory._open.values())).app.session
+            wait_until(lambda: directory.sessions.open)
+            session = next(iter(directory.sessions.open.values())).app.session
             wait_until(lambda: session.answer)
             session.do(SetRate("A", "lateral", 1e5))
             session.do(Pin("Soft <b>"))
@@ -144,18 +144,18 @@ def test_the_picture_of_a_session_keeps_nothing_else_of_it_in_memory():
         cookie = visited(front, path)
         name = digest_of(key_of(path))
         with page_at(front, path):
-            wait_until(lambda: name in directory._open)
-            wait_until(lambda: directory._open[name].app.session.answer, 60)
+            wait_until(lambda: name in directory.sessions.open)
+            wait_until(lambda: directory.sessions.open[name].app.session.answer, 60)
             picture(front, "/picture?vehicle=first&left=0", cookie)
-            answer = weakref.ref(directory._open[name].app.session.answer)
-        directory._close_idle(name, -1.0)
+            answer = weakref.ref(directory.sessions.open[name].app.session.answer)
+        directory.sessions._close(name, -1.0)
         wait_until(lambda: gc.collect() >= 0 and answer() is None)
 
 
 def test_a_session_on_disk_shows_its_newest_picture(tmp_path):
     with serving(tmp_path) as (front, directory):
         path = way(front, "/?vehicle=second")
-        cookie, study = visited(front, path), directory._benches["second"].study
+        cookie, study = visited(front, path), directory.benches["second"].study
         session = study.session_id(key_of(path))
         study.begin(session)
         file = io.BytesIO()
@@ -183,7 +183,7 @@ def test_a_probe_needs_no_token_and_is_told_nothing_private():
         assert told == {"status": "ok", "vehicles": 2, **nothing}
         assert health(front, Host="evil.example")[0] == 403
         assert health(front, Origin="http://evil.example")[0] == 403
-        directory._ended.set()
+        directory.sessions._ended.set()
         assert health(front)[0] == 503
         assert health(front)[1]["status"] == "stopping"
 
@@ -191,7 +191,7 @@ def test_a_probe_needs_no_token_and_is_told_nothing_private():
 def test_a_probe_is_told_of_sessions_that_do_not_go_on():
     with serving() as (front, directory), page_at(front, way(front, "/?vehicle=first")):
         wait_until(lambda: health(front)[1]["pages"] == 1)
-        (session,) = directory._open.values()
+        (session,) = directory.sessions.open.values()
         session.app.session._worker._is_stuck = True
         status, told = health(front)
         assert (status, told["status"], told["sessions"]) == (503, "stuck", 1)
@@ -212,7 +212,7 @@ def test_the_log_names_sessions_and_never_what_opens_them(caplog):
         with knock(front, own_origin(front), path, Cookie=entered) as page:
             page.send(encoded(CAMERA))
             wait_until(lambda: health(front)[1]["pages"] == 1)
-            (session,) = directory._open.values()
+            (session,) = directory.sessions.open.values()
             number = session.server.mistake(ValueError(f"asked for {path} with {entered}"))
         wait_until(lambda: health(front)[1]["pages"] == 0)
     lines = [JsonFormatter().format(record) for record in caplog.records]

@@ -22,8 +22,8 @@ def test_pages_that_have_gone_leave_nothing_in_a_sessions_memory():
     with serving() as (front, directory):
         path = way(front)
         with page_at(front, path):
-            wait_until(lambda: directory._open)
-            (session,) = directory._open.values()
+            wait_until(lambda: directory.sessions.open)
+            (session,) = directory.sessions.open.values()
             wait_until(lambda: session.app.session.answer, 60)
             assert session.app.session.wait_checked(60)
         come_and_go(front, path, session, FIRST)

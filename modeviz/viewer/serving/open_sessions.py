@@ -1,0 +1,156 @@
+"""The sessions in memory: opened as somebody comes, closed when nobody has looked for a while."""
+
+import threading
+from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import partial
+
+from modeviz.compute.memory import give_back
+from modeviz.errors import ModevizError
+from modeviz.journal.sessions import SessionId
+from modeviz.viewer.page.front import Front
+from modeviz.viewer.serving.addresses import Addresses, Visit
+from modeviz.viewer.serving.bench import Bench
+from modeviz.viewer.serving.open_session import OpenSession
+from modeviz.viewer.serving.review import Review
+from modeviz.viewer.session.opening import Opening
+
+MOST_OPEN = 64
+"""Sessions in memory; the one that was left longest ago makes room for another."""
+
+IDLE = 900.0
+"""s without a page after which a session leaves memory."""
+
+LOOKS_EVERY = 15.0
+"""s between two looks which sessions are idle."""
+
+
+class OpenSessions:
+    """Those that pages can look at now, by what their studies know them as; all threads may ask."""
+
+    def __init__(
+        self, front: Front, benches: Mapping[str, Bench], addresses: Addresses, dark: bool
+    ) -> None:
+        """Opens none yet.
+
+        Args:
+            front: where pages come in.
+            benches: the vehicles, by what addresses call them.
+            addresses: of sessions and reviews.
+            dark: whether pages are.
+        """
+        self._front, self._benches, self._addresses = front, benches, addresses
+        self._dark = dark
+        self.open: dict[SessionId, OpenSession] = {}
+        self._lock = threading.Lock()
+        self._locks: dict[SessionId, tuple[threading.Lock, int]] = {}
+        """Of sessions that are being opened or closed, with how many threads want them."""
+        self._ended = threading.Event()
+        self._watching = threading.Thread(target=self._watch, name="idle sessions", daemon=True)
+        self._watching.start()
+
+    @property
+    def is_ending(self) -> bool:
+        """Whether all are being closed."""
+        return self._ended.is_set()
+
+    def get(self, session: SessionId) -> OpenSession | None:
+        """Return a session if it is in memory."""
+        return self.open.get(session)
+
+    def is_being_opened(self, session: SessionId) -> bool:
+        """Return whether a page that comes has to wait for its session."""
+        return session in self._locks and session not in self.open
+
+    def opened(self, visit: Visit) -> OpenSession | None:
+        """Return the session of a page, which is opened if nobody has it open; None without a place."""
+        with self._one_at_a_time(visit.session):
+            if session := self.open.get(visit.session):
+                session.touch()
+                return session
+            if not self._make_room():
+                return None
+            session = self.open[visit.session] = self._new(visit)
+            return session
+
+    def close(self) -> None:
+        """Closes all, side by side, and has their studies remember them."""
+        self._ended.set()
+        sessions = tuple(self.open)
+        with ThreadPoolExecutor(len(sessions) or 1, "close session") as closing:
+            closing.map(partial(self._close, least=-1.0), sessions)
+        self._watching.join(timeout=1.0)
+
+    def _new(self, visit: Visit) -> OpenSession:
+        bench, name = self._benches[visit.vehicle], visit.session
+        address = "&" + self._addresses.address(visit.vehicle, "session", visit.key)
+        session = OpenSession(bench, name, _opening(bench, visit), self._front, address, self._dark)
+        review = Review(bench, name, partial(self._addresses.address, visit.vehicle, "review"))
+        session.server.visitors.offer(review, bench.is_shared(name))
+        return session
+
+    def _make_room(self) -> bool:
+        """Closes those that were left longest ago while there are too many; whether there is room."""
+        idle = {each: session.idle for each, session in dict(self.open).items()}
+        for session in sorted(idle, key=lambda each: idle[each], reverse=True):
+            if len(self.open) < MOST_OPEN:
+                return True
+            self._close(session, 0.0)
+        if len(self.open) < MOST_OPEN:
+            return True
+        self._front.house.notices.note("the server", "has as many sessions open as it takes")
+        return False
+
+    def _watch(self) -> None:
+        """Closes sessions that are idle, until all are closed."""
+        while not self._ended.wait(LOOKS_EVERY):
+            for session in tuple(self.open):
+                self._close(session, IDLE)
+
+    def _close(self, session: SessionId, least: float) -> None:
+        """Closes a session that nobody has looked at for more than so many s.
+
+        One whose closing goes wrong, which is our mistake, is as good as closed: others go on.
+        """
+        with self._one_at_a_time(session):
+            found = self.open.get(session)
+            if found is None or found.idle <= least:
+                return
+            try:
+                found.close()
+            except Exception as error:
+                found.server.note_mistake(error)
+            finally:
+                del self.open[session]
+        del found
+        give_back()
+
+    @contextmanager
+    def _one_at_a_time(self, session: SessionId) -> Iterator[None]:
+        """Has a session opened or closed by one thread at a time; others go on."""
+        with self._lock:
+            lock, n_waiting = self._locks.get(session, (threading.Lock(), 0))
+            self._locks[session] = lock, n_waiting + 1
+        try:
+            with lock:
+                yield
+        finally:
+            with self._lock:
+                lock, n_waiting = self._locks.pop(session)
+                if n_waiting > 1:
+                    self._locks[session] = lock, n_waiting - 1
+
+
+def _opening(bench: Bench, visit: Visit) -> Opening:
+    """Return what a session opens with; if it is none that was left or linked, the usual and why."""
+    try:
+        left = bench.left(visit.session)
+    except ModevizError as error:
+        told = f"{error}; it is left as it is, and what is done here is not saved"
+        return replace(bench.opening(), remarks=(told,), is_unread=True)
+    try:
+        return left or bench.opening(visit.view)
+    except ModevizError as error:
+        return replace(bench.opening(), remarks=(str(error),))
