@@ -7,10 +7,10 @@
 // proxy has made of the request. A page that shows this one in a frame is told whether there is a server.
 (why, subprotocol, scheme) => {
   const PATIENCE = 3000; // ms until a page that is not connected says so
-  const LONGEST = 1500; // ms that an answer to what is wrong may take: a proxy may hold it back, too
+  const LONGEST = 1500; // ms of it that an answer to what is wrong may take: a proxy may hold it back, too
   const PACE = 1000; // ms between two attempts
   const DRAWN = 100; // ms until what has come is drawn
-  const AGAIN = 5000; // ms between two questions what is wrong
+  const AGAIN = 3500; // ms from one answer to the next question
 
   const OURS = ["vehicle", "session", "review", "view"]; // of the page's address, for its websocket
 
@@ -33,6 +33,7 @@
   let notice = null;
 
   const address = () => location.href.split(/[?#]/)[0];
+  const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
   const tell = (modeviz) => parent !== window && parent.postMessage({ modeviz }, "*");
 
   function ours() {
@@ -80,7 +81,7 @@
   function closed(reason) {
     isOpen = isTrying = false;
     if (reason && !UNSAID.includes(reason)) show((ended = reason));
-    if (!waiting) waiting = setTimeout(explain, PATIENCE);
+    if (!waiting) waiting = setTimeout(explain, PATIENCE - LONGEST);
     trying ??= setInterval(tryAgain, PACE);
   }
 
@@ -118,7 +119,7 @@
 
   async function explain() {
     const asked = waiting;
-    const { isGone, text } = await obstacle();
+    const [{ isGone, text }] = await Promise.all([obstacle(), pause(LONGEST)]);
     if (waiting !== asked) return; // it has been connected meanwhile
     show(isGone ? ended || GONE : text || ended || (isOpen ? SILENT : BLOCKED));
     if (isGone) tell("gone");
@@ -164,5 +165,5 @@
     replace(state, title, url);
   };
 
-  waiting = setTimeout(explain, PATIENCE);
+  waiting = setTimeout(explain, PATIENCE - LONGEST);
 }
