@@ -110,6 +110,7 @@ def test_a_copied_link_opens_the_same_view_in_another_browser(directory, open_pa
     assert solved[0].followed.mode == solved[1].followed.mode
     for one, two in zip(drawn(first), drawn(second), strict=True):
         np.testing.assert_allclose(one, two, rtol=1e-9)
+    wait_until(other, second.server.get_clients)
     (seer,) = second.server.get_clients().values()
     wait_until(other, lambda: np.allclose(seer.camera.position, (4.0, -3.0, 2.5), atol=1e-3))
     np.testing.assert_allclose(seer.camera.look_at, (1.2, 0.0, 0.8), atol=1e-3)
