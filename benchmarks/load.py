@@ -43,8 +43,8 @@ DRAG_STEPS, STEP_S = 20, 0.05
 """Of the drag at the end; a page sends at most one message of a widget in that time."""
 
 QUIET_S, LONGEST_S = 1.0, 60.0
-"""A screen is taken for final so long after its last spectrum, once its number is that of its slider;
-if it never is, after the second time."""
+"""A screen is taken for final so long after its last spectrum, once its number is that of its slider
+and its server has answered all that was asked; where that never is, after the second time."""
 
 PATIENCE_S = 120.0
 
@@ -130,12 +130,15 @@ class LoadedPage:
             await self._next_spectrum()
         await self._drag()
 
-    async def rest(self, presenter: "LoadedPage") -> None:
-        """Waits until the screen is final, as the page has left it that moved its sliders."""
+    async def follow(self, presenter: "LoadedPage") -> None:
+        """Waits until the number of the slider is as the page has left it that moved it."""
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(LONGEST_S):
                 while self._wrong_rate(presenter):
                     await asyncio.sleep(0.1)
+
+    async def rest(self) -> None:
+        """Waits until no new spectrum comes."""
         begin = time.perf_counter()
         while time.perf_counter() - max(begin, self._drawn_at) < QUIET_S:
             await asyncio.sleep(0.1)
@@ -261,7 +264,9 @@ async def loaded(
         end = time.monotonic() + seconds
         await asyncio.gather(*(page.tune(end) for page in presenters))
         moved_by = opened[:1] * n_pages if is_review else opened
-        await asyncio.gather(*map(LoadedPage.rest, opened, moved_by))
+        await asyncio.gather(*map(LoadedPage.follow, opened, moved_by))
+        await _answered(server)
+        await asyncio.gather(*map(LoadedPage.rest, opened))
         during = server.usage()
     after = await _left(server)
     vehicle = read_vehicle(folder)
@@ -289,6 +294,13 @@ async def _opened(
             query, moved = f"session={secrets.token_urlsafe(16)}", Moved()
         elif number == 0:
             query = f"review={server.shared(session)}"
+
+
+async def _answered(server: LoadedServer) -> None:
+    """Waits until a server has answered all that pages have asked."""
+    deadline = time.monotonic() + LONGEST_S
+    while not server.has_answered() and time.monotonic() < deadline:
+        await asyncio.sleep(0.1)
 
 
 async def _left(server: LoadedServer) -> Usage:

@@ -48,6 +48,10 @@ class LoadedServer:
         """What it takes now."""
         return self._asked("usage")
 
+    def has_answered(self) -> bool:
+        """Whether every session has answered what was last asked of it."""
+        return self._asked("answered")
+
     def shared(self, session: str) -> str:
         """The key of a review of a session."""
         return self._asked(session)
@@ -98,7 +102,12 @@ def _answer(bench: Bench, questions: Connection) -> None:
     bench.prepared()
     questions.send("ready")
     while question := questions.recv():
-        questions.send(_usage() if question == "usage" else _shared(question))
+        told = {"usage": _usage, "answered": _has_answered}.get(question)
+        questions.send(told() if told else _shared(question))
+
+
+def _has_answered() -> bool:
+    return all(each.app.session.wait(0.0) for each in _sessions)
 
 
 def _shared(session: str) -> str:
