@@ -4,7 +4,8 @@ Each time a process opens the study, goes on where its session was, and is kille
 moment: while it opens the file, between writes, in one, or while it ends. What it had been told to be
 saved must be there, in the order in which it was done, and of what it had not been told nothing but a
 part from its beginning; the history of undoing must be the one that these changes leave. Now and then
-the file is a new one. Needs `os.fork`.
+the file is a new one, or one of the first version, whose tables are brought up to date on the way.
+Needs `os.fork`.
 """
 
 import argparse
@@ -21,7 +22,9 @@ from pathlib import Path
 
 from modeviz.journal.changes import LONGEST, Change, Kind, Step
 from modeviz.journal.fingerprint import Fingerprint
+from modeviz.journal.opening import open_to_write
 from modeviz.journal.records import Records
+from modeviz.journal.schema import APPLICATION_ID, STEPS
 from modeviz.journal.sessions import StoredSession
 from modeviz.journal.study_file import StudyFile
 from modeviz.journal.tuning import Tuning
@@ -170,10 +173,21 @@ def kill_often(
         path = folder / f"study-{i // rounds_of_a_file}.modeviz"
         if i % rounds_of_a_file == 0:
             model = Model()
+            if i // rounds_of_a_file % 2:
+                write_first_version(path)
         is_open = chance.random() < 0.6
         told = _run_and_kill(path, model, seed + i, chance.uniform(0, LONGEST_S), is_open)
         model = _check(path, model, seed + i, told, killed)
     return killed
+
+
+def write_first_version(path: Path) -> None:
+    """Writes a study as the first version of the tables had it, with nothing in it yet."""
+    connection = open_to_write(path)
+    connection.executescript(f"{STEPS[0]} PRAGMA application_id = {APPLICATION_ID};")
+    connection.execute("INSERT INTO study VALUES (?, ?, 0)", ("killed", time.time()))
+    connection.execute("PRAGMA user_version = 1")
+    connection.close()
 
 
 def _run_and_kill(path: Path, model: Model, seed: int, after: float, is_open: bool) -> bytes:

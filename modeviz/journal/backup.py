@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from modeviz.errors import ModevizError, reason
-from modeviz.journal.opening import check_file, open_to_read
+from modeviz.journal.opening import check_file, check_is_study, connect_as_it_is
 from modeviz.journal.places import ENDING
 
 
@@ -24,7 +24,8 @@ def backup(study: Path, target: Path) -> Path:
     path = target / f"{study.stem}-{moment}.{ENDING}" if target.is_dir() else target
     if path.exists():
         raise ModevizError(f"{path}: is there already; give a new file, or a folder")
-    source = open_to_read(study)
+    check_is_study(study)
+    source = connect_as_it_is(study)
     try:
         with TemporaryDirectory(prefix=".modeviz-", dir=path.absolute().parent) as scratch:
             new = Path(scratch, path.name)

@@ -42,10 +42,13 @@ class Change:
     after: str
     """The state after that step; for undoing too, so that redoing leads there."""
     author: str = ""
+    """The name of who did it."""
     differences: tuple[Difference, ...] = ()
     """Between before and after."""
     tuning: Tuning = field(default_factory=Tuning)
     """As it is now."""
+    maker: str = ""
+    """The digest of the key of a visitor who did it, whatever the name is; empty: the owner did."""
 
     @property
     def state(self) -> str:
@@ -59,6 +62,9 @@ class Step:
 
     before: str
     after: str
+    author: str = field(default="", compare=False)
+    maker: str = ""
+    """Whose step it is, see `Change.maker`."""
 
 
 def write_change(connection: Connection, session: int, change: Change, now: float) -> None:
@@ -81,11 +87,12 @@ def steps(connection: Connection, session: int, place: Literal["done", "undone"]
     """Return the steps that can be undone, or redone, the next one last; not more than `LONGEST`."""
     order = "DESC" if place == "done" else "ASC"
     rows = connection.execute(
-        f"SELECT before, after FROM change WHERE session = ? AND place = ? ORDER BY id {order} LIMIT ?",
+        "SELECT before, after, author, maker FROM change WHERE session = ? AND place = ?"
+        f" ORDER BY id {order} LIMIT ?",
         (session, place, LONGEST),
     ).fetchall()
-    states = {number: text(connection, number) for row in rows for number in row}
-    return tuple(Step(states[before], states[after]) for before, after in reversed(rows))
+    states = {number: text(connection, number) for row in rows for number in row[:2]}
+    return tuple(Step(states[before], states[after], *who) for before, after, *who in reversed(rows))
 
 
 def differences_text(differences: Iterable[Difference]) -> str:
@@ -108,13 +115,14 @@ def _put(connection: Connection, change: Change) -> tuple[int, int, int]:
 def _insert(connection: Connection, session: int, change: Change, place: str, now: float) -> None:
     before, after, differences = _put(connection, change)
     connection.execute(
-        "INSERT INTO change (id, session, time, author, kind, title, differences, place, before, after)"
-        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO change (id, session, time, author, maker, kind, title, differences, place,"
+        " before, after) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (
             next_id(connection),
             session,
             now,
             change.author,
+            change.maker,
             change.kind,
             change.title,
             differences,
@@ -142,13 +150,14 @@ def _lengthen(
     held = _contents(connection, step)
     before, after, differences = _put(connection, change)
     connection.execute(
-        "UPDATE change SET before = ?, after = ?, time = ?, author = ?, title = ?, differences = ?"
-        " WHERE id = ?",
+        "UPDATE change SET before = ?, after = ?, time = ?, author = ?, maker = ?, title = ?,"
+        " differences = ? WHERE id = ?",
         (
             before,
             after,
             now,
             change.author,
+            change.maker,
             change.title,
             differences,
             step,

@@ -4,7 +4,7 @@ import sqlite3
 from functools import cache
 from sqlite3 import Connection
 
-from modeviz.journal.schema import TABLES
+from modeviz.journal.schema import STEPS, version_of
 
 FARTHEST = 1e11
 """s from 1970, in the year 5138: no time is later."""
@@ -12,7 +12,7 @@ FARTHEST = 1e11
 
 def wrong_table(connection: Connection) -> str | None:
     """Return a table that is missing, or has other columns or values than a study's; else None."""
-    for table, columns in _expected().items():
+    for table, columns in _expected(version_of(connection)).items():
         if _columns(connection, table) != columns:
             return table
         wrong = " OR ".join(f"NOT ({_is_right(*column)})" for column in columns)
@@ -27,10 +27,10 @@ Column = tuple[str, str, bool]
 
 
 @cache
-def _expected() -> dict[str, list[Column]]:
+def _expected(version: int) -> dict[str, list[Column]]:
     model = sqlite3.connect(":memory:")
     try:
-        model.executescript(TABLES)
+        model.executescript("".join(STEPS[:version]))
         query = "SELECT name FROM sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite%'"
         return {table: _columns(model, table) for (table,) in model.execute(query).fetchall()}
     finally:

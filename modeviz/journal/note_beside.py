@@ -7,9 +7,10 @@ from pathlib import Path
 
 from modeviz.errors import ModevizError, reason
 from modeviz.journal.notes import write_note
-from modeviz.journal.opening import check_file, open_to_write
+from modeviz.journal.opening import check_is_study, open_to_write
 from modeviz.journal.sessions import SessionId, number_of
 from modeviz.journal.study_file import new_token
+from modeviz.journal.upgrade import upgrade_beside
 from modeviz.report.notes import Note
 
 
@@ -19,8 +20,8 @@ def write_beside(study: Path, session: SessionId | None, note: Note) -> None:
     Raises:
         ModevizError: there is no sound study, or it cannot be written.
     """
-    if not check_file(study):
-        raise ModevizError(f"{study}: there is no study in it")
+    check_is_study(study)
+    upgrade_beside(study)
     written = replace(note, token=new_token(), time=time.time())
     try:
         connection = open_to_write(study)

@@ -6,7 +6,7 @@ from sqlite3 import Connection
 
 from modeviz.errors import ModevizError, reason
 from modeviz.journal.columns import wrong_table
-from modeviz.journal.schema import APPLICATION_ID, VERSION
+from modeviz.journal.schema import APPLICATION_ID, VERSION, bring_up, version_of
 
 MAGIC = b"SQLite format 3\0"
 HEADER = 100
@@ -36,17 +36,46 @@ def check_file(path: Path) -> bool:
     return _check_sound(path)
 
 
-def open_to_read(path: Path) -> Connection:
-    """Return a connection that changes nothing, also where nothing may be written.
-
-    Raises:
-        ModevizError: as `check_file`, or there is no such file.
-    """
+def check_is_study(path: Path) -> None:
+    """Raises ModevizError as `check_file`, or if there is no study."""
     if not check_file(path):
         raise ModevizError(
             f"{path}: there is no study in it" if path.exists() else f"{path}: there is no such file"
         )
-    return _connect_to_read(path)
+
+
+def is_of_before(path: Path) -> bool:
+    """Return whether a study that was checked has tables of an earlier version."""
+    connection = connect_as_it_is(path)
+    try:
+        return version_of(connection) < VERSION
+    finally:
+        connection.close()
+
+
+def connect_to_read(path: Path) -> Connection:
+    """Return a connection to a study that was checked, which changes nothing of it.
+
+    One with tables of an earlier version is read from a copy that has today's, and that nobody sees.
+    """
+    connection = connect_as_it_is(path)
+    if version_of(connection) == VERSION:
+        return connection
+    try:
+        copy = sqlite3.connect("", isolation_level=None, check_same_thread=False)
+        connection.backup(copy)
+        bring_up(copy)
+        return copy
+    finally:
+        connection.close()
+
+
+def connect_as_it_is(path: Path) -> Connection:
+    """Return a connection that writes nothing; where no log lies beside, it takes not even a lock."""
+    has_log = path.with_name(f"{path.name}-wal").exists()
+    mode = "mode=ro" if has_log else "mode=ro&immutable=1"
+    uri = f"{path.resolve().as_uri()}?{mode}"
+    return sqlite3.connect(uri, uri=True, timeout=BUSY, isolation_level=None, check_same_thread=False)
 
 
 def open_to_write(path: Path) -> Connection:
@@ -89,7 +118,7 @@ def _check_version(path: Path, application: int, version: int) -> None:
 def _check_sound(path: Path) -> bool:
     """Return whether a database is a study; an empty one, of a process that was killed, is none yet."""
     try:
-        connection = _connect_to_read(path)
+        connection = connect_as_it_is(path)
         try:
             return _is_study(connection, path)
         finally:
@@ -122,11 +151,3 @@ def _damaged(path: Path, words: str) -> str:
         f"{path}: is damaged ({first}): put a backup in its place, or give another file; it is left as "
         "it is"
     )
-
-
-def _connect_to_read(path: Path) -> Connection:
-    """A connection that writes nothing; where no log lies beside, not even a lock is taken."""
-    has_log = path.with_name(f"{path.name}-wal").exists()
-    mode = "mode=ro" if has_log else "mode=ro&immutable=1"
-    uri = f"{path.resolve().as_uri()}?{mode}"
-    return sqlite3.connect(uri, uri=True, timeout=BUSY, isolation_level=None, check_same_thread=False)

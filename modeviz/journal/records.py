@@ -14,7 +14,7 @@ from modeviz.journal import notes as remarks
 from modeviz.journal import pictures as images
 from modeviz.journal import runs as computed
 from modeviz.journal import sessions as stored
-from modeviz.journal.opening import open_to_read
+from modeviz.journal.opening import check_is_study, connect_to_read
 from modeviz.journal.sessions import SessionId, SessionLine, StoredSession
 from modeviz.report.notes import Note
 
@@ -46,8 +46,8 @@ class Records:
         Raises:
             ModevizError: there is none, it is no study, damaged, or of a later modeviz.
         """
-        open_to_read(path).close()
-        return cls(path, lambda: open_to_read(path))
+        check_is_study(path)
+        return cls(path, lambda: connect_to_read(path))
 
     def study(self) -> Study:
         """Return of what the study is."""

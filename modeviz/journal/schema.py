@@ -5,10 +5,7 @@ from sqlite3 import Connection
 APPLICATION_ID = 0x6D647673
 """In the header of a study file: "mdvs"."""
 
-VERSION = 1
-"""Of the tables; a file of a later one is not read."""
-
-TABLES = """
+BEGUN = """
 CREATE TABLE study (name TEXT NOT NULL, begun REAL NOT NULL, n_entries INTEGER NOT NULL);
 CREATE TABLE vehicle (
     id INTEGER PRIMARY KEY,
@@ -94,14 +91,34 @@ CREATE TABLE picture (
     caption TEXT NOT NULL,
     png INTEGER NOT NULL REFERENCES content
 );
+CREATE INDEX change_before ON change (before);
+CREATE INDEX change_after ON change (after);
+CREATE INDEX change_differences ON change (differences);
+CREATE INDEX session_state ON session (state);
+CREATE INDEX session_tuning ON session (tuning);
+CREATE INDEX variant_pinned ON variant (pinned);
+CREATE INDEX run_record ON run (record);
+CREATE INDEX picture_png ON picture (png);
 """
-"""Times are seconds since 1970, as the clock said; what came first is told by ids alone, which changes,
-variants, notes, runs and pictures have from one count.
+"""The tables of version 1. Times are seconds since 1970, as the clock said; what came first is told by
+ids alone, which changes, variants, notes, runs and pictures have from one count.
 
 Of a change `place` is "done", "undone", or "gone" where something else was decided after undoing it;
 undoing and redoing are changes of other kinds, whose place is "". Keys of sessions and reviews are
 not here, only their digests.
 """
+
+MAKERS = """
+ALTER TABLE change ADD COLUMN maker TEXT NOT NULL DEFAULT '';
+"""
+"""Version 2: by which visitor a change is, `Maker.id`."""
+
+STEPS: tuple[str, ...] = (BEGUN, MAKERS)
+"""What makes of the tables of each version those of the next, of a file without tables those of 1.
+A step that is in use is never changed: another one is added."""
+
+VERSION = len(STEPS)
+"""Of the tables; a file of a later one is not read."""
 
 HOLDERS = (
     ("change", "before"),
@@ -118,13 +135,31 @@ HOLDERS = (
 
 def create(connection: Connection, vehicle_name: str, now: float) -> None:
     """Makes the tables of a new file; in a transaction of its own."""
-    indices = "".join(f"CREATE INDEX {t}_{c} ON {t} ({c});" for t, c in HOLDERS)
-    connection.executescript(
-        f"BEGIN IMMEDIATE; PRAGMA application_id = {APPLICATION_ID}; PRAGMA user_version = {VERSION};"
-        f"{TABLES}{indices}"
-    )
+    _begin(connection, 0)
+    connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
     connection.execute("INSERT INTO study VALUES (?, ?, 0)", (vehicle_name, now))
     connection.execute("COMMIT")
+
+
+def version_of(connection: Connection) -> int:
+    """Return the version of the tables that a connection sees."""
+    return connection.execute("PRAGMA user_version").fetchone()[0]
+
+
+def bring_up(connection: Connection) -> None:
+    """Makes of the tables of an earlier version those of today; all in one transaction, or nothing."""
+    try:
+        _begin(connection, version_of(connection))
+        connection.execute("COMMIT")
+    except BaseException:
+        connection.rollback()
+        raise
+
+
+def _begin(connection: Connection, version: int) -> None:
+    """Goes on from a version to today's, in a transaction that stays open."""
+    steps = "".join(STEPS[version:])
+    connection.executescript(f"BEGIN IMMEDIATE; {steps} PRAGMA user_version = {VERSION};")
 
 
 def next_id(connection: Connection) -> int:

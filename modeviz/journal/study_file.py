@@ -27,6 +27,7 @@ from modeviz.journal.records import Records
 from modeviz.journal.runs import Run, write_run
 from modeviz.journal.schema import create
 from modeviz.journal.sessions import SessionId, StoredSession
+from modeviz.journal.upgrade import upgrade
 from modeviz.journal.writer import Writer
 from modeviz.report.notes import Note
 
@@ -53,10 +54,13 @@ class StudyFile(Records):
         writer: Writer,
         ownership: Ownership,
         watchers: list[Callable[[str], None]],
+        former: Path | None = None,
     ) -> None:
         """See `open`."""
         super().__init__(path, self._connect_after_writing)
         self.vehicle: Fingerprint = vehicle
+        self.former: Path | None = former
+        """The copy of a file that an earlier modeviz had written, and that was brought up to date."""
         self._writer, self._ownership, self._watchers = writer, ownership, watchers
         self._lock = threading.Lock()
         self._n_steps: dict[SessionId, int] = {}
@@ -81,11 +85,13 @@ class StudyFile(Records):
             ModevizError: another process has it, it is damaged or no study, was written by a later
                 modeviz, or cannot be written.
         """
-        path = Path(path).absolute()
+        path, former = Path(path).absolute(), None
         _check_folder(path)
         ownership = Ownership(path, time.time())
         try:
-            if not check_file(path):
+            if check_file(path):
+                former = upgrade(path)
+            else:
                 _create(path, vehicle_name)
             watchers = [tell]
             writer = Writer(path, partial(_tell_all, watchers))
@@ -95,7 +101,7 @@ class StudyFile(Records):
         except ModevizError:
             ownership.release()
             raise
-        return cls(path, vehicle, writer, ownership, watchers)
+        return cls(path, vehicle, writer, ownership, watchers, former)
 
     @staticmethod
     def session_id(key: str) -> SessionId:

@@ -169,16 +169,20 @@ class App:
 
         self.session.start(tell)
 
-    def record(self, study: StudyFile, name: SessionId, author: Callable[[], str]) -> None:
+    def record(self, study: StudyFile, name: SessionId) -> None:
         """Keeps all that is done from now on in a study file, until the end; see `Recorder`.
 
         Args:
             study: where; what keeps it from being saved is said on every page.
             name: under which the study file knows the session.
-            author: says who does something, in the thread in which it is done.
         """
-        self._recorder = Recorder(self.session, study, name, author, self.server.mistake)
+        acting = self.server.visitors.acting
+        self._recorder = Recorder(self.session, study, name, acting, self.server.mistake)
         self._end_watching = study.watch(self._show_trouble)
+
+        def author() -> str:
+            return acting().name
+
         RunRecorder(
             study,
             name,

@@ -13,6 +13,7 @@ from journal_studies import KEY, change, opened
 from mounted_cabin import mounted_cabin
 from visitors import wait_until
 
+from benchmarks.kill import write_first_version
 from modeviz.cli import main
 from modeviz.cli.studies.kept import kept_study
 from modeviz.errors import ModevizError
@@ -289,3 +290,16 @@ def test_contents_that_say_something_else_are_damage(study, capsys, said):
         connection.commit()
     assert "damaged" in failed(capsys, "log", study)
     assert "damaged" in failed(capsys, "diff", study, study)
+
+
+def test_a_server_says_that_it_brought_a_study_up_to_date(tmp_path, capsys):
+    path = tmp_path / "cabin.modeviz"
+    write_first_version(path)
+    with kept_study(path, mounted_cabin()):
+        pass
+    said = capsys.readouterr().err
+    assert f"{path}: was of an earlier modeviz" in said
+    assert f"it is in {tmp_path}/cabin-version-1.modeviz" in said
+    with kept_study(path, mounted_cabin()):
+        pass
+    assert "earlier" not in capsys.readouterr().err

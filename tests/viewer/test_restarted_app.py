@@ -41,7 +41,7 @@ def opened(opening):
 def test_a_session_with_an_absorber_is_there_after_a_restart_and_can_lose_it(tmp_path):
     study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
     app = opened(Opening(FIRST))
-    app.record(study, KEY, lambda: "Ada")
+    app.record(study, KEY)
     app.session.do(decisions.SetRate("B", "lateral", 123456.0))
     app.session.do(ABSORBERS[0])
     app.session.do(looks.ChooseCurve(0, ForceCurve("roof", "z")))
@@ -49,7 +49,7 @@ def test_a_session_with_an_absorber_is_there_after_a_restart_and_can_lose_it(tmp
     state = app.session.state
     app.close()
     again = opened(recorded(study, KEY, FIRST, VEHICLE, PRINT.digest))
-    again.record(study, KEY, lambda: "Bea")
+    again.record(study, KEY)
     try:
         assert again.session.state == state
         assert again.session.answer.now.rates["roof"] == state.design.rates["roof"]
@@ -68,7 +68,7 @@ def test_a_session_with_an_absorber_is_there_after_a_restart_and_can_lose_it(tmp
 def test_what_is_done_until_the_page_is_told_of_the_end_is_there_after_a_restart(tmp_path, monkeypatch):
     study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
     app = opened(Opening(FIRST))
-    app.record(study, KEY, str)
+    app.record(study, KEY)
     close = app.session.close
 
     def going_on():
@@ -87,7 +87,7 @@ def test_camera_and_motion_are_there_after_a_restart(tmp_path):
     """As a page says that somebody has moved its camera, and the slider of the amplitude."""
     study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
     app = opened(Opening(FIRST))
-    app.record(study, KEY, str)
+    app.record(study, KEY)
     with visit(app.server) as socket:
         moved = {**CAMERA_MESSAGE, "position": CAMERA.position, "look_at": CAMERA.look_at}
         socket.send(encoded(CAMERA_MESSAGE))
@@ -136,7 +136,7 @@ def test_what_was_computed_before_is_listed_the_newest_first():
 def test_a_page_says_what_cannot_be_saved_until_it_can(tmp_path):
     study = StudyFile.open(tmp_path / "study.modeviz", "cabin", PRINT)
     app = opened(Opening(FIRST))
-    app.record(study, KEY, str)
+    app.record(study, KEY)
     try:
         _tell_all(study._watchers, "not saved: the disk is full")
         assert "Not saved: the disk is full." in text(app._status._content)

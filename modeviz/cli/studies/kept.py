@@ -17,13 +17,16 @@ from modeviz.vehicle.vehicle import Vehicle
 def kept_study(path: Path, vehicle: Vehicle) -> Iterator[StudyFile]:
     """Yields the study that remembers the sessions of a vehicle; says what is not saved.
 
-    A study that was begun with a vehicle of another name is called so.
+    A study that was begun with a vehicle of another name is called so, and where the file is that an
+    earlier modeviz had written.
 
     Raises:
         ModevizError: it is in use, damaged, or cannot be written.
     """
     study = StudyFile.open(path, vehicle.name, fingerprint_of(vehicle), partial(_log, path))
     try:
+        if study.former:
+            remark(f"{path}: was of an earlier modeviz; as it was it is in {study.former}")
         begun_with = Records.of_file(path).study().vehicle_name
         if begun_with != vehicle.name:
             remark(f"{path}: is the study of {begun_with}, and goes on with {vehicle.name}")

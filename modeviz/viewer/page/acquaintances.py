@@ -4,6 +4,7 @@ from collections import OrderedDict
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
+from modeviz.journal.keys import digest_of
 from modeviz.text.wording import free_name
 from modeviz.viewer.session.author import OWNER, Author
 
@@ -16,14 +17,16 @@ class Visitor:
     """Somebody who looks at a session in one browser, in any number of its tabs."""
 
     number: int
-    """Its own in the session."""
+    """Its own in the session, while that is open."""
     name: str
     is_owner: bool
+    id: str = ""
+    """See `Author.id`."""
 
     @property
     def author(self) -> Author:
         """As who makes changes."""
-        return Author(self.name, OWNER.number if self.is_owner else self.number)
+        return Author(self.name, OWNER.id if self.is_owner else self.id)
 
 
 class Acquaintances:
@@ -50,7 +53,7 @@ class Acquaintances:
         visitor = self._known.get(key)
         if visitor is None:
             self._n_met += 1
-            visitor = Visitor(self._n_met, name, is_owner)
+            visitor = Visitor(self._n_met, name, is_owner, digest_of(key))
         self._name(key, visitor, visitor.name, there)
         self._known.move_to_end(key)
 

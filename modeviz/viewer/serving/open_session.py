@@ -47,7 +47,7 @@ class OpenSession:
             undoing.callback(self.app.end)
             if bench.study and not opening.is_unread:
                 self.server.farewell = STOPPED_KEPT
-                self.app.record(bench.study, name, lambda: self.server.visitors.acting().name)
+                self.app.record(bench.study, name)
             if not opening.past:
                 self.app.guide.welcome_first()
             undoing.pop_all()

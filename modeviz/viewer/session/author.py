@@ -10,13 +10,13 @@ class Author:
     """Somebody who makes changes: the same one whatever the name is then."""
 
     name: str = field(compare=False)
-    number: int = 0
-    """Of the visitor in the session; 0: its owner."""
+    id: str = ""
+    """The digest of the key by which a visitor is known; empty: the owner of the session."""
 
     @property
     def is_owner(self) -> bool:
         """Whether the session is this author's own."""
-        return self.number == 0
+        return not self.id
 
 
 OWNER = Author("Owner")

@@ -9,7 +9,7 @@ from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.records import Records
 from modeviz.journal.sessions import SessionId
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.session.author import OWNER, Author
+from modeviz.viewer.session.author import Author
 from modeviz.viewer.session.encoding.fit_design import outside_bounds
 from modeviz.viewer.session.encoding.fitting import fitted
 from modeviz.viewer.session.encoding.text import value_of_text
@@ -69,15 +69,11 @@ def _view(text: str) -> PageView:
 
 
 class _Recalled:
-    """A step of before, whose states are read when somebody goes back over it: there are hundreds.
-
-    Numbers of visitors do not last as long as a study: by now it is the owner's.
-    """
-
-    author: Author = OWNER
+    """A step of before, whose states are read when somebody goes back over it: there are hundreds."""
 
     def __init__(self, step: changes.Step, state_of: Callable[[str], State]) -> None:
         self._step, self._state_of = step, state_of
+        self.author: Author = Author(step.author, step.maker)
 
     @property
     def before(self) -> State:

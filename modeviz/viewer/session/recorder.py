@@ -9,6 +9,7 @@ from modeviz.journal.changes import Change
 from modeviz.journal.sessions import SessionId
 from modeviz.journal.study_file import StudyFile
 from modeviz.journal.tuning import Pinned, Tuning
+from modeviz.viewer.session.author import OWNER, Author
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.differences import differences, title
 from modeviz.viewer.session.encoding.text import text_of
@@ -37,7 +38,7 @@ class _Entry:
     """An accepted change or look, or how pages show it all."""
 
     what: Accepted | PageView
-    author: str = ""
+    author: Author = OWNER
 
     @property
     def kind(self) -> str:
@@ -63,7 +64,7 @@ class Recorder:
         session: Session,
         study: StudyFile,
         name: SessionId,
-        author: Callable[[], str],
+        author: Callable[[], Author],
         mistake: Callable[[Exception], object],
     ) -> None:
         """Begins.
@@ -72,7 +73,7 @@ class Recorder:
             session: what is recorded.
             study: where.
             name: under which the study file knows it.
-            author: says who makes a change, in the thread in which it is made.
+            author: says who undoes or redoes a step, in the thread in which that is done.
             mistake: told what is our mistake; what is accepted after that is recorded all the same.
         """
         self._study, self._name = study, name
@@ -83,7 +84,7 @@ class Recorder:
         self._n_hurried = 0
         self._written_at = 0.0
         self._texts: list[tuple[State, str]] = []
-        study.begin(name, author())
+        study.begin(name, author().name)
         study.look(name, text_of(session.state))
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
@@ -113,7 +114,8 @@ class Recorder:
         self._put(_Entry(view))
 
     def _take(self, accepted: Accepted) -> None:
-        self._put(_Entry(accepted, self._author()))
+        goes_over = accepted.kind in WORDS  # a step that may be somebody else's
+        self._put(_Entry(accepted, self._author() if goes_over else accepted.change.author))
 
     def _put(self, entry: _Entry) -> None:
         """Notes what is to be written, in place of what that overtakes."""
@@ -171,9 +173,10 @@ class Recorder:
                 WORDS.get(accepted.kind, "") + title(before.design, after.design),
                 self._text(before),
                 self._text(after),
-                entry.author,
+                entry.author.name,
                 differences(before.design, after.design),
                 tuning_of(accepted.state.design),
+                entry.author.id,
             ),
         )
 

@@ -19,6 +19,7 @@ from modeviz.journal import changes
 from modeviz.journal.fingerprint import Fingerprint, fingerprint_of
 from modeviz.journal.study_file import StudyFile
 from modeviz.vehicle.mount_rates import MountRates
+from modeviz.viewer.session.author import Author, NotOnesOwnError
 from modeviz.viewer.session.commands import decisions, looks
 from modeviz.viewer.session.encoding.plain import plain_of
 from modeviz.viewer.session.encoding.text import text_of
@@ -32,13 +33,14 @@ FIRST = first_state(VEHICLE, VEHICLE.rates, Conditions("flat", 20.0))
 PRINT = fingerprint_of(VEHICLE)
 KEY = StudyFile.session_id("a key")
 SOON = 20.0
+ADA, BEA = Author("Ada"), Author("Bea", "digest of her key")
 
 
 class Bench:
     """A session that is recorded, and can be restarted."""
 
     def __init__(self, path):
-        self.path, self.mistakes, self.author = path, [], "Ada"
+        self.path, self.mistakes, self.acting = path, [], ADA
         self.open()
 
     def open(self, vehicle=VEHICLE):
@@ -47,9 +49,11 @@ class Bench:
         self.opening = recorded(self.study, KEY, usual, vehicle, fingerprint_of(vehicle).digest)
         state = self.opening.state if self.opening else usual
         past, future = (self.opening.past, self.opening.future) if self.opening else ((), ())
-        self.session = Session(vehicle, state, Listener(), past=past, future=future)
+        self.session = Session(
+            vehicle, state, Listener(), past=past, future=future, acting=lambda: self.acting
+        )
         self.recorder = Recorder(
-            self.session, self.study, KEY, lambda: self.author, self.mistakes.append
+            self.session, self.study, KEY, lambda: self.acting, self.mistakes.append
         )
 
     def close(self):
@@ -174,7 +178,7 @@ def test_of_how_pages_show_it_the_last_counts(bench):
 
 def test_each_change_says_who_made_it(bench):
     bench.session.do(decisions.SetRate("A", "lateral", 1e5))
-    bench.author = "Bea"
+    bench.acting = BEA
     bench.session.do(decisions.Pin("Hers"))
     bench.session.undo()
     told = [(entry.author, entry.kind, entry.title, entry.is_undone) for entry in bench.history()]
@@ -183,6 +187,27 @@ def test_each_change_says_who_made_it(bench):
         ("Bea", "step", "Pin Hers", True),
         ("Bea", "undo", "Undo: Pin Hers", False),
     ]
+
+
+def test_whose_a_step_is_is_known_after_a_restart(bench):
+    bench.session.do(decisions.SetRate("A", "lateral", 1e5))
+    bench.acting = BEA
+    bench.session.do(decisions.Pin("Hers"))
+    bench.session.do(decisions.SetRate("A", "lateral", 2e5))
+    bench.session.undo()
+    bench.acting = ADA
+    bench.session.undo(insists=True)
+    bench.restart()
+    with pytest.raises(NotOnesOwnError, match="Bea's"):
+        bench.session.redo()
+    bench.acting = Author("Beatrice", BEA.id)
+    bench.session.redo()
+    bench.session.redo()
+    bench.session.undo()
+    bench.session.undo()
+    with pytest.raises(NotOnesOwnError, match="Ada's"):
+        bench.session.undo()
+    assert bench.history()[-1].author == "Beatrice"
 
 
 def test_what_a_failed_solve_took_back_is_not_there_after_a_restart(bench):
@@ -222,7 +247,7 @@ class SlowStudy:
 
 def test_no_hand_waits_for_the_disk_and_nothing_is_lost_by_it():
     session, study = Session(VEHICLE, FIRST, Listener()), SlowStudy()
-    recorder = Recorder(session, study, KEY, str, pytest.fail)
+    recorder = Recorder(session, study, KEY, lambda: ADA, pytest.fail)
     begin = time.monotonic()
     for i in range(50):
         session.do(decisions.SetRate("A", "lateral", 1e5 + i))
@@ -241,7 +266,7 @@ def test_what_cannot_be_written_is_a_mistake_that_is_told_and_the_next_is_writte
     session, study, told = Session(VEHICLE, FIRST, Listener()), SlowStudy(), []
     study.free.set()
     study.look = lambda name, state: None
-    recorder = Recorder(session, study, KEY, str, told.append)
+    recorder = Recorder(session, study, KEY, lambda: ADA, told.append)
     session.do(decisions.Pin("\ud800"))  # half a letter, which no page sends
     session.do(decisions.Pin("whole"))
     session.do(decisions.Forget("\ud800"))

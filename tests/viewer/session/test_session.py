@@ -412,10 +412,10 @@ def test_pinning_replaces_no_other_set_without_a_word(session):
 
 
 def test_only_ones_own_changes_are_gone_over_and_by_the_owner_all(session):
-    anna, first = Author("Anna", 2), session.state
+    anna, first = Author("Anna", "2"), session.state
     session._acting = lambda: anna
     session.do(SetRate("A", "lateral", 1e5))
-    session._acting = lambda: Author("Ben", 3)
+    session._acting = lambda: Author("Ben", "3")
     for insists in (False, True):
         with pytest.raises(NotOnesOwnError, match="Anna's") as refusal:
             session.undo(insists)
@@ -433,7 +433,7 @@ def test_only_ones_own_changes_are_gone_over_and_by_the_owner_all(session):
 
 def test_that_only_the_owner_can_go_over_a_change_of_the_owners_is_said_once(session):
     session.do(SetRate("A", "lateral", 1e5))
-    session._acting = lambda: Author("Anna", 2)
+    session._acting = lambda: Author("Anna", "2")
     with pytest.raises(NotOnesOwnError, match="Owner's, so only Owner can go over it"):
         session.undo()
 
