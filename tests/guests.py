@@ -6,10 +6,11 @@ from contextlib import contextmanager
 from typing import Any
 from urllib.parse import urlencode
 
-from visitors import CAMERA, PATIENCE_S, encoded, knock, own_origin, wait_until
+from visitors import CAMERA, PATIENCE_S, encoded, knock, own_origin, update, wait_until
 from websockets.exceptions import ConnectionClosed
 
 from benchmarks.page_client import messages
+from modeviz.viewer.page.looking import let_all_use
 
 
 class SharedHere:
@@ -58,6 +59,14 @@ def take_back(server) -> None:
     with opened(server):
         page = max(server.get_clients())
         assert server.visitors.hand_over(page, server.visitors.of_page(page).number)
+
+
+def all_is_heard(server, page) -> None:
+    """Waits until a server has heard everything that a page has said."""
+    last = server.gui.add_checkbox("heard", False)
+    let_all_use(last)
+    page.send(update(last, True))
+    wait_until(lambda: last.value)
 
 
 def heard_until(page, found: Callable[[list], Any]) -> Any:

@@ -2,13 +2,13 @@
 
 import sys
 import threading
-import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from urllib.parse import urlencode
 
 import pytest
 import viser
+from guests import all_is_heard
 from serving_cabin import key_of, page_at, serving, way
 from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin, update, wait_until
 from websockets.exceptions import InvalidStatus
@@ -81,11 +81,13 @@ def test_a_session_is_moved_by_its_own_pages_alone(served):
         wait_until(lambda: one.app.session.answer and other.app.session.answer, 60)
         wait_until(lambda: len(one.server.get_clients()) == 2)
         before = one.app.session.state.design.rates
-        stranger.send(update(slider(one), slider(one).value + 7))
-        mine.send(update(slider(one), slider(one).value + 20))
+        rate = slider(one).value
+        mine.send(update(slider(one), rate + 20))
         wait_until(lambda: one.app.session.state.design.rates != before)
         moved = one.app.session.state.design.rates
-        time.sleep(0.3)  # the stranger's word has long been heard
+        stranger.send(update(slider(one), rate + 7))
+        all_is_heard(other.server, stranger)
+        assert slider(one).value == rate + 20
         assert one.app.session.state.design.rates == moved
         assert other.app.session.state.design.rates == before
         assert one.app.session.prepared is other.app.session.prepared
@@ -226,8 +228,10 @@ def test_whoever_has_a_review_open_as_the_server_restarts_still_only_looks(tmp_p
             session = directory.sessions.open[name]
             wait_until(lambda: session.app.session.answer, 60)
             before = session.app.session.state.design.rates
-            looking.send(update(slider(session), slider(session).value - 20))
-            time.sleep(0.3)
+            rate = slider(session).value
+            looking.send(update(slider(session), rate - 20))
+            all_is_heard(session.server, looking)
+            assert slider(session).value == rate
             assert session.app.session.state.design.rates == before
             session.server.visitors.stop_sharing()
         assert get(front, link)[0] == 404

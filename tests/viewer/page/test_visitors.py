@@ -3,12 +3,11 @@
 import time
 
 import pytest
-from guests import guest, hand_over, heard, opened, take_back
+from guests import all_is_heard, guest, hand_over, heard, opened, take_back
 from visitors import knock, own_origin, update, wait_until
 from websockets.exceptions import ConnectionClosed
 
 from modeviz.viewer.page import visitors as module
-from modeviz.viewer.page.looking import let_all_use
 from modeviz.viewer.page.server import open_server
 
 ANNA, BEN = "anna-anna-anna-anna-1", "ben-ben-ben-ben-ben-2"
@@ -33,12 +32,9 @@ def names(server):
 
 def moves(server, page, slider, value):
     """Whether a page that moves a slider has it moved."""
-    heard_all = server.gui.add_checkbox("heard", False)
-    let_all_use(heard_all)
     before = slider.value
     page.send(update(slider, value))
-    page.send(update(heard_all, True))
-    wait_until(lambda: heard_all.value)
+    all_is_heard(server, page)
     moved, slider.value = slider.value == value != before, before
     return moved
 
