@@ -53,12 +53,12 @@ ELLIPSE = np.array([[0, DRIFT, RISE]] * 4)
 
 @pytest.fixture(scope="module")
 def driver(server):
-    """A panel that runs around an ellipse."""
+    """A panel that may run around an ellipse."""
     driver = ShapeDriver(server.scene)
     dark = MeshPart("panel", PANEL, FACES, Material((20, 20, 20)))
     driver.add("/panel", glb(surface((dark,))), 4)
     driver.show({"/panel": ELLIPSE})
-    driver.drive(amplitude=1.0, frequency_hz=0.5, running=True)
+    driver.drive(amplitude=1.0, frequency_hz=0.5, running=False)
     server.scene.world_axes.visible = False
     return driver
 
@@ -132,6 +132,7 @@ def test_a_page_goes_on_where_it_was_even_after_an_error_and_others_never_stop(
 ):
     other = open_page(server)
     wait_for(other, "window.__modeviz?.nShown === 1")
+    driver.drive(running=True)
     with suppress(KeyError), held(client) as hold:
         hold(1.0)
         wait_for(page, "window.__modeviz.weights.value[0] === Math.cos(1)")
@@ -140,6 +141,8 @@ def test_a_page_goes_on_where_it_was_even_after_an_error_and_others_never_stop(
         assert page.evaluate("window.__modeviz.phase") == held_at
         raise KeyError
     wait_for(page, "window.__modeviz.phase !== a.before", before=held_at)
+    driver.drive(running=False)
+    other.context.close()
 
 
 def test_picture_has_the_size_asked_for_and_its_backdrop(client):
@@ -344,12 +347,10 @@ def test_a_page_that_nobody_sees_draws_only_pictures_and_the_first_as_well_as_an
                 is_drawn, width = map(studio._page.evaluate, (DRAWN_NEXT, SHADOWED))
             return is_drawn, width, drawn
 
-    app.scene.driver.drive(running=False)  # two pages that move are more than two cores draw
     app.scene._stage._key.cast_shadow = True
     with ThreadPoolExecutor(1) as beside:  # where Playwright has no other page
         is_drawn, width, (_, first, *later) = beside.submit(photographed).result()
     app.scene._stage._key.cast_shadow = False
-    app.scene.driver.drive(running=True)
     assert not is_drawn
     assert width < 25  # viser lets shadows reach 20 m, and draws those of a kilometre without an edge
     assert (first < 250).mean() > 0.1
