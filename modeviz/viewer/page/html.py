@@ -74,6 +74,12 @@ def row(cells: Sequence[str], chosen: bool = False) -> str:
     return f"<tr{state}>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
 
 
+def hidden(ids: Iterable[str]) -> str:
+    """Page text that hides the widgets of some ids."""
+    rows = ",".join(f'div:has(>[id="{name}"])' for name in ids)
+    return f"<style>{rows}{{display:none!important}}</style>" if rows else ""
+
+
 class HiddenButtons:
     """Buttons without a face, pressed by clicking other page text.
 
@@ -96,8 +102,7 @@ class HiddenButtons:
             return
         with self._part:
             self._ids += [self._made(i) for i in range(first, count)]
-        hidden = ",".join(f'div:has(>[id="{name}"])' for name in self._ids)
-        self._style.content = f"<style>{hidden}{{display:none!important}}</style>"
+        self._style.content = hidden(self._ids)
 
     def _made(self, i: int) -> str:
         button = self._gui.add_button(f"hidden {i}")

@@ -1,5 +1,6 @@
 """Left column: what is noted on the study, its variants, modes and mounts."""
 
+import threading
 import time
 from collections.abc import Callable, Mapping
 from html import escape
@@ -12,7 +13,8 @@ from modeviz.journal.study_file import StudyFile
 from modeviz.report.notes import Note, PinnedTo
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block, span
+from modeviz.viewer.page.html import block, span
+from modeviz.viewer.page.named_buttons import NamedButtons
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.note_book import NoteBook, StudyNotes
 from modeviz.viewer.session.session import Session
@@ -34,9 +36,9 @@ class NotesPanel:
         self._session = session
         self._book = NoteBook()
         self._targets: Mapping[str, Target] = {STUDY: ("study", "")}
-        self._listed: tuple[Note, ...] = ()
+        self._lock = threading.Lock()
         with gui.add_folder("Notes", expand_by_default=False):
-            self._buttons = HiddenButtons(gui, N_ROWS, self._remove)
+            self._buttons = NamedButtons(gui, self._remove)
             self._list = gui.add_html("")
             self._text = gui.add_text("Note", "", multiline=True, hint="The report has it, too")
             self._target = gui.add_dropdown(
@@ -84,17 +86,17 @@ class NotesPanel:
         self._text.value = ""
         self._draw()
 
-    def _remove(self, i: int) -> None:
-        if i < len(self._listed):
-            self._book.remove(self._listed[i])
-            self._draw()
+    def _remove(self, token: str) -> None:
+        self._book.remove(token)
+        self._draw()
 
     def _draw(self) -> None:
-        """Lists the notes, the newest first."""
-        notes = self.notes[::-1]
-        self._listed = tuple(note for note in notes if not note.is_for_all)[:N_ROWS]
-        items = [self._item(note) for note in notes]
-        assign(self._list, content=block(*(items or [span("Nothing is noted yet.", "dim")])))
+        """Lists the notes, the newest first; may be called in any thread."""
+        with self._lock:
+            notes = self.notes[::-1]
+            self._buttons.keep([note.token for note in notes if not note.is_for_all][:N_ROWS])
+            items = [self._item(note) for note in notes]
+            assign(self._list, content=block(*(items or [span("Nothing is noted yet.", "dim")])))
 
     def _item(self, note: Note) -> str:
         told = filter(None, (note.author, "for all sessions" if note.is_for_all else "", _day(note)))
@@ -104,9 +106,9 @@ class NotesPanel:
 
     def _cross(self, note: Note) -> str:
         """What removes a note, where that is possible."""
-        if note not in self._listed:
+        if note.token not in self._buttons:
             return ""
-        return self._buttons.label(self._listed.index(note), '<span title="Remove this note">×</span>')
+        return self._buttons.label(note.token, '<span title="Remove this note">×</span>')
 
 
 def targets(session: Session, solved: Solved) -> dict[str, Target]:

@@ -8,11 +8,13 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.optimise.pareto import largest_difference, most_truncated
+from modeviz.optimise.trade_off import ParetoPoint
 from modeviz.report.truncation import at_rates, is_large
 from modeviz.text.axes import Axis
 from modeviz.text.wording import sentence_case, significant
 from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block, heading, span
+from modeviz.viewer.page.html import block, heading, span
+from modeviz.viewer.page.named_buttons import NamedButtons
 from modeviz.viewer.panels.status import ALARMING, percent
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job
@@ -39,7 +41,7 @@ class TradeOffPanel:
         self._names = {NOTHING: ""}
         self._folder = gui.add_folder("Trade-off", visible=False)
         with self._folder:
-            self._points = HiddenButtons(gui, N_POINTS, trader.load)
+            self._points = NamedButtons[ParetoPoint](gui, trader.load)
             self._between = gui.add_dropdown(
                 "Between",
                 (NOTHING,),
@@ -89,17 +91,18 @@ class TradeOffPanel:
     def _chart(self, job: Job[Trade, Designs]) -> str:
         """The designs where both goals have them, as points that can be clicked."""
         designs = (job.found or ())[:N_POINTS]
+        self._points.keep(designs)
         if not designs:
             return ""
         across, up = (axis([design.values[i] for design in designs]) for i in (0, 1))
         first, second = (escape(side.name) for side in job.asked.sides)
         points = []
-        for i, design in enumerate(designs):
+        for design in designs:
             a, b = design.values
             hint = f"{first} {significant(a)}, {second} {significant(b)}: click to load"
             is_present = (design.rates, design.placements) == design_of(self._session.state)
             place = f"left:{100 * float(across.place(a)):.1f}%;bottom:{100 * float(up.place(b)):.1f}%"
-            point = self._points.label(i, f'<span title="{hint}"></span>')
+            point = self._points.label(design, f'<span title="{hint}"></span>')
             points.append(f'<div class="{"on" if is_present else ""}" style="{place}">{point}</div>')
         ticks = [*_ticks(across, "left"), *_ticks(up, "bottom")]
         named = f'<div class="dim">{sentence_case(second)} ↑ &nbsp; {sentence_case(first)} →</div>'

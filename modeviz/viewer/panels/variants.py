@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from html import escape
+from typing import Literal, get_args
 
 import viser
 
@@ -11,7 +12,8 @@ from modeviz.text.wording import sentence_case, signed
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block, named, row, span, table
+from modeviz.viewer.page.html import block, named, row, span, table
+from modeviz.viewer.page.named_buttons import NamedButtons
 from modeviz.viewer.page.question import ask
 from modeviz.viewer.panels.exchange import ExchangePanel
 from modeviz.viewer.panels.figures import DRIVER
@@ -41,8 +43,8 @@ from modeviz.viewer.session.state import State
 N_ROWS = 24
 """So many sets can be clicked; more are listed only."""
 
-LOAD, OVERLAY, FORGET = "load", "overlay", "forget"
-ACTIONS = (LOAD, OVERLAY, FORGET)
+Action = Literal["load", "overlay", "forget"]
+ACTIONS: tuple[Action, ...] = get_args(Action)
 LONGEST_NAME = 40
 PIN, RENAME, SWAP = "Pin", "Rename", "A/B"
 
@@ -54,7 +56,7 @@ class VariantsPanel:
         """Builds the controls; `show` fills the tables."""
         self._session = session
         self._names: list[str] = []
-        self._buttons = HiddenButtons(gui, N_ROWS * len(ACTIONS), self._press)
+        self._buttons = NamedButtons[tuple[str, Action]](gui, self._press)
         self._table = gui.add_html(block(span("The sets follow with the first answer.", "dim")))
         self._against = gui.add_dropdown(
             "Compare with",
@@ -95,6 +97,7 @@ class VariantsPanel:
     def show(self, solved: Solved) -> None:
         """Lists the sets of an answer and how the present rates differ from the one compared with."""
         self._names = list(rate_sets(self._session.vehicle, solved.state.design))
+        self._buttons.keep([(name, action) for name in self._names[:N_ROWS] for action in ACTIONS])
         assign(self._against, options=tuple(self._names))
         show_all(self._bindings)
         self._name.show()
@@ -104,14 +107,13 @@ class VariantsPanel:
         )
         assign(self._side_by_side, content=block(side_by_side(solved)))
 
-    def _press(self, i: int) -> None:
-        number, action = divmod(i, len(ACTIONS))
-        if number >= len(self._names):  # a shorter list came between the click and here
-            return
-        name = self._names[number]
-        if ACTIONS[action] == LOAD:
+    def _press(self, button: tuple[str, Action]) -> None:
+        name, action = button
+        if name not in rate_sets(self._session.vehicle, self._session.state.design):
+            return  # it was forgotten between the click and here
+        if action == "load":
             self._session.do(Load(name))
-        elif ACTIONS[action] == FORGET:
+        elif action == "forget":
             self._session.do(Forget(name))
         else:
             self._session.do(Overlay(name, name not in self._session.state.charts.overlaid))
@@ -123,30 +125,29 @@ class VariantsPanel:
         current = current_set(self._session.vehicle, solved.state.design)
         colors = set_numbers(self._session.vehicle, solved.state.design)
         rows = [
-            row(self._cells(i, name, colors[name], solved), chosen=name == current)
-            for i, name in enumerate(self._names)
+            row(self._cells(name, colors[name], solved), chosen=name == current) for name in self._names
         ]
         if current is None:
             figures = _figures(solved.now, solved)
             rows.append(row(["", span("not pinned", "dim"), *figures, ""], chosen=True))
         return f'<div class="sets">{table(header, rows)}</div>'
 
-    def _cells(self, i: int, name: str, color: int, solved: Solved) -> list[str]:
-        """The cells of row `i`."""
+    def _cells(self, name: str, color: int, solved: Solved) -> list[str]:
+        """The cells of the row of a set."""
         state, is_solved = solved.state, name in solved.named.results
         load = named(name, f"Load {name}")
         forget = '<span title="Forget this set; undo brings it back">×</span>'
         return [
-            self._button(i, OVERLAY, _mark(color, name, state)) if is_solved else "",
-            self._button(i, LOAD, load),
+            self._button(name, "overlay", _mark(color, name, state)) if is_solved else "",
+            self._button(name, "load", load),
             *(_figures(solved.named.results[name], solved) if is_solved else ["–"] * 4),
-            self._button(i, FORGET, forget) if name in state.design.variants else "",
+            self._button(name, "forget", forget) if name in state.design.variants else "",
         ]
 
-    def _button(self, i: int, action: str, text: str) -> str:
-        """A text that does something with the set in row `i`."""
-        button = i * len(ACTIONS) + ACTIONS.index(action)
-        return self._buttons.label(button, text) if i < N_ROWS else text
+    def _button(self, name: str, action: Action, text: str) -> str:
+        """A text that does something with a set."""
+        button = name, action
+        return self._buttons.label(button, text) if button in self._buttons else text
 
 
 class NameBox:

@@ -92,6 +92,6 @@ class NoteBook:
             raise ModevizError(f"there are {MOST_NOTES} notes already: remove one first")
         self._store.put(replace(note, author=self._author()))
 
-    def remove(self, note: Note) -> None:
-        """Takes a note away."""
-        self._store.remove(note.token)
+    def remove(self, token: str) -> None:
+        """Takes a note away, if it is still there."""
+        self._store.remove(token)

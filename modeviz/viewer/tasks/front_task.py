@@ -87,11 +87,9 @@ class FrontTask:
         """Ends what is running; the designs found by then are kept."""
         self._task.cancel()
 
-    def load(self, number: int) -> None:
-        """Takes over a design of the front, if there is one of that number."""
-        designs = self.job.found if self.job else None
-        if designs and number < len(designs):
-            self._session.do(TakeDesign(designs[number].rates, designs[number].placements))
+    def load(self, design: ParetoPoint) -> None:
+        """Takes over a design of a front."""
+        self._session.do(TakeDesign(design.rates, design.placements))
 
     def _problem(self, state: State) -> Problem:
         assert state.design.plan is not None

@@ -72,15 +72,33 @@ def test_a_note_is_pinned_to_what_the_page_shows_and_is_in_the_report(app):
         rows = Document(app.report([]).decode()).tables["Notes"][1:]
         told = [row[1] for row in rows if len(row) > 1]
         assert told == ["for Monday", "best so far", "too low", "too <soft>in roll"]
-        page.send(update(button_of(app, 0), True))
+        page.send(update(button_of(app, app._notes.notes[-1]), True))
         wait_until(lambda: len(app._notes.notes) == 3)
         assert "too low" not in text(app._notes._list)
 
 
-def button_of(app, i):
+def button_of(app, note):
     """The hidden button that removes a note of the list."""
-    name = app._notes._buttons._ids[i]
-    return app.server.gui._gui_input_handle_from_uuid[name]
+    return app._notes._buttons._buttons[note.token]
+
+
+def test_two_pages_that_remove_notes_at_once_remove_those_that_were_clicked(app):
+    """The second click was made before the list without the first note came."""
+    with page_of(app) as (one, add), page_of(app) as (other, _):
+        before = [note.text for note in app._notes.notes]
+        for i, words in enumerate(("first", "second", "third")):
+            add(words)
+            wait_until(lambda n=i: len(app._notes.notes) == len(before) + n + 1)
+        first, second, third = app._notes.notes[-3:]
+        clicks = [update(button_of(app, note), True) for note in (third, second, second)]
+        one.send(clicks[0])
+        wait_until(lambda: third not in app._notes.notes)
+        other.send(clicks[1])
+        other.send(clicks[2])
+        wait_until(lambda: second not in app._notes.notes)
+        app._notes._remove(second.token)
+        assert [note.text for note in app._notes.notes] == [*before, "first"]
+        assert first.token in app._notes._buttons
 
 
 def test_an_empty_note_is_refused(app):
@@ -103,7 +121,7 @@ def test_notes_are_kept_in_the_study_and_are_there_when_it_opens_again(tmp_path)
     book.add(Note("after"))
     assert [note.text for note in book.notes()] == ["for all", "before it was kept", "after"]
     assert [note.author for note in book.notes()] == ["", "", "Ada"]
-    book.remove(book.notes()[1])
+    book.remove(book.notes()[1].token)
     study.close()
     again = opened(tmp_path / "truck.modeviz")
     assert [note.text for note in again.notes(KEY)] == ["for all", "after"]

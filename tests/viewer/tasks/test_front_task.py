@@ -54,9 +54,8 @@ def test_a_design_is_loaded_and_undone(session, trader):
     before = session.state
     trader.start(OFFER)
     trader.wait(lambda: not trader.job.is_running)
-    trader.load(1)
+    trader.load(trader.job.found[1])
     assert session.state.design.rates == trader.job.found[1].rates
-    trader.load(99)
     session.undo()
     assert session.state == before
 
