@@ -19,7 +19,7 @@ class SharedHere:
     def __init__(self):
         self.is_shared = False
 
-    def share(self) -> str:
+    def share(self, author: str) -> str:
         self.is_shared = True
         return "./?review=r"
 

@@ -12,7 +12,7 @@ class Entry:
     """A line of the history."""
 
     number: int
-    """From one count for all of a study: the clock may have been set back."""
+    """From 1 on for all of a study, in the order of what happened: the clock may have been set back."""
     session: int | None
     """The number of the session; None of what is for all."""
     time: float
@@ -45,10 +45,11 @@ def history(connection: Connection, session: int | None = None) -> tuple[Entry, 
     rows = connection.execute(ENTRIES).fetchall()
     return tuple(
         Entry(
+            number,
             *of_change,
             differences=differences_of(text(connection, differences)) if differences else (),
             is_undone=place in ("undone", "gone"),
         )
-        for *of_change, differences, place in rows
-        if session is None or of_change[1] in (session, None)
+        for number, (_, *of_change, differences, place) in enumerate(rows, 1)
+        if session is None or of_change[0] in (session, None)
     )

@@ -15,6 +15,17 @@ SessionId = str
 
 
 @dataclass(frozen=True)
+class ReviewLine:
+    """A review of a session in a list of them."""
+
+    author: str
+    """Who shared the session."""
+    begun: float
+    ended: float | None
+    """Both s since 1970; None while its link opens the session."""
+
+
+@dataclass(frozen=True)
 class SessionLine:
     """A session in a list of them."""
 
@@ -29,6 +40,8 @@ class SessionLine:
     n_changes: int
     variants: tuple[str, ...]
     """Names."""
+    reviews: tuple[ReviewLine, ...] = ()
+    """The first one first."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +104,11 @@ def see(connection: Connection, session: SessionId, view: str) -> None:
     connection.execute("UPDATE session SET view = ? WHERE digest = ?", (view, session))
 
 
+def name(connection: Connection, session: SessionId, title: str) -> None:
+    """Writes what the owner of a session calls it."""
+    connection.execute("UPDATE session SET title = ? WHERE digest = ?", (title, session))
+
+
 def share(connection: Connection, session: SessionId, review: str, author: str, now: float) -> None:
     """Writes that a review, by the digest of its key, shows a session."""
     connection.execute(
@@ -122,7 +140,10 @@ def sessions(connection: Connection) -> tuple[SessionLine, ...]:
         "SELECT id, digest, title, author, begun, used,"
         " (SELECT count(*) FROM change WHERE change.session = session.id) FROM session ORDER BY id"
     ).fetchall()
-    return tuple(SessionLine(*row, variants=tuple(_variants(connection, row[0]))) for row in rows)
+    return tuple(
+        SessionLine(*row, tuple(_variants(connection, row[0])), _reviews(connection, row[0]))
+        for row in rows
+    )
 
 
 def restore(connection: Connection, session: SessionId) -> StoredSession | None:
@@ -211,6 +232,11 @@ def _put_tuning(connection: Connection, number: int, change: Change, now: float)
                 " VALUES (?, ?, ?, ?, ?, ?)",
                 (next_id(connection), number, name, now, change.author, put_text(connection, pinned)),
             )
+
+
+def _reviews(connection: Connection, number: int) -> tuple[ReviewLine, ...]:
+    query = "SELECT author, begun, ended FROM review WHERE session = ? ORDER BY rowid"
+    return tuple(ReviewLine(*row) for row in connection.execute(query, (number,)))
 
 
 def _variants(connection: Connection, number: int) -> dict[str, Pinned]:

@@ -145,8 +145,12 @@ class StudyFile(Records):
         """Writes how the pages of a session show it, as text; of several the newest counts."""
         self._writer.put(lambda c: stored.see(c, session, view), session, ("see", session))
 
-    def share(self, session: SessionId, review: SessionId, author: str = "") -> None:
-        """Writes that a review shows a session."""
+    def name(self, session: SessionId, title: str) -> None:
+        """Writes what the owner of a session calls it."""
+        self._writer.put(lambda c: stored.name(c, session, title), session, ("name", session))
+
+    def share(self, session: SessionId, review: SessionId, author: str) -> None:
+        """Writes that a review shows a session, and who shared it."""
         now = time.time()
         self._writer.put(lambda c: stored.share(c, session, review, author, now), session)
 

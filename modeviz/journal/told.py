@@ -8,7 +8,7 @@ from modeviz.errors import cut
 from modeviz.journal.differences import told
 from modeviz.journal.history import Entry
 from modeviz.journal.records import Study
-from modeviz.journal.sessions import SessionLine
+from modeviz.journal.sessions import ReviewLine, SessionLine
 from modeviz.report.records import Record
 
 MOST_DIFFERENCES = 6
@@ -35,6 +35,7 @@ def log_text(name: str, study: Study, sessions: Iterable[SessionLine], entries: 
         f"{f' by {s.author}' if s.author else ''}, used {moment(s.used)}"
         for s in sessions
     ]
+    heads += [_review_text(s.number, review) for s in sessions for review in s.reviews]
     lines = [entry_text(entry) for entry in entries]
     head = f"{name}: study of {study.vehicle_name}, begun {moment(study.begun)}"
     return "\n".join([head, *heads, "", *(lines or ["nothing happened yet"])])
@@ -53,12 +54,19 @@ def entry_text(entry: Entry) -> str:
     return f"{entry.number:>5}  {moment(entry.time)}  {session}  {entry.author or '-'}  {words}{undone}"
 
 
+def _review_text(session: int, review: ReviewLine) -> str:
+    until = f"ended {moment(review.ended)}" if review.ended else "goes on"
+    by = f" by {review.author}" if review.author else ""
+    return f"review of session {session}, shared {moment(review.begun)}{by}, {until}"
+
+
 def log_record(study: Study, sessions: Iterable[SessionLine], entries: Iterable[Entry]) -> Record:
     """Return the history as plain values.
 
     `{"vehicle", "begun", "sessions": [{"number", "title", "author", "begun", "used", "n_changes",
-    "variants": [name]}], "entries": [{"number", "session": number or null, "time", "author", "kind",
-    "title", "differences": [{"what", "before", "after"}], "is_undone"}]}`; times are UTC, ISO 8601.
+    "variants": [name], "reviews": [{"author", "begun", "ended": time or null}]}], "entries":
+    [{"number", "session": number or null, "time", "author", "kind", "title", "differences": [{"what",
+    "before", "after"}], "is_undone"}]}`; times are UTC, ISO 8601.
     """
     return {
         "vehicle": study.vehicle_name,
@@ -78,6 +86,14 @@ def session_record(session: SessionLine) -> Record:
         "used": utc(session.used),
         "n_changes": session.n_changes,
         "variants": list(session.variants),
+        "reviews": [
+            {
+                "author": review.author,
+                "begun": utc(review.begun),
+                "ended": None if review.ended is None else utc(review.ended),
+            }
+            for review in session.reviews
+        ],
     }
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from datetime import date
-from functools import cache
+from functools import cache, partial
 
 import viser
 
@@ -71,6 +71,7 @@ from modeviz.viewer.session.opening import Opening
 from modeviz.viewer.session.preparations import Preparations
 from modeviz.viewer.session.recorder import Recorder
 from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.session_title import SessionTitle
 from modeviz.viewer.session.state import first_state
 from modeviz.viewer.session.view import CameraPose, PageView
 from modeviz.viewer.session.worker import StuckError
@@ -143,6 +144,7 @@ class App:
         scripts.run(self._gui, "page/no_drop.js")
         choose_theme(self._gui, dark)
         self._left = opening.camera
+        self._named = SessionTitle(opening.title)
         self._recorder: Recorder | None = None
         self._scene = Scene(
             server, self.session.vehicle, dark, self._select, opening.camera, self._leave
@@ -191,6 +193,7 @@ class App:
         )
         self._pictured = lambda png, caption: study.put_picture(name, png, caption, author())
         self._notes.keep_in(study, name, author)
+        self._named.keep_in(partial(study.name, name))
 
     def _show_trouble(self, trouble: str) -> None:
         """Says on every page why what is done is not saved; "" once it is."""
@@ -308,7 +311,7 @@ class App:
             self._data = DataPanel(gui, session, self._pictures.downloads, self._solved)
         self._status = StatusPanel(gui, session.vehicle.notes, self._opening.remarks)
         self.guide: Guide = Guide(self.server, self._hotkeys)
-        self._review = ReviewPanel(self.server, self._scene.following.switch)
+        self._review = ReviewPanel(self.server, self._scene.following.switch, self._named)
         self.server.visitors.on_change(self._scene.following.look_again)
 
         right = gui.add_panel()

@@ -101,11 +101,27 @@ def test_a_review_shows_its_session_until_it_ends(path):
     study = opened(path)
     review = study.session_id("a-review-key")
     study.begin(KEY)
-    study.share(KEY, review)
+    study.share(KEY, review, "Ada")
     assert study.reviews() == {review: KEY}
     study.end_reviews(KEY)
     assert study.reviews() == {}
+    (line,) = study.sessions()
+    (of_it,) = line.reviews
+    assert of_it.author == "Ada"
+    assert of_it.ended >= of_it.begun
     study.close()
+
+
+def test_a_session_is_called_what_its_owner_called_it_last(path):
+    study = opened(path)
+    study.begin(KEY, "Ada")
+    for title in ("stiffer", "softer"):
+        study.name(KEY, title)
+    study.close()
+    again = opened(path)
+    assert [line.title for line in again.sessions()] == ["softer"]
+    assert again.restore(KEY).title == "softer"
+    again.close()
 
 
 def test_keys_are_nowhere_in_the_file(path):
@@ -196,7 +212,7 @@ def test_the_history_is_in_the_order_of_what_happened_though_the_clock_is_set_ba
     for i, happens in enumerate(
         (
             lambda: study.begin(KEY),
-            lambda: study.record(KEY, change(1, 2)),
+            lambda: study.record(KEY, change(1, 2, v1=2)),  # a variant is no entry of its own
             lambda: study.put_note(KEY, Note("better")),
             lambda: study.record(KEY, change(2, 3)),
             lambda: study.record(KEY, change(2, 3, "undo")),
@@ -207,6 +223,7 @@ def test_the_history_is_in_the_order_of_what_happened_though_the_clock_is_set_ba
         happens()
     entries = study.history()
     assert [entry.kind for entry in entries] == ["step", "note", "step", "undo", "scatter"]
+    assert [entry.number for entry in entries] == [1, 2, 3, 4, 5]
     assert [entry.is_undone for entry in entries] == [False, False, True, False, False]
     assert entries[0].differences[0].what == "C2.lateral"
     study.close()

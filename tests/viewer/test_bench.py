@@ -70,7 +70,7 @@ def test_a_review_that_begins_while_another_ends_can_be_looked_at(bench):
         class Slow(dict):
             def items(self):
                 found = tuple(super().items())
-                sharing.append(sessions.submit(bench.share, "shown"))
+                sharing.append(sessions.submit(bench.share, "shown", "Ada"))
                 wait(sharing, 0.2)
                 return found
 

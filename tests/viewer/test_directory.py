@@ -156,7 +156,7 @@ def test_a_session_goes_on_where_it_was_left_after_the_server_has_been_restarted
         path = way(front)
         left = moved(front, directory, path)
         (bench,) = directory.benches.values()
-        review = f"/?review={bench.share(digest_of(key_of(path)))}"
+        review = f"/?review={bench.share(digest_of(key_of(path)), 'Ada')}"
     with serving(study) as (front, directory):
         assert rates_of(front, directory, path) == (left, True)
         fresh, can_undo = rates_of(front, directory, way(front))

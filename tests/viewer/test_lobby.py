@@ -118,6 +118,9 @@ def test_a_browser_finds_the_sessions_that_it_left_and_nobody_else_does(tmp_path
             page = start_page(front, cookie)[1]
             assert "Soft &lt;b&gt;" in page
             assert path in links(page)
+            named = next(iter(directory.sessions.open.values())).app._named
+            named.put("Cab <1>")
+            assert "Cab &lt;1&gt;" in start_page(front, cookie)[1]
             moving = picture(front, "/picture?vehicle=first&left=0", cookie)
             session.do(Alter(mode=session.answer.now.names[8].name))
             assert session.wait(60)

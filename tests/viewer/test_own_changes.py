@@ -64,7 +64,7 @@ def test_owner_and_guest_undo_their_own_changes_after_the_server_was_killed(tmp_
         path = way(front)
         name = digest_of(key_of(path))
         bench.study.begin(name)
-        link = f"/?review={bench.share(name)}"
+        link = f"/?review={bench.share(name, 'Olga')}"
         with reviewed(front, directory, path, link) as here:
             here.move(here.owner, 0)
             here.give_control("Anna")

@@ -315,8 +315,10 @@ def test_what_a_page_has_for_itself_gives_a_visitor_no_control(app, onlooker):
         press(onlooker, button._impl.uuid)
     for option in card._links.options:
         onlooker.send(update(card._links, option))
+    onlooker.send(update(card._title, "Eve's own"))
     onlooker.send(update(card._name, "Eve"))
     heard(onlooker, 1.0)
+    assert app._named.text == ""
     assert visitors.of_page(page).name == "Eve"
     assert visitors.is_shared
     assert not visitors.has_control(page)

@@ -38,8 +38,12 @@ Changed = Callable[[], None]
 class Sharing(Protocol):
     """What makes the link of a review."""
 
-    def share(self) -> str:
-        """Makes the link, or gives the one there is: whole, or from the page such as "./?review=…"."""
+    def share(self, author: str) -> str:
+        """Makes the link, or gives the one there is: whole, or from the page such as "./?review=…".
+
+        Args:
+            author: who shares the session.
+        """
         ...
 
     def stop(self) -> None:
@@ -174,7 +178,7 @@ class Visitors:
         """
         if self._sharing is None:
             raise ModevizError("this page cannot be shared")
-        self._link, self._is_shared = self._sharing.share(), True
+        self._link, self._is_shared = self._sharing.share(self.acting().name), True
         self._tell()
         return self._link
 

@@ -96,13 +96,13 @@ class Bench:
             return None
         return recorded(self.study, session, self._usual(), self.vehicle, self.fingerprint.digest)
 
-    def share(self, session: SessionId) -> str:
-        """Return the key of a new review of a session."""
+    def share(self, session: SessionId, author: str) -> str:
+        """Return the key of a new review of a session, which somebody shares."""
         key = secrets.token_urlsafe(16)
         with self._reviews_lock:
             self._reviews = {**self._reviews, digest_of(key): session}
         if self.study:
-            self.study.share(session, digest_of(key))
+            self.study.share(session, digest_of(key), author)
         return key
 
     def end_reviews(self, session: SessionId) -> None:

@@ -20,10 +20,10 @@ class Review:
         self._bench, self._session, self._address = bench, session, address
         self._link = ""
 
-    def share(self) -> str:
-        """Return the link, from the page."""
+    def share(self, author: str) -> str:
+        """Return the link, from the page, that somebody gives out."""
         if not self._link:
-            self._link = f"./?{self._address(self._bench.share(self._session))}"
+            self._link = f"./?{self._address(self._bench.share(self._session, author))}"
         return self._link
 
     def stop(self) -> None:

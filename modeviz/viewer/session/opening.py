@@ -20,6 +20,8 @@ class Opening:
     animation: Animation = field(default_factory=Animation)
     camera: CameraPose | None = None
     """Of pages to come; None: the usual one."""
+    title: str = ""
+    """What its owner calls the session."""
     runs: tuple[Run, ...] = ()
     """What was computed at length before, the first one first."""
     is_unread: bool = False

@@ -56,7 +56,14 @@ def recorded(
     )
     view = _view(stored.view)
     return Opening(
-        found.state, past, future, view.animation, view.camera, study.runs(name), remarks=told
+        found.state,
+        past,
+        future,
+        view.animation,
+        view.camera,
+        stored.title,
+        study.runs(name),
+        remarks=told,
     )
 
 

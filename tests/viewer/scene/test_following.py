@@ -13,13 +13,14 @@ from visitors import CAMERA, encoded, update
 from modeviz.viewer.page.server import open_server
 from modeviz.viewer.panels.review.panel import ReviewPanel
 from modeviz.viewer.scene.following import PAUSE, Following
+from modeviz.viewer.session.session_title import SessionTitle
 
 
 @pytest.fixture
 def server():
     server = open_server(port=0)
     following = Following(server, server.visitors.has_control)
-    panel = ReviewPanel(server, following.switch)
+    panel = ReviewPanel(server, following.switch, SessionTitle(""))
     server.visitors.on_change(following.look_again)
     server.led = following.is_led
     server.cards = panel._cards

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import viser
 
 from modeviz.errors import ModevizError
+from modeviz.text.wording import sentence_case
 from modeviz.viewer.page import scripts
 from modeviz.viewer.page.acquaintances import Visitor
 from modeviz.viewer.page.handles import assign, name_of
@@ -12,8 +13,11 @@ from modeviz.viewer.page.html import block
 from modeviz.viewer.page.visitors import Visitors
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.panels.review.presence import Presence, linked, listing
+from modeviz.viewer.session.session_title import SessionTitle
 
 COPY, STOP = "Copy link", "Stop sharing"
+ANOTHER, REPLACE = "New link", "Replace link"
+"""Where the link of before is not known any more: it stays, or ends."""
 NOBODY = "–"
 
 
@@ -21,16 +25,21 @@ class ReviewCard:
     """The folder of one page."""
 
     def __init__(
-        self, client: viser.ClientHandle, visitors: Visitors, follow: Callable[[str | None], None]
+        self,
+        client: viser.ClientHandle,
+        visitors: Visitors,
+        title: SessionTitle,
+        follow: Callable[[str | None], None],
     ) -> None:
         """Builds the controls; `show` fills them.
 
         Args:
             client: the page.
             visitors: whom it is about.
+            title: of the session.
             follow: lets the page's camera follow who presents, given its checkbox; None: no longer.
         """
-        self._client, self._visitors = client, visitors
+        self._client, self._visitors, self._session_title = client, visitors, title
         self._write_back, self._follow_presenter = WriteBack(), follow
         self._now: Presence | None = None
         self._said: dict[str, object] = {}
@@ -39,6 +48,11 @@ class ReviewCard:
         gui = client.gui
         with gui.add_folder("Review", expand_by_default=you is not None and not you.is_owner):
             self._list = gui.add_html("")
+            self._title = gui.add_text(
+                "Session",
+                title.text,
+                hint="What you call this session: on the start page, in the study and for visitors",
+            )
             self._name = gui.add_text("You are", you.name if you else "", hint="Your name for others")
             self._follow = gui.add_checkbox(
                 "Follow", True, hint="Your camera goes where that of who presents goes"
@@ -48,11 +62,12 @@ class ReviewCard:
             )
             self._link = gui.add_html("")
             self._links = gui.add_button_group(
-                "Link", (COPY, STOP), hint="Copies it for a message; ends the review for all visitors"
+                "Link", (COPY, STOP), hint="For a message; to stop ends the review for all visitors"
             )
             self._to = gui.add_dropdown("Hand over to", (NOBODY,), hint="Who is to present")
             self._hand_over = gui.add_button("Hand over", hint="The owner can always take control back")
             self._take_back = gui.add_button("Take control back", hint="You present again")
+        self._title.on_update(lambda _: self._write_back.touch(self._title, self._name_session))
         self._name.on_update(lambda _: self._write_back.touch(self._name, self._rename))
         self._follow.on_update(lambda _: self._turn())
         self._share.on_click(lambda _: self._begin_review())
@@ -69,10 +84,14 @@ class ReviewCard:
         assign(self._list, content=f'<div class="mv-own">{block(listing(now))}</div>')
         if self._you is None or you.name != self._you.name:  # else somebody may be typing
             assign(self._name, value=you.name)
+        if self._now is None or now.title != self._now.title:
+            assign(self._title, value=now.title)
+        assign(self._title, visible=you.is_owner)
         assign(self._follow, visible=not now.has_control)
         assign(self._share, visible=you.is_owner and now.can_share and not now.is_shared)
         assign(self._link, content=block(linked(now.link)) if you.is_owner and now.is_shared else "")
-        assign(self._links, visible=you.is_owner and now.is_shared)
+        buttons = (COPY, STOP) if now.link else (ANOTHER, REPLACE, STOP)
+        assign(self._links, options=buttons, visible=you.is_owner and now.is_shared)
         assign(self._to, options=tuple(self._numbers) or (NOBODY,), visible=may_give)
         assign(self._hand_over, visible=may_give)
         assign(self._take_back, visible=you.is_owner and not now.has_control)
@@ -110,6 +129,15 @@ class ReviewCard:
             assign(self._name, value=visitor.name)
             scripts.run(self._client.gui, "page/remember_name.js", visitor.name)
 
+    def _name_session(self) -> None:
+        if not (self._you and self._you.is_owner):
+            return
+        try:
+            self._session_title.put(self._title.value)
+        except ModevizError as refusal:
+            text = f"{sentence_case(str(refusal))}."
+            self._client.add_notification("Not named", text, color="red")
+
     def _begin_review(self) -> None:
         if self._you and self._you.is_owner:
             self._copy()
@@ -117,9 +145,9 @@ class ReviewCard:
     def _use_link(self, button: str) -> None:
         if not (self._you and self._you.is_owner):
             return
-        if button == STOP:
+        if button in (STOP, REPLACE):
             self._visitors.stop_sharing()
-        else:
+        if button != STOP:
             self._copy()
 
     def _copy(self) -> None:

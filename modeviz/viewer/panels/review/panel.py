@@ -12,20 +12,24 @@ from modeviz.viewer.page import scripts
 from modeviz.viewer.page.server import Server
 from modeviz.viewer.panels.review.card import ReviewCard
 from modeviz.viewer.panels.review.presence import Presence
+from modeviz.viewer.session.session_title import SessionTitle
 from modeviz.viewer.session.worker import Worker
 
 
 class ReviewPanel:
     """The folders of all pages."""
 
-    def __init__(self, server: Server, follow: Callable[[int, str | None], None]) -> None:
+    def __init__(
+        self, server: Server, follow: Callable[[int, str | None], None], title: SessionTitle
+    ) -> None:
         """Builds one on every page that comes.
 
         Args:
             server: of the session.
             follow: lets the camera of a page follow who presents, or no longer; as `Following.switch`.
+            title: of the session.
         """
-        self._visitors, self._follow = server.visitors, follow
+        self._visitors, self._follow, self._title = server.visitors, follow, title
         self._lock = threading.RLock()
         self._cards: dict[int, ReviewCard] = {}
         self._pointed_out: dict[int, float] = {}
@@ -33,6 +37,7 @@ class ReviewPanel:
         server.on_client_connect(self._add)
         server.on_client_disconnect(self._drop)
         self._visitors.on_change(lambda: self._teller.submit(True))
+        title.on_change(lambda: self._teller.submit(True))
         self._visitors.on_refusal(self._point_out)
         self._server = server
 
@@ -45,7 +50,9 @@ class ReviewPanel:
         if self._visitors.of_page(page) is None:  # a browser of ours, which takes pictures
             return
         with self._lock:
-            self._cards[page] = ReviewCard(client, self._visitors, partial(self._follow, page))
+            self._cards[page] = ReviewCard(
+                client, self._visitors, self._title, partial(self._follow, page)
+            )
             self._show(page)
         if self._visitors.of_page(page) is None:  # it has left meanwhile
             self._drop(client)
@@ -74,6 +81,7 @@ class ReviewPanel:
                 visitors.link,
                 visitors.is_shared,
                 visitors.can_share,
+                self._title.text,
             )
         )
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from html import escape
 
 from modeviz.viewer.page.acquaintances import Visitor
-from modeviz.viewer.page.html import named, row, span, table
+from modeviz.viewer.page.html import heading, named, row, span, table
 
 
 @dataclass(frozen=True)
@@ -20,6 +20,8 @@ class Presence:
     link: str
     is_shared: bool
     can_share: bool
+    title: str
+    """What the owner calls the session."""
 
     @property
     def presenter_name(self) -> str:
@@ -44,12 +46,18 @@ class Presence:
 def linked(link: str) -> str:
     """The link of a review; one that was made before is known to those alone who have it."""
     if not link:
-        return span("Shared by a link that was made before; a copy is another link.", "dim")
-    return f'<a href="{escape(link)}" target="_blank">The link of this review</a>'
+        text = (
+            "Shared by a link of before, which cannot be shown again: it is stored nowhere, so that "
+            "nobody finds it. A new link opens the review too; to replace it ends the old one and puts "
+            "its visitors out."
+        )
+        return span(text, "dim")
+    kept = span("It is stored nowhere: keep it, if it is to be given out later.", "dim")
+    return f'<a href="{escape(link)}" target="_blank">The link of this review</a><br>{kept}'
 
 
 def listing(now: Presence) -> str:
-    """Who is there, a line for each."""
+    """What the session is called, and who is there, a line for each."""
     rows = []
     for each in now.there:
         presents = now.presents(each)
@@ -57,4 +65,5 @@ def listing(now: Presence) -> str:
         marks += ["presents"] if presents and len(now.there) > 1 else []
         marks += ["you"] if each.number == now.you.number else []
         rows.append(row([named(each.name), span(", ".join(marks), "dim")], chosen=presents))
-    return table((), rows, "visitors")
+    title = heading(named(now.title)) if now.title else ""
+    return f"{title}{table((), rows, 'visitors')}"
