@@ -15,7 +15,7 @@ from modeviz.cli.command import Command, CommandGroup
 from modeviz.cli.engine import ENGINE
 from modeviz.cli.export import EXPORT
 from modeviz.cli.forces import FORCES
-from modeviz.cli.importing import IMPORT
+from modeviz.cli.importing.command import IMPORT
 from modeviz.cli.modes import MODES
 from modeviz.cli.new import NEW
 from modeviz.cli.optimise import OPTIMISE

@@ -13,7 +13,7 @@ from modeviz.analysis.results import Conditions, solve
 from modeviz.cli import main
 from modeviz.cli.command import Command
 from modeviz.cli.export import EXPORT
-from modeviz.cli.importing import IMPORT
+from modeviz.cli.importing.command import IMPORT
 from modeviz.cli.new import NEW
 from modeviz.cli.parser import COMMANDS, parse
 from modeviz.cli.render import RENDER

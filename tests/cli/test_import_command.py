@@ -12,7 +12,7 @@ from oracles import Beam
 from universal_files import nodes_2411, shape_55, shape_2414, units_164
 
 from modeviz.cli import main
-from modeviz.cli.importing import summary
+from modeviz.cli.importing.summary import summary
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle
 from modeviz.formats.attachments import Found

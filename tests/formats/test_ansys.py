@@ -13,7 +13,7 @@ from free_network import CORNERS, HEXA, LABELS, free_network
 from two_networks import ATTACHED, joined_frequencies
 
 from modeviz.cli import main
-from modeviz.cli.importing import listing
+from modeviz.cli.importing.listing import listing
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.modes import solve_modes
 from modeviz.errors import VehicleError
