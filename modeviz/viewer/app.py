@@ -68,10 +68,10 @@ from modeviz.viewer.session.design import variant_name
 from modeviz.viewer.session.encoding.link import link_of
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.opening import Opening
-from modeviz.viewer.session.preparations import Preparations
 from modeviz.viewer.session.recorder import Recorder
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.session_title import SessionTitle
+from modeviz.viewer.session.shared import Shared
 from modeviz.viewer.session.state import first_state
 from modeviz.viewer.session.view import CameraPose, PageView
 from modeviz.viewer.session.worker import StuckError
@@ -102,7 +102,7 @@ class App:
         server: Server,
         dark: bool = False,
         opening: Opening | None = None,
-        preparations: Preparations | None = None,
+        shared: Shared | None = None,
     ) -> None:
         """Builds the page; nothing is solved before `start`.
 
@@ -113,7 +113,7 @@ class App:
             server: an open one, see `page.server.open_server`.
             dark: whether the page is dark.
             opening: what to show first in place of rates and conditions, and what there was before.
-            preparations: of the vehicle, where other sessions share them.
+            shared: what other sessions of the vehicle have in common with it, if there are any.
 
         Raises:
             ModevizError: the vehicle cannot have what it opens with.
@@ -130,7 +130,7 @@ class App:
             self._hear,
             past=opening.past,
             future=opening.future,
-            preparations=preparations,
+            shared=shared,
             acting=server.visitors.acting,
         )
         session, mistake = self.session, server.mistake
@@ -374,6 +374,7 @@ class App:
                 self.server.flush()
             case Checked(solved):
                 self._status.show(solved)
+                self._mounts.show_effects(solved)
                 self.server.flush()
             case Failed():
                 self.tell_failure(notification)

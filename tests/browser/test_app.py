@@ -17,7 +17,7 @@ from modeviz.analysis.modal_results import solve_modal
 from modeviz.analysis.results import Conditions
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.scene import stage
-from modeviz.viewer.session import inspector
+from modeviz.viewer.session import inquiry
 from modeviz.viewer.session.commands.decisions import Pin, SetRate
 
 GROUPS = ("F", "C1", "C2", "E", "T")
@@ -52,7 +52,7 @@ def app(server):
     vehicle = builtin_truck()
     with pytest.MonkeyPatch.context() as patch:
         checked = Check(frequency_error=0.0, psd_error=0.0, n_lines=1, n_freqs=1)
-        patch.setattr(inspector, "check_exactly", lambda results: iter([checked]))
+        patch.setattr(inquiry, "check_exactly", lambda results: iter([checked]))
         with open_app(server, vehicle, Conditions("road 1", vehicle.speed)) as app:
             app.start()
             yield app
@@ -232,7 +232,7 @@ def test_a_move_of_a_slider_sends_less_than_200_kb_whatever_is_drawn(
     assert app.session.wait_checked(SOLVE_S)
     with listening(server) as socket:
         if not switches:
-            monkeypatch.setattr(inspector, "check_exactly", check_exactly)
+            monkeypatch.setattr(inquiry, "check_exactly", check_exactly)
         app.session.do(SetRate("C2", "lateral", 250e3))
         assert app.session.wait_checked(SOLVE_S)
         sent = n_bytes(socket)

@@ -13,6 +13,7 @@ from serving_cabin import key_of, page_at, serving, way
 from visitors import CAMERA, TOKEN, encoded, get, knock, own_origin, update, wait_until
 from websockets.exceptions import InvalidStatus
 
+from modeviz.compute.precedence import Precedence
 from modeviz.journal.keys import digest_of
 from modeviz.viewer.page.handshake import SUBPROTOCOL, WHY
 from modeviz.viewer.page.surroundings import surroundings
@@ -305,7 +306,7 @@ def test_a_session_that_cannot_be_built_leaves_no_server_and_no_thread(served, m
     monkeypatch.setattr(*where, broken)
     before = set(threading.enumerate())
     with pytest.raises(RuntimeError, match="broken"):
-        rules.OpenSession(bench, digest_of("no page"), bench.opening(), front, "", False)
+        rules.OpenSession(bench, digest_of("no page"), bench.opening(), front, "", False, Precedence())
     wait_until(lambda: set(threading.enumerate()) <= before)
 
 

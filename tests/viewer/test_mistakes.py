@@ -9,7 +9,7 @@ from visitors import CAMERA, encoded, update, visit, wait_until
 
 from benchmarks.page_client import messages
 from modeviz.analysis.results import Conditions
-from modeviz.viewer.session import answers as answers_module
+from modeviz.viewer.session import beginnings
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.tasks.background_task import BackgroundTask, Job
 
@@ -70,14 +70,14 @@ def slider(app):
 def test_a_solver_that_fails_is_told_to_every_page_and_the_slider_goes_back(
     app, pages, monkeypatch, capfd
 ):
-    solve = answers_module.solve_on
+    solve = beginnings.solve_on
 
     def faulty(excitation, rates):
         if rates["A"].lateral == BAD:
             raise IndexError("a bug")
         return solve(excitation, rates)
 
-    monkeypatch.setattr(answers_module, "solve_on", faulty)
+    monkeypatch.setattr(beginnings, "solve_on", faulty)
     app.session.do(SetRate("A", "lateral", GOOD))
     assert app.session.wait(SOON)
     content = app._status._content.content

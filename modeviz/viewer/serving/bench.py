@@ -7,16 +7,20 @@ from functools import cached_property, partial
 
 from modeviz.analysis.preparation import Prepared, prepare
 from modeviz.analysis.results import Conditions
+from modeviz.compute.precedence import Precedence
 from modeviz.journal.fingerprint import Fingerprint, fingerprint_of
 from modeviz.journal.keys import digest_of
 from modeviz.journal.sessions import SessionId
 from modeviz.journal.study_file import StudyFile
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
+from modeviz.viewer.session.beginnings import Beginnings
+from modeviz.viewer.session.design import known_sets
 from modeviz.viewer.session.encoding.link import opening_of_link
 from modeviz.viewer.session.opening import Opening
 from modeviz.viewer.session.preparations import Preparations
 from modeviz.viewer.session.recorded import recorded
+from modeviz.viewer.session.shared import Shared
 from modeviz.viewer.session.state import State, first_state
 
 Progress = Callable[[float], None]
@@ -55,7 +59,8 @@ class Bench:
         self._lock, self._reviews_lock = threading.Lock(), threading.Lock()
         self._prepared: Prepared | None = None
         self._told: list[Progress] = []
-        self.opening()
+        first, sets = self.opening().state, known_sets(vehicle).values()
+        self._beginnings = Beginnings(first.conditions, [first.design.rates, *sets])
 
     @property
     def title(self) -> str:
@@ -120,9 +125,13 @@ class Bench:
         """Return the session that the key of a review opens, if any."""
         return self._reviews.get(digest_of(key))
 
-    def preparations(self) -> Preparations:
-        """Return how a session gets the vehicle made ready: as it is from here, altered by itself."""
-        return Preparations(self.vehicle, self.prepared)
+    def shared(self, precedence: Precedence) -> Shared:
+        """Return what a session has in common with others: as long as nothing is altered, all.
+
+        Args:
+            precedence: of all sessions that share the processors.
+        """
+        return Shared(Preparations(self.vehicle, self.prepared), self._beginnings, precedence)
 
     def prepared(self, progress: Progress | None = None) -> Prepared:
         """Return the vehicle made ready; who asks while that is being done waits for it.

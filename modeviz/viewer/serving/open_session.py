@@ -4,6 +4,7 @@ import threading
 import time
 from contextlib import ExitStack
 
+from modeviz.compute.precedence import Precedence
 from modeviz.journal.sessions import SessionId
 from modeviz.viewer.app import App
 from modeviz.viewer.page.front import Front
@@ -20,7 +21,14 @@ class OpenSession:
     """A session that pages can look at."""
 
     def __init__(
-        self, bench: Bench, name: SessionId, opening: Opening, front: Front, address: str, dark: bool
+        self,
+        bench: Bench,
+        name: SessionId,
+        opening: Opening,
+        front: Front,
+        address: str,
+        dark: bool,
+        precedence: Precedence,
     ) -> None:
         """Builds the page; the vehicle is prepared and solved in a thread of its own.
 
@@ -31,6 +39,7 @@ class OpenSession:
             front: where pages come in.
             address: of the session, after the token.
             dark: whether the page is.
+            precedence: of the sessions of the server.
         """
         self.server: Server = Server(front, address, name[:DIGITS])
         with ExitStack() as undoing:
@@ -42,7 +51,7 @@ class OpenSession:
                 self.server,
                 dark,
                 opening,
-                bench.preparations(),
+                bench.shared(precedence),
             )
             undoing.callback(self.app.end)
             if bench.study and not opening.is_unread:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from modeviz.compute.memory import give_back
+from modeviz.compute.precedence import Precedence
 from modeviz.errors import ModevizError
 from modeviz.journal.sessions import SessionId
 from modeviz.viewer.page.front import Front
@@ -42,7 +43,7 @@ class OpenSessions:
             dark: whether pages are.
         """
         self._front, self._benches, self._addresses = front, benches, addresses
-        self._dark = dark
+        self._dark, self._precedence = dark, Precedence()
         self.open: dict[SessionId, OpenSession] = {}
         self._lock = threading.Lock()
         self._locks: dict[SessionId, tuple[threading.Lock, int]] = {}
@@ -86,7 +87,9 @@ class OpenSessions:
     def _new(self, visit: Visit) -> OpenSession:
         bench, name = self._benches[visit.vehicle], visit.session
         address = "&" + self._addresses.address(visit.vehicle, "session", visit.key)
-        session = OpenSession(bench, name, _opening(bench, visit), self._front, address, self._dark)
+        opening, common = _opening(bench, visit), (self._dark, self._precedence)
+        with self._precedence.answer():
+            session = OpenSession(bench, name, opening, self._front, address, *common)
         review = Review(bench, name, partial(self._addresses.address, visit.vehicle, "review"))
         session.server.visitors.offer(review, bench.is_shared(name))
         return session

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from modeviz.analysis.exact_check import ClassicError, classic_error
 from modeviz.analysis.preparation import Prepared
-from modeviz.analysis.results import Results, RoadExcitation, drive, solve_on
+from modeviz.analysis.results import Results, RoadExcitation, drive
 from modeviz.analysis.rigid import BodyAxes, body_axes, body_purity
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
@@ -23,7 +23,7 @@ from modeviz.viewer.session.findings import Findings
 from modeviz.viewer.session.followed_mode import FollowedMode, ModeFollower
 from modeviz.viewer.session.movement import Movement, asks, movement
 from modeviz.viewer.session.named_results import Named, NamedResults
-from modeviz.viewer.session.preparations import Preparations
+from modeviz.viewer.session.shared import Shared
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.static_answers import SolvedStatics, StaticSolver
 from modeviz.viewer.session.wheel_responses import WheelResponses
@@ -98,18 +98,18 @@ class Solved:
 class Answers:
     """Answers one state after the other, in one thread; `rebase` may be called in another."""
 
-    def __init__(self, preparations: Preparations, absorbers: Sequence[Absorber] = ()) -> None:
+    def __init__(self, shared: Shared, absorbers: Sequence[Absorber] = ()) -> None:
         """Nothing is solved before `prepare`.
 
         Args:
-            preparations: of the vehicle.
+            shared: with the vehicle.
             absorbers: that it has besides.
 
         Raises:
             VehicleError: it cannot have them.
         """
-        vehicle = preparations.vehicle
-        self._preparations = preparations
+        vehicle = shared.preparations.vehicle
+        self._shared, self._preparations = shared, shared.preparations
         self._lock = threading.Lock()
         self._alterations: Alterations | None = None
         self.vehicle: Vehicle = with_absorbers(vehicle, absorbers)
@@ -119,7 +119,9 @@ class Answers:
         """That vehicle made ready, once `prepare` has."""
         self._drive: RoadExcitation
         """Near the rates of the last rest."""
-        self._named = NamedResults(self._preparations)
+        self._near: State | None = None
+        """That of the last rest, of the same vehicle."""
+        self._named = NamedResults(shared)
         self._follower: ModeFollower | None = None
         self._wheels = WheelResponses()
         self._static = {"now": StaticSolver(), "base": StaticSolver()}
@@ -141,17 +143,17 @@ class Answers:
         """
         alterations = state.design.alterations
         prepared = self._preparations.get(alterations, progress)
-        excitation = drive(prepared, state.conditions)
+        excitation = self._shared.beginnings.drive(prepared, alterations, state.conditions)
         with self._lock:
             self.vehicle, self._alterations = prepared.vehicle, alterations
-            self.prepared, self._drive = prepared, excitation
+            self.prepared, self._drive, self._near = prepared, excitation, None
         self._follower = ModeFollower(self.prepared, self._follower)
         self._wheels, self._cursor, self._last = WheelResponses(), CursorForces(), None
         self._solve_named(state)
 
     def afresh(self) -> "Answers":
         """Return others that have only what is prepared: something failed or hangs in these."""
-        others = Answers(self._preparations.copied())
+        others = Answers(self._shared.copied())
         with self._lock:
             others.vehicle, others.prepared, others._drive = self.vehicle, self.prepared, self._drive
         return others
@@ -179,16 +181,21 @@ class Answers:
                 self._with_parts = alterations.absorbers, vehicle
         return vehicle
 
-    def rebase(self, state: State) -> Prepared:
-        """Makes answers close to a state cheap; gives the vehicle prepared there."""
+    def rebase(self, state: State) -> None:
+        """Makes answers close to a state cheap.
+
+        Raises:
+            ModevizError: as `Prepared.near`; all is as it was.
+        """
         with self._lock:
-            prepared = self.prepared
-        near = prepared.near(state.design.rates)
+            prepared, last = self.prepared, self._near
+        if last and asks_for_the_same(last, state):
+            return
+        near = self._shared.beginnings.near(prepared, state.design.rates)
         excitation = drive(near, state.conditions)
         with self._lock:
             if self.prepared is prepared:
-                self._drive = excitation
-        return near
+                self._drive, self._near = excitation, state
 
     def answer(
         self,
@@ -248,7 +255,7 @@ class Answers:
         excitation = self._drive  # `rebase` may put another in its place
         if excitation.conditions != state.conditions:
             self._drive = excitation = drive(excitation.prepared, state.conditions)
-        return solve_on(excitation, state.design.rates)
+        return self._shared.beginnings.solve(excitation, state.design.rates)
 
     def _in_load_cases(self, state: State, followed: FollowedMode) -> SolvedStatics:
         """Return the load cases, which nobody sees while rates move but for the sag that is drawn."""

@@ -3,17 +3,16 @@
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
-from typing import Any
+from contextlib import suppress
+from functools import partial
 
-from modeviz.analysis.exact_check import check_exactly
-from modeviz.analysis.preparation import Prepared
 from modeviz.analysis.results import Results
-from modeviz.analysis.sensitivity import sensitivity
 from modeviz.errors import ModevizError
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.findings import Findings
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
+from modeviz.viewer.session.inquiry import GIVEN_UP, Inquiry
+from modeviz.viewer.session.shared import Shared
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.worker import StuckError, Worker
 
@@ -23,18 +22,20 @@ REST = 0.3
 STEPS_WITHIN = 300.0
 """s: a step of a check that takes longer hangs."""
 
-GIVEN_UP = "this went wrong, by our mistake"
-
 TELL_EVERY = 0.5
 """s between two words on how far a check is."""
 
 
 class Inspector:
-    """Looks into the newest answer in a thread of its own, as long as it is current."""
+    """Looks into the newest answer in a thread of its own, as long as it is current.
+
+    Step by step, each when the sessions with which it shares the processors wait for no answer.
+    """
 
     def __init__(
         self,
-        rebase: Callable[[State], Prepared],
+        shared: Shared,
+        rebase: Callable[[State], None],
         is_current: Callable[[Solved], bool],
         found: Callable[[bool], None],
         fail: Callable[[Exception], None],
@@ -43,27 +44,35 @@ class Inspector:
         """Looks into nothing yet.
 
         Args:
+            shared: what the session has in common with others.
             rebase: makes answers near a state cheap.
             is_current: whether an answer is still to what is asked for.
-            found: told that there are new findings, and whether more than the status changes by them.
+            found: told that there is more to be told of the answer, and whether all of it is to be
+                drawn.
             fail: tells of our mistakes.
-            patience: s that a step may take.
+            patience: s that a step may take, and the wait for it.
         """
-        self._rebase, self._is_current, self._found, self._fail = rebase, is_current, found, fail
+        self._shared, self._rebase, self._is_current = shared, rebase, is_current
+        self._found, self._fail = found, fail
         self._lock = threading.Lock()
-        self._findings: Findings | None = None
+        self._inquiry: Inquiry | None = None
+        self._is_done = False
+        """Whether there is no more to do about the newest answer."""
+        self._told_at = 0.0
         self._worker: Worker[Solved] = Worker(self._look_into, fail, patience, self._leave)
 
     def findings(self, now: Results) -> Findings:
         """Return what is known of results; those of others are forgotten."""
         with self._lock:
-            if self._findings is None or self._findings.now is not now:
-                self._findings = Findings(now)
-            return self._findings
+            if self._inquiry is None or self._inquiry.findings.now is not now:
+                self._inquiry = self._shared.beginnings.inquiry(now)
+                self._is_done = False
+            return self._inquiry.findings
 
     def submit(self, solved: Solved) -> None:
-        """Has an answer looked into, unless all is known of it."""
-        if not self.findings(solved.now).is_complete:
+        """Has an answer looked into, unless all is known of it and done."""
+        is_known = self.findings(solved.now).is_complete and self._is_done
+        if not (is_known and solved.is_detailed):
             self._worker.submit(solved)
 
     def wait(self, timeout: float) -> bool:
@@ -76,17 +85,16 @@ class Inspector:
 
     def _look_into(self, solved: Solved) -> None:
         """Once nothing changes: shows details, makes the next drag cheap, checks bit by bit."""
-        if not self._rests(solved, DETAILS_EVERY) or not self._has_more_to_find(solved.now):
+        inquiry = self._inquiry_into(solved)
+        if inquiry is None or not self._rests(solved, DETAILS_EVERY):
             return
         if not solved.is_detailed:
-            self._learn(solved.now)
-        if not self._rests(solved, REST):
+            self._found(True)
+        is_known = inquiry.findings.is_complete and self._is_done
+        if is_known or not self._rests(solved, REST):
             return
-        self._worker.sign()
         try:
-            self._find_out(solved)
-        except ModevizError as error:
-            self._learn(solved.now, problem=str(error))
+            self._find_out(solved, inquiry)
         except Exception as error:
             self._give_up(solved, error)
 
@@ -96,38 +104,46 @@ class Inspector:
     def _give_up(self, solved: Solved, error: Exception) -> None:
         """Tells of our mistake, and looks no further into what it happened with."""
         self._fail(error)
-        self._learn(solved.now, problem=GIVEN_UP)
+        if inquiry := self._inquiry_into(solved):
+            self._is_done = True
+            inquiry.give_up(GIVEN_UP)
+            self._found(False)
 
-    def _find_out(self, solved: Solved) -> None:
-        """Learns what the rates of an answer do, how exact it is, and how far its bodies are believed.
+    def _find_out(self, solved: Solved, inquiry: Inquiry) -> None:
+        """Learns what there is to learn of an answer, as long as it is current.
 
-        As long as it is current.
+        What its rates do comes first; then answers near it are made cheap.
         """
-        now, near = solved.now, self._rebase(solved.state)
-        self._learn(now, sensitivity=sensitivity(near, now))
-        told = 0.0
-        for check in check_exactly(now):
-            self._worker.sign()
-            if not self._is_current(solved):
-                return
-            if check.is_complete or time.perf_counter() - told > TELL_EVERY:
-                told = time.perf_counter()
-                self._learn(now, is_to_be_drawn=False, check=check)
-        if self._is_current(solved):
-            self._learn(now, is_to_be_drawn=False, components=now.components)
+        told = self._advance(solved, inquiry, solved.findings)
+        with suppress(ModevizError):
+            self._in_turn(solved, partial(self._rebase, solved.state))
+        while self._is_current(solved) and not inquiry.findings.is_complete:
+            told = self._advance(solved, inquiry, told)
+        self._is_done = self._is_current(solved)
 
-    def _learn(self, now: Results, is_to_be_drawn: bool = True, **news: Any) -> None:
-        """Keeps and tells what is now known of results, if they are still the newest."""
-        with self._lock:
-            if self._findings is None or self._findings.now is not now or self._findings.problem:
-                return
-            self._findings = replace(self._findings, **news)
-        self._found(is_to_be_drawn)
+    def _advance(self, solved: Solved, inquiry: Inquiry, told: Findings) -> Findings:
+        """Finds out more, and tells it unless little of it is new; returns what is told by then."""
+        self._in_turn(solved, inquiry.advance)
+        known = inquiry.findings
+        is_due = known.is_complete or time.perf_counter() - self._told_at > TELL_EVERY
+        if known is told or not (is_due or known.sensitivity is not told.sensitivity):
+            return told
+        self._told_at = time.perf_counter()
+        self._found(False)
+        return known
 
-    def _has_more_to_find(self, now: Results) -> bool:
+    def _in_turn(self, solved: Solved, step: Callable[[], None]) -> None:
+        """Does a step once nobody waits for an answer, if it is still wanted then."""
+        self._worker.sign()
+        with self._shared.precedence.step(partial(self._is_current, solved)) as is_wanted:
+            if is_wanted:
+                step()
+
+    def _inquiry_into(self, solved: Solved) -> Inquiry | None:
+        """Return what looks into an answer, if it still is the newest."""
         with self._lock:
-            known = self._findings
-        return known is not None and known.now is now and not known.is_complete
+            is_newest = self._inquiry is not None and self._inquiry.findings.now is solved.now
+            return self._inquiry if is_newest else None
 
     def _rests(self, solved: Solved, seconds: float) -> bool:
         """Waits; whether nothing else was asked for meanwhile."""

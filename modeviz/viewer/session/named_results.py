@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from modeviz.analysis.preparation import Prepared
-from modeviz.analysis.results import Conditions, Results, RoadExcitation, drive, solve_on
+from modeviz.analysis.results import Conditions, Results, RoadExcitation
 from modeviz.errors import ModevizError, SolveError
+from modeviz.vehicle.alterations import Alterations
 from modeviz.viewer.session.design import NamedSet
-from modeviz.viewer.session.preparations import Preparations
+from modeviz.viewer.session.shared import Shared
 from modeviz.viewer.session.state import State
 
 
@@ -30,13 +30,13 @@ class Named:
 class NamedResults:
     """Solves with the sets of a state, and only with those that are new."""
 
-    def __init__(self, preparations: Preparations) -> None:
+    def __init__(self, shared: Shared) -> None:
         """Solves nothing.
 
         Args:
-            preparations: at the vehicle's own rates: what is kept for long shares their receptances.
+            shared: with the vehicle at its own rates: what is kept for long shares their receptances.
         """
-        self._preparations = preparations
+        self._shared = shared
         self._drives: list[RoadExcitation] = []
         self._named = Named({}, {})
         self._solved_for: tuple[Mapping[str, NamedSet], Conditions] | None = None
@@ -56,9 +56,10 @@ class NamedResults:
         results, unsolved, driven = {}, {}, []
         for name, each in sets.items():
             try:
-                excitation = self._drive(self._preparations.get(each.alterations), conditions)
+                excitation = self._drive(each.alterations, conditions)
                 driven.append(excitation)
-                results[name] = self._kept(name, excitation, each) or solve_on(excitation, each.rates)
+                kept = self._kept(name, excitation, each)
+                results[name] = kept or self._shared.beginnings.solve(excitation, each.rates)
             except ModevizError as error:
                 unsolved[name] = str(error)
         self._drives = driven
@@ -73,7 +74,8 @@ class NamedResults:
             return None
         return kept if kept.conditions == excitation.conditions else None
 
-    def _drive(self, prepared: Prepared, conditions: Conditions) -> RoadExcitation:
+    def _drive(self, alterations: Alterations, conditions: Conditions) -> RoadExcitation:
         """The vehicle on the road, which may have been there."""
+        prepared = self._shared.preparations.get(alterations)
         known = (d for d in self._drives if d.prepared is prepared and d.conditions == conditions)
-        return next(known, None) or drive(prepared, conditions)
+        return next(known, None) or self._shared.beginnings.drive(prepared, alterations, conditions)

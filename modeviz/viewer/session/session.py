@@ -19,6 +19,7 @@ from modeviz.viewer.session.history import Accepted, History, Moment, Step
 from modeviz.viewer.session.inspector import Inspector
 from modeviz.viewer.session.notifications import Answered, Checked, Failed, Notification, Preparing
 from modeviz.viewer.session.preparations import Preparations
+from modeviz.viewer.session.shared import Shared
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.worker import StuckError, Worker
 
@@ -68,7 +69,7 @@ class Session:
         patience: float = SOLVES_WITHIN,
         past: Sequence[Step] = (),
         future: Sequence[Step] = (),
-        preparations: Preparations | None = None,
+        shared: Shared | None = None,
         acting: Callable[[], Author] = lambda: OWNER,
     ) -> None:
         """Nothing is solved before `start`.
@@ -80,7 +81,7 @@ class Session:
             patience: s that a solve may take.
             past: what can be undone, the next one last.
             future: what can be redone, the next one last.
-            preparations: of the vehicle, where other sessions share them.
+            shared: what other sessions of the vehicle have in common with it, if there are any.
             acting: says who asks for what is done, in the thread in which it is.
 
         Raises:
@@ -97,12 +98,12 @@ class Session:
         self._failure: Exception | None = None
         self._good: Moment | None = None
         self._is_refused = False
-        self._answers = Answers(
-            preparations or Preparations(vehicle), state.design.alterations.absorbers
-        )
+        shared = shared or Shared(Preparations(vehicle))
+        self._precedence = shared.precedence
+        self._answers = Answers(shared, state.design.alterations.absorbers)
         self._worker: Worker[_Job] = Worker(self._work, self._tell_failure, patience, self._leave)
         self._inspector = Inspector(
-            self._rebase, self._is_current, self._answer_again, self._tell_failure
+            shared, self._rebase, self._is_current, self._answer_again, self._tell_failure
         )
 
     @property
@@ -151,7 +152,8 @@ class Session:
         Raises:
             ModevizError: there is no answer on that road at that speed.
         """
-        self._answers.prepare(self.state, progress)
+        with self._precedence.answer():
+            self._answers.prepare(self.state, progress)
         with self._lock:
             self._is_prepared = True
             self._worker.submit(_Job(self._history.moment, self._n_drawings))
@@ -277,6 +279,11 @@ class Session:
             self._worker.submit(_Job(self._history.moment, self._n_drawings))
 
     def _work(self, job: _Job) -> None:
+        """Answers a job before others do what nobody waits for."""
+        with self._precedence.answer():
+            self._answer_job(job)
+
+    def _answer_job(self, job: _Job) -> None:
         """Answers a job and tells the answer, or that there is none."""
         try:
             solved = self._solve(job)
@@ -341,8 +348,8 @@ class Session:
                 self._submit()
         self._tell_failure(error, is_back)
 
-    def _rebase(self, state: State) -> Prepared:
-        return self._answers.rebase(state)
+    def _rebase(self, state: State) -> None:
+        self._answers.rebase(state)
 
     def _follow_preparing(self, state: State, fraction: float) -> None:
         """Tells now and then how far a preparation is, or ends one that was overtaken."""

@@ -7,12 +7,13 @@ from mounted_cabin import mounted_cabin
 from rounding import CABIN, assert_near
 
 from modeviz.analysis.results import Conditions
-from modeviz.viewer.session import answers as answers_module
-from modeviz.viewer.session import inspector as inspector_module
+from modeviz.viewer.session import beginnings, inquiry
 from modeviz.viewer.session.commands.decisions import SetRate
-from modeviz.viewer.session.inspector import GIVEN_UP, Inspector
+from modeviz.viewer.session.inquiry import GIVEN_UP
+from modeviz.viewer.session.inspector import Inspector
 from modeviz.viewer.session.notifications import Answered, Failed
 from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.shared import Shared
 from modeviz.viewer.session.state import first_state
 from modeviz.viewer.session.worker import MOST_LEFT, StuckError
 
@@ -70,13 +71,13 @@ def solver(monkeypatch):
     class Solver:
         fault = staticmethod(lambda rate: None)
 
-    solve = answers_module.solve_on
+    solve = beginnings.solve_on
 
     def faulty(excitation, rates):
         Solver.fault(rates["A"].lateral)
         return solve(excitation, rates)
 
-    monkeypatch.setattr(answers_module, "solve_on", faulty)
+    monkeypatch.setattr(beginnings, "solve_on", faulty)
     return Solver
 
 
@@ -176,7 +177,7 @@ def test_a_check_that_fails_is_told_once_and_leaves_the_answer(open_session, mon
     def fail(near, now):
         raise IndexError("a bug")
 
-    monkeypatch.setattr(inspector_module, "sensitivity", fail)
+    monkeypatch.setattr(inquiry, "sensitivity", fail)
     session, heard = open_session()
     set_rate(session, SOFT)
     assert session.wait_checked(SOON)
@@ -251,16 +252,21 @@ def test_only_so_many_solves_are_left_behind_and_it_goes_on_once_one_ends(open_s
 def test_a_check_that_hangs_is_given_up_and_the_next_is_made(open_session, monkeypatch):
     may_end, find_out = threading.Event(), Inspector._find_out
 
-    def hang(self, solved):
+    def hang(self, solved, inquiry):
         if rate_of(solved.state) == BAD:
             may_end.wait(SOON)
-        find_out(self, solved)
+        find_out(self, solved, inquiry)
 
     monkeypatch.setattr(Inspector, "_find_out", hang)
     session, heard = open_session()
     session._inspector.close()
     session._inspector = Inspector(
-        session._rebase, session._is_current, session._answer_again, session._tell_failure, 1.5
+        Shared(session._answers._preparations),
+        session._rebase,
+        session._is_current,
+        session._answer_again,
+        session._tell_failure,
+        1.5,
     )
     assert set_rate(session, BAD)
     assert session.wait_checked(SOON)

@@ -2,6 +2,7 @@
 
 import viser
 
+from modeviz.analysis.sensitivity import Sensitivity
 from modeviz.report.rate_fields import fields_of_groups, quantity
 from modeviz.units import QuantityName
 from modeviz.vehicle.vehicle import Vehicle
@@ -35,6 +36,8 @@ class MountsPanel:
         """Builds the controls of all mount groups."""
         self._session = session
         self._effects: Effects = {}
+        self._drawn: Sensitivity | None = None
+        """That of which the effects are shown."""
         self._gui = gui
         self._units = {of: self._add_unit(gui, of) for of in UNITS}
         self._signs = Signs(gui, session)
@@ -50,6 +53,11 @@ class MountsPanel:
         for folder in self._folders.values():
             folder.follow()
         if solved.is_detailed:
+            self._show_details(solved)
+
+    def show_effects(self, solved: Solved) -> None:
+        """Shows what rates do, if that is known since the answer was drawn."""
+        if solved.findings.sensitivity is not self._drawn:
             self._show_details(solved)
 
     def _hold(self, vehicle: Vehicle) -> None:
@@ -70,7 +78,7 @@ class MountsPanel:
             assign(unit, visible=of in tuned)
 
     def _show_details(self, solved: Solved) -> None:
-        sensitivity = solved.findings.sensitivity
+        self._drawn = sensitivity = solved.findings.sensitivity
         if sensitivity is not None:
             self._effects = effects(self._session.vehicle, sensitivity, solved.followed.mode)
         elif solved.findings.problem:

@@ -1,0 +1,169 @@
+"""What sessions of a vehicle have in common, and when they do what nobody waits for."""
+
+import threading
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mounted_cabin import mounted_cabin
+
+from modeviz.analysis.exact_check import check_exactly
+from modeviz.analysis.preparation import Prepared, prepare
+from modeviz.analysis.results import Conditions, drive, solve
+from modeviz.compute.precedence import Precedence
+from modeviz.vehicle.alterations import Alterations
+from modeviz.viewer.serving.bench import Bench
+from modeviz.viewer.session import beginnings, inquiry
+from modeviz.viewer.session.beginnings import Beginnings
+from modeviz.viewer.session.commands.decisions import SetRate
+from modeviz.viewer.session.inquiry import Inquiry
+from modeviz.viewer.session.session import Session
+
+SOON = 20
+FLAT = Conditions("flat", 20.0)
+
+
+@pytest.fixture
+def bench():
+    cabin = mounted_cabin()
+    return Bench(cabin, cabin.rates, FLAT)
+
+
+@pytest.fixture
+def opened(bench):
+    """Opens a session of the cabin; gives it and what it tells."""
+    sessions, precedence = [], Precedence(1000.0)
+
+    def opened():
+        told = []
+        state, shared = bench.opening().state, bench.shared(precedence)
+        sessions.append(Session(bench.vehicle, state, told.append, shared=shared))
+        sessions[-1].start()
+        return sessions[-1], told
+
+    yield opened
+    for session in sessions:
+        session.close()
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    """How often something is solved, checked and made ready near rates."""
+    counts = {"solve_on": 0, "check_exactly": 0, "near": 0}
+
+    def count(owner, name):
+        whole = getattr(owner, name)
+
+        def counted(*arguments):
+            counts[name] += 1
+            return whole(*arguments)
+
+        monkeypatch.setattr(owner, name, counted)
+
+    count(beginnings, "solve_on")
+    count(inquiry, "check_exactly")
+    count(Prepared, "near")
+    return counts
+
+
+def test_what_sessions_begin_with_is_found_out_once_for_all(opened, counted):
+    first, _ = opened()
+    assert first.wait_checked(SOON)
+    done = dict(counted)
+    assert done["check_exactly"] == done["near"] == 1
+    second, told = opened()
+    assert second.wait_checked(SOON)
+    assert counted == done
+    assert second.answer.now is first.answer.now
+    assert told[0].solved.findings.is_complete
+    assert len(told) == 1
+
+
+def test_a_session_that_goes_its_own_way_is_answered_and_checked_by_itself(opened, counted):
+    (first, _), (second, _) = opened(), opened()
+    assert first.wait_checked(SOON)
+    assert second.wait_checked(SOON)
+    before = counted["check_exactly"]
+    second.do(SetRate("A", "lateral", 1e5))
+    assert second.wait_checked(SOON)
+    assert counted["check_exactly"] == before + 1
+    assert second.answer.findings.is_complete
+    assert second.answer.findings.check.error < 1e-8
+    expected = solve(prepare(mounted_cabin()), second.state.design.rates, FLAT)
+    np.testing.assert_allclose(second.answer.now.rms, expected.rms, rtol=1e-9)
+    assert first.answer.now.rates["A"].lateral != 1e5
+
+
+def test_other_conditions_rates_and_vehicles_have_nothing_in_common():
+    cabin = mounted_cabin()
+    prepared, common = prepare(cabin), Beginnings(FLAT, [cabin.rates])
+    known = common.drive(prepared, Alterations(), FLAT)
+    assert common.drive(prepared, Alterations(), FLAT) is known
+    assert common.solve(known, cabin.rates) is common.solve(known, cabin.rates)
+    rough = Conditions("rough", 20.0)
+    assert common.drive(prepared, Alterations(), rough).conditions == rough
+    own = drive(prepare(cabin), FLAT)
+    assert common.solve(own, cabin.rates).prepared is own.prepared
+    softer = {**cabin.rates, "A": replace(cabin.rates["A"], vertical=1e5)}
+    assert common.solve(known, softer) is not common.solve(known, softer)
+    assert common.near(own.prepared, cabin.rates) is not common.near(own.prepared, cabin.rates)
+
+
+def test_the_steps_of_an_inquiry_are_done_once_whoever_takes_them(monkeypatch):
+    steps = []
+
+    def counted(results):
+        for check in check_exactly(results):
+            steps.append(check.n_lines)
+            yield check
+
+    monkeypatch.setattr(inquiry, "check_exactly", counted)
+    shared = Inquiry(solve(prepare(mounted_cabin()), {}, FLAT))
+
+    def advance():
+        while not shared.findings.is_complete:
+            shared.advance()
+
+    threads = [threading.Thread(target=advance) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(SOON)
+    assert not shared.findings.problem
+    assert steps == sorted(set(steps))
+    assert steps[-1] == len(shared.findings.now.frequency_hz)
+
+
+def test_nothing_is_looked_into_while_another_session_waits_for_an_answer(opened):
+    session, _ = opened()
+    assert session.wait_checked(SOON)
+    precedence = session._precedence
+    with precedence.answer():
+        session.do(SetRate("A", "lateral", 1e5))
+        assert session.wait(SOON)
+        end = time.monotonic() + SOON
+        while not precedence._queue:
+            assert time.monotonic() < end
+            time.sleep(0.01)
+        assert session.answer.findings.sensitivity is None
+    assert session.wait_checked(SOON)
+    assert session.answer.findings.is_complete
+
+
+def test_a_session_that_is_asked_for_more_gives_its_turn_up(opened):
+    session, _ = opened()
+    assert session.wait_checked(SOON)
+    precedence = session._precedence
+    with precedence.answer():
+        session.do(SetRate("A", "lateral", 1e5))
+        assert session.wait(SOON)
+        while not precedence._queue:
+            time.sleep(0.01)
+        waiting = precedence._queue[0]
+        session.do(SetRate("A", "lateral", 2e5))
+        while waiting in precedence._queue:
+            time.sleep(0.01)
+    assert session.wait_checked(SOON)
+    assert session.answer.now.rates["A"].lateral == 2e5
+    assert session.answer.findings.is_complete
