@@ -18,7 +18,7 @@ from modeviz.vehicle.mount_rates import (
 )
 from modeviz.vehicle.vehicle import Vehicle
 
-Layout = tuple[NDArray[np.intp], NDArray[np.bool_]]
+Layout = tuple[NDArray[np.intp], NDArray[np.bool_], NDArray[np.bool_]]
 
 _LAYOUTS: WeakKeyDictionary[Vehicle, Layout] = WeakKeyDictionary()
 
@@ -61,13 +61,13 @@ class MountSprings:
 
     def elastic(self, rates: Rates) -> Floats:
         """Return the same with zero in place of what dampers have."""
-        return np.where(self._are_dampers, 0.0, self.unloaded(rates))
+        return np.where(self._are_elastic, self.unloaded(rates), 0.0)
 
     def loss(self, rates: Rates) -> Complexes:
-        """Return 1 + jg of every spring, one of dampers; arguments and errors as `stiffness`."""
+        """Return 1 + jg of every spring, one of all else; arguments and errors as `stiffness`."""
         every, groups = self.vehicle.all_rates(rates), self.vehicle.mount_groups
         factors = [g.loss_factor_with(every[g.name]) for g in groups for _ in g.mounts]
-        return 1 + 1j * np.where(self._are_dampers, 0.0, np.array(factors, np.float64)[self.mounts])
+        return 1 + 1j * np.where(self._are_elastic, np.array(factors, np.float64)[self.mounts], 0.0)
 
     def shares(self, rates: Rates) -> Complexes:
         """Return ∂(spring rate)/∂(rate of a group), (n_springs, n_variables), complex.
@@ -87,8 +87,8 @@ class MountSprings:
 
     @cached_property
     def has_stiffness(self) -> Floats:
-        """The same, but nothing of dampers."""
-        return np.where(self._are_dampers[:, None], 0.0, self.has_rate)
+        """The same of springs, and nothing of all else."""
+        return np.where(self._are_elastic[:, None], self.has_rate, 0.0)
 
     @cached_property
     def mounts(self) -> NDArray[np.intp]:
@@ -96,14 +96,14 @@ class MountSprings:
         return mounts_of_springs(self.vehicle)
 
     @cached_property
-    def _are_dampers(self) -> NDArray[np.bool_]:
-        return are_dampers(self.vehicle)
+    def _are_elastic(self) -> NDArray[np.bool_]:
+        return ~(are_dampers(self.vehicle) | are_masses(self.vehicle))
 
     @cached_property
     def _members(self) -> Floats:
         """(n_springs, 9 n_groups): one where a spring has a rate of a group, else zero."""
         vehicle = self.vehicle
-        motions, dampers = rows_of_springs(vehicle) % 6, self._are_dampers
+        motions, dampers = rows_of_springs(vehicle) % 6, _are_beside(vehicle)
         first = {g.name: len(RATE_FIELDS) * i for i, g in enumerate(vehicle.mount_groups)}
         members = np.zeros((len(motions), len(RATE_FIELDS) * len(first)))
         for spring, (motion, is_damper, number) in enumerate(
@@ -192,8 +192,19 @@ def are_dampers(vehicle: Vehicle) -> NDArray[np.bool_]:
     return _layout(vehicle)[1]
 
 
+def are_masses(vehicle: Vehicle) -> NDArray[np.bool_]:
+    """Which mount springs resist acceleration, (n_springs,); see `MountGroup.resists`."""
+    return _layout(vehicle)[2]
+
+
+def _are_beside(vehicle: Vehicle) -> NDArray[np.bool_]:
+    """Which of them are the dampers beside springs, which come last, (n_springs,)."""
+    n_springs = len(rows_of_springs(vehicle))
+    return np.arange(n_springs) >= n_springs - np.count_nonzero(damped_axes(vehicle))
+
+
 def _layout(vehicle: Vehicle) -> Layout:
-    """`rows_of_springs` and `are_dampers` of a vehicle, found once while somebody has the vehicle."""
+    """`rows_of_springs`, `are_dampers` and `are_masses`, found once while somebody has the vehicle."""
     found = _LAYOUTS.get(vehicle)
     if found is None:
         found = _LAYOUTS[vehicle] = _laid_out(vehicle)
@@ -204,10 +215,14 @@ def _laid_out(vehicle: Vehicle) -> Layout:
     motions = np.arange(6 * len(vehicle.mounts)).reshape(-1, 6)
     along, about, damped = motions[:, :3], motions[:, 3:], damped_axes(vehicle)
     rows = np.concatenate([along.ravel(), about[turning_axes(vehicle)], along[damped]])
-    dampers = np.arange(len(rows)) >= len(rows) - np.count_nonzero(damped)
-    for array in (rows, dampers):
+    resists = np.array([group.resists for group in vehicle.mount_groups for _ in group.mounts], str)
+    of_springs = resists[rows // 6]
+    dampers = of_springs == "velocity"
+    dampers[len(rows) - np.count_nonzero(damped) :] = True
+    masses = of_springs == "acceleration"
+    for array in (rows, dampers, masses):
         array.flags.writeable = False
-    return rows, dampers
+    return rows, dampers, masses
 
 
 def constant_damping(vehicle: Vehicle) -> Floats:

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from modeviz.dynamics.mount_rates import are_dampers, turning_axes
+from modeviz.dynamics.mount_rates import are_dampers, are_masses, rows_of_springs
 from modeviz.vehicle.arrays import Array, Complexes, Floats
 from modeviz.vehicle.dynamic_rates import DynamicRates
 from modeviz.vehicle.vehicle import Vehicle
@@ -16,6 +16,9 @@ CONSTANT = -1
 
 VISCOUS = -2
 """The column of a damper: its rate is c, and it resists as a spring of the stiffness jωc."""
+
+INERT = -3
+"""That of what resists acceleration: its rate is m, the stiffness -ω²m; see `MountGroup.resists`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +31,7 @@ class SpringLaw:
     rubbers: tuple[DynamicRates, ...]
     """Each once."""
     columns: NDArray[np.intp]
-    """(n_springs,): 3 times the number of its rubber plus its axis, `CONSTANT` or `VISCOUS`."""
+    """(n_springs,): 3 times the number of its rubber plus its axis; `CONSTANT`, `VISCOUS`, `INERT`."""
 
     @cached_property
     def is_constant(self) -> bool:
@@ -51,13 +54,19 @@ class SpringLaw:
         return bool(self.are_dampers.any())
 
     @cached_property
+    def are_masses(self) -> NDArray[np.bool_]:
+        """Which of them resist acceleration, (n_springs,)."""
+        return self.columns == INERT
+
+    @cached_property
     def at_reference(self) -> "SpringLaw":
         """The same of springs that keep the rates of reference at all frequencies."""
         return SpringLaw((), np.where(self.depends, CONSTANT, self.columns))
 
     def springs(self, rates: Complexes) -> Complexes:
-        """Return rates at the reference, (..., n_springs), with zero in place of dampers'."""
-        return np.where(self.are_dampers, 0.0, rates) if self.has_dampers else rates
+        """Return rates at the reference, (..., n_springs), with zero in place of what is no spring."""
+        others = self.columns < CONSTANT
+        return np.where(others, 0.0, rates) if others.any() else rates
 
     def dampers(self, rates: Complexes) -> Floats:
         """Return the c of rates, (..., n_springs), with zero in place of springs'."""
@@ -73,19 +82,20 @@ class SpringLaw:
 
     def ratios(self, frequency_hz: Array) -> Array:
         """Return complex rates in parts of those at the reference, (n_freqs or 1, n_springs)."""
-        if self.is_constant and not self.has_dampers:
+        if (self.columns == CONSTANT).all():
             return np.ones((1, len(self.columns)))
         values = [rubber.ratios(frequency_hz) for rubber in self.rubbers]
-        f = np.asarray(frequency_hz)[:, None]
-        return np.hstack([*values, 2j * np.pi * f, np.ones_like(f)])[:, self.columns]
+        s = 2j * np.pi * np.asarray(frequency_hz)[:, None]
+        return np.hstack([*values, s**2, s, np.ones_like(s)])[:, self.columns]
 
     def slopes(self, frequency_hz: Array) -> Array:
         """Return the derivatives of `ratios`, (n_freqs or 1, n_springs), 1/Hz."""
-        if self.is_constant and not self.has_dampers:
+        if (self.columns == CONSTANT).all():
             return np.zeros((1, len(self.columns)))
         values = [rubber.ratio_slopes(frequency_hz) for rubber in self.rubbers]
-        one = np.ones((len(frequency_hz), 1))
-        return np.hstack([*values, 2j * np.pi * one, 0 * one])[:, self.columns]
+        f = np.asarray(frequency_hz)[:, None]
+        first = 2j * np.pi * np.ones_like(f)
+        return np.hstack([*values, 2 * first**2 * f, first, 0 * first])[:, self.columns]
 
     def stiffness(self, at_reference: Complexes, frequency_hz: Array) -> Complexes:
         """Return complex rates, (n_freqs or 1, n_springs), from those at the reference."""
@@ -111,9 +121,8 @@ def connection_law(vehicle: Vehicle) -> SpringLaw:
 
 def spring_law(vehicle: Vehicle) -> SpringLaw:
     """Return the law of a vehicle's mount springs, in the order of `mount_stiffness`."""
-    law, turns = connection_law(vehicle), turning_axes(vehicle)
-    columns = law.columns.reshape(-1, 6)[: len(turns)]
-    dampers = np.full(np.count_nonzero(are_dampers(vehicle)), VISCOUS)
-    return replace(
-        law, columns=np.concatenate([columns[:, :3].ravel(), columns[:, 3:][turns], dampers])
-    )
+    law = connection_law(vehicle)
+    columns = law.columns[rows_of_springs(vehicle)]
+    columns[are_dampers(vehicle)] = VISCOUS
+    columns[are_masses(vehicle)] = INERT
+    return replace(law, columns=columns)

@@ -31,6 +31,8 @@ class BasisModes:
     """(n_springs, n_modes), of every mount spring."""
     n_known: int
     """How many of them are modes of the vehicle; the others stand for the rest."""
+    are_masses: NDArray[np.bool_]
+    """(n_springs,): which of the springs resist acceleration, see `MountGroup.resists`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +73,8 @@ class BodyModes:
     ∂φ_i/∂k = Σ_j φ_j (φ_jᵀ ∂K/∂k φ_i) / (ω_i² - ω_j²) over all other modes of the basis (R. L. Fox and
     M. P. Kapoor, "Rates of change of eigenvalues and eigenvectors", AIAA Journal 6(12), 1968), so that
     φ_iᵀBφ_i changes by 2 Σ_j φ_jᵀBφ_i of that. Derivatives are to the rate of every mount spring,
-    (n_springs,).
+    (n_springs,). What resists acceleration has -ω_i² ∂M/∂m for ∂K/∂k, and makes the mode smaller by
+    φ_iᵀ ∂M/∂m φ_i / 2 of itself, for φᵀMφ = 1.
     """
 
     modes: BasisModes
@@ -123,7 +126,7 @@ class BodyModes:
 
     def frequency_gradient(self, mode: int) -> Floats:
         """Return ∂f/∂k, Hz per N/m or N m/rad."""
-        return self.modes.stretch[:, mode] ** 2 / (8 * np.pi**2 * self.frequency_hz[mode])
+        return self._square_gradient(mode) / (8 * np.pi**2 * self.frequency_hz[mode])
 
     def purity_gradient(self, mode: int, direction: int) -> Floats:
         """Return the derivatives of one of `purity`."""
@@ -140,11 +143,23 @@ class BodyModes:
 
     def _weight_gradient(self, mode: int, direction: int) -> Floats:
         energy, strain = self.energy[mode, direction], self.strain[mode]
-        by_energy = self._changed(mode, self._crossed(mode)[direction])
-        stretch, square = self.modes.stretch[:, mode], self.modes.omega_squared[mode]
-        twice = 2 * self._changed(mode, self._strained(mode))
-        twice[self.rows.springs] += stretch[self.rows.springs] ** 2
-        return strain * by_energy + energy * (twice - strain * stretch**2) / square
+        square, are_masses = self.modes.omega_squared[mode], self.modes.are_masses
+        stretched = self.modes.stretch[:, mode] ** 2
+        smaller = np.where(are_masses, stretched, 0.0)
+        by_energy = self._changed(mode, self._crossed(mode)[direction]) - smaller * energy
+        twice = 2 * self._changed(mode, self._strained(mode)) - smaller * strain * square
+        own = self.rows.springs
+        twice[own] += np.where(are_masses[own], 0.0, stretched[own])
+        by_strain = (twice - strain * self._square_gradient(mode)) / square
+        return strain * by_energy + energy * by_strain
+
+    def _square_gradient(self, mode: int) -> Floats:
+        """∂ω²/∂k, rad²/s² per unit of each."""
+        return self._effect(mode) * self.modes.stretch[:, mode] ** 2
+
+    def _effect(self, mode: int) -> Floats:
+        """What a unit of each rate is as stiffness at a mode's frequency, (n_springs,)."""
+        return np.where(self.modes.are_masses, -self.modes.omega_squared[mode], 1.0)
 
     def _crossed(self, mode: int) -> Floats:
         """2 φ_jᵀBφ_i for the energy of each direction, (6, n_modes)."""
@@ -167,7 +182,7 @@ class BodyModes:
         is_other = self.cluster != self.cluster[mode]
         apart = np.where(is_other, squares[mode] - squares, 1.0)
         mixed = np.where(is_other, forms / apart, 0.0)
-        return self.modes.stretch[:, mode] * (self.modes.stretch @ mixed)
+        return self._effect(mode) * self.modes.stretch[:, mode] * (self.modes.stretch @ mixed)
 
 
 def body_modes(rows: BodyRows, modes: BasisModes, mount_rates: Floats) -> BodyModes:
@@ -198,7 +213,7 @@ def _purest(rows: BodyRows, modes: BasisModes) -> tuple[BasisModes, NDArray[np.i
             turn = _turn(rows.motion @ vectors[:, own], rows.momentum @ vectors[:, own])
             vectors = np.hstack([vectors[:, :begin], vectors[:, own] @ turn, vectors[:, end:]])
             stretch = np.hstack([stretch[:, :begin], stretch[:, own] @ turn, stretch[:, end:]])
-    return BasisModes(squares, vectors, stretch, modes.n_known), cluster
+    return BasisModes(squares, vectors, stretch, modes.n_known, modes.are_masses), cluster
 
 
 def _turn(motion: Floats, momentum: Floats) -> Floats:

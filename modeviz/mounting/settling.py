@@ -91,9 +91,12 @@ class Settling:
         Args:
             deflections: d, (n_springs,), where springs have settled.
         """
+        return -self.compliance(deflections) * self.laws.force(np.ones_like(deflections), deflections)
+
+    def compliance(self, deflections: Floats) -> Floats:
+        """Return R (K + Rᵀ k c' R)⁻¹ Rᵀ, (n_springs, n_springs), m/N; argument as `by_stiffness`."""
         change = self.stiffness * self.laws.tangent(deflections) - self.base
-        compliance = self.between @ self._solved(change[:, None], np.eye(len(change)))
-        return -compliance * self.laws.force(np.ones_like(deflections), deflections)
+        return self.between @ self._solved(change[:, None], np.eye(len(change)))
 
     def _off(self, q: Floats, d: Floats) -> Floats:
         """What springs are off their curves, N: zero where they settle."""

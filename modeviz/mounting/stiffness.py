@@ -112,7 +112,13 @@ def holding(vehicle: Vehicle, body: Body) -> NDArray[np.bool_]:
     What joins it to a linkage, such as a propshaft, or to an absorber does not, for these go along
     with it; unless nothing else holds it, or it is such a body itself.
     """
-    others = [_other_end(vehicle, c, body) for c in vehicle.all_connections]
+    holds_nothing = {
+        mount.name for g in vehicle.mount_groups if g.resists == "acceleration" for mount in g.mounts
+    }
+    others = [
+        None if c.name in holds_nothing else _other_end(vehicle, c, body)
+        for c in vehicle.all_connections
+    ]
     joined = np.array([other is not None for other in others], bool)
     firm = np.array([other not in (None, *LIGHT_ROLES) for other in others], bool)
     return firm if firm.any() and body.role not in LIGHT_ROLES else joined

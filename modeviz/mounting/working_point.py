@@ -40,13 +40,7 @@ class WorkingPoint:
 
     def vehicle(self, vehicle: Vehicle, rates: Rates) -> Vehicle:
         """Return the vehicle with other rates and mounts as stiff as there; raises as `tangents`."""
-        tuned = vehicle.with_rates(rates)
-        if self.standing is None:
-            return tuned
-        along = np.asarray(self.tangents(rates))[: 3 * len(vehicle.mounts)].reshape(-1, 3)
-        of_mounts = dict(zip((mount.name for mount in vehicle.mounts), along, strict=True))
-        groups = tuple(_at_work(group, of_mounts) for group in tuned.mount_groups)
-        return replace(tuned, mount_groups=groups)
+        return at_work(vehicle, rates, self.tangents(rates))
 
 
 def working_point(vehicle: Vehicle) -> WorkingPoint:
@@ -57,6 +51,25 @@ def working_point(vehicle: Vehicle) -> WorkingPoint:
         return WorkingPoint(prepare_statics(assemble(vehicle), (STANDING,)))
     except SolveError:
         return WorkingPoint(None)
+
+
+def at_work(vehicle: Vehicle, rates: Rates, tangents: Floats | float) -> Vehicle:
+    """Return a vehicle with other rates and so many times as stiff mounts.
+
+    Args:
+        vehicle: any.
+        rates: of the groups that differ from the vehicle's own.
+        tangents: (n_springs,) or more, or one for all.
+
+    Raises:
+        VehicleError: a group that the vehicle does not have.
+    """
+    tuned = vehicle.with_rates(rates)
+    if not isinstance(tangents, np.ndarray):
+        return tuned
+    along = tangents[: 3 * len(vehicle.mounts)].reshape(-1, 3)
+    of_mounts = dict(zip((mount.name for mount in vehicle.mounts), along, strict=True))
+    return replace(tuned, mount_groups=tuple(_at_work(g, of_mounts) for g in tuned.mount_groups))
 
 
 def _at_work(group: MountGroup, tangents: dict[str, Floats]) -> MountGroup:

@@ -59,7 +59,7 @@ class DecoupledModes:
         R = basis.spring_motions
         squares, y = np.linalg.eigh(basis.stiffness + (R.T * change) @ R)
         n_known = int(np.searchsorted(squares, REACH**2 * basis.top))
-        modes = BasisModes(np.maximum(squares, 0.0), y, R @ y, n_known)
+        modes = BasisModes(np.maximum(squares, 0.0), y, R @ y, n_known, basis.law.are_masses)
         return [body_modes(body.rows, modes, k) for body in self.bodies]
 
     def exactly_at(self, rates: Rates) -> list[BodyModes]:
@@ -68,7 +68,8 @@ class DecoupledModes:
         k = self.prepared.real_rates(rates)
         found = solve_modes(system, below_hz=REACH * self.prepared.basis.top_hz)
         stretch = system.mount_motions @ found.shapes
-        modes = BasisModes(found.omega_n_squared, found.shapes, stretch, len(found.frequency_hz))
+        n_modes, are_masses = len(found.frequency_hz), self.prepared.basis.law.are_masses
+        modes = BasisModes(found.omega_n_squared, found.shapes, stretch, n_modes, are_masses)
         own = np.eye(system.n_dofs)
         rows = (body_rows(body.held, body.axes, own) for body in self.bodies)
         return [body_modes(r, modes, k) for r in rows]
@@ -79,8 +80,9 @@ class DecoupledModes:
 
     def by_rate(self, gradients: Floats, rates: Rates) -> Floats:
         """Return derivatives to each of `rate_variables` of what has them to every spring's rate."""
-        law, shares = self.prepared.basis.law, spring_shares(self.prepared, rates)
-        return gradients @ law.springs(shares.T).real.T.astype(np.float64)
+        are_dampers = self.prepared.basis.law.are_dampers[:, None]
+        shares = spring_shares(self.prepared, rates).real.astype(np.float64)
+        return gradients @ np.where(are_dampers, 0.0, shares)
 
 
 @dataclass(frozen=True, eq=False)

@@ -50,15 +50,37 @@ def change_of(goal: Goal, moved: Floats) -> tuple[float, Floats]:
     return float(moved @ moved) / n, 2 * moved / n
 
 
-def margin_terms(limits: Deflections, rates: Rates, probes: Probes) -> Floats:
-    """Return the same of margins of deflections, (n_limits, n_places)."""
-    terms = []
-    for limit, (spring, stretched) in zip(limits.limits, limits.stretched(rates), strict=True):
+def margin_terms(limits: Deflections, by_rate: Floats, rates: Rates, probes: Probes) -> Floats:
+    """Return the derivatives of margins of deflections, (n_limits, n_places), per m or rad.
+
+    A spring has the force k c'(d) d + f₀ on the straight part of its curve on which it is. The first
+    part is that of a straight spring, of which probes tell; f₀ pulls along where the spring is then,
+    which is linear in its rows, as is what is read of the limited mount itself.
+
+    Args:
+        limits: of the vehicle with its probes.
+        by_rate: derivatives of the margins to rates, (n_limits, n_rates), those of probes last.
+        rates: of the groups that differ from the vehicle's own.
+        probes: about its mounts.
+    """
+    n_mounts, n_probes, n_places = probes.slopes.shape
+    terms = np.zeros((len(by_rate), n_places))
+    if not n_places:
+        return terms
+    along = slice(3 * n_mounts, 3 * (n_mounts + n_probes))
+    settling = limits.prepared.settling(rates)
+    each = zip(terms, by_rate, limits.limits, limits.stretched(rates), strict=True)
+    for term, own, limit, (spring, d) in each:
         mount, axis = divmod(spring, 3)
-        n_mounts, n_probes, _ = probes.slopes.shape
-        read = stretched[: 3 * (n_mounts + n_probes)].reshape(-1, 3)[n_mounts:, axis]
-        terms.append(-np.sign(stretched[spring]) / limit.most * (read @ probes.slopes[mount]))
-    return np.array(terms)
+        tangents = settling.laws.tangent(d)
+        slope = -np.sign(d[spring]) / limit.most
+        by_place = probes.by_place(rates, tangents)
+        f0 = settling.laws.force(settling.stiffness, d) - settling.stiffness * tangents * d
+        moved = settling.compliance(d)[spring, along].reshape(n_probes, 3)
+        read = np.einsum("p,pv->v", d[along].reshape(n_probes, 3)[:, axis], probes.slopes[mount])
+        pulled = np.einsum("ma,pa,mpv->v", f0[: along.start].reshape(-1, 3), moved, probes.slopes)
+        term += own[-len(by_place) :] @ by_place + slope * (read - pulled)
+    return terms
 
 
 def _force_term(case: MountCase, rates: Rates, probes: Probes) -> Floats:

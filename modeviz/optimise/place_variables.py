@@ -6,14 +6,12 @@ from typing import Literal
 
 import numpy as np
 
-from modeviz.errors import VehicleError
+from modeviz.errors import VehicleError, located
 from modeviz.optimise.limits import Limit
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.vehicle.bodies import RigidBody
-from modeviz.vehicle.connections import GROUND
+from modeviz.vehicle.carried_mass import carried_mass
 from modeviz.vehicle.local_axes import AXES
-from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.place_bounds import FARTHEST, PlaceBounds
 from modeviz.vehicle.placement import Placement, Placements
 from modeviz.vehicle.problem import DesignGroup, Problem
@@ -117,8 +115,8 @@ def places_of(
         placements: what no group may change; None: all mounts are where they were given.
 
     Raises:
-        VehicleError: some mounts are progressive, modes have a damping of their own, or what may be
-            placed otherwise damps turning.
+        VehicleError: modes have a damping of their own, or what may be placed otherwise holds the mass
+            of an absorber that cannot be moved alone.
     """
     variables = [
         PlaceVariable(group.group, kind, axis, bounds)
@@ -127,10 +125,10 @@ def places_of(
         for axis, bounds in _bounds_by_axis(group, kind)
     ]
     if variables:
-        _check_straight(vehicle)
-    for variable in variables:
-        _check_turning_dampers(vehicle, variable)
-        _check_between(vehicle, vehicle.mount_group(variable.group))
+        _check_dampers(vehicle)
+    for name in {variable.group: None for variable in variables}:
+        with located("offset and angles"):
+            carried_mass(vehicle, vehicle.mount_group(name))
     return Places(tuple(variables), placements or {})
 
 
@@ -176,41 +174,10 @@ def _bounds(variable: PlaceVariable, number: int) -> list[Limit]:
     ]
 
 
-def _check_straight(vehicle: Vehicle) -> None:
-    """Raises VehicleError where moving one mount makes another stiffer, or damps modes otherwise."""
+def _check_dampers(vehicle: Vehicle) -> None:
+    """Raises VehicleError where modes are damped otherwise as mounts move."""
     if vehicle.mode_damping:
         raise VehicleError(
             "offset and angles: modes of the vehicle have a damping of their own, which would change "
             "with them; expected a vehicle without [[mode_damping]]"
-        )
-    for group in vehicle.mount_groups:
-        if group.curves:
-            raise VehicleError(
-                f"offset and angles: the mounts of {group.name!r} are progressive, so that their rates "
-                "would change as well with where mounts sit; expected mounts without curves"
-            )
-
-
-def _check_turning_dampers(vehicle: Vehicle, variable: PlaceVariable) -> None:
-    """Raises VehicleError where mounts damp turning, of which no probe tells.
-
-    What damps the turning of rigid bodies does so wherever it sits.
-    """
-    for mount in vehicle.mount_group(variable.group).mounts:
-        bodies = (vehicle.body(name) for name in mount.bodies if name != GROUND)
-        is_rigid = all(isinstance(body, RigidBody) for body in bodies)
-        if mount.rotational_damping.any() and not (variable.kind == "offset" and is_rigid):
-            raise VehicleError(
-                f"{variable.spoken}: mount {mount.name!r} has rotational damping; expected none, or "
-                "offsets alone between rigid bodies"
-            )
-
-
-def _check_between(vehicle: Vehicle, group: MountGroup) -> None:
-    """Raises VehicleError where what hangs on mounts would have to move with them."""
-    names = {name for mount in group.mounts for name in mount.bodies}
-    if any(body.role == "absorber" for body in vehicle.bodies if body.name in names):
-        raise VehicleError(
-            f"offset and angles: {group.name!r} is an absorber, which moves with its mass; expected a "
-            "search over its rates alone"
         )

@@ -11,9 +11,11 @@ from modeviz.analysis.latest import Latest
 from modeviz.analysis.preparation import prepare_modes
 from modeviz.analysis.sensitivity import rate_variables
 from modeviz.errors import SolveError, located
+from modeviz.mounting.working_point import WorkingPoint, working_point
 from modeviz.optimise.deflections import Deflections, prepare_deflections
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import Goal, prepare_goal
+from modeviz.optimise.mass_places import check_masses
 from modeviz.optimise.min_max import MinMax
 from modeviz.optimise.place_terms import change_of, goal_term, margin_terms
 from modeviz.optimise.probes import Probes
@@ -78,7 +80,8 @@ class Search:
             goal = self._probing(x).goal
             value, by_rate = goal.value_and_gradient(rates)
             more, by_move = change_of(goal, self._moved(x))
-            gradient = self._by_x(rates, by_rate, goal_term(goal, rates, self.probes))
+            by_place = self._told(x, by_rate) + goal_term(goal, rates, self.probes)
+            gradient = self._by_x(rates, by_rate, by_place)
             gradient[self.space.n_rates :] += by_move
             _check_finite(value, gradient)
         return value + more, gradient
@@ -107,7 +110,7 @@ class Search:
             goal = self._probing(x).goal
             assert isinstance(goal, MinMax)
             parts, by_rate = goal.parts_and_gradients(rates)
-            gradients = self._by_x(rates, by_rate)
+            gradients = self._by_x(rates, by_rate, self._told(x, by_rate))
             _check_finite(float(parts.max()), gradients)
         return parts, gradients
 
@@ -121,9 +124,11 @@ class Search:
         rates, found = self.space.rates(x), []
         for each in self._probing(x).kept:
             values, by_rate = each.margins(rates)
-            is_read = isinstance(each, Deflections)
-            term = margin_terms(each, rates, self.probes) if is_read else np.zeros(1)
-            found.append((values, self._by_x(rates, by_rate, term)))
+            if isinstance(each, Deflections):
+                by_place = margin_terms(each, by_rate, rates, self.probes)
+            else:
+                by_place = self._told(x, by_rate)
+            found.append((values, self._by_x(rates, by_rate, by_place)))
         values, slopes = zip(*found, strict=True)
         return np.concatenate(values), np.vstack(slopes)
 
@@ -163,6 +168,10 @@ class Search:
     def _latest_probing(self) -> Latest[Aims]:
         return Latest()
 
+    @cached_property
+    def _latest_working(self) -> Latest[WorkingPoint]:
+        return Latest()
+
     @contextmanager
     def _naming(self, x: Floats) -> Iterator[None]:
         """Says with which rates something cannot be solved."""
@@ -176,19 +185,33 @@ class Search:
         places = self.space.places
         return x[self.space.n_rates :] - places.to_x(places.base)
 
-    def _by_x(self, rates: Rates, by_rate: Floats, by_place: Floats | float = 0.0) -> Floats:
+    def _told(self, x: Floats, by_rate: Floats) -> Floats:
+        """What probes tell of derivatives to places, (..., n_places), per m or rad.
+
+        Args:
+            x: a design.
+            by_rate: derivatives to rates, (..., n_rates), those of probes last.
+        """
+        if not self.space.places.variables:
+            return np.zeros((*by_rate.shape[:-1], 0))
+        rates, placements = self.space.rates(x), self.space.placements(x)
+        working = self._latest_working.get(
+            _key(placements), lambda: working_point(placed_vehicle(self.space.vehicle, placements))
+        )
+        by_place = self.probes.by_place(rates, working.tangents(rates))
+        return by_rate[..., -len(by_place) :] @ by_place
+
+    def _by_x(self, rates: Rates, by_rate: Floats, by_place: Floats) -> Floats:
         """Derivatives to x of what has derivatives to rates, (..., n_rates): dk = k dx.
 
         Args:
             rates: of a design.
-            by_rate: to those of probes, too, if there are any.
-            by_place: what is to be added of places, (..., n_places).
+            by_rate: those of probes may follow.
+            by_place: of places, (..., n_places).
         """
         k = [getattr(rates[v.group], v.direction) for v in rate_variables(self.space.vehicle)]
         by_x = (by_rate[..., : len(k)] * k) @ self.space.members
-        if self.space.places.variables:
-            by_place = by_place + by_rate[..., len(k) :] @ self.probes.by_place(rates)
-            by_x[..., self.space.n_rates :] = by_place * self.space.places.widths
+        by_x[..., self.space.n_rates :] = by_place * self.space.places.widths
         return by_x
 
 
@@ -227,6 +250,7 @@ def prepare_search(
     """
     with located(f"problem {problem.name!r}"):
         space = design_space(vehicle, problem.groups, rates, locked, placements)
+        check_masses(vehicle, problem)
     goal = prepare_goal(vehicle, problem, rates, speed)
     with located(f"problem {problem.name!r}"):
         windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None

@@ -95,5 +95,6 @@ def scattered_parts(prepared: PreparedModes, rates: Rates, tolerance: Tolerance)
     names = tuple(mount.name for mount in prepared.vehicle.mounts)
     mounts = prepared.springs.mounts
     loss_factor = prepared.springs.loss(rates).imag.astype(np.float64)
-    are_rubber = ~prepared.basis.law.are_dampers
+    law = prepared.basis.law
+    are_rubber = ~(law.are_dampers | law.are_masses)
     return Parts(names, mounts, stiffness.real.astype(np.float64), loss_factor, are_rubber, tolerance)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from modeviz.errors import VehicleError
+from modeviz.vehicle.absorber_names import guide_name, mass_name
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import GROUND
 from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
@@ -106,12 +107,12 @@ class Absorber:
     @property
     def body_name(self) -> str:
         """What its mass is called among the bodies."""
-        return f"{self.name} mass"
+        return mass_name(self.name)
 
     @property
     def guide_name(self) -> str:
         """What the joint that guides it is called among the connections."""
-        return f"{self.name} guide"
+        return guide_name(self.name)
 
 
 @dataclass(frozen=True)

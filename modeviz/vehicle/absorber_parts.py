@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorber_names import guide_name
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.connections import MOTIONS, Mount, Spring
@@ -103,7 +104,7 @@ def _with_spring(vehicle: Vehicle, group: MountGroup) -> Absorber | None:
     """The absorber whose spring a mount group is; None if it is of none."""
     mount = group.mounts[0]
     mass = vehicle.body(mount.bodies[0])
-    guide = next((c for c in vehicle.connections if c.name == f"{group.name} guide"), None)
+    guide = next((c for c in vehicle.connections if c.name == guide_name(group.name)), None)
     k = max(group.rates.as_tuple())
     if not (isinstance(mass, RigidBody) and mass.role == "absorber" and guide and k):
         return None

@@ -21,17 +21,9 @@ class Alterations:
         """Return how the mounts of a group are placed."""
         return self.placements.get(group, Placement())
 
-    @property
-    def of_mounts(self) -> Placements:
-        """Where mounts are that do not belong to absorbers, which are moved as a whole."""
-        added = {absorber.name for absorber in self.absorbers}
-        return {name: placed for name, placed in self.placements.items() if name not in added}
-
-    def with_mounts(self, placements: Placements) -> "Alterations":
-        """Return these with all mounts but those of absorbers placed so."""
-        added = {absorber.name for absorber in self.absorbers}
-        kept = {name: placed for name, placed in self.placements.items() if name in added}
-        return replace(self, placements={**kept, **placements})
+    def placed(self, placements: Placements) -> "Alterations":
+        """Return these with all mounts placed so."""
+        return replace(self, placements=placements)
 
     def with_placement(self, group: str, placement: Placement) -> "Alterations":
         """Return these with the mounts of a group placed otherwise."""

@@ -33,6 +33,9 @@ Travel = Mapping[str, tuple[float, float]]
 
 PartKind = Literal["mount", "spring", "damper"]
 
+Resisted = Literal["displacement", "velocity", "acceleration"]
+"""With k x, jω c x or -ω² m x."""
+
 SHARED = ("rotational_stiffness", "damping", "rotational_damping")
 """What a mount has from its group unless it has its own."""
 
@@ -71,6 +74,9 @@ class MountGroup:
     """How the rates along the axes of each depend on frequency; None: not at all."""
     kind: PartKind = "mount"
     """What they are: a file has springs and dampers in tables of their own, see `tuned_group`."""
+    resists: Resisted = "displacement"
+    """What its rates along and about axes resist; anything else of mounts without rates alone, to which
+    a search wants derivatives."""
 
     def __post_init__(self) -> None:
         for name in SHARED:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from modeviz.errors import VehicleError
+from modeviz.vehicle.absorber_names import guide_name
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MIDDLE, Mount
 from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
@@ -102,7 +103,8 @@ def _placed(vehicle: Vehicle, moved: Mapping[str, Sequence[MovedMount]]) -> Vehi
 
 def _with_whole_absorbers(placed: Vehicle, moved: Sequence[MovedMount]) -> Vehicle:
     """Return a vehicle in which masses and guides of absorbers go where their springs do."""
-    springs = {mount.after.bodies[0]: mount for mount in moved}
+    guides = {connection.name for connection in placed.connections}
+    springs = {m.after.bodies[0]: m for m in moved if guide_name(m.after.group) in guides}
     of_absorbers = {
         body.name: springs[body.name]
         for body in placed.bodies

@@ -176,7 +176,8 @@ def test_repeated_modes_count_as_their_purest_mixture():
         [np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)],
     ]  # fmt: skip
     mixed = found.shapes @ turn
-    modes = BasisModes(found.omega_n_squared, mixed, system.mount_motions @ mixed, 6)
+    stretch = system.mount_motions @ mixed
+    modes = BasisModes(found.omega_n_squared, mixed, stretch, 6, np.zeros(len(stretch), bool))
     k = np.array([2e5, 2e5, 4e5, 2e4, 5e4, 9e4])
     own = body_modes(rows, modes, k)
     modes_of = own.leading.argmax(axis=0)

@@ -135,8 +135,8 @@ class Design:
         return replace(design, rates=wanted.rates, alterations=wanted.alterations)
 
     def with_placements(self, placements: Placements) -> "Design":
-        """Return it with all mounts but those of absorbers placed so."""
-        return replace(self, alterations=self.alterations.with_mounts(placements))
+        """Return it with all mounts placed so."""
+        return replace(self, alterations=self.alterations.placed(placements))
 
     def with_variant(self, name: str, rates: Rates) -> "Design":
         """Return it with rates pinned as all else is now; in place of another by its number."""

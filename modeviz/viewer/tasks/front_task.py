@@ -99,13 +99,13 @@ class FrontTask:
         trade, state = job.asked, job.asked.state
         alterations = state.design.alterations
         trade_off = prepare_trade_off(
-            altered(self._session.original, alterations.with_mounts({})),
+            altered(self._session.original, alterations.placed({})),
             trade.problem,
             trade.sides,
             state.design.rates,
             state.conditions.speed,
             state.design.locked,
-            alterations.of_mounts,
+            alterations.placements,
         )
         token.check()
 

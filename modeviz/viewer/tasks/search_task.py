@@ -135,7 +135,7 @@ class AcceptOptimum(SearchStep):
 
 def design_of(state: State) -> tuple[Rates, Placements]:
     """Return what a search chooses of a state: its rates, and where its mounts are."""
-    return state.design.rates, state.design.alterations.of_mounts
+    return state.design.rates, state.design.alterations.placements
 
 
 class SearchTask:
@@ -212,13 +212,13 @@ class SearchTask:
     def go_back(self) -> None:
         """Takes over the rates and places before the search again."""
         if job := self.job:
-            self._session.do(TakeDesign(job.asked.before, job.asked.alterations.of_mounts))
+            self._session.do(TakeDesign(job.asked.before, job.asked.alterations.placements))
 
     def _find(self, job: SearchStatus, token: CancelToken, tell: Tell) -> Optimum:
         """The best that is found; the session goes back to the rates before if there is none."""
-        sought, placements = job.asked, job.asked.alterations.of_mounts
+        sought, placements = job.asked, job.asked.alterations.placements
         own = replace(self._session.original, decoupling=sought.decoupling)
-        vehicle = altered(own, sought.alterations.with_mounts({}))
+        vehicle = altered(own, sought.alterations.placed({}))
         before = sought.before, placements
         self._followed = before
 

@@ -11,6 +11,7 @@ from modeviz.analysis.absorbers import effective_masses, tuned_absorber
 from modeviz.errors import VehicleError
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorber_names import guide_name, mass_name
 from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.bodies import Body, RigidBody
 from modeviz.vehicle.mount_rates import DIRECTIONS
@@ -119,7 +120,7 @@ def free_absorber_name(vehicle: Vehicle) -> str:
     parts = (*vehicle.bodies, *vehicle.all_connections, *vehicle.mount_groups)
     taken = {part.name for part in parts}
     names = (f"absorber {number}" for number in count(1))
-    return next(n for n in names if taken.isdisjoint((n, f"{n} mass", f"{n} guide")))
+    return next(n for n in names if taken.isdisjoint((n, mass_name(n), guide_name(n))))
 
 
 def _places(vehicle: Vehicle, body: Body) -> Iterator[tuple[str, Any]]:

@@ -112,7 +112,7 @@ def offered(look: SearchStatus | None, state: State) -> tuple[str, ...]:
         return OFFERED.get(look.stage, (START,)) if look else (START,)
     found = look.found.rates, look.found.placements
     every = state.design.variants.values()
-    is_pinned = any((variant.rates, variant.alterations.of_mounts) == found for variant in every)
+    is_pinned = any((variant.rates, variant.alterations.placements) == found for variant in every)
     is_present = design_of(state) == found
     accept = () if is_pinned and is_present else (ACCEPT,)
     go_back = (GO_BACK,) if is_present and not is_pinned else ()
