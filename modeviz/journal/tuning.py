@@ -46,7 +46,11 @@ def pinned_text(pinned: Pinned) -> str:
 
 def pinned_of(text: str) -> Pinned:
     """Return the variant that a JSON text is, see `pinned_text`."""
-    record: Mapping[str, Any] = json.loads(text)
+    return pinned_of_record(json.loads(text))
+
+
+def pinned_of_record(record: Mapping[str, Any]) -> Pinned:
+    """Return the variant of a record with "rates" and "placements", see `pinned_text`."""
     return Pinned(
         {group: MountRates(**rates) for group, rates in record["rates"].items()},
         {

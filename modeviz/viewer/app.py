@@ -41,7 +41,7 @@ from modeviz.viewer.panels.mounts.history_row import HistoryRow
 from modeviz.viewer.panels.mounts.opener import FolderOpener
 from modeviz.viewer.panels.mounts.panel import MountsPanel
 from modeviz.viewer.panels.notes import NotesPanel
-from modeviz.viewer.panels.optimise.earlier import add_earlier_runs
+from modeviz.viewer.panels.optimise.earlier import EarlierRuns
 from modeviz.viewer.panels.optimise.panel import OptimisePanel
 from modeviz.viewer.panels.paths import PathsPanel
 from modeviz.viewer.panels.pictures import PicturePanel
@@ -190,6 +190,7 @@ class App:
             name,
             author,
             {"search": self.search_task, "front": self.front_task, "scatter": self.scatter_task},
+            self._earlier.add,
         )
         self._pictured = lambda png, caption: study.put_picture(name, png, caption, author())
         self._notes.keep_in(study, name, author)
@@ -292,7 +293,9 @@ class App:
             self._optimise = OptimisePanel(gui, session, self.search_task, dark)
             self._trade_off = TradeOffPanel(gui, session, self.front_task)
             self._scatter = ScatterPanel(gui, session, self.scatter_task)
-            add_earlier_runs(gui, self._opening.runs)
+            self._earlier = EarlierRuns(
+                gui, session, self.front_task, self.scatter_task, self._opening.runs
+            )
         with tabs.add_tab("View", viser.Icon.EYE):
             self._view = ViewPanel(gui, session, self._scene.look, self.link)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):

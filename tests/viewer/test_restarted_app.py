@@ -1,7 +1,6 @@
 """A page that is opened as its session was left: panels, scene and what there is to say."""
 
 import time
-from types import SimpleNamespace
 
 from every_command import ABSORBERS, FORE_AFT, VEHICLE
 from opened_app import SOON, text
@@ -10,11 +9,9 @@ from visitors import encoded, update, visit
 
 from modeviz.analysis.results import Conditions
 from modeviz.journal.fingerprint import fingerprint_of
-from modeviz.journal.runs import Run
 from modeviz.journal.study_file import StudyFile, _tell_all
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.panels.optimise.earlier import add_earlier_runs
 from modeviz.viewer.session.commands import decisions, looks
 from modeviz.viewer.session.encoding.link import opening_of_link
 from modeviz.viewer.session.opening import Opening
@@ -120,17 +117,6 @@ def test_what_the_page_links_to_opens_the_same_view():
         assert "Mount group 'C' is gone." in text(app._status._content)
     finally:
         app.close()
-
-
-def test_what_was_computed_before_is_listed_the_newest_first():
-    runs = [Run("search", f"paper <{i}>", "{}", "Ada", time=1e9) for i in range(3)]
-    page = SimpleNamespace(add_html=lambda content: said.append(content))
-    said = []
-    add_earlier_runs(page, runs)
-    add_earlier_runs(page, ())
-    (content,) = said
-    assert content.index("paper &lt;2&gt;") < content.index("paper &lt;0&gt;")
-    assert "Ada" in content
 
 
 def test_a_page_says_what_cannot_be_saved_until_it_can(tmp_path):

@@ -6,6 +6,8 @@ from typing import Generic, TypeVar
 
 import viser
 
+from modeviz.errors import ModevizError
+from modeviz.text.wording import sentence_case
 from modeviz.viewer.page.handles import assign, name_of
 from modeviz.viewer.page.html import hidden
 
@@ -20,7 +22,12 @@ class NamedButtons(Generic[Name]):
     """
 
     def __init__(self, gui: viser.GuiApi, press: Callable[[Name], None]) -> None:
-        """Makes none yet; `press` gets what the button that is pressed is for."""
+        """Makes none yet.
+
+        Args:
+            gui: where.
+            press: gets what the button that is pressed is for; a ModevizError is told on the page.
+        """
         self._gui, self._press = gui, press
         self._lock = threading.Lock()
         self._buttons: dict[Name, viser.GuiButtonHandle] = {}
@@ -48,5 +55,14 @@ class NamedButtons(Generic[Name]):
     def _made(self, name: Name) -> viser.GuiButtonHandle:
         with self._part:
             button = self._gui.add_button("hidden")
-        button.on_click(lambda _: self._press(name))
+        button.on_click(lambda event: self._heard(name, event.client))
         return button
+
+    def _heard(self, name: Name, client: viser.ClientHandle | None) -> None:
+        """Does what the button is for; says on the page what keeps it from being done."""
+        try:
+            self._press(name)
+        except ModevizError as refusal:
+            if client is not None:
+                text = f"{sentence_case(str(refusal))}."
+                client.add_notification("Not possible", text, color="red")

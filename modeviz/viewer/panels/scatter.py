@@ -1,26 +1,22 @@
 """Left column: what it does that no two rubber parts are alike."""
 
 import threading
+from collections.abc import Callable, Mapping
+from functools import partial
 from html import escape
 
-import numpy as np
 import viser
 
-from modeviz.analysis.results import AXIS
 from modeviz.errors import ModevizError
-from modeviz.report.optimum import objective_words
-from modeviz.scatter.driving import Scattered
-from modeviz.scatter.monte_carlo import Scatter, rating_of
+from modeviz.report.records import Record
 from modeviz.text.wording import number, significant
-from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
-from modeviz.vehicle.problem import Problem
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, row, span, table, title
 from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job
-from modeviz.viewer.tasks.scatter_task import PERCENT, Build, ScatterOutcome, ScatterTask
+from modeviz.viewer.tasks.scatter_task import HIGH, LOW, PERCENT, Built, ScatterOutcome, ScatterTask
 
 SCATTER, CANCEL = "Scatter", "Cancel"
 N_VEHICLES = 1000
@@ -80,7 +76,7 @@ class ScatterPanel:
                 event.client.add_notification("Not possible", str(error), color="red")
 
 
-def _text(job: Job[Build, ScatterOutcome], is_current: bool) -> list[str]:
+def _text(job: Job[Built, ScatterOutcome], is_current: bool) -> list[str]:
     if job.phase == "failed":
         return [heading("Failed"), span(escape(job.failure), "bad")]
     if job.phase == "cancelled":
@@ -88,44 +84,34 @@ def _text(job: Job[Build, ScatterOutcome], is_current: bool) -> list[str]:
     if job.found is None:
         bar = f'<div class="bar"><i style="width:{job.done:.0%};background:var(--mv-now)"></i></div>'
         return [heading("Scattering", f"{100 * job.done:.0f} %"), bar]
-    found = job.found.scatter
-    n = f"{len(found.goal)} vehicles"
+    record = job.found.record
+    n = f"{record['samples']} vehicles"
     quiet = n if is_current else f"{n}, other rates or road"
-    return [heading("Scatter", quiet), _figures(job.asked.problem, found), _parts(job.found.told)]
+    return [heading("Scatter", quiet), _figures(record), _parts(record)]
 
 
-def _figures(problem: Problem, found: Scatter) -> str:
+def _figures(record: Record) -> str:
     """Return the bounds between which 90 of 100 stay, of the goal and the driver's ride."""
-    driver = found.rms[:, 0]
-    goal = hinted("Goal", escape(objective_words(problem)))
-    rows = [_row(goal, found.goal, found.nominal_goal)]
-    for direction in RIDE_DIRECTIONS:
-        axis = AXIS[direction]
-        values, nominal = driver[:, axis], float(found.nominal_rms[0, axis])
-        rows.append(_row(f"RMS {direction}, g", values, nominal))
-    low, high = _between(found.mean_personal_rating)
-    nominal = float(rating_of(found.nominal_rms[:1])[0])
-    rows.append(row(["Ride rating", number(low, 2), span(number(nominal, 2), "dim"), number(high, 2)]))
+    quantities = record["quantities"]
+    goal = hinted("Goal", escape(record["goal"]))
+    rows = [_row(goal, quantities["goal"], significant)]
+    rows += [_row(f"RMS {d}, g", quantities[f"rms_{d}_g"], significant) for d in RIDE_DIRECTIONS]
+    rows.append(_row("Ride rating", quantities["mean_personal_rating"], partial(number, decimals=2)))
     return table(("", f"{PERCENT[0]:g} %", "as drawn", f"{PERCENT[1]:g} %"), rows)
 
 
-def _row(label: str, values: Floats, nominal: float) -> str:
-    low, high = _between(values)
-    return row([label, significant(low), span(significant(nominal), "dim"), significant(high)])
+def _row(label: str, values: Mapping[str, float], said: Callable[[float], str]) -> str:
+    low, nominal, high = (values[key] for key in (LOW, "nominal", HIGH))
+    return row([label, said(low), span(said(nominal), "dim"), said(high)])
 
 
-def _parts(told: Scattered) -> str:
+def _parts(record: Record) -> str:
     """The parts that make most of the goal's spread, where there are vehicles enough to tell."""
-    if told.spread is None:
-        return ""
-    shares, parts = told.spread.shares, told.scatter.parts
-    names = [f"{name} {what}" for what in ("hardness", "damping") for name in parts.names]
-    most = np.argsort(-shares)[:N_PARTS]
-    rows = [row([title(names[i]), f"{100 * shares[i]:.0f} %"]) for i in most]
-    return table(("Most of the goal's spread", ""), rows)
-
-
-def _between(values: Floats) -> tuple[float, float]:
-    """The percentiles of `PERCENT`."""
-    low, high = np.percentile(values, PERCENT)
-    return float(low), float(high)
+    shares = {
+        f"{each['mount']} {what}": each[key]
+        for what, key in (("hardness", "hardness"), ("damping", "loss_factor"))
+        for each in record["contributions"] or ()
+    }
+    most = sorted(shares, key=lambda name: shares[name], reverse=True)[:N_PARTS]
+    rows = [row([title(name), f"{100 * shares[name]:.0f} %"]) for name in most]
+    return table(("Most of the goal's spread", ""), rows) if rows else ""

@@ -18,7 +18,7 @@ from modeviz.viewer.page.named_buttons import NamedButtons
 from modeviz.viewer.panels.status import ALARMING, percent
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job
-from modeviz.viewer.tasks.front_task import Designs, FrontTask, Trade
+from modeviz.viewer.tasks.front_task import Designs, FrontTask, Goals
 from modeviz.viewer.tasks.search_task import design_of
 
 FIND, CANCEL = "Find front", "Cancel"
@@ -88,14 +88,14 @@ class TradeOffPanel:
             if event.client:
                 event.client.add_notification("Not possible", str(error), color="red")
 
-    def _chart(self, job: Job[Trade, Designs]) -> str:
+    def _chart(self, job: Job[Goals, Designs]) -> str:
         """The designs where both goals have them, as points that can be clicked."""
         designs = (job.found or ())[:N_POINTS]
         self._points.keep(designs)
         if not designs:
             return ""
         across, up = (axis([design.values[i] for design in designs]) for i in (0, 1))
-        first, second = (escape(side.name) for side in job.asked.sides)
+        first, second = map(escape, job.asked.names)
         points = []
         for design in designs:
             a, b = design.values
@@ -125,7 +125,7 @@ def _ticks(of: Axis, side: str) -> list[str]:
     ]
 
 
-def where(job: Job[Trade, Designs]) -> str:
+def where(job: Job[Goals, Designs]) -> str:
     """A line on how far the search is, and what the full model says of what it found."""
     n = len(job.found or ())
     designs = f"{n} design{'' if n == 1 else 's'}"

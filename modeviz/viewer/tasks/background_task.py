@@ -121,6 +121,18 @@ class BackgroundTask(Generic[AnyJob]):
         thread.start()
         threading.Thread(target=self._watch, args=(token, thread), name="watch", daemon=True).start()
 
+    def show(self, job: AnyJob) -> None:
+        """Takes a job that ended before for the newest.
+
+        Raises:
+            ModevizError: one is running.
+        """
+        with self._lock:
+            if self.job and self.job.is_running:
+                raise ModevizError(f"a {self._what} is running: cancel it first, or wait for it")
+            self.job = job
+        self._look(job)
+
     def pause(self) -> None:
         """Holds what is running."""
         self._turn("running", "paused", CancelToken.pause)

@@ -24,7 +24,14 @@ Designs = tuple[ParetoPoint, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Trade:
+class Goals:
+    """Two goals that were traded."""
+
+    names: tuple[str, str]
+
+
+@dataclass(frozen=True, eq=False)
+class Trade(Goals):
     """Two goals to trade, and from where."""
 
     problem: Problem
@@ -48,16 +55,16 @@ class FrontTask:
             report: told what is our mistake; gives the number under which it is logged.
         """
         self._session = session
-        self._task = BackgroundTask[Job[Trade, Designs]](
+        self._task = BackgroundTask[Job[Goals, Designs]](
             "search for a front", self._find, changed, report
         )
 
     @property
-    def job(self) -> Job[Trade, Designs] | None:
-        """The newest search; None before the first."""
+    def job(self) -> Job[Goals, Designs] | None:
+        """The newest search, or one of before that is shown; None before the first."""
         return self._task.job
 
-    def watch(self, watcher: Callable[[Job[Trade, Designs]], None]) -> None:
+    def watch(self, watcher: Callable[[Job[Goals, Designs]], None]) -> None:
         """Has somebody else given every job when there is something new."""
         self._task.watch(watcher)
 
@@ -81,7 +88,12 @@ class FrontTask:
         pair = chosen_sides(vehicle, problem, name)
         own, sets = state.design.rates, rate_sets(vehicle, state.design).values()
         known = (own, *({g: rates.get(g, own[g]) for g in own} for rates in sets))
-        self._task.start(Job(Trade(problem, pair, state, known)))
+        names = pair[0].name, pair[1].name
+        self._task.start(Job(Trade(names, problem, pair, state, known)))
+
+    def show(self, job: Job[Goals, Designs]) -> None:
+        """Shows a front that was found before; raises ModevizError while one is searched."""
+        self._task.show(job)
 
     def cancel(self) -> None:
         """Ends what is running; the designs found by then are kept."""
@@ -95,8 +107,10 @@ class FrontTask:
         assert state.design.plan is not None
         return planned(self._session.vehicle, state.design.plan)
 
-    def _find(self, job: Job[Trade, Designs], token: CancelToken, tell: Tell) -> Designs:
-        trade, state = job.asked, job.asked.state
+    def _find(self, job: Job[Goals, Designs], token: CancelToken, tell: Tell) -> Designs:
+        trade = job.asked
+        assert isinstance(trade, Trade)
+        state = trade.state
         alterations = state.design.alterations
         trade_off = prepare_trade_off(
             altered(self._session.original, alterations.placed({})),

@@ -1,23 +1,25 @@
 """Writes what a session computes at length to a study file: searches, fronts and scatter."""
 
 import json
+import math
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Protocol
 
 from modeviz.journal.runs import Run, RunKind
 from modeviz.journal.sessions import SessionId
 from modeviz.journal.study_file import StudyFile
-from modeviz.report.scatter import scatter_record
+from modeviz.optimise.trade_off import ParetoPoint
+from modeviz.optimise.verification import Verification
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.placement import Placements
 from modeviz.viewer.session.encoding.plain import plain_of
 from modeviz.viewer.tasks.background_task import Job
 from modeviz.viewer.tasks.front_task import Designs, Trade
-from modeviz.viewer.tasks.scatter_task import Build, ScatterOutcome
+from modeviz.viewer.tasks.scatter_task import HIGH, LOW, Build, ScatterOutcome
 from modeviz.viewer.tasks.search_task import SearchStatus
 
 Record = Mapping[str, Any]
@@ -51,6 +53,7 @@ class RunRecorder:
         name: SessionId,
         author: Callable[[], str],
         tasks: Mapping[RunKind, Task],
+        tell: Callable[[Run], None],
     ) -> None:
         """Begins.
 
@@ -59,8 +62,9 @@ class RunRecorder:
             name: under which the study file knows the session.
             author: says who begins a run, in the thread in which that is done.
             tasks: what computes.
+            tell: told of every run that was written, in the thread in which it ended.
         """
-        self._study, self._name, self._author = study, name, author
+        self._study, self._name, self._author, self._tell = study, name, author, tell
         self._lock = threading.Lock()
         self._begun: list[_Begun] = []
         for kind, task in tasks.items():
@@ -77,7 +81,8 @@ class RunRecorder:
         title, record = told(job)
         seconds = time.monotonic() - begun.at
         text = json.dumps({"phase": job.phase, "failure": job.failure, **record})
-        self._study.put_run(self._name, Run(kind, title, text, begun.author, seconds))
+        run = Run(kind, title, text, begun.author, seconds, time.time())
+        self._tell(replace(run, token=self._study.put_run(self._name, run)))
 
 
 def told(job: Job[Any, Any]) -> Told:
@@ -110,12 +115,12 @@ def _search(job: SearchStatus) -> Told:
 
 
 def _front(job: Job[Trade, Designs]) -> Told:
-    first, second = (side.name for side in job.asked.sides)
+    first, second = job.asked.names
     designs = job.found or ()
     record = {
         "problem": job.asked.problem.name,
         "sides": [first, second],
-        "designs": [{"values": [*d.values], **_design(d.rates, d.placements)} for d in designs],
+        "designs": [_of_front(design) for design in designs],
     }
     return f"{first} against {second}: {len(designs)} designs", record
 
@@ -123,7 +128,44 @@ def _front(job: Job[Trade, Designs]) -> Told:
 def _scatter(job: Job[Build, ScatterOutcome]) -> Told:
     title = f"{job.asked.options.samples} vehicles on {job.asked.conditions.road}"
     asked = {"samples": job.asked.options.samples, **_design(job.asked.rates, {})}
-    return title, {**asked, **(scatter_record(job.found.told) if job.found else {})}
+    return title, {**asked, **(_of_scatter(job.found) if job.found else {})}
+
+
+def _of_front(design: ParetoPoint) -> Record:
+    told = design.verification
+    return {
+        "values": [*design.values],
+        **_design(design.rates, design.placements),
+        "verification": told and _verification(told),
+    }
+
+
+def _verification(told: Verification) -> Record:
+    """Its fields, None for numbers that are unknown."""
+    return {
+        "value": told.value if math.isfinite(told.value) else None,
+        "difference": told.difference if math.isfinite(told.difference) else None,
+        "frequency_hz": told.frequency_hz.tolist(),
+        "are_kept": bool(told.are_kept),
+        "impossible": told.impossible,
+        "gap": plain_of(told.gap),
+        "deflection": told.deflection.tolist(),
+    }
+
+
+def _of_scatter(found: ScatterOutcome) -> Record:
+    """The quantities of all vehicles, and between what their spectra stay at every point."""
+    low, high = (
+        [[[_short(value) for value in point] for point in line] for line in band.tolist()]
+        for band in found.percentiles
+    )
+    bands = {"points": [*found.points], "frequency_hz": found.frequency_hz.tolist()}
+    return {**found.record, "bands": {**bands, LOW: low, HIGH: high}}
+
+
+def _short(value: float) -> float:
+    """A value to six digits, for a line in a chart."""
+    return float(f"{value:.6g}")
 
 
 def _design(rates: Rates, placements: Placements) -> dict[str, Any]:

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 from modeviz.analysis.results import AXIS, Conditions
 from modeviz.compute.cancel import CancelToken
+from modeviz.report.records import Record
+from modeviz.report.scatter import scatter_record
 from modeviz.scatter.driving import Scattered, ScatterOptions, drive_many
-from modeviz.scatter.monte_carlo import Scatter
 from modeviz.scatter.tolerance import Tolerance
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
@@ -20,16 +20,16 @@ from modeviz.viewer.tasks.background_task import BackgroundTask, Job, Tell
 PERCENT = (5.0, 95.0)
 """Between these percentiles a band is drawn."""
 
+LOW, HIGH = (f"p{percent:g}" for percent in PERCENT)
+"""What records call them."""
+
 
 @dataclass(frozen=True, eq=False)
-class Build:
-    """Vehicles that are built with some rates."""
+class Built:
+    """Vehicles that were built with some rates."""
 
     rates: Rates
     conditions: Conditions
-    problem: Problem
-    """Whose goal is looked at."""
-    options: ScatterOptions
 
     def is_of(self, state: State) -> bool:
         """Return whether they have the rates of a state, on its road at its speed."""
@@ -37,19 +37,33 @@ class Build:
 
 
 @dataclass(frozen=True, eq=False)
+class Build(Built):
+    """Vehicles that are built with some rates, and what is looked at."""
+
+    problem: Problem
+    """Whose goal is looked at."""
+    options: ScatterOptions
+
+
+@dataclass(frozen=True, eq=False)
 class ScatterOutcome:
     """The responses of these vehicles."""
 
-    told: Scattered
+    record: Record
+    """Of their quantities, see `scatter_record`."""
+    frequency_hz: Floats
+    """(n_freqs,)."""
+    points: tuple[str, ...]
+    """Names of response points."""
+    percentiles: Floats
+    """The band of the PSDs, (2, n_freqs, n_points, 3), g²/Hz."""
 
-    @property
-    def scatter(self) -> Scatter:
-        return self.told.scatter
 
-    @cached_property
-    def percentiles(self) -> Floats:
-        """The band of the PSDs, (2, n_freqs, n_points, 3), g²/Hz."""
-        return self.scatter.psd_percentiles(PERCENT)
+def outcome(told: Scattered) -> ScatterOutcome:
+    """Return what is kept of a scatter: not every vehicle's spectrum."""
+    found = told.scatter
+    percentiles = found.psd_percentiles(PERCENT)
+    return ScatterOutcome(scatter_record(told), found.frequency_hz, found.points, percentiles)
 
 
 class ScatterTask:
@@ -66,16 +80,16 @@ class ScatterTask:
             report: told what is our mistake; gives the number under which it is logged.
         """
         self._session, self._changed = session, changed
-        self._task = BackgroundTask[Job[Build, ScatterOutcome]](
+        self._task = BackgroundTask[Job[Built, ScatterOutcome]](
             "scatter", self._scatter, self._tell, report
         )
 
     @property
-    def job(self) -> Job[Build, ScatterOutcome] | None:
-        """The newest scatter; None before the first."""
+    def job(self) -> Job[Built, ScatterOutcome] | None:
+        """The newest scatter, or one of before that is shown; None before the first."""
         return self._task.job
 
-    def watch(self, watcher: Callable[[Job[Build, ScatterOutcome]], None]) -> None:
+    def watch(self, watcher: Callable[[Job[Built, ScatterOutcome]], None]) -> None:
         """Has somebody else given every job when there is something new."""
         self._task.watch(watcher)
 
@@ -94,6 +108,10 @@ class ScatterTask:
         options = ScatterOptions(n_samples, Tolerance(), points=points)
         self._task.start(Job(Build(state.design.rates, state.conditions, problem, options)))
 
+    def show(self, job: Job[Built, ScatterOutcome]) -> None:
+        """Shows what was found before; raises ModevizError while it is scattered."""
+        self._task.show(job)
+
     def cancel(self) -> None:
         """Ends what is running; nothing of it is kept."""
         self._task.cancel()
@@ -110,13 +128,17 @@ class ScatterTask:
             return None
         if not isinstance(curve, ResponseCurve):
             return None
-        axis = AXIS[curve.direction]
-        return job.found.scatter.frequency_hz, job.found.percentiles[:, :, curve.point, axis]
+        point, found = self._session.vehicle.response_points[curve.point].name, job.found
+        if point not in found.points:
+            return None
+        band = found.percentiles[:, :, found.points.index(point), AXIS[curve.direction]]
+        return found.frequency_hz, band
 
     def _scatter(
-        self, job: Job[Build, ScatterOutcome], token: CancelToken, tell: Tell
+        self, job: Job[Built, ScatterOutcome], token: CancelToken, tell: Tell
     ) -> ScatterOutcome:
         build, session = job.asked, self._session
+        assert isinstance(build, Build)
         told = drive_many(
             session.vehicle,
             lambda: session.prepared,
@@ -128,7 +150,7 @@ class ScatterTask:
             lambda done: tell(done=done),
             at_least=0,
         )
-        return ScatterOutcome(told)
+        return outcome(told)
 
     def _tell(self) -> None:
         """Has the charts drawn again once there is a band."""

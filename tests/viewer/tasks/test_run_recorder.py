@@ -40,9 +40,10 @@ def bench(tmp_path):
             "front": FrontTask(session, watcher.tell, print),
             "scatter": ScatterTask(session, watcher.tell, print),
         }
-        RunRecorder(study, KEY, lambda: "Ada", tasks)
+        RunRecorder(study, KEY, lambda: "Ada", tasks, lambda run: None)
         yield session, study, tasks, watcher
-        tasks["search"].close()
+        for task in tasks.values():
+            task.cancel()
         study.close()
 
 
