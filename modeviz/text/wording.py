@@ -95,6 +95,11 @@ def significant(value: float) -> str:
     return text.rstrip("0").rstrip(".") if decimals else text
 
 
+def in_a_box(value: float) -> float:
+    """A number, zero or more, as a box has room for it: to four digits if it has more than five."""
+    return value if float(f"{value:.5g}") == value else float(significant(value))
+
+
 def percent_change(now: float, base: float) -> str:
     """The change of a value in percent; of nothing there is no percentage."""
     if base == 0:

@@ -4,6 +4,7 @@ import pytest
 
 from modeviz.text.wording import (
     file_name,
+    in_a_box,
     number,
     percent_change,
     power_of_ten,
@@ -63,6 +64,11 @@ def test_four_digits_are_kept_and_no_empty_ones():
     values = {1094.0: "1094", 21000.0: "21000", 137.75: "137.8", 0.25: "0.25", 100.0: "100", 0.0: "0"}
     assert {v: significant(v) for v in values} == values
     assert significant(100 / 3) == "33.33"
+
+
+def test_a_box_shows_four_digits_of_what_has_more_than_it_has_room_for():
+    values = {139.312345: 139.3, 139.25: 139.25, 0: 0, 1234567.8: 1234568, 1 / 3: 0.3333, 12000: 12000}
+    assert {v: in_a_box(v) for v in values} == values
     assert significant(9.99996) == "10"
 
 

@@ -11,6 +11,7 @@ from modeviz.export.solution import ExportOptions, Solution
 from modeviz.export.writers import Writer
 from modeviz.formats.component import UNIT_SYSTEMS
 from modeviz.text.wording import file_name, told_apart
+from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.panels.downloads import Downloads
@@ -145,7 +146,7 @@ class _File:
 def _choices(vehicle: Vehicle) -> dict[str, dict[str, _File]]:
     """What there is of a vehicle by what it is called, and for each the formats likewise."""
     words = body_words(vehicle)
-    bodies = {label: words[name] for label, name in told_apart(vehicle.bodies).items()}
+    bodies = {label: words[name] for label, name in told_apart(carrying_bodies(vehicle)).items()}
     writers = contents(vehicle)
     missing = set() if vehicle.mount_groups else {"rates", "mounts"}
     missing |= set() if vehicle.response_points else {"frf"}

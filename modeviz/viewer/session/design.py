@@ -19,7 +19,7 @@ from modeviz.viewer.session.planning.plan import Plan
 ORIGINAL = "Original"
 """The name of the vehicle's own rates among the sets."""
 
-LINKED_DIGITS = 5
+LINKED_DIGITS = 4
 """Of a rate that follows another: as many as a number on the page has room for."""
 
 

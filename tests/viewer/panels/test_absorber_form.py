@@ -7,6 +7,7 @@ from opened_app import SOON
 from modeviz.analysis.absorbers import effective_mass
 from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.viewer.panels.mounts.absorber_draft import AbsorberDraft, places
+from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.commands.looks import ShowMode
 
 
@@ -49,5 +50,17 @@ def test_its_rates_have_no_more_digits_than_their_boxes_have_room_for(opened):
     (absorber,) = app.session.state.design.alterations.absorbers
     for row in app._mounts._folders[absorber.name]._rows.values():
         shown = row._number.value
-        assert shown == float(f"{shown:.5g}") > 0
+        assert shown == float(f"{shown:.4g}") > 0
         assert "%" not in row._slider.label
+
+
+def test_a_rate_of_many_digits_is_shown_to_four_and_stays_what_it_is(opened):
+    app = opened(mounted_cabin())
+    app.session.do(SetRate("A", "vertical", 139312.345))
+    row = app._mounts._folders["A"]._rows["vertical"]
+    assert row._in_unit(app.session.state) == 139.3
+    row._type(139.3)
+    assert app.session.state.design.rates["A"].vertical == 139312.345
+    row._type(139.25)
+    assert app.session.state.design.rates["A"].vertical == 139250
+    assert row._in_unit(app.session.state) == 139.25

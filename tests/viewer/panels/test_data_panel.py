@@ -10,6 +10,8 @@ from session_commands import Alter
 from modeviz.cli.options import RoadOptions
 from modeviz.export.solution import ExportOptions
 from modeviz.study.study import Study
+from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorbers import with_absorbers
 from modeviz.vehicle.bodies import Material, MeshPart
 from modeviz.vehicle.connections import Tyre
 from modeviz.viewer.app import App
@@ -93,3 +95,8 @@ def test_what_a_vehicle_lacks_is_not_offered():
         "Vehicle folder",
     }
     assert {"Cab", "Chassis"} <= offered
+
+
+def test_the_mass_of_an_absorber_is_no_body_to_be_written():
+    tva = Absorber("tva", "cab", (1.0, 0.2, 1.4), 6.0, 12.0, 0.1)
+    assert _choices(with_absorbers(cabin(), [tva])).keys() == _choices(cabin()).keys()

@@ -7,7 +7,7 @@ import viser
 from modeviz.errors import ModevizError
 from modeviz.files.schema.scaling import written
 from modeviz.report.rate_fields import direction, quantity, spoken
-from modeviz.text.wording import MINUS, sentence_case, signed
+from modeviz.text.wording import MINUS, in_a_box, sentence_case, signed
 from modeviz.units import QuantityName, factor
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import Rates
@@ -113,7 +113,8 @@ class RateRow:
         return state.units[self._quantity]
 
     def _in_unit(self, state: State) -> float:
-        return written(self._rate_in(state.design.rates), factor(self._unit(state), self._quantity))
+        rate = self._rate_in(state.design.rates)
+        return in_a_box(written(rate, factor(self._unit(state), self._quantity)))
 
     @property
     def _called(self) -> str:
@@ -131,6 +132,8 @@ class RateRow:
     def _type(self, value: float) -> None:
         unit = self._unit(self._session.state)
         per_unit = factor(unit, self._quantity)
+        if value == self._in_unit(self._session.state):
+            return  # what the box shows of a rate with more digits
         if not 0 <= value * per_unit <= STIFFEST:
             found = f"{value:g}".replace("-", MINUS)
             raise ModevizError(

@@ -9,7 +9,7 @@ import viser
 
 from modeviz.files.schema.scaling import written
 from modeviz.report.rate_fields import fields_of_groups, is_damping, quantity, spoken
-from modeviz.text.wording import sentence_case
+from modeviz.text.wording import in_a_box, sentence_case
 from modeviz.units import QuantityName, factor
 from modeviz.vehicle.mount_rates import DAMPING_FIELDS, RATE_FIELDS, STIFFNESS_FIELDS
 from modeviz.vehicle.vehicle import Vehicle
@@ -95,7 +95,7 @@ class BoundsEditor:
         def read(state: State, plan: Plan) -> tuple[float, ...]:
             unit = factor(state.units[quantity(field)], quantity(field))
             ends = plan.group.softest, plan.group.stiffest
-            return tuple(written(getattr(end, field), unit) for end in ends)
+            return tuple(in_a_box(written(getattr(end, field), unit)) for end in ends)
 
         def write(typed: tuple[float, float]) -> None:
             self._controls.change(lambda state, plan: bounded(plan, field, typed, state.units))
@@ -123,7 +123,7 @@ def bounded(
     changed = {}
     for name, value in ends.items():
         rates = getattr(plan.group, name)
-        if written(getattr(rates, field), per_unit) != value:
+        if in_a_box(written(getattr(rates, field), per_unit)) != value:
             changed[name] = replace(rates, **{field: value * per_unit})
     return plan.with_group(**changed)
 
