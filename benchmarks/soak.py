@@ -117,7 +117,7 @@ def soak(vehicle: Vehicle, n_actions: int, seconds: float, seed: int = 1) -> Soa
             page.on("pageerror", lambda error: found.failures.append(f"page: {error}"))
             page.on("console", found.note)
             _use(page, server, found, seconds, seed)
-            app.search_task.close()
+            app.tasks.search.close()
             found.disagreements = _disagreements(page, server, app.session)
     finally:
         app.close()

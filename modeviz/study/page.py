@@ -113,7 +113,9 @@ class Page:
             moving = f"{solved.movement.heading}, at its largest"
             png = png_bytes(still(solved, options.dark, *STILL).quantize(N_COLORS))
             if options.offline:
-                page = self.app.offline(*camera(box(session.vehicle), ISO, STILL[0], options.height))
+                page = self.app.documents.offline(
+                    *camera(box(session.vehicle), ISO, STILL[0], options.height)
+                )
         return Cell(
             name=session.vehicle.name,
             link=self.link,

@@ -22,7 +22,7 @@ def open_app(server: Server, vehicle: Vehicle, conditions: Conditions) -> Iterat
     app = App(vehicle, vehicle.rates, conditions, server)
     server.scene.configure_environment_map(None)
     app.scene._stage._key.cast_shadow = False
-    app._animation._run(False)
+    app.screen.motion.animation._run(False)
     try:
         yield app
     finally:

@@ -188,7 +188,7 @@ def test_a_file_that_is_dropped_does_not_take_the_place_of_the_page(page):
 
 def test_what_a_page_loses_is_put_back(app, page):
     """viser throttles all widgets with one timer; the server's value must reach the screen."""
-    row = app._mounts._folders["C2"]._rows["lateral"]
+    row = app.screen.controls.mounts._folders["C2"]._rows["lateral"]
     send(page, row._slider, 100)
     # The page itself still draws the old value, as after a lost message; then it gets the server's.
     wait_until(page, lambda: position(thumb(page, "C2", "lateral")) == 100)
@@ -241,14 +241,14 @@ def test_a_move_of_a_slider_sends_less_than_200_kb_whatever_is_drawn(
 
 
 def test_the_motion_plays_and_stops_with_a_click(app, page):
-    driver = app._scene.driver
+    driver = app.scene.driver
     page.get_by_role("button", name="Play", exact=True).click()
     wait_until(page, lambda: driver._running)
     page.get_by_role("button", name="Pause", exact=True).click()
     wait_until(page, lambda: not driver._running)
     page.get_by_role("button", name="Play", exact=True).click()
     wait_until(page, lambda: driver._running)
-    app._animation._run(False)
+    app.screen.motion.animation._run(False)
 
 
 def test_a_fine_screen_is_as_large_as_a_coarse_one(app, server, open_page):

@@ -17,7 +17,7 @@ GUIDE = "!!document.querySelector('.mv .keys')"
 @pytest.fixture(scope="module")
 def app(server):
     with open_app(server, mounted_cabin(), Conditions("flat", 20.0)) as app:
-        app.guide.welcome_first()
+        app.screen.guide.welcome_first()
         app.start()
         assert app.session.wait(SOLVE_S)
         yield app
@@ -42,7 +42,7 @@ def test_the_guide_comes_back_on_the_page_that_asks_with_all_keys(app, page):
     page.get_by_role("button", name="What can I do here?").click()
     wait_for(page, GUIDE)
     keys = page.evaluate("Array.from(document.querySelectorAll('.keys kbd'), (k) => k.textContent)")
-    assert keys == [key for hotkey in app._hotkeys.listed for key in hotkey.keys]
+    assert keys == [key for hotkey in app.screen.hotkeys.listed for key in hotkey.keys]
     page.keyboard.press("h")  # opens no second one
     page.get_by_role("button", name="Start").click()
     wait_for(page, f"!{GUIDE}")
@@ -60,7 +60,7 @@ def test_keys_do_nothing_behind_the_guide(app, page):
     draw_on(page)
     assert app.session.state == before
     assert page.evaluate(CAMERA) == camera
-    assert not app._scene.driver._running
+    assert not app.scene.driver._running
     page.get_by_role("button", name="Start").focus()
     page.keyboard.press("Space")  # closes it
     wait_for(page, f"!{GUIDE}")
@@ -103,7 +103,7 @@ def test_keys_show_the_next_mode_and_the_one_before(app, page):
 
 
 def test_the_space_bar_plays_and_stops_once_even_on_the_button_that_was_clicked(app, page):
-    driver = app._scene.driver
+    driver = app.scene.driver
     page.get_by_role("button", name="Play", exact=True).click()
     wait_until(page, lambda: driver._running)
     page.keyboard.press("Space")
@@ -123,4 +123,4 @@ def test_keys_do_nothing_while_somebody_types(app, page):
     wait_until(page, lambda: app.session.state != before)
     app.session.do(Become(before))
     assert app.session.state == before
-    assert not app._scene.driver._running
+    assert not app.scene.driver._running

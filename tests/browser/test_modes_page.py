@@ -78,7 +78,7 @@ def page(app, server, open_page):
 def first(app, page):
     """Every test starts with what the session opened with, standing still."""
     state = first_state(app.session.vehicle, app.session.vehicle.rates, Conditions("flat", 20.0))
-    app._animation._run(False)
+    app.screen.motion.animation._run(False)
     app.session.do(Become(state))
     assert app.session.wait(SOLVE_S)
     shown(app, page)
@@ -153,14 +153,14 @@ def test_the_operating_shape_follows_rates_and_frequency(app, page):
     shown(app, page)
     softer = drawn(page, "cab")[1]
     assert np.abs(softer - before).max() > 0.01
-    send(page, app._shape._frequency, 14.0)
+    send(page, app.screen.motion.shape._frequency, 14.0)
     wait_until(page, lambda: app.session.answer.movement.frequency_hz == 14.0)
     shown(app, page)
     assert np.abs(drawn(page, "cab")[1] - softer).max() > 0.01
 
 
 def test_sag_stands_still_as_large_as_is_said_and_follows_rates(app, page):
-    app._animation._run(True)
+    app.screen.motion.animation._run(True)
     open_tab(page, "Static")
     page.get_by_label("Draw sag").check()
     wait_for(page, "document.querySelector('.mv .title').textContent === 'Sag: standing'")
@@ -178,7 +178,7 @@ def test_sag_stands_still_as_large_as_is_said_and_follows_rates(app, page):
     wait_for(page, "document.body.innerText.includes(a.force)", force=f"{force:.0f}")
     page.get_by_label("Draw sag").uncheck()
     wait_for(page, f"{FREQUENCY} > 0")
-    app._animation._run(False)
+    app.screen.motion.animation._run(False)
 
 
 def test_a_peak_is_one_click_away(app, page):
@@ -240,16 +240,16 @@ def test_undo_takes_a_rate_back_and_leaves_what_moves(app, page):
 
 
 def test_scrubbing_goes_to_the_phase_and_stops(app, page):
-    app._animation._run(True)
+    app.screen.motion.animation._run(True)
     wait_for(page, f"{FREQUENCY} > 0")
-    send(page, app._animation._phase, 215.0)
+    send(page, app.screen.motion.animation._phase, 215.0)
     wait_for(page, f"Math.abs({PHASE} - a.phase) < 1e-5", phase=np.deg2rad(215))
-    assert not app._scene.driver._running
+    assert not app.scene.driver._running
 
 
 def test_pausing_keeps_the_phase_that_is_seen_and_the_slider_says_it(app, page):
     open_tab(page, "Motion")
-    phase = app._animation._phase
+    phase = app.screen.motion.animation._phase
     send(page, phase, 0.0)
     wait_for(page, f"{PHASE} === 0")
     page.evaluate(WATCH_PAUSE)
@@ -262,13 +262,13 @@ def test_pausing_keeps_the_phase_that_is_seen_and_the_slider_says_it(app, page):
     wait_for(page, f"Math.abs({PHASE} - a.phase) < 1e-5", phase=np.deg2rad(phase.value))
     row = page.get_by_text("Phase", exact=True).locator("xpath=ancestor::*[.//input][1]")
     wait_until(page, lambda: row.locator("input").last.input_value() == f"{phase.value:g}")
-    assert not app._scene.driver._running
+    assert not app.scene.driver._running
 
 
 @pytest.mark.parametrize(("slider", "value"), [("_amplitude", 1.5), ("_speed", 0.8), ("_phase", 120.0)])
 def test_moving_amplitude_speed_or_phase_sends_less_than_1_kb(app, server, page, slider, value):
     assert app.session.wait_checked(SOLVE_S)  # else it goes on sending how far the check is
     with listening(server) as socket:
-        send(page, getattr(app._animation, slider), value)
+        send(page, getattr(app.screen.motion.animation, slider), value)
         sent = n_bytes(socket)
     assert 0 < sent < 1000

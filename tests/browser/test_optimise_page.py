@@ -51,7 +51,7 @@ def original(app, page):
     app.session.do(Alter(variants={}, plan=plan))
     assert app.session.wait(SOLVE_S)
     yield
-    app.search_task.close()
+    app.tasks.search.close()
 
 
 @pytest.fixture
@@ -65,15 +65,15 @@ def press(page, name):
 
 def start(app, page, reached):
     """Starts a search and waits until something is true of how it stands."""
-    before = app.search_task.job  # of one that has ended: nothing of it changes any more
+    before = app.tasks.search.job  # of one that has ended: nothing of it changes any more
     press(page, "Start")
-    wait_until(page, lambda: app.search_task.job is not before and reached(app.search_task.job))
+    wait_until(page, lambda: app.tasks.search.job is not before and reached(app.tasks.search.job))
 
 
 def search(app, page):
     """Searches to the end; gives what was found."""
     start(app, page, lambda job: job.found)
-    found = app.search_task.job.found
+    found = app.tasks.search.job.found
     wait_for(page, f"{BEST} === a.best && {TEXT}.includes('Converged')", best=significant(found.value))
     return found
 
@@ -86,7 +86,7 @@ def test_a_search_shows_how_the_goal_falls_and_moves_the_page_after_it(app, page
     wait_until(page, lambda: app.session.answer.now.rates == found.rates)
     assert not np.array_equal(app.session.answer.now.psd, before)
     wait_for(page, f"{TEXT}.includes('the model as given has the same goal within')")
-    chart = app._optimise._fall._chart
+    chart = app.screen.controls.optimise._fall._chart
     assert chart.data[1][-1] == pytest.approx(found.value, rel=1e-6)
     assert chart.data[0][-1] == found.evaluations
 
@@ -96,16 +96,16 @@ def test_it_is_paused_goes_on_and_is_cancelled_with_the_best_design(app, page, h
     press(page, "Pause")
     wait_for(page, f"{TEXT}.includes('Paused')")
     held.set()
-    at = app.search_task.job.progress.evaluations
+    at = app.tasks.search.job.progress.evaluations
     press(page, "Resume")
-    wait_until(page, lambda: app.search_task.job.progress.evaluations > at)
+    wait_until(page, lambda: app.tasks.search.job.progress.evaluations > at)
 
 
 def test_cancel_keeps_the_best_design(app, page, held):
     start(app, page, lambda job: job.history)
     press(page, "Cancel")
     wait_for(page, f"{TEXT}.includes('Cancelled')")
-    look = app.search_task.job
+    look = app.tasks.search.job
     assert app.session.state.design.rates == look.found.rates == look.progress.rates
 
 
@@ -284,10 +284,10 @@ def test_nothing_in_the_tab_is_wider_than_its_column(app, page):
 
 
 def test_scattered_parts_shade_the_charts_until_a_rate_moves(app, page):
-    chart = app._response._charts._plots[0]._chart
+    chart = app.screen.results.response._charts._plots[0]._chart
     assert not chart.bands
     press(page, "Scatter")
-    wait_until(page, lambda: app.scatter_task.job and app.scatter_task.job.found)
+    wait_until(page, lambda: app.tasks.scatter.job and app.tasks.scatter.job.found)
     wait_for(page, f"{TEXT}.includes('1000 vehicles')")
     wait_until(page, lambda: chart.bands)
     low, high, *_, now, _ = chart.data[1:]
@@ -301,9 +301,9 @@ def test_a_click_on_a_front_loads_its_design(app, page, monkeypatch):
     monkeypatch.setattr(front_task, "find_front", partial(front_task.find_front, n_designs=4))
     monkeypatch.setattr(front_task, "N_STARTS", 1)
     press(page, "Find front")
-    wait_until(page, lambda: app.front_task.job and app.front_task.job.phase == "ended", seconds=120)
+    wait_until(page, lambda: app.tasks.front.job and app.tasks.front.job.phase == "ended", seconds=120)
     points = "document.querySelectorAll('.mv .front > div')"
-    designs = app.front_task.job.found
+    designs = app.tasks.front.job.found
     wait_for(page, f"{points}.length === a.n", n=len(designs))
     page.locator(".mv .front label").nth(1).click()
     wait_until(page, lambda: app.session.state.design.rates == designs[1].rates)

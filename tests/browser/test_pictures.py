@@ -177,7 +177,7 @@ def app():
     server.scene.configure_environment_map(None)
     app.scene._stage._key.cast_shadow = False
     app.start()
-    app._animation._run(False)
+    app.screen.motion.animation._run(False)
     app.session.do(ShowMode("cab yaw"))
     app.session.do(Alter(ghost="none"))  # outlines at rest fight with bodies for the same pixels
     assert app.session.wait(SOLVE_S)
@@ -196,14 +196,14 @@ def bench(app, open_page):
         field = page.get_by_label(label, exact=True)
         field.fill(str(value))
         field.press("Enter")
-    panel = app._pictures
+    panel = app.screen.controls.pictures
     wait_until(page, lambda: (panel._width.value, panel._height.value) == (160, 120))
     return page
 
 
 def saved(app, page, kind):
     """The content of what the page downloads."""
-    app._pictures._kind.value = kind
+    app.screen.controls.pictures._kind.value = kind
     with page.expect_download(timeout=2000 * SOLVE_S) as downloading:
         page.get_by_role("button", name="Save").click()
     wait_for(page, "!document.querySelector('.mantine-Modal-content')")
@@ -211,7 +211,7 @@ def saved(app, page, kind):
 
 
 def test_picture_is_downloaded_in_its_size_and_not_blank(app, bench):
-    app._pictures._backdrop.value = "Transparent"
+    app.screen.controls.pictures._backdrop.value = "Transparent"
     name, content = saved(app, bench, "Picture, PNG")
     image = Image.open(io.BytesIO(content))
     assert (name, image.size, image.mode) == ("pickup-cab-yaw.png", (160, 120), "RGBA")
@@ -248,10 +248,10 @@ def test_film_is_downloaded_and_plays_some_cycles(app, bench, monkeypatch):
 
 
 def test_cancel_stops_a_loop_saves_nothing_and_the_motion_goes_on(app, bench):
-    app._animation._run(True)
+    app.screen.motion.animation._run(True)
     downloads = []
     bench.on("download", lambda download: downloads.append(download))
-    app._pictures._kind.value = "Loop, GIF"
+    app.screen.controls.pictures._kind.value = "Loop, GIF"
     bench.get_by_role("button", name="Save").click()
     wait_for(bench, "window.__viserSceneTree.getState()['/_held']")
     bench.get_by_role("button", name="Cancel").click()
@@ -259,7 +259,7 @@ def test_cancel_stops_a_loop_saves_nothing_and_the_motion_goes_on(app, bench):
     wait_for(bench, "!window.__viserSceneTree.getState()['/_held']")
     before = bench.evaluate("window.__modeviz.phase")
     wait_for(bench, "window.__modeviz.phase !== a.before", before=before)
-    app._animation._run(False)
+    app.screen.motion.animation._run(False)
     assert not downloads
 
 
@@ -359,9 +359,9 @@ def test_a_page_that_nobody_sees_draws_only_pictures_and_the_first_as_well_as_an
 
 
 def test_offline_page_is_downloaded_and_moves_with_the_network_off(app, bench, browser, tmp_path):
-    app._animation._run(True)
+    app.screen.motion.animation._run(True)
     name, content = saved(app, bench, "Offline page, HTML")
-    app._animation._run(False)
+    app.screen.motion.animation._run(False)
     assert name == "pickup-cab-yaw.html"
     file = tmp_path / name
     file.write_bytes(content)
@@ -429,7 +429,7 @@ def test_report_of_the_command_line_has_a_picture_of_the_mode_with_each_set(
 
 def downloaded(app, page, content, kind):
     """The name and the content of a file of data that the page downloads."""
-    panel = app._data
+    panel = app.screen.controls.data
     panel._content.value = content
     panel._offer()
     panel._format.value = kind

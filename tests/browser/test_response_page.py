@@ -248,10 +248,10 @@ def test_a_click_in_a_chart_puts_the_cursor_there_and_a_drag_takes_it_along(app,
 
 def test_the_forces_of_mounts_follow_a_drag_on_the_page(app, page):
     page.get_by_role("tab", name="Forces").click()
-    before = app._forces._content.content
+    before = app.screen.results.forces._content.content
     app.session.do(SetRate("A", "vertical", 2e6))
     assert app.session.wait(SOLVE_S)
-    assert app._forces._content.content != before
+    assert app.screen.results.forces._content.content != before
     rms = app.session.answer.now.mount_forces().rms[0, 2]
     wait_for(page, "document.body.innerText.includes(a.text)", text=f"{float(f'{rms:.3g}'):g}")
 

@@ -49,15 +49,15 @@ def test_a_visitor_looks_along_with_who_presents_until_he_looks_himself(
     wait_for(guest_page, INERT)
     assert owner_page.evaluate(f"{BANNER} ?? null") is None
 
-    amplitude = app._animation._amplitude
+    amplitude = app.screen.motion.animation._amplitude
     send(guest_page, amplitude, 2.0)
-    send(guest_page, app._variants._name._box, "mine")
-    card = app._review._cards[guest.client_id]
+    send(guest_page, app.screen.controls.variants._name._box, "mine")
+    card = app.screen.review._cards[guest.client_id]
     send(guest_page, card._name, "<b>Eve</b>")
     wait_until(guest_page, lambda: server.visitors.of_page(guest.client_id).name == "bEve/b")
     assert amplitude.value == 1.0
     wait_for(guest_page, "localStorage.getItem('modeviz-name') === 'bEve/b'")
-    assert "bEve/b" in app._review._cards[owner.client_id]._list.content
+    assert "bEve/b" in app.screen.review._cards[owner.client_id]._list.content
 
     wait_until(guest_page, lambda: are_together(owner, guest))
     began = owner.camera.position

@@ -68,7 +68,11 @@ def opened(directory, page, count):
 
 def drawn(app):
     """All curves of the charts, as they are on the page."""
-    return [np.array(column) for plot in app._response._charts._plots for column in plot._chart.data]
+    return [
+        np.array(column)
+        for plot in app.screen.results.response._charts._plots
+        for column in plot._chart.data
+    ]
 
 
 def test_a_copied_link_opens_the_same_view_in_another_browser(directory, open_page):
@@ -81,10 +85,10 @@ def test_a_copied_link_opens_the_same_view_in_another_browser(directory, open_pa
         first.session.do(command)
     assert first.session.wait(SOLVE_S)
     page.keyboard.press("Escape")  # closes the guide
-    send(page, first._animation._amplitude, 1.85)
-    send(page, first._animation._phase, 215.0)
-    wait_until(page, lambda: first._animation._amplitude.value == 1.85)
-    wait_until(page, lambda: not first._animation.animation.is_running)
+    send(page, first.screen.motion.animation._amplitude, 1.85)
+    send(page, first.screen.motion.animation._phase, 215.0)
+    wait_until(page, lambda: first.screen.motion.animation._amplitude.value == 1.85)
+    wait_until(page, lambda: not first.screen.motion.animation.animation.is_running)
     (client,) = first.server.get_clients().values()
     client.camera.position, client.camera.look_at = (4.0, -3.0, 2.5), (1.2, 0.0, 0.8)
     wait_until(page, lambda: np.allclose(client.camera.position, (4.0, -3.0, 2.5), atol=1e-6))
@@ -104,7 +108,7 @@ def test_a_copied_link_opens_the_same_view_in_another_browser(directory, open_pa
     assert second.session.state.charts == first.session.state.charts
     assert second.session.state.motion == first.session.state.motion
     assert second.session.state.conditions == first.session.state.conditions
-    assert second._animation.animation == first._animation.animation
+    assert second.screen.motion.animation.animation == first.screen.motion.animation.animation
     solved = second.session.answer, first.session.answer
     np.testing.assert_allclose(*(each.now.modes.frequency_hz for each in solved), rtol=1e-9)
     assert solved[0].followed.mode == solved[1].followed.mode

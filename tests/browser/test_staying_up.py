@@ -89,7 +89,7 @@ class Visit:
         mouse.move(x + shift, y, steps=5)
         mouse.up()
         app = self._directory.sessions.open[self.name].app
-        slider = app._mounts._folders["A"]._rows["vertical"]._slider
+        slider = app.screen.controls.mounts._folders["A"]._rows["vertical"]._slider
         wait_until(self.page, lambda: slider.value == position(thumb(self.page, "A", "vertical")))
 
 

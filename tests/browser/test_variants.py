@@ -45,7 +45,7 @@ def press(page, name):
 
 
 def type_name(app, page, name):
-    box = app._variants._name._box
+    box = app.screen.controls.variants._name._box
     page.locator(".mantine-TextInput-input:visible").fill(name)
     wait_until(page, lambda: box.value == name)
 

@@ -177,7 +177,7 @@ def test_a_session_of_a_later_modeviz_is_left_as_it_is_and_the_page_says_so(tmp_
         bench.study.begin(name)
         bench.study.look(name, later)
         moved(front, directory, path)
-        status = directory.sessions.open[name].app._status._content.content
+        status = directory.sessions.open[name].app.screen.controls.status._content.content
         assert "written by a later modeviz" in status
         assert "what is done here is not saved" in status
     with serving(file) as (front, directory):

@@ -56,16 +56,16 @@ def file(tmp_path_factory):
     path = tmp_path_factory.mktemp("runs") / "cabin.modeviz"
     study = StudyFile.open(path, VEHICLE.name, PRINT)
     app = opened(study)
-    app.front_task.start(app.front_task.offers()[0])
-    wait_until(lambda: not app.front_task.job.is_running, SOON)
-    app.scatter_task.start(300)
-    wait_until(lambda: not app.scatter_task.job.is_running, SOON)
+    app.tasks.front.start(app.tasks.front.offers()[0])
+    wait_until(lambda: not app.tasks.front.job.is_running, SOON)
+    app.tasks.scatter.start(300)
+    wait_until(lambda: not app.tasks.scatter.job.is_running, SOON)
     runs_of(study, 2)
-    wait_until(lambda: "300 vehicles" in text(app._earlier._list))
-    app._trade_off.follow()
-    app._scatter.follow()
-    said = text(app._trade_off._front), text(app._scatter._text)
-    shown = app.front_task.job, app.scatter_task.job
+    wait_until(lambda: "300 vehicles" in text(app.screen.controls.earlier._list))
+    app.screen.controls.trade_off.follow()
+    app.screen.controls.scatter.follow()
+    said = text(app.screen.controls.trade_off._front), text(app.screen.controls.scatter._text)
+    shown = app.tasks.front.job, app.tasks.scatter.job
     app.close()
     study.close()
     return path, said, shown
@@ -82,13 +82,16 @@ def test_front_and_band_are_drawn_when_the_session_is_opened_again(file, study):
     _, said, (front, scatter) = file
     app = opened(study)
     try:
-        assert (text(app._trade_off._front), text(app._scatter._text)) == said
-        assert [d.values for d in app.front_task.job.found] == [d.values for d in front.found]
-        f, band = app.scatter_task.shaded(app.session.state, CURVE)
+        assert (
+            text(app.screen.controls.trade_off._front),
+            text(app.screen.controls.scatter._text),
+        ) == said
+        assert [d.values for d in app.tasks.front.job.found] == [d.values for d in front.found]
+        f, band = app.tasks.scatter.shaded(app.session.state, CURVE)
         np.testing.assert_array_equal(f, scatter.found.frequency_hz)
         np.testing.assert_allclose(band, scatter.found.percentiles[:, :, 0, 1], rtol=1e-5)
         app.session.do(SetRate("A", "vertical", 3e5))
-        assert app.scatter_task.shaded(app.session.state, CURVE) is None
+        assert app.tasks.scatter.shaded(app.session.state, CURVE) is None
         app.session.undo()
     finally:
         app.close()
@@ -100,15 +103,15 @@ def test_a_design_of_an_earlier_front_is_loaded_by_a_click_and_another_run_is_sh
     try:
         with visit(app.server) as page:
             page.send(encoded(CAMERA))
-            design = app.front_task.job.found[1]
-            page.send(update(app._trade_off._points._buttons[design], True))
+            design = app.tasks.front.job.found[1]
+            page.send(update(app.screen.controls.trade_off._points._buttons[design], True))
             wait_until(lambda: app.session.state.design.rates == design.rates)
             other = replace(design, values=(1.0, 2.0))
-            app.front_task.show(Job(Goals(("this", "that")), "ended", 1.0, (other,)))
-            assert "This" in text(app._trade_off._front)
+            app.tasks.front.show(Job(Goals(("this", "that")), "ended", 1.0, (other,)))
+            assert "This" in text(app.screen.controls.trade_off._front)
             (token,) = [run.token for run in study.runs(KEY) if run.kind == "front"]
-            page.send(update(app._earlier._buttons._buttons[token], True))
-            wait_until(lambda: len(app.front_task.job.found) > 1)
+            page.send(update(app.screen.controls.earlier._buttons._buttons[token], True))
+            wait_until(lambda: len(app.tasks.front.job.found) > 1)
         app.session.undo()
         assert app.session.state.design.rates == before
     finally:

@@ -118,7 +118,7 @@ def test_a_browser_finds_the_sessions_that_it_left_and_nobody_else_does(tmp_path
             page = start_page(front, cookie)[1]
             assert "Soft &lt;b&gt;" in page
             assert path in links(page)
-            named = next(iter(directory.sessions.open.values())).app._named
+            named = next(iter(directory.sessions.open.values())).app.keeping.title
             named.put("Cab <1>")
             assert "Cab &lt;1&gt;" in start_page(front, cookie)[1]
             moving = picture(front, "/picture?vehicle=first&left=0", cookie)

@@ -80,7 +80,7 @@ def test_a_solver_that_fails_is_told_to_every_page_and_the_slider_goes_back(
     monkeypatch.setattr(beginnings, "solve_on", faulty)
     app.session.do(SetRate("A", "lateral", GOOD))
     assert app.session.wait(SOON)
-    content = app._status._content.content
+    content = app.screen.controls.status._content.content
     app.session.do(SetRate("A", "lateral", BAD))
     numbers = {page.number() for page in pages}
     (number,) = numbers
@@ -99,7 +99,7 @@ def test_a_solver_that_fails_is_told_to_every_page_and_the_slider_goes_back(
 def test_a_panel_that_fails_leaves_the_page_at_the_last_state_that_all_show(app, pages, monkeypatch):
     app.session.do(SetRate("A", "lateral", GOOD))
     assert app.session.wait(SOON)
-    for panel in (app._modes, app._energy, app._static):
+    for panel in (app.screen.results.modes, app.screen.results.energy, app.screen.results.static):
         show = panel.show
 
         def faulty(solved, show=show):

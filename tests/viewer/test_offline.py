@@ -31,7 +31,7 @@ def beside(app, **asked):
     """The text beside the scene with something asked for, and the charts' lines, x from 0 to 1."""
     app.session.do(Alter(**asked))
     app.session.wait_for_answer(30)
-    page = app.offline(np.array([-5.0, -5, 2]), np.zeros(3)).decode()
+    page = app.documents.offline(np.array([-5.0, -5, 2]), np.zeros(3)).decode()
     text = page[page.index("<aside>") : page.index("</aside>")]
     points = [line.split() for line in re.findall('<polyline points="([^"]+)"', text)]
     lines = [np.array([p.split(",") for p in line], float) / (WIDTH, 1) for line in points]
@@ -82,8 +82,8 @@ def test_the_handle_of_mounts_stays_behind(app, monkeypatch):
     app.session.do(ChangeLook(handle=True))
     app.session.wait_for_answer(30)
     handle, seen = app.scene._handle._handle, []
-    monkeypatch.setattr("modeviz.viewer.app.offline_page", lambda *_: seen.append(handle.visible))
+    monkeypatch.setattr("modeviz.viewer.documents.offline_page", lambda *_: seen.append(handle.visible))
     assert handle.visible
-    app.offline(np.zeros(3), np.ones(3))
+    app.documents.offline(np.zeros(3), np.ones(3))
     assert seen == [False]
     assert handle.visible

@@ -45,7 +45,7 @@ class Reviewed:
         return before
 
     def undo(self, page):
-        page.send(update(self.app._history._buttons, UNDO))
+        page.send(update(self.app.screen.controls.history._buttons, UNDO))
 
     def told(self, page, words):
         assert heard_until(page, lambda told: [each for each in told if words in str(each)])
@@ -70,7 +70,7 @@ def test_owner_and_guest_undo_their_own_changes_after_the_server_was_killed(tmp_
             here.give_control("Anna")
             between = here.move(here.anna, 1)
             after = here.design
-            assert here.app._recorder.flush(20)
+            assert here.app.keeping._recorder.flush(20)
             for ending in ("", "-wal"):  # what is on the disk as the server is killed
                 shutil.copy(f"{file}{ending}", f"{killed}{ending}")
     assert b"annas-key-of-26" not in killed.read_bytes()

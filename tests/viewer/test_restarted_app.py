@@ -50,7 +50,7 @@ def test_a_session_with_an_absorber_is_there_after_a_restart_and_can_lose_it(tmp
     try:
         assert again.session.state == state
         assert again.session.answer.now.rates["roof"] == state.design.rates["roof"]
-        assert "roof" in text(again._modes._content)
+        assert "roof" in text(again.screen.results.modes._content)
         again.session.undo()
         assert again.session.wait(SOON)
         assert not again.session.state.design.alterations.absorbers
@@ -88,9 +88,9 @@ def test_camera_and_motion_are_there_after_a_restart(tmp_path):
     with visit(app.server) as socket:
         moved = {**CAMERA_MESSAGE, "position": CAMERA.position, "look_at": CAMERA.look_at}
         socket.send(encoded(CAMERA_MESSAGE))
-        socket.send(update(app._animation._amplitude, 1.85))
+        socket.send(update(app.screen.motion.animation._amplitude, 1.85))
         end = time.monotonic() + SOON
-        while app._left != CAMERA or app._animation._amplitude.value != 1.85:
+        while app.keeping.camera != CAMERA or app.screen.motion.animation._amplitude.value != 1.85:
             assert time.monotonic() < end
             socket.send(encoded(moved))  # until the page is known whose camera that is
             time.sleep(0.1)
@@ -107,14 +107,14 @@ def test_what_the_page_links_to_opens_the_same_view():
     try:
         app.session.do(decisions.SetRate("B", "lateral", 123456.0))
         app.session.do(looks.ChooseCurve(1, FORE_AFT))
-        link = app.link(CAMERA)
+        link = app.documents.link(CAMERA)
         found = opening_of_link(link, FIRST, VEHICLE, PRINT.digest)
         assert found.state == app.session.state
         assert (found.animation, found.camera) == (MOVING, CAMERA)
         initial = app.server.initial_camera
         assert tuple(initial.position) == CAMERA.position
         assert tuple(initial.look_at) == CAMERA.look_at
-        assert "Mount group 'C' is gone." in text(app._status._content)
+        assert "Mount group 'C' is gone." in text(app.screen.controls.status._content)
     finally:
         app.close()
 
@@ -125,12 +125,12 @@ def test_a_page_says_what_cannot_be_saved_until_it_can(tmp_path):
     app.record(study, KEY)
     try:
         _tell_all(study._watchers, "not saved: the disk is full")
-        assert "Not saved: the disk is full." in text(app._status._content)
+        assert "Not saved: the disk is full." in text(app.screen.controls.status._content)
         app.session.do(decisions.SetRate("B", "lateral", 123456.0))
         assert app.session.wait(SOON)
-        assert "Not saved: the disk is full." in text(app._status._content)
+        assert "Not saved: the disk is full." in text(app.screen.controls.status._content)
         _tell_all(study._watchers, "")
-        assert "Not saved" not in text(app._status._content)
+        assert "Not saved" not in text(app.screen.controls.status._content)
     finally:
         app.close()
         _tell_all(study._watchers, "not saved: the page is gone")

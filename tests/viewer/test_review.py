@@ -274,7 +274,7 @@ def test_a_pinned_set_is_replaced_only_by_who_says_so(app):
         app.session.do(Pin("v1"))
         before = variants()["v1"]
         app.session.do(SetRate("A", "vertical", 1.23e5))
-        owner.send(update(app._variants._name._box, "v1"))
+        owner.send(update(app.screen.controls.variants._name._box, "v1"))
         heard(owner), heard(other)
         press_of(app, owner, "Keep", "Pin")
         buttons = buttons_of_question(owner, "Pin as v1 2")
@@ -298,7 +298,7 @@ def test_a_question_is_not_answered_by_who_has_lost_control_meanwhile(app):
     before = app.session.state.design.variants["kept"]
     with guest(app.server, "Anna") as anna:
         hand_over(app.server, "Anna")
-        anna.send(update(app._variants._name._box, "kept"))
+        anna.send(update(app.screen.controls.variants._name._box, "kept"))
         heard(anna)
         press_of(app, anna, "Keep", "Pin")
         buttons = buttons_of_question(anna, "Pin as kept 2")
@@ -310,7 +310,7 @@ def test_a_question_is_not_answered_by_who_has_lost_control_meanwhile(app):
 
 def test_what_a_page_has_for_itself_gives_a_visitor_no_control(app, onlooker):
     visitors, page = app.server.visitors, max(app.server.get_clients())
-    before, card = everything(app), app._review._cards[page]
+    before, card = everything(app), app.screen.review._cards[page]
     for button in (card._share, card._hand_over, card._take_back):
         press(onlooker, button._impl.uuid)
     for option in card._links.options:
@@ -318,7 +318,7 @@ def test_what_a_page_has_for_itself_gives_a_visitor_no_control(app, onlooker):
     onlooker.send(update(card._title, "Eve's own"))
     onlooker.send(update(card._name, "Eve"))
     heard(onlooker, 1.0)
-    assert app._named.text == ""
+    assert app.keeping.title.text == ""
     assert visitors.of_page(page).name == "Eve"
     assert visitors.is_shared
     assert not visitors.has_control(page)

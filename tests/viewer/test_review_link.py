@@ -19,8 +19,8 @@ def owners_card(front, directory, path):
     with page_at(front, path) as page:
         wait_until(lambda: directory.sessions.open)
         (session,) = directory.sessions.open.values()
-        wait_until(lambda: session.app._review._cards)
-        (card,) = session.app._review._cards.values()
+        wait_until(lambda: session.app.screen.review._cards)
+        (card,) = session.app.screen.review._cards.values()
         wait_until(lambda: card._now)
         yield card, page
 

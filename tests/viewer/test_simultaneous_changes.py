@@ -12,6 +12,7 @@ from modeviz.analysis.results import Conditions
 from modeviz.vehicle.mount_rates import MountRates
 from modeviz.viewer.app import App
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.panels.modes import step_mode
 from modeviz.viewer.session.commands.decisions import LinkRates, ResetRate, SetLossFactor, ToggleLock
 from modeviz.viewer.session.commands.looks import Drive
 
@@ -63,7 +64,7 @@ def both(app, *commands):
 
 def choose_curves(app):
     """What the dropdowns of the two charts do."""
-    writes = (binding._write for binding in app._response._charts._bindings)
+    writes = (binding._write for binding in app.screen.results.response._charts._bindings)
     return [lambda write=write: write("Seat, fore-aft") for write in writes]
 
 
@@ -76,7 +77,7 @@ def choose_curves(app):
         lambda app: both(app, LinkRates("A", True), LinkRates("B", True)),
         lambda app: both(app, Drive(road="rough"), Drive(speed=25.0)),
         choose_curves,
-        lambda app: [lambda: app._step_mode(1)] * 2,
+        lambda app: [lambda: step_mode(app.session, 1)] * 2,
     ],
     ids=["locks", "resets", "loss factors", "links", "road and speed", "curves", "modes"],
 )

@@ -63,7 +63,7 @@ def test_the_page_shows_everything_but_responses(vehicle, tmp_path):
     server = open_server(port=0, token="open-sesame-open")
     app = App(vehicle, vehicle.rates, conditions, server)
     failures = []
-    app._tell_failure = failures.append
+    app.tell_failure = failures.append
     app.start()
     try:
         for change in (
@@ -80,9 +80,9 @@ def test_the_page_shows_everything_but_responses(vehicle, tmp_path):
         assert app.session.wait_checked(60)
         assert app.session.answer.findings.check.is_complete
         assert app.session.answer.findings.check.error < 1e-6
-        assert "[[response_point]]" in app._response._figures._content.content
+        assert "[[response_point]]" in app.screen.results.response._figures._content.content
         assert np.isfinite(app.session.answer.findings.sensitivity.frequency_hz).all()
-        app.report([])
+        app.documents.report([])
     finally:
         app.close()
     assert not failures
@@ -96,8 +96,8 @@ def test_what_has_nothing_to_say_is_not_on_the_page(vehicle):
     try:
         app.start()
         app.session.wait(60)
-        assert app._of_ride == []
-        table = next(iter(app._mounts._folders.values()))._details._table
+        assert app.screen.results.figures is app.screen.results.excitation is None
+        table = next(iter(app.screen.controls.mounts._folders.values()))._details._table
         assert ("RMS" in table.content) == bool(vehicle.response_points)
         assert "+10 %" in table.content
     finally:
@@ -131,7 +131,7 @@ def test_an_order_of_an_engine_is_drawn_where_the_engine_runs(powertrain):
         responses.of("", curve)[[3, -4]], expected.acceleration_g[:, 0, 0, 2], rtol=1e-9
     )
     assert responses.quantity_of(curve).unit == "g"
-    drawn = app._response._charts._plots[0]._data
+    drawn = app.screen.results.response._charts._plots[0]._data
     assert np.isnan(drawn[1:3, drawn[0] < 20]).all()
     app.session.do(Alter(kind="operating shape", operating_hz=30.0))
     assert not app.session.wait_for_answer(60).movement.problem
@@ -141,12 +141,15 @@ def test_what_an_engine_does_is_traced_through_mounts_without_a_road(powertrain)
     app, _ = powertrain
     solved = app.session.answer
     assert solved.state.charts.cursor_hz == pytest.approx(25.0), "the second order of 750 rpm"
-    assert "loads on the body" in app._paths._content.content
-    assert "torque rod" in app._forces._content.content
+    assert "loads on the body" in app.screen.results.paths._content.content
+    assert "torque rod" in app.screen.results.forces._content.content
     idle = Responses(solved).running("")
-    assert f"{1000 * idle.rms[idle.idle, 0, 2]:.3g}" in app._response._figures._content.content
+    assert (
+        f"{1000 * idle.rms[idle.idle, 0, 2]:.3g}"
+        in app.screen.results.response._figures._content.content
+    )
     assert solved.state.design.plan.goal == "decoupling"
-    app.report([])
+    app.documents.report([])
 
 
 def test_bodies_are_felt_at_their_centers_where_no_point_is_named(powertrain):

@@ -18,14 +18,12 @@ from modeviz.viewer.inspection.scene import InspectionScene
 from modeviz.viewer.inspection.sources import Source
 from modeviz.viewer.inspection.state import Content, Inspection, State
 from modeviz.viewer.inspection.subject import subject_of_component
-from modeviz.viewer.page import scripts
 from modeviz.viewer.page.hotkeys import Hotkeys
-from modeviz.viewer.page.html import style_sheet
 from modeviz.viewer.page.layout import NARROW, WIDE, Layout
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import Server, open_server
 from modeviz.viewer.page.surroundings import Surroundings
-from modeviz.viewer.page.theme import choose_theme
+from modeviz.viewer.page.theme import dress
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.pictures import PicturePanel
@@ -73,13 +71,7 @@ class InspectionApp:
         self._source, self._content = source, source.read()
         gui = server.gui
         self._title = Title(server)
-        for script, *arguments in (
-            ("page/style.js", style_sheet()),
-            ("page/delivery.js",),
-            ("page/zoom.js",),
-        ):
-            scripts.run(gui, script, *arguments)
-        choose_theme(gui, dark)
+        dress(gui, dark)
         self.inspection: Inspection = Inspection(self._content, self._show)
         self.scene: InspectionScene = InspectionScene(server, dark)
         self._hotkeys = Hotkeys(gui)

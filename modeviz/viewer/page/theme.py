@@ -1,13 +1,25 @@
-"""The looks that viser itself gives a page: dark or light, and one colour for what can be pressed."""
+"""What every page has besides what viser gives it: our style, dark or light, and scripts."""
 
 import viser
 
+from modeviz.viewer.page import scripts
+from modeviz.viewer.page.html import style_sheet
+
 BRAND = {False: (32, 104, 168), True: (64, 146, 214)}
-"""By darkness: the light page's blue is too dim in the dark."""
+"""By darkness, of what can be pressed: the light page's blue is too dim in the dark."""
 
 
-def choose_theme(gui: viser.GuiApi, dark: bool) -> None:
-    """Makes all pages dark or light, without viser's own buttons."""
+def dress(gui: viser.GuiApi, dark: bool, *own_scripts: str) -> None:
+    """Makes all pages dark or light, in our style, without viser's own buttons.
+
+    Args:
+        gui: of the pages.
+        dark: whether they are.
+        *own_scripts: that these pages have besides those of all.
+    """
+    scripts.run(gui, "page/style.js", style_sheet())
+    for script in ("page/delivery.js", "page/zoom.js", *own_scripts):
+        scripts.run(gui, script)
     gui.configure_theme(
         dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]
     )

@@ -231,3 +231,10 @@ class StepMode(Command):
         at = modes.index(shown) + self.by if shown in modes else 0
         name = last.now.names[modes[at % len(modes)]].name
         return ShowMode(name, last.now.rates).apply(state, vehicle)
+
+
+def step_mode(session: Session, by: int) -> None:
+    """Shows the mode so far down the list of the newest answer, if that lists any."""
+    last = session.answer
+    if last and listed(last.now):
+        session.do(StepMode(last, by))

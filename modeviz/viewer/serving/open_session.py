@@ -58,7 +58,7 @@ class OpenSession:
                 self.server.farewell = STOPPED_KEPT
                 self.app.record(bench.study, name)
             if not opening.past:
-                self.app.guide.welcome_first()
+                self.app.screen.guide.welcome_first()
             undoing.pop_all()
         self.server.note("a session was opened", "session opened")
         self._looked_at = time.monotonic()
@@ -69,7 +69,7 @@ class OpenSession:
     def idle(self) -> float:
         """How long nobody has looked at it, s; 0 while it has pages or is at work."""
         now = time.monotonic()
-        if self.server.get_clients() or self._starting.is_alive() or self.app.is_busy:
+        if self.server.get_clients() or self._starting.is_alive() or self.app.tasks.are_busy:
             self._looked_at = now
         return now - self._looked_at
 

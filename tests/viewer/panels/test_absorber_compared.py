@@ -48,19 +48,19 @@ def test_every_panel_compares_with_the_vehicle_without_it(app):
     np.testing.assert_allclose(before, without.response(0, "vertical"), rtol=1e-9)
     assert responses.figure(NOW, seat) != pytest.approx(responses.figure("Original", seat), rel=0.01)
 
-    beside = text(app._variants._side_by_side)
+    beside = text(app.screen.controls.variants._side_by_side)
     assert "Absorbers Original Trial 1 roof – 6 kg" in beside
     assert "A vertical 800 500" in beside
     assert "roof vertical" not in beside
-    modes = text(app._modes._content)
+    modes = text(app.screen.results.modes._content)
     assert "Roof bounce" in modes
     assert "new" in modes
-    energy = text(app._energy._content)
+    energy = text(app.screen.results.energy._content)
     assert "Roof" in energy
-    forces = text(app._forces._content)
+    forces = text(app.screen.results.forces._content)
     assert "new" in forces
     assert np.isnan(responses.of("Original", ForceCurve("roof", "z"))).all()
-    sliders = app._mounts._folders["roof"]._rows["vertical"]._slider
+    sliders = app.screen.controls.mounts._folders["roof"]._rows["vertical"]._slider
     assert "As it was added: " in sliders.hint
     assert sliders.label == "Vertical"
 
@@ -71,13 +71,13 @@ def test_forces_under_a_harmonic_load_and_paths_are_compared_too(app):
     solved = app.session.answer
     base, now = (Responses(solved).mount_forces(name) for name in ("Original", NOW))
     assert len(now.figures) == len(base.figures) + 1
-    assert "roof" in text(app._paths._content)
-    assert "new" in text(app._forces._content)
+    assert "roof" in text(app.screen.results.paths._content)
+    assert "new" in text(app.screen.results.forces._content)
     app.session.do(ChangeCharts(load=""))
 
 
 def test_the_report_has_both_vehicles_and_their_goals(app):
-    page = app.report([]).decode()
+    page = app.documents.report([]).decode()
     assert "Roof bounce" in page
     for section in ("Mount rates", "Objective", "Natural frequencies", "Forces of mounts", "Paths to"):
         assert section in page
@@ -91,7 +91,7 @@ def test_the_report_has_both_vehicles_and_their_goals(app):
 
 
 def test_the_offline_file_has_both_vehicles(app):
-    page = app.offline(np.array([5.0, -5.0, 3.0]), np.zeros(3)).decode()
+    page = app.documents.offline(np.array([5.0, -5.0, 3.0]), np.zeros(3)).decode()
     beside = page[page.index("<aside>") :]
     assert "nan" not in beside
     assert "roof" in beside
@@ -104,7 +104,7 @@ def test_what_was_taken_away_again_is_compared_with_the_set_that_has_it(app):
     solved = app.session.wait_for_answer(SOON)
     assert "roof" not in solved.now.rates
     assert "roof" in solved.base.rates
-    assert "Absorbers with it Trial 1 roof 6 kg –" in text(app._variants._side_by_side)
-    page = app.report([]).decode()
+    assert "Absorbers with it Trial 1 roof 6 kg –" in text(app.screen.controls.variants._side_by_side)
+    page = app.documents.report([]).decode()
     assert "roof" in page
-    assert app.offline(np.array([5.0, -5.0, 3.0]), np.zeros(3))
+    assert app.documents.offline(np.array([5.0, -5.0, 3.0]), np.zeros(3))

@@ -15,12 +15,12 @@ def proposal_for(app, mode):
     app.session.do(ShowMode(mode, mounted_cabin().rates))
     solved = app.session.wait_for_answer(SOON)
     assert solved.followed.name.name == mode
-    return app._mounts._form._proposal, solved
+    return app.screen.controls.mounts._form._proposal, solved
 
 
 def test_it_opens_where_the_mode_shown_moves_most_and_follows_it_until_somebody_chooses(opened):
     app = opened(mounted_cabin())
-    form = app._mounts._form
+    form = app.screen.controls.mounts._form
     vehicle, modes = mounted_cabin(), [name.name for name in app.session.answer.now.names]
     shown = [name for name in modes if not name.startswith("free")][-4:]
     for name in shown:
@@ -45,10 +45,10 @@ def test_it_opens_where_the_mode_shown_moves_most_and_follows_it_until_somebody_
 
 def test_its_rates_have_no_more_digits_than_their_boxes_have_room_for(opened):
     app = opened(mounted_cabin())
-    app._mounts._form._add(None)
+    app.screen.controls.mounts._form._add(None)
     assert app.session.wait(SOON)
     (absorber,) = app.session.state.design.alterations.absorbers
-    for row in app._mounts._folders[absorber.name]._rows.values():
+    for row in app.screen.controls.mounts._folders[absorber.name]._rows.values():
         shown = row._number.value
         assert shown == float(f"{shown:.4g}") > 0
         assert "%" not in row._slider.label

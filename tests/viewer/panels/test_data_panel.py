@@ -45,7 +45,7 @@ def app():
     [(content, kind) for content, kinds in _choices(cabin()).items() for kind in kinds],
 )
 def test_every_file_is_the_one_that_a_study_writes(app, tmp_path, content, kind):
-    panel = app._data
+    panel = app.screen.controls.data
     file = panel._choices[content][kind]
     name, made = panel._made(file, ExportOptions(), None, lambda *_: None)
     assert name == f"cabin-soft-{file.word}.{file.ending}"
@@ -59,7 +59,7 @@ def test_every_file_is_the_one_that_a_study_writes(app, tmp_path, content, kind)
 
 
 def test_formats_are_those_of_the_content_and_one_stays_where_it_can(app):
-    panel = app._data
+    panel = app.screen.controls.data
     panel._content.value = "Modes"
     panel._offer()
     panel._format.value = "ParaView, VTU"

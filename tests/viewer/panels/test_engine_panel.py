@@ -54,7 +54,7 @@ def test_the_sum_of_all_orders_follows_the_rates_beside_the_set_compared_with(ap
     solved = app.session.wait_for_answer(SOON)
     _, run = tuned
     base = solve_engine(prepare(VEHICLE), {}, FOUR)
-    rpm, curves = drawn(app._engine._total)
+    rpm, curves = drawn(app.screen.results.engine._total)
     np.testing.assert_allclose(rpm, 60 * run.speed_hz, rtol=1e-12)
     assert len(curves) == 2
     for curve, found in zip(curves, (base, run), strict=True):
@@ -66,34 +66,34 @@ def test_each_order_is_drawn_where_its_frequency_is_in_the_band(app, tuned):
     app.session.do(LookAtEngine(curve=ForceCurve("E0", "z")))
     app.session.wait_for_answer(SOON)
     _, run = tuned
-    rpm, curves = drawn(app._engine._by_order)
+    rpm, curves = drawn(app.screen.results.engine._by_order)
     now = curves[len(ORDERS) :]
     for number, order in enumerate(ORDERS):
         inside = order.order * rpm / 60 <= VEHICLE.highest_frequency + 1e-9
         assert np.isnan(now[number, ~inside]).all()
         expected = 20 * np.log10(np.abs(run.force[inside, number, 0, 2]))
         np.testing.assert_allclose(now[number, inside], expected, atol=1e-6)
-    assert app._engine._choice.label == "dB re 1 N"
+    assert app.screen.results.engine._choice.label == "dB re 1 N"
 
 
 def test_orders_are_told_at_the_cursor_and_at_idle_to_begin_with(app, tuned):
     app.session.do(LookAtEngine(curve=ForceCurve("E0", "z"), speed_hz=FOUR.idle_hz))
     app.session.wait_for_answer(SOON)
     _, run = tuned
-    told = text(app._engine._content)
+    told = text(app.screen.results.engine._content)
     assert "At 750 rpm, idle" in told
     peak = float(np.abs(run.force[run.idle, 1, 0, 2]))
     assert f" {significant(float(f'{peak:.3g}'))} " in told
     assert "Order 4.5 56.2 beyond the band" in told
     app.session.do(LookAtEngine(speed_hz=20.0))
     app.session.wait_for_answer(SOON)
-    assert "At 1200 rpm, peak" in text(app._engine._content)
+    assert "At 1200 rpm, peak" in text(app.screen.results.engine._content)
 
 
 def test_a_click_on_an_order_draws_it_over_frequency(app):
     app.session.do(LookAtEngine(speed_hz=12.5))
     app.session.wait_for_answer(SOON)
-    app._engine._select(1)
+    app.screen.results.engine._select(1)
     charts = app.session.wait_for_answer(SOON).state.charts
     assert (charts.load, charts.cursor_hz) == ("four order 2", 25.0)
 
@@ -104,10 +104,10 @@ def test_one_of_several_engines_is_chosen():
     ))  # fmt: skip
     app = opened_app(*on_even_road(replace(QUIET, engines=(FOUR, slow), response_points=())))
     try:
-        assert app._engine._total._shown == (300.0, 1800.0)
+        assert app.screen.results.engine._total._shown == (300.0, 1800.0)
         app.session.do(LookAtEngine(engine="two", curve=ForceCurve("F1", "x")))
         app.session.wait_for_answer(SOON)
-        rpm, _ = drawn(app._engine._total)
+        rpm, _ = drawn(app.screen.results.engine._total)
         assert (rpm[0], rpm[-1]) == (300.0, 900.0)
     finally:
         app.close()
@@ -116,7 +116,7 @@ def test_one_of_several_engines_is_chosen():
 def test_vehicles_without_an_engine_have_no_such_tab():
     app = opened_app(*on_even_road(QUIET))
     try:
-        assert app._engine is None
+        assert app.screen.results.engine is None
     finally:
         app.close()
 

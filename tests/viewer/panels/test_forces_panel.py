@@ -45,7 +45,7 @@ def test_rms_of_mounts_follows_a_drag(app, study):
     app.session.wait_for_answer(SOON)
     study.rates["E.vertical"] = "500 N/mm"
     expected = study.forces("road").rms("rear", "z")
-    (row,) = re.findall(r"rear (.*?) foot", text(app._forces._content))[:1]
+    (row,) = re.findall(r"rear (.*?) foot", text(app.screen.results.forces._content))[:1]
     assert f" {significant(float(f'{expected:.3g}'))} " in f" {row} "
     app.session.do(SetRate("E", "vertical", 3e5))
     app.session.wait_for_answer(SOON)
@@ -54,7 +54,7 @@ def test_rms_of_mounts_follows_a_drag(app, study):
 def test_the_cursor_tells_amplitude_and_phase_under_a_harmonic_load(app, study):
     show(app, load="firing", cursor_hz=9.3)
     phasor = study.forces("firing", frequency_hz=9.3).phasor("rear", "y")[0]
-    (_, row) = re.findall(r"rear (.*?) foot", text(app._forces._content))[:2]
+    (_, row) = re.findall(r"rear (.*?) foot", text(app.screen.results.forces._content))[:2]
     assert significant(float(f"{abs(phasor):.3g}")) in row
     assert f"{abs(np.degrees(np.angle(phasor))):.0f}°" in row
 
@@ -63,7 +63,7 @@ def test_paths_at_the_cursor_are_those_of_the_vehicle_solved_anew(app, study):
     for by in ("mount", "body"):
         show(app, load="", cursor_hz=12.5, paths_by=by, path_curve=ResponseCurve(1, "vertical"))
         paths = study.paths("head", "vertical", "road", by=by, frequency_hz=12.5)
-        shown = text(app._paths._content)
+        shown = text(app.screen.results.paths._content)
         largest = max(paths.shares(), key=lambda name: abs(paths.spectrum(name)[0]))
         share = paths.spectrum(largest)[0]
         minus = "−" if share < 0 else ""
@@ -73,8 +73,8 @@ def test_paths_at_the_cursor_are_those_of_the_vehicle_solved_anew(app, study):
 
 def test_a_click_on_a_path_selects_its_group(app):
     show(app, load="", paths_by="mount", path_curve=ResponseCurve(0, "vertical"), group="E")
-    place = app._paths._groups.index("F")
-    app._paths._select(place)
+    place = app.screen.results.paths._groups.index("F")
+    app.screen.results.paths._select(place)
     app.session.wait_for_answer(SOON)
     assert app.session.state.group == "F"
 
@@ -92,7 +92,9 @@ def test_a_chart_draws_the_force_of_a_mount(app, study, load, axes):
     assert responses.quantity_of(curve).unit == ("N" if load else "N²/Hz")
     axes_named = "vehicle" if axes else "local"
     assert curve_label(solved.now.vehicle, curve) == f"Front, force, {axes_named} z"
-    assert app._response._charts._choices[0].label == f"dB re 1 {'N' if load else 'N²/Hz'}"
+    assert (
+        app.screen.results.response._charts._choices[0].label == f"dB re 1 {'N' if load else 'N²/Hz'}"
+    )
     (modes,) = responses.peaks(curve, 3, [], (11.0,))
     assert modes.contributors[0].ratio == 1.0
 
@@ -121,22 +123,22 @@ def test_force_modes_are_of_the_motion_that_stretches_the_mount(app):
 
 def test_a_cursor_beyond_what_is_known_of_a_load_says_so(app):
     show(app, load="", cursor_hz=99.0)
-    assert "its table holds" in text(app._paths._content)
-    assert "its table holds" in text(app._forces._content)
+    assert "its table holds" in text(app.screen.results.paths._content)
+    assert "its table holds" in text(app.screen.results.forces._content)
     show(app, cursor_hz=11.0)
 
 
 def test_energy_has_what_the_shown_mode_loses_in_a_cycle(app):
     solved = show(app, load="")
     assert sum(solved.dissipated.values()) == pytest.approx(1.0)
-    assert "Dissipated in a cycle" in text(app._energy._content)
+    assert "Dissipated in a cycle" in text(app.screen.results.energy._content)
 
 
 def test_tabs_that_have_nothing_to_say_are_not_there():
     app = opened_app(*on_even_road(replace(mounted_cabin(), wheel_loads=())))
     try:
-        assert app._forces is None
-        assert app._paths is None
+        assert app.screen.results.forces is None
+        assert app.screen.results.paths is None
     finally:
         app.close()
 
@@ -154,7 +156,7 @@ def test_forces_are_shown_under_the_orders_of_an_engine_that_nothing_else_shakes
         assert app.session.state.charts.load == orders[0].name
         show(app, load=order, cursor_hz=25.0)
         phasor = Study(vehicle).forces(order, frequency_hz=25.0).phasor("E0", "z")[0]
-        (_, row) = re.findall(r"E0 (.*?) E1", text(app._forces._content))[:2]
+        (_, row) = re.findall(r"E0 (.*?) E1", text(app.screen.results.forces._content))[:2]
         assert significant(float(f"{abs(phasor):.3g}")) in row
     finally:
         app.close()
@@ -164,6 +166,6 @@ def test_forces_are_shown_without_anybody_who_feels_them():
     app = opened_app(*on_even_road(replace(mounted_cabin(), response_points=())))
     try:
         assert app.session.state.charts.load == "front left radial force"
-        assert "Largest peak, N" in text(app._forces._content)
+        assert "Largest peak, N" in text(app.screen.results.forces._content)
     finally:
         app.close()

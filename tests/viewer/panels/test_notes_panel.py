@@ -37,7 +37,7 @@ def page_of(app):
     """A page, and what puts a note on by it."""
     handles = app.server.gui._gui_input_handle_from_uuid.values()
     button = next(each for each in handles if getattr(each, "options", ()) == (ADD,))
-    panel = app._notes
+    panel = app.screen.controls.notes
     with visit(app.server) as page:
         page.send(encoded(CAMERA))
 
@@ -52,7 +52,7 @@ def page_of(app):
 def test_a_note_is_pinned_to_what_the_page_shows_and_is_in_the_report(app):
     app.session.do(Pin("soft"))
     assert app.session.wait_checked(60)
-    wait_until(lambda: "Variant soft" in app._notes._target.options)
+    wait_until(lambda: "Variant soft" in app.screen.controls.notes._target.options)
     group = app.session.vehicle.mount_groups[0]
     mode = app.session.answer.followed.name.name
     with page_of(app) as (page, add):
@@ -62,52 +62,52 @@ def test_a_note_is_pinned_to_what_the_page_shows_and_is_in_the_report(app):
             ("best so far", "Variant soft"),
             ("too low", f"Mode {mode}"),
         ):
-            n_before = len(app._notes.notes)
+            n_before = len(app.screen.controls.notes.notes)
             add(words, on)
-            wait_until(lambda n=n_before: len(app._notes.notes) == n + 1)
-        abouts = [note.about for note in app._notes.notes]
+            wait_until(lambda n=n_before: len(app.screen.controls.notes.notes) == n + 1)
+        abouts = [note.about for note in app.screen.controls.notes.notes]
         mount = f"mount {group.mounts[0].name}"
         assert abouts == ["study", mount, "variant soft", f"mode {mode}"]
-        assert "too <soft> in roll" in text(app._notes._list)
-        rows = Document(app.report([]).decode()).tables["Notes"][1:]
+        assert "too <soft> in roll" in text(app.screen.controls.notes._list)
+        rows = Document(app.documents.report([]).decode()).tables["Notes"][1:]
         told = [row[1] for row in rows if len(row) > 1]
         assert told == ["for Monday", "best so far", "too low", "too <soft>in roll"]
-        page.send(update(button_of(app, app._notes.notes[-1]), True))
-        wait_until(lambda: len(app._notes.notes) == 3)
-        assert "too low" not in text(app._notes._list)
+        page.send(update(button_of(app, app.screen.controls.notes.notes[-1]), True))
+        wait_until(lambda: len(app.screen.controls.notes.notes) == 3)
+        assert "too low" not in text(app.screen.controls.notes._list)
 
 
 def button_of(app, note):
     """The hidden button that removes a note of the list."""
-    return app._notes._buttons._buttons[note.token]
+    return app.screen.controls.notes._buttons._buttons[note.token]
 
 
 def test_two_pages_that_remove_notes_at_once_remove_those_that_were_clicked(app):
     """The second click was made before the list without the first note came."""
     with page_of(app) as (one, add), page_of(app) as (other, _):
-        before = [note.text for note in app._notes.notes]
+        before = [note.text for note in app.screen.controls.notes.notes]
         for i, words in enumerate(("first", "second", "third")):
             add(words)
-            wait_until(lambda n=i: len(app._notes.notes) == len(before) + n + 1)
-        first, second, third = app._notes.notes[-3:]
+            wait_until(lambda n=i: len(app.screen.controls.notes.notes) == len(before) + n + 1)
+        first, second, third = app.screen.controls.notes.notes[-3:]
         clicks = [update(button_of(app, note), True) for note in (third, second, second)]
         one.send(clicks[0])
-        wait_until(lambda: third not in app._notes.notes)
+        wait_until(lambda: third not in app.screen.controls.notes.notes)
         other.send(clicks[1])
         other.send(clicks[2])
-        wait_until(lambda: second not in app._notes.notes)
-        app._notes._remove(second.token)
-        assert [note.text for note in app._notes.notes] == [*before, "first"]
-        assert first.token in app._notes._buttons
+        wait_until(lambda: second not in app.screen.controls.notes.notes)
+        app.screen.controls.notes._remove(second.token)
+        assert [note.text for note in app.screen.controls.notes.notes] == [*before, "first"]
+        assert first.token in app.screen.controls.notes._buttons
 
 
 def test_an_empty_note_is_refused(app):
-    before = app._notes.notes
+    before = app.screen.controls.notes.notes
     with page_of(app) as (_, add):
         add("  ")
         add("something")
-        wait_until(lambda: len(app._notes.notes) == len(before) + 1)
-    assert app._notes.notes[-1].text == "something"
+        wait_until(lambda: len(app.screen.controls.notes.notes) == len(before) + 1)
+    assert app.screen.controls.notes.notes[-1].text == "something"
 
 
 def test_notes_are_kept_in_the_study_and_are_there_when_it_opens_again(tmp_path):

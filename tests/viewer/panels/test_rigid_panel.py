@@ -30,7 +30,7 @@ def done(app, *commands):
 
 
 def test_the_heat_map_has_every_mode_with_its_energy(opened):
-    panel = opened(four_cylinder())._rigid
+    panel = opened(four_cylinder()).screen.results.rigid
     rows = re.findall(r"<tr.*?</tr>", panel._energy.content.split("Decoupling")[0])[1:]
     assert [float(re.search(r">(\d+\.\d\d)<", r)[1]) for r in rows] == pytest.approx(
         FREQUENCIES, abs=0.006
@@ -42,7 +42,7 @@ def test_the_heat_map_has_every_mode_with_its_energy(opened):
 
 
 def test_verdicts_say_which_directions_fail(opened):
-    words = text(opened(four_cylinder())._rigid._energy)
+    words = text(opened(four_cylinder()).screen.results.rigid._energy)
     assert re.search(r"Purity of 85 %\s+z, rz\s+fails", words)
     assert re.search(r"5 to 30 Hz\s+ry\s+fails", words)
     assert re.search(r"1.5 Hz between modes\s+holds", words)
@@ -50,9 +50,9 @@ def test_verdicts_say_which_directions_fail(opened):
 
 def test_tables_follow_the_rates(opened):
     app = opened(four_cylinder())
-    before = app._rigid._energy.content, app._rigid._axes.content
+    before = app.screen.results.rigid._energy.content, app.screen.results.rigid._axes.content
     done(app, SetRate("M1", "vertical", 9e5))
-    after = app._rigid._energy.content, app._rigid._axes.content
+    after = app.screen.results.rigid._energy.content, app.screen.results.rigid._axes.content
     assert before[0] != after[0]
     assert before[1] != after[1]
 
@@ -68,7 +68,7 @@ def test_axes_are_those_of_the_present_rates_also_under_another_crank(opened):
     assert solved.rigid_axes.mounted.angle == pytest.approx(expected.mounted.angle, rel=1e-6)
     found = body_purity(results, 1, "crank", USUAL, up)
     assert solved.purity.energy == pytest.approx(found.energy, abs=1e-6)
-    assert "0.000 0.000 1.000" in text(app._rigid._axes)
+    assert "0.000 0.000 1.000" in text(app.screen.results.rigid._axes)
 
 
 def test_lines_move_with_the_rates_and_are_there_only_when_wanted(opened):
@@ -102,7 +102,7 @@ def _turned(wxyz):
 def test_targets_are_changed_undone_and_kept(opened):
     app = opened(four_cylinder())
     done(app, ChangeTargets({"purity": 0.45, "highest_frequency": 32.0}))
-    words = text(app._rigid._energy)
+    words = text(app.screen.results.rigid._energy)
     assert re.search(r"Purity of 45 %\s+holds", words)
     assert re.search(r"Decoupling\s+holds", words)
     with pytest.raises(VehicleError, match="highest_frequency"):
@@ -110,7 +110,7 @@ def test_targets_are_changed_undone_and_kept(opened):
     app.session.undo()
     assert app.session.wait(SOON)
     assert app.session.state.design.decoupling == USUAL
-    assert "Purity of 85 %" in text(app._rigid._energy)
+    assert "Purity of 85 %" in text(app.screen.results.rigid._energy)
 
 
 def test_saved_targets_are_the_table_of_a_vehicle_s_file():
@@ -120,10 +120,10 @@ def test_saved_targets_are_the_table_of_a_vehicle_s_file():
 
 def test_a_click_on_a_mode_shows_it(opened):
     app = opened(four_cylinder())
-    app._rigid._select(4)
+    app.screen.results.rigid._select(4)
     solved = app.session.wait_for_answer(SOON)
     assert solved.followed.mode == 4
-    app._rigid._select(39)  # no such row
+    app.screen.results.rigid._select(39)  # no such row
 
 
 def test_the_powertrain_is_looked_at_first(opened):
@@ -133,12 +133,12 @@ def test_the_powertrain_is_looked_at_first(opened):
 def test_a_search_on_the_page_decouples_to_the_targets_that_are_there(opened):
     app = opened(four_cylinder())
     assert app.session.state.design.plan.goal == "decoupling"
-    assert "missing to purity, band and gaps" in text(app._optimise._editor._summary)
+    assert "missing to purity, band and gaps" in text(app.screen.controls.optimise._editor._summary)
     done(app, ChangeTargets({"purity": 0.9}), ChangePlan(lambda _, plan: replace(plan, n_starts=3)))
     assert not app.session.answer.purity.passes
-    app.search_task.start()
-    assert wait_until(lambda: app.search_task.job.found)
-    assert app.search_task.job.found.value < 1e-9
+    app.tasks.search.start()
+    assert wait_until(lambda: app.tasks.search.job.found)
+    assert app.tasks.search.job.found.value < 1e-9
     solved = app.session.wait_for_answer(SOON)
     least = [solved.purity.purity(m) for m in ("x", "y", "z", "rx", "ry", "rz")]
     assert min(least) > 0.9 - 1e-6

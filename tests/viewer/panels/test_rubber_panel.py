@@ -29,7 +29,7 @@ def shown(app, *commands):
     for command in commands:
         app.session.do(command)
     solved = app.session.wait_for_answer(SOON)
-    return solved, app._rubber
+    return solved, app.screen.results.rubber
 
 
 def drawn(plot):
@@ -69,6 +69,6 @@ def test_vehicles_whose_rates_no_frequency_changes_have_no_such_tab():
     vehicle = on_mounts(None)
     app = opened_app(vehicle, Conditions("random", vehicle.speed))
     try:
-        assert app._rubber is None
+        assert app.screen.results.rubber is None
     finally:
         app.close()

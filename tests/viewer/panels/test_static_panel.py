@@ -25,7 +25,7 @@ def after(app, *commands):
 
 def rows(app):
     """The cells of every row of the panel, as text."""
-    found = re.findall(r"<tr[^>]*>(.*?)</tr>", app._static._content.content)
+    found = re.findall(r"<tr[^>]*>(.*?)</tr>", app.screen.results.static._content.content)
     cells = (re.split(r"</?t[dh][^>]*>", row)[1::2] for row in found)
     return [[re.sub(r"<[^>]*>", "", cell).strip() for cell in row] for row in cells]
 
@@ -34,7 +34,7 @@ def test_the_panel_has_the_sag_and_the_forces_of_the_first_case(opened):
     app = opened(engine_on_mounts())
     assert ["Engine", "0.07", "0.05", "−1.24"] in [row[:4] for row in rows(app)]
     assert ["M1", "−15", "−4", "393", "0.08", "0.05", "−1.23"] in rows(app)
-    assert "Travel" not in text(app._static._content)
+    assert "Travel" not in text(app.screen.results.static._content)
 
 
 def test_rates_that_move_and_another_case_change_it(opened):
@@ -45,7 +45,7 @@ def test_rates_that_move_and_another_case_change_it(opened):
     (row,) = [row for row in rows(app) if row[0] == "M1"]
     assert row[3] == f"{force[2]:.0f}"
     assert row[6] == f"−{-1e3 * deflection[2]:.2f}"
-    assert app._static._case.value == "bump 3 g"
+    assert app.screen.results.static._case.value == "bump 3 g"
 
 
 def test_travel_that_is_left_and_that_is_not_is_told(opened):
@@ -53,19 +53,19 @@ def test_travel_that_is_left_and_that_is_not_is_told(opened):
     travel = {row[0]: row[1:] for row in rows(app) if len(row) == 5}
     assert travel["M1 vertical"] == ["−1.23", "−4.00", "2.00", "2.77 passed"]
     assert travel["M3 vertical"] == ["−1.59", "−1.00", "1.00", "−0.59 failed"]
-    assert "it accelerates as a whole" in text(app._static._content)
+    assert "it accelerates as a whole" in text(app.screen.results.static._content)
 
 
 def test_a_case_that_nothing_holds_has_its_reason(opened):
     app = opened(limited_engine())
     after(app, ChangeMotion(load_case="push"))
-    assert "Nothing holds 'loose' along z, so it falls" in text(app._static._content)
+    assert "Nothing holds 'loose' along z, so it falls" in text(app.screen.results.static._content)
 
 
 def test_a_vehicle_that_nothing_holds_has_one_sentence(opened):
     app = opened(Vehicle("free", (block("block"),), ()))
     words = "Load case 'standing': nothing holds 'block' along z, so it falls and nothing is loaded"
-    assert words in text(app._static._content)
+    assert words in text(app.screen.results.static._content)
     assert rows(app) == []
 
 

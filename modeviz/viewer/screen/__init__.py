@@ -1,0 +1,1 @@
+"""Which panels a tuning page has, where they stand, and what brings them after an answer."""
