@@ -195,7 +195,7 @@ def test_a_probe_is_told_of_sessions_that_do_not_go_on():
     with serving() as (front, directory), page_at(front, way(front, "/?vehicle=first")):
         wait_until(lambda: health(front)[1]["pages"] == 1)
         (session,) = directory.sessions.open.values()
-        session.app.session._worker._is_stuck = True
+        session.app.session._loop._worker._is_stuck = True
         status, told = health(front)
         assert (status, told["status"], told["sessions"]) == (503, "stuck", 1)
 

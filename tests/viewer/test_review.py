@@ -200,7 +200,7 @@ def test_a_handle_in_the_hand_of_who_loses_control_is_let_go(app):
         anna.send(wire("TransformControlsDragStartMessage", name="/mount handle"))
         anna.send(wire("TransformControlsUpdateMessage", name="/mount handle", **there))
         wait_until(lambda: app.session.state.design.alterations.placement("A").offset[0])
-        assert app.session._history.undone_next.author.name == "Anna"
+        assert app.session._asked._history.undone_next.author.name == "Anna"
         take_back(app.server)
         anna.send(wire("TransformControlsDragEndMessage", name="/mount handle"))
         app.session.do(PlaceMounts("A", "offset", (0.0, 0.0, 0.0)))

@@ -31,14 +31,15 @@ def app():
 
 
 class Meeting:
-    """A lock that some threads enter only once all of them have come to it."""
+    """A lock that some threads enter for the first time only once all of them have come to it."""
 
     def __init__(self, threads):
-        self._threads, self._lock = threads, threading.Lock()
+        self._awaited, self._lock = {*threads}, threading.Lock()
         self._all_here = threading.Barrier(len(threads))
 
     def __enter__(self):
-        if threading.current_thread() in self._threads:
+        if threading.current_thread() in self._awaited:
+            self._awaited.remove(threading.current_thread())
             self._all_here.wait(PATIENCE_S)
         self._lock.acquire()
 
@@ -48,13 +49,13 @@ class Meeting:
 
 def do_at_once(session, actions):
     threads = [threading.Thread(target=action) for action in actions]
-    lock, session._lock = session._lock, Meeting(threads)
+    lock, session._asked._lock = session._asked._lock, Meeting(threads)
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
     assert session.wait_checked(PATIENCE_S)
-    session._lock = lock
+    session._asked._lock = lock
 
 
 def both(app, *commands):

@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -13,8 +13,6 @@ from modeviz.analysis.rigid import BodyAxes, body_axes, body_purity
 from modeviz.analysis.wheel_results import WheelResults
 from modeviz.errors import ModevizError
 from modeviz.mounting.purity import Purity
-from modeviz.vehicle.absorber import Absorber
-from modeviz.vehicle.absorbers import with_absorbers
 from modeviz.vehicle.alterations import Alterations
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.session.cursor import CursorForces
@@ -98,23 +96,18 @@ class Solved:
 class Answers:
     """Answers one state after the other, in one thread; `rebase` may be called in another."""
 
-    def __init__(self, shared: Shared, absorbers: Sequence[Absorber] = ()) -> None:
+    def __init__(self, shared: Shared, vehicle: Vehicle) -> None:
         """Nothing is solved before `prepare`.
 
         Args:
-            shared: with the vehicle.
-            absorbers: that it has besides.
-
-        Raises:
-            VehicleError: it cannot have them.
+            shared: with the vehicle as in its file.
+            vehicle: with the parts that it has besides.
         """
-        vehicle = shared.preparations.vehicle
         self._shared, self._preparations = shared, shared.preparations
         self._lock = threading.Lock()
         self._alterations: Alterations | None = None
-        self.vehicle: Vehicle = with_absorbers(vehicle, absorbers)
-        """Altered as in the newest answer; before the first, with the absorbers alone."""
-        self._with_parts: tuple[tuple[Absorber, ...], Vehicle] = (tuple(absorbers), self.vehicle)
+        self.vehicle: Vehicle = vehicle
+        """Altered as in the newest answer; before the first, with its parts alone."""
         self.prepared: Prepared
         """That vehicle made ready, once `prepare` has."""
         self._drive: RoadExcitation
@@ -153,9 +146,9 @@ class Answers:
 
     def afresh(self) -> "Answers":
         """Return others that have only what is prepared: something failed or hangs in these."""
-        others = Answers(self._shared.copied())
         with self._lock:
-            others.vehicle, others.prepared, others._drive = self.vehicle, self.prepared, self._drive
+            others = Answers(self._shared.copied(), self.vehicle)
+            others.prepared, others._drive = self.prepared, self._drive
         return others
 
     def is_ready(self, alterations: Alterations) -> bool:
@@ -166,20 +159,6 @@ class Answers:
     def original(self) -> Vehicle:
         """Without alterations."""
         return self._preparations.vehicle
-
-    def with_parts(self, alterations: Alterations) -> Vehicle:
-        """Return the vehicle with the parts that alterations add, and no mount moved.
-
-        Raises:
-            VehicleError: as `with_absorbers`.
-        """
-        with self._lock:
-            absorbers, vehicle = self._with_parts
-        if absorbers != alterations.absorbers:
-            vehicle = with_absorbers(self._preparations.vehicle, alterations.absorbers)
-            with self._lock:
-                self._with_parts = alterations.absorbers, vehicle
-        return vehicle
 
     def rebase(self, state: State) -> None:
         """Makes answers close to a state cheap.

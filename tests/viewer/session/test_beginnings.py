@@ -138,7 +138,7 @@ def test_the_steps_of_an_inquiry_are_done_once_whoever_takes_them(monkeypatch):
 def test_nothing_is_looked_into_while_another_session_waits_for_an_answer(opened):
     session, _ = opened()
     assert session.wait_checked(SOON)
-    precedence = session._precedence
+    precedence = session._loop._precedence
     with precedence.answer():
         session.do(SetRate("A", "lateral", 1e5))
         assert session.wait(SOON)
@@ -154,7 +154,7 @@ def test_nothing_is_looked_into_while_another_session_waits_for_an_answer(opened
 def test_a_session_that_is_asked_for_more_gives_its_turn_up(opened):
     session, _ = opened()
     assert session.wait_checked(SOON)
-    precedence = session._precedence
+    precedence = session._loop._precedence
     with precedence.answer():
         session.do(SetRate("A", "lateral", 1e5))
         assert session.wait(SOON)

@@ -130,7 +130,7 @@ def test_a_drag_through_a_rate_that_fails_ends_where_it_ends(open_session, solve
     solver.fault = fail_at_bad
     for rate in (SOFT, BAD, STIFF):
         session.do(SetRate("A", "lateral", rate))
-        assert session._worker.wait(SOON)
+        assert session._loop._worker.wait(SOON)
     assert session.wait(SOON)
     assert rate_of(session.state) == rate_of(heard.answers[-1].state) == STIFF
     check_goes_on(session, heard, original)
@@ -230,7 +230,7 @@ def test_a_solve_that_hangs_is_left_behind_and_what_it_brings_later_is_dropped(o
     n_answers = len(heard.answers)
     hang.may_end.set()
     wait_for(lambda: hang.n_ended)
-    wait_for(lambda: not session._worker._left[0].is_alive())
+    wait_for(lambda: not session._loop._worker._left[0].is_alive())
     assert len(heard.answers) == n_answers
     assert rate_of(session.answer.state) == STIFF
 
@@ -259,13 +259,14 @@ def test_a_check_that_hangs_is_given_up_and_the_next_is_made(open_session, monke
 
     monkeypatch.setattr(Inspector, "_find_out", hang)
     session, heard = open_session()
-    session._inspector.close()
-    session._inspector = Inspector(
-        Shared(session._answers._preparations),
-        session._rebase,
-        session._is_current,
-        session._answer_again,
-        session._tell_failure,
+    loop = session._loop
+    loop._inspector.close()
+    loop._inspector = Inspector(
+        Shared(loop.answers._preparations),
+        loop._rebase,
+        loop._is_current,
+        loop.ask,
+        loop._tell_failure,
         1.5,
     )
     assert set_rate(session, BAD)

@@ -152,7 +152,7 @@ def test_a_place_off_a_flexible_body_is_refused_and_the_last_stays():
 
 
 def test_a_preparation_that_takes_long_is_told_and_given_up_when_it_is_overtaken(session, monkeypatch):
-    monkeypatch.setattr("modeviz.viewer.session.session.FOLLOWS", 0.0)
+    monkeypatch.setattr("modeviz.viewer.session.answer_loop.FOLLOWS", 0.0)
     prepared, fractions, go_on = [], [], threading.Event()
 
     def slowly(vehicle, progress):
@@ -166,8 +166,8 @@ def test_a_preparation_that_takes_long_is_told_and_given_up_when_it_is_overtaken
 
     session.wait_for_answer(60)
     monkeypatch.setattr("modeviz.viewer.session.preparations.prepare", slowly)
-    heard = session._notify
-    session._notify = lambda told: (
+    heard = session._loop._notify
+    session._loop._notify = lambda told: (
         fractions.append(told) if isinstance(told, Preparing) else heard(told)
     )
     session.do(DragMounts("A", Placement((0.01, 0, 0)), 0))

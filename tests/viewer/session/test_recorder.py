@@ -69,7 +69,7 @@ class Bench:
     @property
     def moment(self):
         """All that a session is: state, past and future, with fields that do not count otherwise."""
-        moment = self.session._history.moment
+        moment = self.session._asked.moment
         steps = (*moment.past, *moment.future)
         changes = [(plain_of(step.before), plain_of(step.after)) for step in steps]
         return plain_of(moment.state), changes, len(moment.past)
@@ -214,11 +214,10 @@ def test_what_a_failed_solve_took_back_is_not_there_after_a_restart(bench):
     """As `Session` goes back to the last state that was solved where modeviz itself fails."""
     session = bench.session
     session.do(decisions.SetRate("A", "lateral", 1e5))
-    good = session._history.moment
+    good = session._asked.moment
     for command in (decisions.SetRate("A", "lateral", 2e5), decisions.Pin("v"), looks.SelectGroup("A")):
         session.do(command)
-    with session._lock:
-        session._accept(*session._history.put_back(good))
+    assert session._asked.take_back(session.state, good)
     before = bench.moment
     bench.restart()
     assert bench.moment == before

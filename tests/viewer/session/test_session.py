@@ -164,7 +164,7 @@ def test_while_rates_move_details_come_now_and_then_and_always_at_the_end(sessio
     assert session.wait(20)
     for rate in np.linspace(9e5, 4e5, 30):
         session.do(SetRate("A", "vertical", rate))
-        assert session._worker.wait(20)
+        assert session._loop._worker.wait(20)
     assert session.wait(20)
     moved = session.answers[1:]
     assert not all(a.is_detailed for a in moved)
@@ -364,15 +364,15 @@ def test_looks_at_a_set_follow_its_name_back_and_forth_through_undo_and_redo(ses
 def test_what_is_asked_just_before_an_older_state_is_answered_is_drawn_all_the_same(session):
     session.start()
     assert session.wait_checked(60)
-    heard, answer = [], session._worker._work
-    session._notify = heard.append
+    heard, answer = [], session._loop._worker._work
+    session._loop._notify = heard.append
 
     def ask_first(job):
-        session._worker._work = answer
+        session._loop._worker._work = answer
         session.do(ChangeCharts(decibels=False))
         answer(job)
 
-    session._worker._work = ask_first
+    session._loop._worker._work = ask_first
     session.do(ChangeCharts(log_frequency=True))
     assert session.wait_checked(60)
     drawn = [said.solved.state for said in heard if isinstance(said, Answered)]
@@ -413,27 +413,27 @@ def test_pinning_replaces_no_other_set_without_a_word(session):
 
 def test_only_ones_own_changes_are_gone_over_and_by_the_owner_all(session):
     anna, first = Author("Anna", "2"), session.state
-    session._acting = lambda: anna
+    session._asked._acting = lambda: anna
     session.do(SetRate("A", "lateral", 1e5))
-    session._acting = lambda: Author("Ben", "3")
+    session._asked._acting = lambda: Author("Ben", "3")
     for insists in (False, True):
         with pytest.raises(NotOnesOwnError, match="Anna's") as refusal:
             session.undo(insists)
         assert not refusal.value.may_insist
-    session._acting = lambda: OWNER
+    session._asked._acting = lambda: OWNER
     with pytest.raises(NotOnesOwnError) as refusal:
         session.undo()
     assert refusal.value.may_insist
     session.undo(insists=True)
     assert session.state.design == first.design
-    session._acting = lambda: anna
+    session._asked._acting = lambda: anna
     session.redo()
     assert session.state.design != first.design
 
 
 def test_that_only_the_owner_can_go_over_a_change_of_the_owners_is_said_once(session):
     session.do(SetRate("A", "lateral", 1e5))
-    session._acting = lambda: Author("Anna", "2")
+    session._asked._acting = lambda: Author("Anna", "2")
     with pytest.raises(NotOnesOwnError, match="Owner's, so only Owner can go over it"):
         session.undo()
 
@@ -572,7 +572,7 @@ def test_after_a_failure_and_the_way_back_the_comparison_is_right_and_checked(se
     session.do(SetRate("A", "lateral", 1e5))
     assert session.wait_checked(60)
     good = session.answers[-1]
-    solve_flat, answers = session._answers.answer, session._answers
+    solve_flat, answers = session._loop.answers.answer, session._loop.answers
 
     def failing(state, findings, progress):
         answers._solve_named(state)
@@ -580,7 +580,7 @@ def test_after_a_failure_and_the_way_back_the_comparison_is_right_and_checked(se
 
     answers.answer = failing
     session.do(Drive(road="rough"))
-    assert session._worker.wait(20)
+    assert session._loop._worker.wait(20)
     answers.answer = solve_flat
     session.do(Drive(road="flat"))
     assert session.wait_checked(60)
