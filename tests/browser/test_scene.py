@@ -18,7 +18,7 @@ from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import MountRates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.scene import stage
-from modeviz.viewer.scene.markers import PATCH_Z
+from modeviz.viewer.scene.fixed_marks import PATCH_Z
 from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import VIEWS
 from modeviz.viewer.session.answers import Solved

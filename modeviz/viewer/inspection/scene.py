@@ -20,8 +20,8 @@ from modeviz.viewer.page.server import Server
 from modeviz.viewer.scene.body_view import DrawnBody
 from modeviz.viewer.scene.cameras import Cameras
 from modeviz.viewer.scene.driver import AT_REST, LARGEST, ShapeDriver
-from modeviz.viewer.scene.labels import keep_apart
-from modeviz.viewer.scene.markers import BLUE, LABEL_LETTERS
+from modeviz.viewer.scene.labels import LABEL_LETTERS, keep_apart
+from modeviz.viewer.scene.mark_colors import BLUE
 from modeviz.viewer.scene.stage import DARK, LIGHT, Box, Stage, Theme, points_box
 
 MARK_RADIUS = 0.008

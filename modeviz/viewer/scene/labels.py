@@ -11,6 +11,9 @@ import viser
 from modeviz.viewer.page import scripts
 from modeviz.viewer.scene.stage import Theme
 
+LABEL_LETTERS = 24
+"""In a label: with more it would find no place."""
+
 
 def keep_apart(scene: viser.SceneApi, names: Sequence[str], card: str, line: str, theme: Theme) -> None:
     """Starts the script that places labels beside their parent nodes.

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from viser.transforms import SO3
 
-from modeviz.shapes.colors import Color
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Mount
 
@@ -13,8 +12,6 @@ RADIUS, HEIGHT = 1 / 120, 1 / 63.5
 """Of the rubber of the largest marker but for half, as parts of the vehicle's length.
 
 On a pickup that is 45 mm."""
-
-STEEL: Color = (60, 64, 70)
 
 
 @dataclass(frozen=True)
