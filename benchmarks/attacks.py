@@ -61,7 +61,7 @@ def impossible_values(port: int) -> str:
 
     async def attack() -> str:
         async with open_attack_page(port) as page:
-            slider = await _widget(page, "GuiSliderMessage")
+            (slider,) = await _first(page, 1, _is_slider)
             updates = [{"value": value} for value in wrong]
             said = [{"uuid": slider["uuid"], "updates": each} for each in [*updates, 5, None, "x"]]
             said += [{"uuid": each, "updates": {"value": 1.0}} for each in ([], {}, None)]
@@ -79,7 +79,7 @@ def pages_that_do_not_draw(port: int) -> str:
             for _ in range(N_ASKING):
                 with suppress(*BROKEN):
                     page = await open_pages.enter_async_context(open_attack_page(port))
-                    button = await _widget(page, "GuiButtonMessage", "Save…")
+                    (button,) = await _first(page, 1, lambda widget: _label(widget) == "Save…")
                     await page.send(
                         wire("GuiUpdateMessage", uuid=button["uuid"], updates={"value": True})
                     )
@@ -140,7 +140,7 @@ def flood(port: int) -> str:
 
     async def attack() -> str:
         async with open_attack_page(port) as page:
-            slider = await _widget(page, "GuiSliderMessage", before=1)
+            _, slider = await _first(page, 2, _is_slider)
             low, high = (slider["props"][end] for end in ("min", "max"))
             end, sent = time.monotonic() + WATCH_S, 0
             with suppress(*BROKEN):
@@ -160,8 +160,7 @@ def large_page(port: int) -> str:
 
     async def attack() -> str:
         async with open_attack_page(port) as page:
-            kind = await _widget(page, "GuiDropdownMessage", "Save")
-            button = await _widget(page, "GuiButtonMessage", "Save…")
+            kind, button = await _first(page, 2, lambda widget: _label(widget) in ("Save", "Save…"))
             size = {"image_width": 30_000, "image_height": 20_000}
             whole = {"uuid": kind["uuid"], "updates": {"value": "Whole page, PNG"}}
             press = {"uuid": button["uuid"], "updates": {"value": True}}
@@ -209,17 +208,23 @@ async def _send(page: ClientConnection, said: list[bytes]) -> str:
     return "still open" if page.close_code is None else "closed"
 
 
-async def _widget(
-    page: ClientConnection, kind: str, label: str | None = None, before: int = 0
-) -> Message:
-    """A widget of a kind, and of a label, that comes after some others."""
+async def _first(
+    page: ClientConnection, n_messages: int, is_wanted: Callable[[Message], bool]
+) -> list[Message]:
+    """The first so many messages of a kind that a page is sent."""
+    found: list[Message] = []
     async with asyncio.timeout(60.0):
-        while True:
-            for message in messages(await page.recv()):
-                if message["type"] == kind and label in (None, message["props"].get("label")):
-                    if not before:
-                        return message
-                    before -= 1
+        while len(found) < n_messages:
+            found += filter(is_wanted, messages(await page.recv()))
+    return found[:n_messages]
+
+
+def _label(message: Message) -> str | None:
+    return message.get("props", {}).get("label")
+
+
+def _is_slider(message: Message) -> bool:
+    return message["type"] == "GuiSliderMessage"
 
 
 @asynccontextmanager
