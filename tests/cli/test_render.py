@@ -66,6 +66,17 @@ def test_missing_chromium_or_playwright_is_told_with_what_to_install(
     assert not list(tmp_path.iterdir())
 
 
+def test_a_playwright_that_does_not_start_is_told_with_what_it_may_need(
+    capsys, folder, tmp_path, monkeypatch
+):
+    monkeypatch.setenv("PLAYWRIGHT_NODEJS_PATH", "/bin/false")
+    assert main(["render", folder, "--output", str(tmp_path / "yaw.png")]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("modeviz: pictures need Playwright, which does not start (")
+    assert "libatomic1" in error
+    assert not list(tmp_path.iterdir())
+
+
 def test_missing_pyav_is_told_before_anything_is_solved(capsys, folder, tmp_path, monkeypatch):
     monkeypatch.setattr("modeviz.report.images.find_spec", lambda name: None)
     monkeypatch.setattr("modeviz.viewer.rendering.Scenery", None)

@@ -25,7 +25,7 @@ from modeviz.viewer.pictures.pictures import Pose
 from modeviz.viewer.scene.driver import PREFIX, ShapeDriver, held
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, BrowserType, ConsoleMessage, Page
+    from playwright.sync_api import Browser, BrowserType, ConsoleMessage, Page, Playwright
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DRAWN_BY = "gl-egl" if sys.platform == "linux" else "swiftshader"
@@ -261,11 +261,7 @@ class HeadlessPage:
 @contextmanager
 def chromium() -> "Iterator[Browser]":
     """The system's Chromium, else Playwright's own; raises ModevizError if either is missing."""
-    if not find_spec("playwright"):
-        raise ModevizError('pictures need Playwright: pip install "modeviz[pictures]"')
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
+    with _playwright() as playwright:
         own = playwright.chromium.executable_path
         path = next(filter(None, map(shutil.which, BROWSERS)), own)
         if not Path(path).exists():
@@ -278,6 +274,26 @@ def chromium() -> "Iterator[Browser]":
             yield browser
         finally:
             browser.close()
+
+
+@contextmanager
+def _playwright() -> "Iterator[Playwright]":
+    """Playwright; raises ModevizError if it is missing, or its Node.js does not run here."""
+    if not find_spec("playwright"):
+        raise ModevizError('pictures need Playwright: pip install "modeviz[pictures]"')
+    from playwright.sync_api import sync_playwright
+
+    try:
+        playwright = sync_playwright().start()
+    except Exception as error:
+        raise ModevizError(
+            f"pictures need Playwright, which does not start ({error}): see `playwright --version`; "
+            "on Debian and Ubuntu it needs the package libatomic1"
+        ) from error
+    try:
+        yield playwright
+    finally:
+        playwright.stop()
 
 
 def _launched(kind: "BrowserType", path: str) -> "Browser":
