@@ -1,4 +1,8 @@
-"""Proxies before the server: which are believed, and what these tell of who asked them."""
+"""Proxies before the server: which are believed, and what these tell of who asked them.
+
+Forwarded (RFC 7239) is not read: a proxy that writes the headers X-Forwarded-… passes that on as its
+client wrote it.
+"""
 
 import ipaddress
 import re

@@ -55,6 +55,12 @@ def test_a_client_is_the_last_that_is_no_proxy(believed, told, client):
     assert believed.asked(OURS, headers(*lines)).client == client
 
 
+def test_what_proxies_pass_on_as_a_client_wrote_it_is_not_believed(believed):
+    told = headers(("Forwarded", f"for={STRANGER};host=tool.example.com;proto=https"))
+    asked = believed.asked(OURS, told)
+    assert (asked.client, asked.host, asked.is_secure) == (OURS, None, False)
+
+
 def test_a_proxy_is_the_same_under_its_old_address_in_the_new_kind(believed):
     assert believed.trusts("::ffff:127.0.0.1")
     assert believed.trusts("::ffff:10.9.9.9")

@@ -84,7 +84,8 @@ def test_through_it_no_other_site_gets_a_websocket_and_nobody_without_the_cookie
     for origin, brought in (("https://evil.example", cookie), (f"https://{NAME}:{outside.port}", "")):
         with pytest.raises(InvalidStatus, match="403"), outside.knock(origin, Cookie=brought):
             pass
-    assert outside.get("/bench/", Cookie=cookie, Host="evil.example")[0] == 403
+    for told in ({}, {"X-Forwarded-Host": NAME}, {"Forwarded": f"host={NAME}"}):
+        assert outside.get("/bench/", Cookie=cookie, Host="evil.example", **told)[0] == 403
 
 
 def test_through_it_each_client_is_one(outside, monkeypatch):
