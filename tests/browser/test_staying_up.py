@@ -41,7 +41,7 @@ class Visit:
 
     def open(self):
         """Waits for the slider."""
-        wait_until(self.page, lambda: self.name in self._directory.sessions.open)
+        wait_until(self.page, lambda: self._directory.sessions.get(("cabin", self.name)))
         wait_until(self.page, lambda: self.session.answer)
         wait_for(self.page, "document.querySelectorAll('.mv-rates').length > 0")
         open_folder(self.page, "A")
@@ -51,11 +51,11 @@ class Visit:
 
     @property
     def server(self):
-        return self._directory.sessions.open[self.name].server
+        return self._directory.sessions.open["cabin", self.name].server
 
     @property
     def session(self):
-        return self._directory.sessions.open[self.name].app.session
+        return self._directory.sessions.open["cabin", self.name].app.session
 
     @property
     def rate(self):
@@ -88,7 +88,7 @@ class Visit:
             wait_until(self.page, lambda: {*self.server.get_clients()} - connected)
         mouse.move(x + shift, y, steps=5)
         mouse.up()
-        app = self._directory.sessions.open[self.name].app
+        app = self._directory.sessions.open["cabin", self.name].app
         slider = app.screen.controls.mounts._folders["A"]._rows["vertical"]._slider
         wait_until(self.page, lambda: slider.value == position(thumb(self.page, "A", "vertical")))
 

@@ -76,9 +76,9 @@ def test_a_session_is_moved_by_its_own_pages_alone(served):
     front, directory = served
     ways = way(front), way(front)
     with page_at(front, ways[0]) as mine, page_at(front, ways[1]) as stranger, page_at(front, ways[0]):
-        mine_id, other_id = (digest_of(key_of(each)) for each in ways)
-        wait_until(lambda: {mine_id, other_id} <= directory.sessions.open.keys())
-        one, other = directory.sessions.open[mine_id], directory.sessions.open[other_id]
+        places = [("cabin", digest_of(key_of(each))) for each in ways]
+        wait_until(lambda: all(map(directory.sessions.get, places)))
+        one, other = (directory.sessions.open[place] for place in places)
         wait_until(lambda: one.app.session.answer and other.app.session.answer, 60)
         wait_until(lambda: len(one.server.get_clients()) == 2)
         before = one.app.session.state.design.rates
@@ -133,8 +133,8 @@ def moved(front, directory, path):
     """The rates of a session after its slider was moved on a page."""
     with page_at(front, path) as page:
         name = digest_of(key_of(path))
-        wait_until(lambda: name in directory.sessions.open)
-        session = directory.sessions.open[name]
+        wait_until(lambda: directory.sessions.get(("cabin", name)))
+        session = directory.sessions.open["cabin", name]
         wait_until(lambda: session.app.session.answer, 60)
         before = session.app.session.state.design.rates
         page.send(update(slider(session), slider(session).value + 20))
@@ -146,8 +146,8 @@ def rates_of(front, directory, path, name=None):
     """The rates that a page finds, and whether they can be taken back."""
     with page_at(front, path):
         name = name or digest_of(key_of(path))
-        wait_until(lambda: name in directory.sessions.open)
-        session = directory.sessions.open[name].app.session
+        wait_until(lambda: directory.sessions.get(("cabin", name)))
+        session = directory.sessions.open["cabin", name].app.session
         return session.state.design.rates, session.can_undo
 
 
@@ -177,7 +177,7 @@ def test_a_session_of_a_later_modeviz_is_left_as_it_is_and_the_page_says_so(tmp_
         bench.study.begin(name)
         bench.study.look(name, later)
         moved(front, directory, path)
-        status = directory.sessions.open[name].app.screen.controls.status._content.content
+        status = directory.sessions.open["cabin", name].app.screen.controls.status._content.content
         assert "written by a later modeviz" in status
         assert "what is done here is not saved" in status
     with serving(file) as (front, directory):
@@ -201,7 +201,7 @@ def test_the_link_of_a_review_opens_the_session_until_it_is_ended(tmp_path):
         path = way(front)
         moved(front, directory, path)
         name = digest_of(key_of(path))
-        visitors = directory.sessions.open[name].server.visitors
+        visitors = directory.sessions.open["cabin", name].server.visitors
         links = []
         for _ in range(2):
             links.append(visitors.share().removeprefix("."))
@@ -222,11 +222,11 @@ def test_whoever_has_a_review_open_as_the_server_restarts_still_only_looks(tmp_p
         path = way(front)
         moved(front, directory, path)
         name = digest_of(key_of(path))
-        link = directory.sessions.open[name].server.visitors.share().removeprefix(".")
+        link = directory.sessions.open["cabin", name].server.visitors.share().removeprefix(".")
     with serving(study) as (front, directory):
         with page_at(front, link) as looking:
-            wait_until(lambda: name in directory.sessions.open)
-            session = directory.sessions.open[name]
+            wait_until(lambda: directory.sessions.get(("cabin", name)))
+            session = directory.sessions.open["cabin", name]
             wait_until(lambda: session.app.session.answer, 60)
             before = session.app.session.state.design.rates
             rate = slider(session).value
@@ -245,8 +245,8 @@ def test_the_link_of_a_review_opens_that_without_the_token_and_nothing_else():
         with knock(front, own_origin(front), path, Cookie=cookie) as owner:
             owner.send(encoded(CAMERA))
             name = digest_of(key_of(path))
-            wait_until(lambda: name in directory.sessions.open)
-            visitors = directory.sessions.open[name].server.visitors
+            wait_until(lambda: directory.sessions.get(("cabin", name)))
+            visitors = directory.sessions.open["cabin", name].server.visitors
             link = visitors.share().removeprefix(".")
             status, headers, _ = get(front, link)
             assert (status, "Set-Cookie" in headers) == (200, False)

@@ -4,7 +4,9 @@ import gc
 import io
 import json
 import re
+import threading
 import weakref
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from html import unescape
@@ -31,6 +33,7 @@ from modeviz.viewer.serving.directory import Directory
 from modeviz.viewer.session.commands.decisions import Pin, SetRate
 
 NAMES = "first", "second"
+SOON = 20
 
 
 @contextmanager
@@ -141,17 +144,64 @@ def test_a_browser_finds_the_sessions_that_it_left_and_nobody_else_does(tmp_path
         assert path in links(start_page(front, both)[1])
 
 
+def test_the_key_of_another_vehicles_session_opens_a_new_one_of_the_vehicle_asked_for(tmp_path):
+    with serving(tmp_path) as (front, directory), ExitStack() as pages:
+        path = way(front, "/?vehicle=first&new")
+        elsewhere = path.replace("vehicle=first", "vehicle=second")
+        places = [(vehicle, digest_of(key_of(path))) for vehicle in NAMES]
+        for each in (path, elsewhere):
+            pages.enter_context(page_at(front, each))
+        wait_until(lambda: all(map(directory.sessions.get, places)))
+        first, second = (directory.sessions.open[place].app.session for place in places)
+        assert [each.vehicle.name for each in (first, second)] == ["The first <i>", "The second <i>"]
+        assert b"The second" in get(front, elsewhere)[2]
+        before = second.state.design.rates
+        first.do(SetRate("A", "lateral", 1e5))
+        assert second.state.design.rates == before
+    with serving(tmp_path) as (front, directory), page_at(front, elsewhere):
+        wait_until(lambda: directory.sessions.get(places[1]))
+        assert directory.sessions.open[places[1]].app.session.state.design.rates == before
+
+
+def test_a_review_is_of_its_own_vehicle_alone():
+    with serving() as (front, directory):
+        path = way(front, "/?vehicle=first&new")
+        key = directory.benches["first"].share(digest_of(key_of(path)), "")
+        assert get(front, f"/?vehicle=first&review={key}")[0] == 200
+        assert get(front, f"/?vehicle=second&review={key}")[0] == 404
+
+
+def test_pictures_that_are_being_drawn_hold_no_session_up(monkeypatch):
+    going_on = threading.Event()
+    drawn = lobby.still_at_rest
+
+    def slowly(*arguments):
+        assert going_on.wait(SOON)
+        return drawn(*arguments)
+
+    monkeypatch.setattr(lobby, "still_at_rest", slowly)
+    with serving() as (front, directory), ThreadPoolExecutor(8) as browsers:
+        images = [browsers.submit(picture, front, f"/picture?vehicle={name}") for name in NAMES * 4]
+        wait_until(lambda: directory.sessions.precedence._queue)
+        path = way(front, "/?vehicle=first&new")
+        with page_at(front, path):
+            wait_until(lambda: directory.sessions.get(("first", digest_of(key_of(path)))), SOON)
+        going_on.set()
+        for image in images:
+            image.result(SOON)
+
+
 def test_the_picture_of_a_session_keeps_nothing_else_of_it_in_memory():
     with serving() as (front, directory):
         path = way(front, "/?vehicle=first")
         cookie = visited(front, path)
         name = digest_of(key_of(path))
         with page_at(front, path):
-            wait_until(lambda: name in directory.sessions.open)
-            wait_until(lambda: directory.sessions.open[name].app.session.answer, 60)
+            wait_until(lambda: directory.sessions.get(("first", name)))
+            wait_until(lambda: directory.sessions.open["first", name].app.session.answer, 60)
             picture(front, "/picture?vehicle=first&left=0", cookie)
-            answer = weakref.ref(directory.sessions.open[name].app.session.answer)
-        directory.sessions._close(name, -1.0)
+            answer = weakref.ref(directory.sessions.open["first", name].app.session.answer)
+        directory.sessions._close(("first", name), -1.0)
         wait_until(lambda: gc.collect() >= 0 and answer() is None)
 
 

@@ -20,8 +20,8 @@ class Reviewed:
     """A session with a page of its owner's and one of a guest's."""
 
     def __init__(self, directory, name, owner, anna):
-        wait_until(lambda: name in directory.sessions.open)
-        session = directory.sessions.open[name]
+        wait_until(lambda: directory.sessions.get(("cabin", name)))
+        session = directory.sessions.open["cabin", name]
         wait_until(lambda: session.app.session.answer, 60)
         wait_until(lambda: len(session.server.visitors.there) == 2)
         self.app, self.visitors = session.app, session.server.visitors

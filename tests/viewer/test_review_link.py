@@ -68,7 +68,7 @@ def test_the_owner_names_the_session_on_all_pages_and_in_the_study(file, given_o
     assert [each.title for each in Records.of_file(file).sessions()] == ["Softer cab"]
     with serving(file) as (front, directory), owners_card(front, directory, path) as (card, _):
         assert card._title.value == "Softer cab"
-        assert digest_of(key_of(path)) in directory.sessions.open
+        assert directory.sessions.get(("cabin", digest_of(key_of(path))))
 
 
 @pytest.mark.parametrize("wrong", ["x" * 61, "a\x07b"])

@@ -21,6 +21,9 @@ KEPT = 365 * 86400
 MOST_LEFT = 6
 """Sessions of a vehicle that it remembers."""
 
+Place = tuple[str, SessionId]
+"""A session: its vehicle, as addresses call it, and what the study of that knows it as."""
+
 KEY = r"[A-Za-z0-9_-]{22}"
 
 
@@ -34,6 +37,11 @@ class Visit:
     """Of the session; "" to who comes with that of a review."""
     view: str | None
     """What a new session is to show, as a link says it."""
+
+    @property
+    def place(self) -> Place:
+        """The session; the same key is another's of another vehicle."""
+        return self.vehicle, self.session
 
 
 class Addresses:

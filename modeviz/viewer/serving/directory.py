@@ -2,7 +2,7 @@
 
 import asyncio
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from functools import partial
 from typing import TypeVar
 from urllib.parse import urlsplit
@@ -24,8 +24,8 @@ from modeviz.viewer.serving.lobby import Lobby
 from modeviz.viewer.serving.open_session import OpenSession
 from modeviz.viewer.serving.open_sessions import OpenSessions
 
-OPENERS = 4
-"""Sessions that are opened at once."""
+OPENERS, READERS = 4, 4
+"""Sessions that are opened at once, and requests that wait for the disk."""
 
 PICTURE = "/picture"
 ASKED = {"session", "review", "vehicle", "view", "new"}
@@ -60,8 +60,10 @@ class Directory:
         }
         self._addresses = Addresses(front, self.benches)
         self.sessions: OpenSessions = OpenSessions(front, self.benches, self._addresses, dark)
-        self._lobby = Lobby(front.door, self.benches, dark, self.sessions.get) if has_lobby else None
+        self._lobby = Lobby(front.door, self.benches, dark, self.sessions) if has_lobby else None
         self._openers = ThreadPoolExecutor(OPENERS, "open session")
+        self._readers = ThreadPoolExecutor(READERS, "read study")
+        self._drawing = ThreadPoolExecutor(1, "draw pictures")
         front.door.health = lambda: self.health.response()
         front.door.lets_look = self._lets_look
 
@@ -70,19 +72,19 @@ class Directory:
         query, path = query_of(request), urlsplit(request.path).path
         left = self._addresses.left(request)
         if self._lobby and path == PICTURE:
-            return await self._in_a_thread(partial(self._lobby.picture, query, left))
+            return await _done_by(self._drawing, partial(self._lobby.picture, query, left))
         if path.endswith(f"/{WHY}"):
-            return await self._in_a_thread(partial(self._obstacle, query))
+            return await _done_by(self._readers, partial(self._obstacle, query))
         if path not in PATHS:
             return answer(404, NO_PAGE)
         if self._lobby and not ASKED & query.keys():
-            return await self._in_a_thread(partial(self._lobby.page, request, left))
+            return await _done_by(self._readers, partial(self._lobby.page, request, left))
         vehicle = self._addresses.vehicle(query)
         if vehicle is None:
             return answer(404, NO_VEHICLE)
         if not {"session", "review"} & query.keys():
             return answer(303, Location=self._addresses.way(request, vehicle, query))
-        if await self._in_a_thread(partial(self._addresses.visit, query)) is None:
+        if await _done_by(self._readers, partial(self._addresses.visit, query)) is None:
             return answer(404, _nothing_there(query))
         response = self._pages[vehicle].response(request)
         if "session" in query:
@@ -91,13 +93,15 @@ class Directory:
 
     async def acceptor(self, request: Request) -> Acceptor | None:
         """Return what serves a page's websocket; its session is opened if nobody has it open."""
-        session = await self._in_a_thread(partial(self._opened, query_of(request)))
+        session = await _done_by(self._openers, partial(self._opened, query_of(request)))
         return session and session.server.acceptor
 
     def close(self) -> None:
         """Ends all sessions, and has their studies remember them."""
-        self._openers.shutdown(cancel_futures=True)
+        for threads in (self._openers, self._readers):
+            threads.shutdown(cancel_futures=True)
         self.sessions.close()
+        self._drawing.shutdown(cancel_futures=True)
 
     @property
     def health(self) -> Health:
@@ -113,10 +117,6 @@ class Directory:
             is_stopping=self.sessions.is_ending,
         )
 
-    async def _in_a_thread(self, work: Callable[[], Result]) -> Result:
-        """Return the result of what may wait for the disk or take long, and would hold others up."""
-        return await asyncio.get_running_loop().run_in_executor(self._openers, work)
-
     def _opened(self, query: Mapping[str, str]) -> OpenSession | None:
         """Return the session of an address; None if there is none, or no place for it."""
         visit = self._addresses.visit(query)
@@ -127,13 +127,18 @@ class Directory:
         visit = self._addresses.visit(query)
         if visit is None:
             return answer(200, _nothing_there(query))
-        return answer(200, BEING_OPENED if self.sessions.is_being_opened(visit.session) else "")
+        return answer(200, BEING_OPENED if self.sessions.is_being_opened(visit.place) else "")
 
     def _lets_look(self, request: Request) -> bool:
         """Return whether a request is for the page of a review that goes on, and for nothing else."""
         query, path = query_of(request), urlsplit(request.path).path
         is_page = path in PATHS or path.endswith(f"/{WHY}")
         return is_page and "session" not in query and self._addresses.visit(query) is not None
+
+
+async def _done_by(threads: Executor, work: Callable[[], Result]) -> Result:
+    """Return the result of what may wait for the disk or take long, and would hold others up."""
+    return await asyncio.get_running_loop().run_in_executor(threads, work)
 
 
 def _nothing_there(query: Mapping[str, str]) -> str:

@@ -2,7 +2,7 @@
 
 import io
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from threading import Lock
 from urllib.parse import urlencode
 from weakref import ref
@@ -18,8 +18,9 @@ from modeviz.text.wording import ago
 from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.handshake import Door
 from modeviz.viewer.pictures.still import still, still_at_rest
+from modeviz.viewer.serving.addresses import Place
 from modeviz.viewer.serving.bench import Bench
-from modeviz.viewer.serving.open_session import OpenSession
+from modeviz.viewer.serving.open_sessions import OpenSessions
 from modeviz.viewer.serving.start_page import Left, Shown, start_page
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.design import variant_name
@@ -42,7 +43,7 @@ class Lobby:
         door: Door,
         benches: Mapping[str, Bench],
         dark: bool,
-        opened: Callable[[SessionId], OpenSession | None],
+        sessions: OpenSessions,
     ) -> None:
         """Draws nothing yet.
 
@@ -50,12 +51,12 @@ class Lobby:
             door: says where the page may be framed.
             benches: the vehicles, by what addresses call them.
             dark: whether the page is.
-            opened: gives a session, if it is in memory.
+            sessions: those in memory, whose answers go before pictures.
         """
-        self._door, self._benches, self._dark, self._opened = door, benches, dark, opened
+        self._door, self._benches, self._dark, self._open = door, benches, dark, sessions
         self._lock = Lock()
         self._vehicles: dict[str, bytes] = {}
-        self._sessions: dict[SessionId, tuple[ref[Solved], bytes]] = {}
+        self._sessions: dict[Place, tuple[ref[Solved], bytes]] = {}
         """The answers that were drawn, which are large and go with their sessions, and the pictures."""
 
     def page(self, request: Request, keys: Keys) -> Response:
@@ -112,7 +113,7 @@ class Lobby:
     ) -> Left | None:
         """Return a session that a browser left, if anybody still knows it."""
         session = digest_of(key)
-        opened, line = self._opened(session), lines.get(session)
+        opened, line = self._open.get((name, session)), lines.get(session)
         if opened is None and line is None:
             return None
         title = line.title if line else ""
@@ -130,26 +131,28 @@ class Lobby:
     def _of_vehicle(self, name: str) -> bytes:
         with self._lock:
             if name not in self._vehicles:
-                image = still_at_rest(self._benches[name].vehicle, self._dark, *SIZE)
-                self._vehicles[name] = _png(image)
+                with self._open.precedence.step():
+                    image = still_at_rest(self._benches[name].vehicle, self._dark, *SIZE)
+                    self._vehicles[name] = _png(image)
             return self._vehicles[name]
 
     def _of_session(self, name: str, session: SessionId) -> bytes | None:
         """Return what moves in a session that is open, or else its newest picture, if any."""
-        opened = self._opened(session)
+        opened = self._open.get((name, session))
         solved = opened and opened.app.session.answer
         if solved is None:
             return self._kept_picture(self._benches[name], session)
         with self._lock:
-            last = self._sessions.pop(session, None)
+            last = self._sessions.pop((name, session), None)
             kept = last if last and last[0]() is solved else (ref(solved), self._drawn(solved))
-            self._sessions[session] = kept
+            self._sessions[name, session] = kept
             if len(self._sessions) > MOST_KEPT:
                 self._sessions.pop(next(iter(self._sessions)))
             return kept[1]
 
     def _drawn(self, solved: Solved) -> bytes:
-        return _png(still(solved, self._dark, *SIZE))
+        with self._open.precedence.step():
+            return _png(still(solved, self._dark, *SIZE))
 
     def _kept_picture(self, bench: Bench, session: SessionId) -> bytes | None:
         try:

@@ -10,9 +10,8 @@ from functools import partial
 from modeviz.compute.memory import give_back
 from modeviz.compute.precedence import Precedence
 from modeviz.errors import ModevizError
-from modeviz.journal.sessions import SessionId
 from modeviz.viewer.page.front import Front
-from modeviz.viewer.serving.addresses import Addresses, Visit
+from modeviz.viewer.serving.addresses import Addresses, Place, Visit
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.open_session import OpenSession
 from modeviz.viewer.serving.review import Review
@@ -29,7 +28,7 @@ LOOKS_EVERY = 15.0
 
 
 class OpenSessions:
-    """Those that pages can look at now, by what their studies know them as; all threads may ask."""
+    """Those that pages can look at now; all threads may ask."""
 
     def __init__(
         self, front: Front, benches: Mapping[str, Bench], addresses: Addresses, dark: bool
@@ -43,10 +42,12 @@ class OpenSessions:
             dark: whether pages are.
         """
         self._front, self._benches, self._addresses = front, benches, addresses
-        self._dark, self._precedence = dark, Precedence()
-        self.open: dict[SessionId, OpenSession] = {}
+        self._dark = dark
+        self.precedence: Precedence = Precedence()
+        """Of all that is done here."""
+        self.open: dict[Place, OpenSession] = {}
         self._lock = threading.Lock()
-        self._locks: dict[SessionId, tuple[threading.Lock, int]] = {}
+        self._locks: dict[Place, tuple[threading.Lock, int]] = {}
         """Of sessions that are being opened or closed, with how many threads want them."""
         self._ended = threading.Event()
         self._watching = threading.Thread(target=self._watch, name="idle sessions", daemon=True)
@@ -57,38 +58,38 @@ class OpenSessions:
         """Whether all are being closed."""
         return self._ended.is_set()
 
-    def get(self, session: SessionId) -> OpenSession | None:
+    def get(self, place: Place) -> OpenSession | None:
         """Return a session if it is in memory."""
-        return self.open.get(session)
+        return self.open.get(place)
 
-    def is_being_opened(self, session: SessionId) -> bool:
+    def is_being_opened(self, place: Place) -> bool:
         """Return whether a page that comes has to wait for its session."""
-        return session in self._locks and session not in self.open
+        return place in self._locks and place not in self.open
 
     def opened(self, visit: Visit) -> OpenSession | None:
         """Return the session of a page, which is opened if nobody has it open; None without a place."""
-        with self._one_at_a_time(visit.session):
-            if session := self.open.get(visit.session):
+        with self._one_at_a_time(visit.place):
+            if session := self.open.get(visit.place):
                 session.touch()
                 return session
             if not self._make_room():
                 return None
-            session = self.open[visit.session] = self._new(visit)
+            session = self.open[visit.place] = self._new(visit)
             return session
 
     def close(self) -> None:
         """Closes all, side by side, and has their studies remember them."""
         self._ended.set()
-        sessions = tuple(self.open)
-        with ThreadPoolExecutor(len(sessions) or 1, "close session") as closing:
-            closing.map(partial(self._close, least=-1.0), sessions)
+        places = tuple(self.open)
+        with ThreadPoolExecutor(len(places) or 1, "close session") as closing:
+            closing.map(partial(self._close, least=-1.0), places)
         self._watching.join(timeout=1.0)
 
     def _new(self, visit: Visit) -> OpenSession:
         bench, name = self._benches[visit.vehicle], visit.session
         address = "&" + self._addresses.address(visit.vehicle, "session", visit.key)
-        opening, common = _opening(bench, visit), (self._dark, self._precedence)
-        with self._precedence.answer():
+        opening, common = _opening(bench, visit), (self._dark, self.precedence)
+        with self.precedence.answer():
             session = OpenSession(bench, name, opening, self._front, address, *common)
         review = Review(bench, name, partial(self._addresses.address, visit.vehicle, "review"))
         session.server.visitors.offer(review, bench.is_shared(name))
@@ -97,10 +98,10 @@ class OpenSessions:
     def _make_room(self) -> bool:
         """Closes those that were left longest ago while there are too many; whether there is room."""
         idle = {each: session.idle for each, session in dict(self.open).items()}
-        for session in sorted(idle, key=lambda each: idle[each], reverse=True):
+        for place in sorted(idle, key=lambda each: idle[each], reverse=True):
             if len(self.open) < MOST_OPEN:
                 return True
-            self._close(session, 0.0)
+            self._close(place, 0.0)
         if len(self.open) < MOST_OPEN:
             return True
         self._front.house.notices.note("the server", "has as many sessions open as it takes")
@@ -109,16 +110,16 @@ class OpenSessions:
     def _watch(self) -> None:
         """Closes sessions that are idle, until all are closed."""
         while not self._ended.wait(LOOKS_EVERY):
-            for session in tuple(self.open):
-                self._close(session, IDLE)
+            for place in tuple(self.open):
+                self._close(place, IDLE)
 
-    def _close(self, session: SessionId, least: float) -> None:
+    def _close(self, place: Place, least: float) -> None:
         """Closes a session that nobody has looked at for more than so many s.
 
         One whose closing goes wrong, which is our mistake, is as good as closed: others go on.
         """
-        with self._one_at_a_time(session):
-            found = self.open.get(session)
+        with self._one_at_a_time(place):
+            found = self.open.get(place)
             if found is None or found.idle <= least:
                 return
             try:
@@ -126,24 +127,24 @@ class OpenSessions:
             except Exception as error:
                 found.server.note_mistake(error)
             finally:
-                del self.open[session]
+                del self.open[place]
         del found
         give_back()
 
     @contextmanager
-    def _one_at_a_time(self, session: SessionId) -> Iterator[None]:
+    def _one_at_a_time(self, place: Place) -> Iterator[None]:
         """Has a session opened or closed by one thread at a time; others go on."""
         with self._lock:
-            lock, n_waiting = self._locks.get(session, (threading.Lock(), 0))
-            self._locks[session] = lock, n_waiting + 1
+            lock, n_waiting = self._locks.get(place, (threading.Lock(), 0))
+            self._locks[place] = lock, n_waiting + 1
         try:
             with lock:
                 yield
         finally:
             with self._lock:
-                lock, n_waiting = self._locks.pop(session)
+                lock, n_waiting = self._locks.pop(place)
                 if n_waiting > 1:
-                    self._locks[session] = lock, n_waiting - 1
+                    self._locks[place] = lock, n_waiting - 1
 
 
 def _opening(bench: Bench, visit: Visit) -> Opening:
