@@ -1,12 +1,12 @@
 """What sessions of a vehicle have in common, and when they do what nobody waits for."""
 
 import threading
-import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from mounted_cabin import mounted_cabin
+from visitors import wait_until
 
 from modeviz.analysis.exact_check import check_exactly
 from modeviz.analysis.preparation import Prepared, prepare
@@ -142,10 +142,7 @@ def test_nothing_is_looked_into_while_another_session_waits_for_an_answer(opened
     with precedence.answer():
         session.do(SetRate("A", "lateral", 1e5))
         assert session.wait(SOON)
-        end = time.monotonic() + SOON
-        while not precedence._queue:
-            assert time.monotonic() < end
-            time.sleep(0.01)
+        wait_until(lambda: precedence._queue)
         assert session.answer.findings.sensitivity is None
     assert session.wait_checked(SOON)
     assert session.answer.findings.is_complete
@@ -158,12 +155,10 @@ def test_a_session_that_is_asked_for_more_gives_its_turn_up(opened):
     with precedence.answer():
         session.do(SetRate("A", "lateral", 1e5))
         assert session.wait(SOON)
-        while not precedence._queue:
-            time.sleep(0.01)
+        wait_until(lambda: precedence._queue)
         waiting = precedence._queue[0]
         session.do(SetRate("A", "lateral", 2e5))
-        while waiting in precedence._queue:
-            time.sleep(0.01)
+        wait_until(lambda: waiting not in precedence._queue)
     assert session.wait_checked(SOON)
     assert session.answer.now.rates["A"].lateral == 2e5
     assert session.answer.findings.is_complete
