@@ -794,10 +794,10 @@ def test_a_workbook_with_a_line_far_below_is_refused_at_once(tmp_path):
     book.active.append(ROW)
     book.active.cell(1_048_576, 1).value = "x"
     book.save(tmp_path / "m.xlsx")
-    start = time.monotonic()
+    start = time.process_time()
     with pytest.raises(VehicleError, match=r"m.xlsx: found 10,001 lines, expected at most"):
         read(tmp_path / "m.xlsx")
-    assert time.monotonic() - start < 10
+    assert time.process_time() - start < 10
 
 
 def test_a_formula_whose_value_is_not_stored_is_said_to_be_one(tmp_path):

@@ -1,5 +1,4 @@
 import threading
-import time
 from dataclasses import replace
 from functools import partial
 
@@ -204,10 +203,10 @@ def test_cancelled_from_outside_it_answers_at_once_with_the_best():
 
     thread, found = in_thread(cabin_search(), token, tell)
     assert has_begun.wait(60)
-    begin = time.perf_counter()
     token.cancel()
+    n_told = len(told)
     thread.join(60)
-    assert time.perf_counter() - begin < 0.5
+    assert len(told) <= n_told + 3  # what was in hand, and the check of the best; of 111
     (optimum,) = found
     assert optimum.reason == CANCELLED
     assert optimum.value == told[-1].value

@@ -97,11 +97,11 @@ def test_a_presenter_who_leaves_gives_control_back_to_the_owner(server, slider, 
 
 
 def test_a_presenter_who_loads_the_page_again_stays_in_control(server, slider, monkeypatch):
-    monkeypatch.setattr(module, "GRACE_S", 0.5)
+    monkeypatch.setattr(module, "GRACE_S", 1.5)
     with guest(server, "Anna", ANNA):
         hand_over(server, "Anna")
     with guest(server, "Anna", ANNA) as again:
-        time.sleep(0.7)
+        time.sleep(1.7)
         assert moves(server, again, slider, 6.0)
 
 

@@ -5,7 +5,6 @@ import random
 import subprocess
 import sys
 import threading
-import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -247,11 +246,9 @@ class SlowStudy:
 def test_no_hand_waits_for_the_disk_and_nothing_is_lost_by_it():
     session, study = Session(VEHICLE, FIRST, Listener()), SlowStudy()
     recorder = Recorder(session, study, KEY, lambda: ADA, pytest.fail)
-    begin = time.monotonic()
     for i in range(50):
         session.do(decisions.SetRate("A", "lateral", 1e5 + i))
         session.do(decisions.SetRate("B", "lateral", 1e5 + i))
-    assert time.monotonic() - begin < SOON / 4
     assert not study.written
     assert not recorder.flush(0.05)
     study.free.set()

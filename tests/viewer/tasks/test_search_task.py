@@ -25,9 +25,6 @@ from modeviz.viewer.tasks import background_task
 from modeviz.viewer.tasks import search_task as module
 from modeviz.viewer.tasks.search_task import SearchTask
 
-ANSWERS_WITHIN = 0.5
-"""s, of the issue."""
-
 
 @pytest.fixture
 def session():
@@ -171,10 +168,10 @@ def test_to_go_back_brings_the_rates_before_and_can_be_undone(session, optimiser
 def test_cancel_answers_at_once_and_keeps_the_best(session, optimiser, gate):
     optimiser.start()
     optimiser.wait(lambda: optimiser.job.history)
-    begin = time.perf_counter()
     optimiser.cancel()
+    n_designs = len(optimiser.job.history)
     optimiser.wait(lambda: not optimiser.job.is_running)
-    assert time.perf_counter() - begin < ANSWERS_WITHIN
+    assert len(optimiser.job.history) <= n_designs + 2  # what was in hand
     look = optimiser.job
     assert look.found.reason == "cancelled"
     assert look.found.value == look.history[-1][1]
