@@ -12,8 +12,7 @@ from websockets.sync.connection import Connection
 from modeviz.analysis.results import Conditions
 from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.study_file import StudyFile
-from modeviz.viewer.page.front import Front
-from modeviz.viewer.page.server import open_front
+from modeviz.viewer.page.front import Front, open_front
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.directory import Directory
 

@@ -11,7 +11,7 @@ from mounted_cabin import mounted_cabin
 from pages import send, wait_for, wait_until
 
 from modeviz.analysis.results import Conditions
-from modeviz.viewer.page.server import open_front
+from modeviz.viewer.page.front import open_front
 from modeviz.viewer.scene.stage import Stage
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.directory import Directory

@@ -1,9 +1,6 @@
 """The only socket that others reach: answers requests, hands websockets to the servers of sessions."""
 
 import asyncio
-import errno
-import logging
-import select
 import socket
 import threading
 from contextlib import suppress
@@ -21,14 +18,20 @@ from modeviz.viewer.page.connection import House, PageConnection
 from modeviz.viewer.page.handshake import Door
 from modeviz.viewer.page.limits import client_of
 from modeviz.viewer.page.links import link, local_link
+from modeviz.viewer.page.listening import listening_socket
+from modeviz.viewer.page.loop_troubles import report, silent_logger
 from modeviz.viewer.page.notices import Notices
-from modeviz.viewer.page.request_head import is_websocket, request_head
+from modeviz.viewer.page.origins import LOOPBACK
+from modeviz.viewer.page.request_head import awaited_head, has_left, is_websocket
+from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
+from modeviz.viewer.page.tokens import checked_token
 
 HANDSHAKE_S = 10.0
 """s: how long a client may take to say what it wants."""
 
-SOON, LATER = 0.02, 0.5
-"""s between two looks whether the rest of a request has come: at first, and at last."""
+AGAIN_S = 0.02
+"""s until the next connection is taken where one could not be."""
 
 OPENED_AT_ONCE = 2
 """Sessions for one client, so that others need not wait for as many as it wants."""
@@ -69,7 +72,7 @@ class Front:
         """
         self.door: Door = door
         self.house: House = House(notices, door.around.proxies)
-        self._listening = _listening(door.host, port)
+        self._listening = listening_socket(door.host, port)
         self._loop = asyncio.SelectorEventLoop()
         self._own = Acceptor()
         self._turns: WeakValueDictionary[str, asyncio.Semaphore] = WeakValueDictionary()
@@ -143,7 +146,7 @@ class Front:
                 connection, peer = await self._loop.sock_accept(self._listening)
             except OSError as error:  # no more files, or the client has gone again
                 report(self.house.notices, self._loop, {"exception": error, "message": ""})
-                await asyncio.sleep(SOON)
+                await asyncio.sleep(AGAIN_S)
                 continue
             task = self._loop.create_task(self._receive(connection, peer[0]))
             tasks.add(task)
@@ -159,7 +162,7 @@ class Front:
             return
         try:
             async with asyncio.timeout(HANDSHAKE_S):
-                request = await _peeked(self._loop, connection)
+                request = await awaited_head(self._loop, connection)
             is_ours = is_websocket(request) and self._is_admitted(connection, request)
             acceptor = await self._acceptor(connection, address, request) if is_ours else None
         except (OSError, TimeoutError):
@@ -183,7 +186,7 @@ class Front:
         client = client_of(self.door.around.proxies.asked(address, request.headers).client)
         turn = self._turns.setdefault(client, asyncio.Semaphore(OPENED_AT_ONCE))
         async with turn:
-            if _has_left(connection):
+            if has_left(connection):
                 raise ConnectionResetError("left before its session was opened")
             return await self._site.acceptor(request)
 
@@ -199,78 +202,38 @@ class Front:
         return await self._site.page(connection, request)
 
 
-async def _peeked(loop: asyncio.AbstractEventLoop, connection: socket.socket) -> Request:
-    """Return what a connection asks for, which stays to be read.
-
-    Raises:
-        OSError: it is closed.
-    """
-    came = loop.create_future()
-    loop.add_reader(connection, lambda: came.done() or came.set_result(None))
-    try:
-        await came
-    finally:
-        loop.remove_reader(connection)
-    wait = SOON
-    while (request := request_head(connection)) is None:
-        await asyncio.sleep(wait)
-        wait = min(2 * wait, LATER)
-    return request
-
-
-def _has_left(connection: socket.socket) -> bool:
-    """Whether the other end has closed a connection, of which something is still to be read."""
-    left = select.POLLHUP | select.POLLERR | getattr(select, "POLLRDHUP", 0)
-    poll = select.poll()
-    poll.register(connection, left)
-    return any(events & left for _, events in poll.poll(0))
-
-
 async def _no_websocket(connection: ServerConnection) -> None:
     """Never called: every websocket is answered or handed on before."""
     await connection.close()
 
 
-def _listening(host: str, port: int) -> socket.socket:
-    """Return a socket that has an address, and does not listen yet.
+def open_front(
+    host: str = "127.0.0.1",
+    port: int = 8080,
+    token: str | Secret | None = None,
+    title: str = "modeviz",
+    around: Surroundings = NOTHING_AROUND,
+    is_framed: bool = False,
+) -> Front:
+    """Return a front that has its address and lets nobody in yet.
+
+    Only who has the token, or else who is on this machine, can reach what is behind.
+
+    Args:
+        host: the address to listen on.
+        port: to listen on; 0 takes a free one.
+        token: what a link must carry, `?token=…`; needed beyond this machine.
+        title: of the page.
+        around: it, see there.
+        is_framed: whether notebooks may show it in a frame, and under any name of their server.
 
     Raises:
-        ModevizError: the port is in use, or the address is not this machine's.
+        ModevizError: the port is none or in use, the address is not this machine's, or the
+            token is missing or no good one.
     """
-    try:
-        family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-        listening = socket.socket(family, kind)
-    except OSError as error:
-        raise _refused(host, port, error) from None
-    try:
-        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listening.setblocking(False)
-        listening.bind(address)
-    except OSError as error:
-        listening.close()
-        raise _refused(host, port, error) from None
-    return listening
-
-
-def _refused(host: str, port: int, error: OSError) -> ModevizError:
-    if error.errno == errno.EADDRINUSE:
-        return ModevizError(f"port {port} of {host} is in use: choose another with --port")
-    return ModevizError(f"cannot listen on port {port} of {host}: {error.strerror}")
-
-
-def silent_logger() -> logging.Logger:
-    """Return a logger that keeps silent on what is no request, such as a port scan."""
-    logger = logging.getLogger("modeviz.websockets")
-    logger.setLevel(logging.CRITICAL)
-    return logger
-
-
-def report(notices: Notices, _loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-    """Says once what went wrong in a loop, such as that there are no more files to open."""
-    error = context.get("exception")
-    if isinstance(error, OSError):
-        notices.note("the server", f"cannot take a connection: {error.strerror}")
-    elif isinstance(error, Exception):
-        notices.mistake(error)
-    else:
-        notices.note("the server", f"has trouble: {context['message']}")
+    if host not in LOOPBACK and token is None:
+        raise ModevizError(f"other machines reach {host}: a token is needed, so leave out --no-token")
+    secret = Secret(checked_token(token, "token")) if isinstance(token, str) else token
+    if not 0 <= port <= 65535:
+        raise ModevizError(f"port: found {port}, expected 0 to 65535")
+    return Front(Door(host, secret, title, around, is_framed), port, Notices())

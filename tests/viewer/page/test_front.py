@@ -7,10 +7,10 @@ import time
 import pytest
 from visitors import get, wait_until
 
-from modeviz.viewer.page import front as rules
+from modeviz.viewer.page import request_head
 from modeviz.viewer.page.answers import answer
+from modeviz.viewer.page.front import OPENED_AT_ONCE, open_front
 from modeviz.viewer.page.request_head import query_of
-from modeviz.viewer.page.server import open_front
 
 MANY = 12
 
@@ -60,10 +60,10 @@ def knocking(front, who, address="127.0.0.1"):
 def test_who_wants_many_sessions_keeps_nobody_else_waiting(slow):
     front, site = slow
     greedy = [knocking(front, "greedy") for _ in range(MANY)]
-    wait_until(lambda: len(site.begun) == rules.OPENED_AT_ONCE)
+    wait_until(lambda: len(site.begun) == OPENED_AT_ONCE)
     other = knocking(front, "other", "127.0.0.2")
     wait_until(lambda: "other" in site.begun)
-    assert site.begun.count("greedy") == rules.OPENED_AT_ONCE
+    assert site.begun.count("greedy") == OPENED_AT_ONCE
     site.may_end = True
     wait_until(lambda: site.n_ended == MANY + 1)
     for connection in (*greedy, other):
@@ -77,15 +77,15 @@ def test_no_session_is_opened_for_who_has_left(slow):
     stays = knocking(front, "stays")
     site.may_end = True
     wait_until(lambda: "stays" in site.begun)
-    assert site.begun.count("gone") <= rules.OPENED_AT_ONCE
+    assert site.begun.count("gone") <= OPENED_AT_ONCE
     stays.close()
 
 
 def test_a_head_that_comes_slowly_is_looked_at_seldom_and_read_in_the_end(slow, monkeypatch):
     front, _ = slow
     looks = []
-    look = rules.request_head
-    monkeypatch.setattr(rules, "request_head", lambda each: looks.append(each) or look(each))
+    look = request_head.request_head
+    monkeypatch.setattr(request_head, "request_head", lambda each: looks.append(each) or look(each))
     port = front.get_port()
     with socket.create_connection(("127.0.0.1", port), 10) as connection:
         connection.sendall(b"GET / HTTP/1.1\r\n")

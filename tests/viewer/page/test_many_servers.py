@@ -6,7 +6,8 @@ from contextlib import suppress
 import websockets.asyncio.server
 from visitors import wait_until
 
-from modeviz.viewer.page.server import Server, open_front
+from modeviz.viewer.page.front import open_front
+from modeviz.viewer.page.server import Server
 
 N_SERVERS = 12
 
