@@ -193,7 +193,7 @@ def are_dampers(vehicle: Vehicle) -> NDArray[np.bool_]:
 
 
 def are_masses(vehicle: Vehicle) -> NDArray[np.bool_]:
-    """Which mount springs resist acceleration, (n_springs,); see `MountGroup.resists`."""
+    """Which mount springs resist acceleration, (n_springs,); see `PartKind`."""
     return _layout(vehicle)[2]
 
 
@@ -215,11 +215,11 @@ def _laid_out(vehicle: Vehicle) -> Layout:
     motions = np.arange(6 * len(vehicle.mounts)).reshape(-1, 6)
     along, about, damped = motions[:, :3], motions[:, 3:], damped_axes(vehicle)
     rows = np.concatenate([along.ravel(), about[turning_axes(vehicle)], along[damped]])
-    resists = np.array([group.resists for group in vehicle.mount_groups for _ in group.mounts], str)
-    of_springs = resists[rows // 6]
-    dampers = of_springs == "velocity"
+    kinds = np.array([group.kind for group in vehicle.mount_groups for _ in group.mounts], str)
+    of_springs = kinds[rows // 6]
+    dampers = of_springs == "dashpot"
     dampers[len(rows) - np.count_nonzero(damped) :] = True
-    masses = of_springs == "acceleration"
+    masses = of_springs == "inerter"
     for array in (rows, dampers, masses):
         array.flags.writeable = False
     return rows, dampers, masses

@@ -18,7 +18,7 @@ VISCOUS = -2
 """The column of a damper: its rate is c, and it resists as a spring of the stiffness jωc."""
 
 INERT = -3
-"""That of what resists acceleration: its rate is m, the stiffness -ω²m; see `MountGroup.resists`."""
+"""That of what resists acceleration: its rate is m, the stiffness -ω²m; see `PartKind`."""
 
 
 @dataclass(frozen=True, eq=False)

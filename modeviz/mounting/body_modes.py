@@ -32,7 +32,7 @@ class BasisModes:
     n_known: int
     """How many of them are modes of the vehicle; the others stand for the rest."""
     are_masses: NDArray[np.bool_]
-    """(n_springs,): which of the springs resist acceleration, see `MountGroup.resists`."""
+    """(n_springs,): which of the springs resist acceleration, see `PartKind`."""
 
 
 @dataclass(frozen=True, eq=False)

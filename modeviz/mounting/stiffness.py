@@ -113,7 +113,7 @@ def holding(vehicle: Vehicle, body: Body) -> NDArray[np.bool_]:
     with it; unless nothing else holds it, or it is such a body itself.
     """
     holds_nothing = {
-        mount.name for g in vehicle.mount_groups if g.resists == "acceleration" for mount in g.mounts
+        mount.name for g in vehicle.mount_groups if g.kind == "inerter" for mount in g.mounts
     }
     others = [
         None if c.name in holds_nothing else _other_end(vehicle, c, body)

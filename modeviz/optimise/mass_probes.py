@@ -44,7 +44,7 @@ def mass_probes(
     """
     body, carrier = carried.body.name, carried.carrier.name
     plain = MassProbe(
-        number, variable, SHIFTS[variable.kind][0], mount, given, False, "acceleration",
+        number, variable, SHIFTS[variable.kind][0], mount, given, False, "inerter",
         (body, GROUND), carried.body.mass,
     )  # fmt: skip
     on_carrier = replace(plain, ends=(carrier, GROUND))

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from modeviz.errors import VehicleError, located
+from modeviz.errors import located
 from modeviz.optimise.limits import Limit
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
@@ -115,8 +115,8 @@ def places_of(
         placements: what no group may change; None: all mounts are where they were given.
 
     Raises:
-        VehicleError: modes have a damping of their own, or what may be placed otherwise holds the mass
-            of an absorber that cannot be moved alone.
+        VehicleError: what may be placed otherwise holds the mass of an absorber that cannot be moved
+            alone.
     """
     variables = [
         PlaceVariable(group.group, kind, axis, bounds)
@@ -124,8 +124,6 @@ def places_of(
         for kind in UNITS
         for axis, bounds in _bounds_by_axis(group, kind)
     ]
-    if variables:
-        _check_dampers(vehicle)
     for name in {variable.group: None for variable in variables}:
         with located("offset and angles"):
             carried_mass(vehicle, vehicle.mount_group(name))
@@ -172,12 +170,3 @@ def _bounds(variable: PlaceVariable, number: int) -> list[Limit]:
         Limit(f"{variable.spoken}: lower bound", number, None, -1, -low),
         Limit(f"{variable.spoken}: upper bound", number, None, 1, high),
     ]
-
-
-def _check_dampers(vehicle: Vehicle) -> None:
-    """Raises VehicleError where modes are damped otherwise as mounts move."""
-    if vehicle.mode_damping:
-        raise VehicleError(
-            "offset and angles: modes of the vehicle have a damping of their own, which would change "
-            "with them; expected a vehicle without [[mode_damping]]"
-        )

@@ -9,7 +9,7 @@ from modeviz.optimise.place_variables import Kind, PlaceVariable
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.local_axes import AXES
-from modeviz.vehicle.mount_group import SHARED, MountGroup, Resisted
+from modeviz.vehicle.mount_group import SHARED, MountGroup, PartKind
 from modeviz.vehicle.mount_rates import (
     DAMPING_FIELDS,
     RATE_FIELDS,
@@ -84,19 +84,19 @@ class Probe:
     """That mount, where it was given."""
     is_mirrored: bool
     """Whether that is on the other side than the first of its group."""
-    resists: Resisted = "displacement"
-    """With "velocity" it stands for what damps turning, else for springs and for dampers along axes."""
+    kind: PartKind = "mount"
+    """A "dashpot" stands for what damps turning, a "mount" for springs and for dampers along axes."""
 
     @property
     def own_name(self) -> str:
         """As no other mount or group is called."""
-        part = "" if self.is_read else f", {self.resists}"
+        part = "" if self.is_read else f", {self.kind}"
         return f"{self.given.name}, {self.variable.spoken} {self.shift.step:+g}{part}"
 
     @property
     def is_read(self) -> bool:
         """Whether goals that read the mount's own stretch or ends read it there."""
-        return self.resists == "displacement"
+        return self.kind == "mount"
 
     def counts(self, mount: Mount) -> Mapping[str, float]:
         """Return what its rates are as if, by field of `MountRates`.
@@ -124,7 +124,7 @@ class Probe:
             ratio_limits=None,
             curves={},
             dynamic=probed.dynamic if self.is_read else None,
-            resists=self.resists,
+            kind=self.kind,
             **still,
         )
 

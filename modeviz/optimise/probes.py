@@ -102,7 +102,7 @@ class Probes:
             for shift in SHIFTS[variable.kind]:
                 yield Probe(number, variable, shift, mount, given, is_mirrored)
                 if given.rotational_damping.any():
-                    yield Probe(number, variable, shift, mount, given, is_mirrored, "velocity")
+                    yield Probe(number, variable, shift, mount, given, is_mirrored, "dashpot")
 
     def _mounts(self, group: MountGroup) -> Iterator[tuple[int, Mount, bool]]:
         """The number of each mount of a group, the mount, and whether it is placed as in a mirror."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Hashable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -15,8 +15,8 @@ from modeviz.mounting.working_point import WorkingPoint, working_point
 from modeviz.optimise.deflections import Deflections, prepare_deflections
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import Goal, prepare_goal
-from modeviz.optimise.mass_places import check_masses
 from modeviz.optimise.min_max import MinMax
+from modeviz.optimise.place_checks import check_places, is_undamped
 from modeviz.optimise.place_terms import change_of, goal_term, margin_terms
 from modeviz.optimise.probes import Probes
 from modeviz.optimise.windows import Windows, prepare_windows
@@ -58,6 +58,8 @@ class Search:
     """Of the vehicle with its mounts where they were given, as are the next two."""
     windows: Windows | None = None
     deflections: Deflections | None = None
+    is_undamped: bool = False
+    """Whether damping has no part in the goal."""
 
     @property
     def kept(self) -> tuple[Windows | Deflections, ...]:
@@ -137,9 +139,9 @@ class Search:
         placements = self.space.placements(x)
         if not placements:
             return self._given
-        vehicle = self.space.vehicle
         return self._latest.get(
-            _key(placements), lambda: self._given.of_vehicle(placed_vehicle(vehicle, placements))
+            _key(placements),
+            lambda: self._given.of_vehicle(placed_vehicle(self._unplaced, placements)),
         )
 
     def _probing(self, x: Floats) -> Aims:
@@ -158,7 +160,13 @@ class Search:
     @cached_property
     def probes(self) -> Probes:
         """Mounts without rates that tell what placing the vehicle's otherwise does."""
-        return Probes(self.space.vehicle, self.space.places, self.space.base)
+        return Probes(self._unplaced, self.space.places, self.space.base)
+
+    @cached_property
+    def _unplaced(self) -> Vehicle:
+        """The vehicle to place mounts of, without dampers of modes where these do not matter."""
+        vehicle = self.space.vehicle
+        return replace(vehicle, mode_damping=()) if self.is_undamped else vehicle
 
     @cached_property
     def _latest(self) -> Latest[Aims]:
@@ -250,10 +258,10 @@ def prepare_search(
     """
     with located(f"problem {problem.name!r}"):
         space = design_space(vehicle, problem.groups, rates, locked, placements)
-        check_masses(vehicle, problem)
+        check_places(vehicle, problem)
     goal = prepare_goal(vehicle, problem, rates, speed)
     with located(f"problem {problem.name!r}"):
         windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None
         limits = problem.deflections
         deflections = prepare_deflections(vehicle, limits) if limits else None
-    return Search(space, goal, windows, deflections)
+    return Search(space, goal, windows, deflections, is_undamped(problem))

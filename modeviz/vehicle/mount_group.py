@@ -31,10 +31,8 @@ USUAL_STATIC_RATIO = 1.3
 Travel = Mapping[str, tuple[float, float]]
 """The least and the most deflection, m, by one of `DIRECTIONS`; positive along the local axis."""
 
-PartKind = Literal["mount", "spring", "damper"]
-
-Resisted = Literal["displacement", "velocity", "acceleration"]
-"""With k x, jω c x or -ω² m x."""
+PartKind = Literal["mount", "spring", "damper", "dashpot", "inerter"]
+"""A dashpot resists velocity with its rates and an inerter acceleration, all else displacement."""
 
 SHARED = ("rotational_stiffness", "damping", "rotational_damping")
 """What a mount has from its group unless it has its own."""
@@ -73,10 +71,8 @@ class MountGroup:
     dynamic: DynamicRates | None = None
     """How the rates along the axes of each depend on frequency; None: not at all."""
     kind: PartKind = "mount"
-    """What they are: a file has springs and dampers in tables of their own, see `tuned_group`."""
-    resists: Resisted = "displacement"
-    """What its rates along and about axes resist; anything else of mounts without rates alone, to which
-    a search wants derivatives."""
+    """What they are: a file has springs and dampers in tables of their own, see `tuned_group`; dashpots
+    and inerters have no rates, and are there for derivatives to these alone."""
 
     def __post_init__(self) -> None:
         for name in SHARED:

@@ -296,11 +296,23 @@ def test_what_mounts_are_placed_like_already_is_where_a_search_begins():
     assert search.value(x) == pytest.approx(own.value({}), rel=1e-12)
 
 
-def test_modes_with_a_damping_of_their_own_keep_mounts_where_they_are():
-    damped = replace(four_cylinder(), mode_damping=(ModeDamping(0.2, 2),))
-    problem = Problem("p", (DesignGroup("M2", offsets=MOVED),), goal="purity")
-    with pytest.raises(VehicleError, match="a damping of their own"):
-        prepare_search(damped, problem, damped.rates, 20.0)
+@pytest.mark.parametrize("goal", ["purity", "decoupling"])
+def test_modes_with_a_damping_of_their_own_are_decoupled_by_places_as_others_are(goal):
+    own = Study(engine()).modes()[3].name
+    stated = ModeDamping(0.2, own), ModeDamping(0.1)
+    damped, plain = (
+        search_of(vehicle, goal) for vehicle in (replace(engine(), mode_damping=stated), engine())
+    )
+    x = design(damped)
+    assert damped.evaluate(x)[0] == pytest.approx(plain.evaluate(x)[0], rel=1e-12)
+    assert_derivatives_hold(damped)
+    assert damped.space.built(x).mode_damping == stated
+
+
+def test_what_damping_enters_keeps_mounts_of_such_a_vehicle_where_they_are():
+    damped = replace(engine(), mode_damping=(ModeDamping(0.2, 2),))
+    with pytest.raises(VehicleError, match=r"of 'M1': modes .* a damping of their own"):
+        search_of(damped, "rms")
 
 
 @pytest.mark.parametrize(

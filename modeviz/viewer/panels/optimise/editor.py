@@ -10,6 +10,7 @@ from modeviz.analysis.results import Results
 from modeviz.errors import ModevizError
 from modeviz.files.problem_file import problem_text
 from modeviz.optimise.design_space import design_space
+from modeviz.optimise.place_checks import check_places
 from modeviz.optimise.starts import MOST_STARTS
 from modeviz.text.wording import file_name, sentence_case
 from modeviz.vehicle.default_problem import problem_called, problems
@@ -111,6 +112,7 @@ class ProblemEditor:
         try:
             problem = planned(vehicle, plan)
             space = design_space(vehicle, problem.groups, state.design.rates, state.design.locked)
+            check_places(vehicle, problem)
         except ModevizError as error:
             return span(escape(str(error)), "bad")
         return summary(problem, space, plan.is_robust)

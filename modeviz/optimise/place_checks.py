@@ -1,16 +1,28 @@
-"""What may be sought while the mass of an absorber is moved."""
+"""What may be sought while mounts are moved and turned."""
 
 from collections.abc import Iterator
 
 from modeviz.errors import VehicleError
 from modeviz.vehicle.carried_mass import CarriedMass, carried_mass
 from modeviz.vehicle.mount_target import MountTarget
-from modeviz.vehicle.problem import Problem
+from modeviz.vehicle.problem import UNSHAKEN, Problem
 from modeviz.vehicle.vehicle import Vehicle
 
 
-def check_masses(vehicle: Vehicle, problem: Problem) -> None:
-    """Raises VehicleError where the place of an absorber does what no probe tells of."""
+def check_places(vehicle: Vehicle, problem: Problem) -> None:
+    """Raises VehicleError where a place does what no probe tells of.
+
+    So it is with dampers of single modes, which are others where mounts are elsewhere, and with the
+    weight of an absorber.
+    """
+    if vehicle.mode_damping and not is_undamped(problem):
+        for group in problem.groups:
+            if group.offsets or group.angles:
+                raise VehicleError(
+                    f"offset and angles of {group.group!r}: modes of the vehicle have a damping of "
+                    "their own, which would change with them; expected a goal that no damping enters, "
+                    f"{', '.join(UNSHAKEN)}, or a vehicle without [[mode_damping]]"
+                )
     for group, carried in _moved(vehicle, problem):
         where = f"offset and angles of {group!r}"
         if problem.deflections:
@@ -31,6 +43,11 @@ def check_masses(vehicle: Vehicle, problem: Problem) -> None:
                 f"{where}: modes of {carried.body.name!r}, which is moved, are to be decoupled; name "
                 "another body in a [[problem.decoupling]]"
             )
+
+
+def is_undamped(problem: Problem) -> bool:
+    """Return whether damping has no part in what a problem wants."""
+    return problem.goal in UNSHAKEN
 
 
 def _moved(vehicle: Vehicle, problem: Problem) -> Iterator[tuple[str, CarriedMass]]:
