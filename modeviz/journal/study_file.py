@@ -16,7 +16,7 @@ from sqlite3 import Connection
 from modeviz.errors import ModevizError, reason
 from modeviz.journal import notes as remarks
 from modeviz.journal import sessions as stored
-from modeviz.journal.changes import Change
+from modeviz.journal.changes import LONGEST, Change
 from modeviz.journal.fingerprint import Fingerprint
 from modeviz.journal.keys import digest_of
 from modeviz.journal.opening import check_file, open_to_write
@@ -27,6 +27,7 @@ from modeviz.journal.records import Records
 from modeviz.journal.runs import Run, write_run
 from modeviz.journal.schema import create
 from modeviz.journal.sessions import SessionId, StoredSession
+from modeviz.journal.states import Looked, Recorded, Stated, fewer, look_key
 from modeviz.journal.upgrade import upgrade
 from modeviz.journal.writer import Writer
 from modeviz.report.notes import Note
@@ -36,6 +37,9 @@ PATIENCE = 5.0
 
 IMPATIENCE = 0.2
 """s for the same while nothing can be written."""
+
+EVERY = LONGEST
+"""So many changes of a session that cannot be written are looked through at once."""
 
 log = logging.getLogger(__name__)
 
@@ -64,6 +68,7 @@ class StudyFile(Records):
         self._writer, self._ownership, self._watchers = writer, ownership, watchers
         self._lock = threading.Lock()
         self._n_steps: dict[SessionId, int] = {}
+        self._n_changes: dict[SessionId, int] = {}
 
     @classmethod
     def open(
@@ -110,7 +115,7 @@ class StudyFile(Records):
 
     @property
     def trouble(self) -> str:
-        """Why nothing can be saved: "not saved: the disk is full"; "" while it can."""
+        """Why nothing can be saved: "not saved since 14:03: the disk is full"; "" while it can."""
         return self._writer.trouble
 
     @property
@@ -132,14 +137,14 @@ class StudyFile(Records):
 
     def record(self, session: SessionId, change: Change) -> None:
         """Writes a change that a session accepted."""
-        now = time.time()
         key = self._key(session, change)
-        self._writer.put(lambda c: stored.record(c, session, change, now), session, key)
+        self._writer.put(Recorded(session, time.time(), change), session, key)
+        if self.trouble and self._is_time_to_compact(session):
+            self._writer.rework(session, Stated, fewer)
 
     def look(self, session: SessionId, state: str) -> None:
         """Writes how a session is looked at now; of several the newest counts."""
-        now = time.time()
-        self._writer.put(lambda c: stored.look(c, session, state, now), session, ("look", session))
+        self._writer.put(Looked(session, time.time(), state), session, look_key(session))
 
     def see(self, session: SessionId, view: str) -> None:
         """Writes how the pages of a session show it, as text; of several the newest counts."""
@@ -178,14 +183,24 @@ class StudyFile(Records):
     def put_run(self, session: SessionId, run: Run) -> str:
         """Writes a run of a session, in place of one of its token; returns that."""
         written = replace(run, token=run.token or new_token(), time=time.time())
-        key = ("run", written.token)
-        self._writer.put(lambda c: write_run(c, stored.number_of(c, session), written), session, key)
+        self._writer.put(
+            lambda c: write_run(c, stored.number_of(c, session), written),
+            session,
+            ("run", written.token),
+            "run",
+            len(run.record),
+        )
         return written.token
 
     def put_picture(self, session: SessionId, png: bytes, caption: str, author: str = "") -> str:
         """Writes a picture of a session; returns its token."""
         line = PictureLine(new_token(), caption, author, time.time())
-        self._writer.put(lambda c: write_picture(c, stored.number_of(c, session), line, png), session)
+        self._writer.put(
+            lambda c: write_picture(c, stored.number_of(c, session), line, png),
+            session,
+            what="picture",
+            n_bytes=len(png),
+        )
         return line.token
 
     def is_saved(self, session: SessionId) -> bool:
@@ -222,6 +237,13 @@ class StudyFile(Records):
                 return "longer", session, n_steps
             self._n_steps[session] = n_steps + 1
         return None
+
+    def _is_time_to_compact(self, session: SessionId) -> bool:
+        """Whether so many changes came since they were looked through that fewer may do."""
+        with self._lock:
+            n_changes = self._n_changes.get(session, 0) + 1
+            self._n_changes[session] = n_changes % EVERY
+        return n_changes == EVERY
 
     def _connect_after_writing(self) -> Connection:
         """A connection that sees what was asked to be written before, if it could be."""

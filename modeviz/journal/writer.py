@@ -3,15 +3,14 @@
 import logging
 import sqlite3
 import threading
-from collections.abc import Callable, Hashable
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Hashable, Sequence
 from pathlib import Path
 from sqlite3 import Connection
 
 from modeviz.errors import reason
 from modeviz.journal.opening import open_to_write
-
-Write = Callable[[Connection], object]
+from modeviz.journal.waiting import AnyWrite, Queue, Rework, Waiting, Write
 
 MOST_AT_ONCE = 100
 """Writes in one transaction: more would keep others who write waiting."""
@@ -20,14 +19,6 @@ RETRY = 2.0
 """s between tries while nothing can be written."""
 
 log = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True, eq=False)
-class _Waiting:
-    """A write that is in memory."""
-
-    write: Write
-    owner: str
 
 
 class Writer:
@@ -49,10 +40,9 @@ class Writer:
         """
         self._path, self._tell = path, tell
         self._changed = threading.Condition()
-        self._waiting: dict[Hashable, _Waiting] = {}
-        self._n_put = 0
-        self._is_writing = self._is_closed = False
-        self._trouble = ""
+        self._waiting = Queue()
+        self._is_closed = False
+        self._why = self._since = self._told = ""
         self._connection: Connection | None = open_to_write(path)
         self._status = path.stat()
         self._thread = threading.Thread(target=self._run, name="study writer", daemon=True)
@@ -60,8 +50,11 @@ class Writer:
 
     @property
     def trouble(self) -> str:
-        """Why nothing can be written; "" while it can."""
-        return self._trouble
+        """Since when and why nothing can be written, and what is lost by it; "" while it can."""
+        if not self._why:
+            return ""
+        lost = ", ".join(f"{n} {what}{'s' * (n != 1)}" for what, n in self._waiting.lost.items())
+        return f"not saved since {self._since}: {self._why}{f'; lost: {lost}' if lost else ''}"
 
     @property
     def n_waiting(self) -> int:
@@ -72,22 +65,31 @@ class Writer:
     def holds(self, owner: str) -> bool:
         """Whether something of an owner is in memory alone."""
         with self._changed:
-            return any(waiting.owner == owner for waiting in self._waiting.values())
+            return self._waiting.holds(owner)
 
-    def put(self, write: Write, owner: str = "", key: Hashable = None) -> None:
+    def put(
+        self, write: Write, owner: str = "", key: Hashable = None, what: str = "", n_bytes: int = 0
+    ) -> None:
         """Asks for a write; returns at once.
 
         Args:
             write: what to do with a connection that is in a transaction.
             owner: whose it is, see `holds`.
             key: of what is overtaken by the next of that key; None: nothing overtakes it.
+            what: something large is called, such as "picture", which is lost while nothing can be
+                written and more wait than memory is to hold; "" for what is never lost.
+            n_bytes: that it takes in memory.
         """
         with self._changed:
-            self._n_put += 1
-            name = ("alone", self._n_put) if key is None else key
-            self._waiting.pop(name, None)
-            self._waiting[name] = _Waiting(write, owner)
+            self._waiting.put(Waiting(write, owner, what, n_bytes), key)
+            if what and self._why:
+                self._waiting.lose_oldest()
             self._changed.notify_all()
+
+    def rework(self, owner: str, kind: type[AnyWrite], rework: Rework[AnyWrite]) -> None:
+        """Puts others in the place of what waits; see `Queue.rework`."""
+        with self._changed:
+            self._waiting.rework(owner, kind, rework)
 
     def flush(self, timeout: float) -> bool:
         """Waits until all is on the disk; whether that came within `timeout` s.
@@ -96,7 +98,7 @@ class Writer:
         """
         with self._changed:
             self._changed.notify_all()
-            return self._changed.wait_for(lambda: not (self._waiting or self._is_writing), timeout)
+            return self._changed.wait_for(lambda: self._waiting.is_done, timeout)
 
     def close(self, timeout: float) -> bool:
         """Ends the thread once all is on the disk; whether that came within `timeout` s."""
@@ -113,39 +115,39 @@ class Writer:
                 self._changed.wait_for(lambda: self._waiting or self._is_closed)
                 if self._is_closed:
                     break
-                writes = dict(list(self._waiting.items())[:MOST_AT_ONCE])
-                self._is_writing = True
-            trouble = self._try(writes)
-            self._settle({} if trouble else writes, trouble)
+                writes = self._waiting.take(MOST_AT_ONCE)
+            self._settle(self._try(writes))
         self._disconnect()
 
-    def _settle(self, written: dict[Hashable, _Waiting], trouble: str) -> None:
+    def _settle(self, why: str) -> None:
         """Forgets what is written, tells what is new, and waits where nothing can be."""
         with self._changed:
-            for name, waiting in written.items():
-                if self._waiting.get(name) is waiting:
-                    del self._waiting[name]
-            self._is_writing = False
-            news = trouble != self._trouble
-            self._trouble = trouble
+            self._waiting.settle(not why)
+            if why and not self._why:
+                self._since = time.strftime("%H:%M")
+            self._why = why
+            if not why:
+                self._waiting.lost.clear()
+            trouble = self.trouble
+            news, self._told = trouble != self._told, trouble
             self._changed.notify_all()
         if news:
             self._tell(trouble)
-        if trouble:
+        if why:
             with self._changed:
                 if not self._is_closed:
                     self._changed.wait(RETRY)
 
-    def _try(self, writes: dict[Hashable, _Waiting]) -> str:
+    def _try(self, writes: Sequence[Write]) -> str:
         """Commits some writes; returns why not, or ""."""
         try:
             self._check_there()
             if self._connection is None:
                 self._connection = open_to_write(self._path)
-            _commit(self._connection, [waiting.write for waiting in writes.values()])
+            _commit(self._connection, writes)
         except (sqlite3.Error, OSError, MemoryError) as error:
             self._disconnect()
-            return f"not saved: {_words(error)}"
+            return _words(error)
         return ""
 
     def _check_there(self) -> None:
@@ -163,7 +165,7 @@ class Writer:
             self._connection = None
 
 
-def _commit(connection: Connection, writes: list[Write]) -> None:
+def _commit(connection: Connection, writes: Sequence[Write]) -> None:
     """Does some writes in one transaction; one that is our mistake is left out, and logged."""
     connection.execute("BEGIN IMMEDIATE")
     for write in writes:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import sqlite3
@@ -17,7 +18,7 @@ from journal_studies import KEY, change, opened
 
 from benchmarks.kill import kill_often
 from modeviz.errors import ModevizError
-from modeviz.journal import opening, ownership, schema, writer
+from modeviz.journal import opening, ownership, schema, study_file, waiting, writer
 from modeviz.journal.changes import Step
 from modeviz.journal.ownership import lock_path
 from modeviz.journal.records import Records
@@ -50,7 +51,7 @@ for i in range(2, 30):
 study.look(KEY, "look")
 assert not study.flush(1)
 assert study.n_unsaved == 29, study.n_unsaved
-assert study.trouble.startswith("not saved: "), study.trouble
+assert study.trouble.startswith("not saved since "), study.trouble
 resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, hard))
 assert study.flush(5)
 assert (study.trouble, study.n_unsaved) == ("", 0)
@@ -132,8 +133,47 @@ def test_a_full_disk_is_called_so(path, monkeypatch, words):
     monkeypatch.setattr("modeviz.journal.writer._commit", fails_with(error))
     study.begin(KEY)
     assert not study.flush(0.5)
-    assert study.trouble == "not saved: the disk is full"
+    assert re.fullmatch(r"not saved since \d\d:\d\d: the disk is full", study.trouble)
     monkeypatch.undo()
+    assert study.close()
+
+
+def test_however_much_is_done_on_a_full_disk_memory_is_bounded_and_the_newest_is_saved(
+    path, monkeypatch
+):
+    """Two sessions that are used without a pause, and more pictures than memory is to hold."""
+    monkeypatch.setattr(waiting, "LARGEST", 10_000)
+    study, other = opened(path), "another session"
+    for each in (KEY, other):
+        study.begin(each)
+        study.record(each, change(0, 1))
+    assert study.flush(5)
+    full = sqlite3.OperationalError("database or disk is full")
+    monkeypatch.setattr(writer, "_commit", fails_with(full))
+    study.look(KEY, "first look")
+    assert not study.flush(0.2)
+    for i in range(1, 6001):
+        study.record(KEY, change(i, i + 1))
+        if i % 3:
+            study.record(KEY, change(i, i + 1, "undo"))
+            study.record(KEY, change(i, i + 1, "redo"))
+        study.look(KEY, f"look {i}")
+        study.look(other, f"look {i}")
+        assert study.n_unsaved < 2 * study_file.EVERY + writer.MOST_AT_ONCE + 20
+    for i in range(30):
+        study.put_picture(KEY, b"x" * 1000, f"picture {i}")
+    assert not study.flush(0.2)
+    assert re.fullmatch(r"not saved since .*: the disk is full; lost: 20 pictures", study.trouble)
+    monkeypatch.undo()
+    assert study.flush(60)
+    session = study.restore(KEY)
+    assert session
+    assert session.state == "look 6000"
+    assert session.past == tuple(Step(f"state {i}", f"state {i + 1}") for i in range(5501, 6001))
+    assert not session.future
+    assert session.tuning == change(6000, 6001).tuning
+    assert [line.caption for line in study.pictures(KEY)] == [f"picture {i}" for i in range(20, 30)]
+    assert study.trouble == ""
     assert study.close()
 
 
@@ -151,6 +191,7 @@ def test_a_session_that_is_not_saved_is_not_opened_as_it_was_before(path, monkey
         study.restore(KEY)
     assert study.restore("another session") is None
     monkeypatch.undo()
+    assert study.flush(60)
     session = study.restore(KEY)
     assert session
     assert session.state == "state 2"
@@ -181,7 +222,7 @@ def test_a_damaged_table_keeps_what_is_written_in_memory(path, monkeypatch):
     )
     study.begin(KEY)
     assert not study.flush(0.3)
-    assert study.trouble == "not saved: database disk is malformed"
+    assert re.fullmatch(r"not saved since \d\d:\d\d: database disk is malformed", study.trouble)
     monkeypatch.undo()
     study.close(0.1)
 
@@ -400,7 +441,7 @@ def test_a_study_that_was_taken_away_says_so_and_goes_on_when_it_is_back(path, t
         each.rename(tmp_path.parent / each.name)
     study.record(KEY, change(1, 2))
     assert not study.flush(0.5)
-    assert study.trouble == "not saved: the study file is gone"
+    assert re.fullmatch(r"not saved since \d\d:\d\d: the study file is gone", study.trouble)
     for each in tmp_path.parent.glob("truck.modeviz*"):
         each.rename(path.parent / each.name)
     session = study.restore(KEY)
